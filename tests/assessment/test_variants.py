@@ -6,7 +6,7 @@ import pytest
 import roughline as rl
 from roughline.assessment import loads as load_cases
 from roughline.assessment.case import Case
-from roughline.assessment.variants import AS_ASKED, Stopped, press_all, variants_of
+from roughline.assessment.variants import Stopped, Way, press_all, variants_of
 
 PAIR = "steel,copper"
 SURFACE = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4).surface(64, 7)
@@ -76,7 +76,7 @@ def test_an_interrupt_carries_what_is_done(monkeypatch, stop_at):
     assert list(curves.by_name) == [each.name for each in variants[: stop_at + 1]]
     assert curves.stopped == variants[stop_at].name
     assert curves.whole(curves.stopped) is None
-    assert curves.as_asked is curves.by_name[AS_ASKED]
+    assert curves.as_asked is curves.by_name[Way.AS_ASKED]
     assert curves.as_asked.converged.all() == (stop_at > 0)
     count.clear()
     result = rl.assess(case.question, progress=lambda done, total: None)

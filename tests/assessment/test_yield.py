@@ -334,7 +334,7 @@ def test_the_interface_of_a_map_springs_back_with_the_surface_around_it(surface)
     # the hardness is the same for all maps of a part, so none of its scatter averages out
     low, high = result.hardness_scatter["interface_stiffness"]
     nothing = ((np.zeros(1),) * 2,) * 2
-    missed, _ = missed_of_map(result, BehindMaps(None, None, nothing, nothing))
+    missed, _ = missed_of_map(result, BehindMaps(None, nothing, nothing))
     missed_low, missed_high = missed["interface_stiffness"]
     assert k_i.low < missed_low < k_i.values * low
     assert k_i.high > missed_high > k_i.values * high

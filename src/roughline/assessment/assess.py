@@ -17,13 +17,13 @@ from roughline.assessment.question import Question
 from roughline.assessment.scatter import elastic_answers, scatter_of
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import solution_of, solution_of_scan
-from roughline.assessment.variants import AS_ASKED, Curves, Stopped, press_all, variants_of
+from roughline.assessment.variants import Curves, Stopped, Way, press_all, variants_of
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.theories.theory_curve import TheoryCurve
-from roughline.topography.body import Body, Line, Surface
+from roughline.topography.body import Body, Surface
 
 
 @public
@@ -55,9 +55,9 @@ def assess_body(
         If a file cannot be read, or the question does not suit what the file holds.
     """
     case = Case.of(question)
-    if isinstance(case.body, Line) and case.is_scan:
-        solution = solution_of_scan(case, case.body)
-        curves = Curves({AS_ASKED: solution.curve})
+    if case.scan is not None:
+        solution = solution_of_scan(case, case.scan)
+        curves = Curves({Way.AS_ASKED: solution.curve})
     else:
         curves = _pressed(case, announce, progress)
         solution = solution_of(case, curves)

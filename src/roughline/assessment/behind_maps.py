@@ -53,7 +53,6 @@ _FEWEST = 16  # points along a side, whose quarters have an rms height
 class BehindMaps:
     """The surface behind several maps, under the loads that were asked for."""
 
-    roll_offs: float | None  # wavelengths along a side of a map, by their mean spectrum
     agreement: Agreement | None  # of logarithms of rms heights, between maps and their quarters
     alike: tuple[Ends, Ends]
     """How it differs from the mean of its places, as the tiles of maps show it: both ends of the
@@ -72,7 +71,7 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     if len(results) < 2 or min(len(larger), len(surfaces)) < len(results):
         return None
     first, same = results[0], _of_one_size(surfaces)
-    law = law_of(same)
+    law = _law_of(same)
     roll_offs = None if law is None else roll_offs_of(law)
     area = float(np.mean([each.area for each in surfaces]))
     beyond = Beyond.of(roll_offs, area, first.question.joint)
@@ -99,7 +98,7 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
             f"maps without the error of their grid ({called('grid_error', True)}), or with fewer "
             f"than {FEWEST} points a side, do not tell how they differ from the part behind them"
         )
-    return BehindMaps(roll_offs, agree, alike, sharing, untold)
+    return BehindMaps(agree, alike, sharing, untold)
 
 
 def missed_of_map(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, Ends], ...]:
@@ -158,7 +157,7 @@ def _of_one_size(surfaces: Sequence[Surface]) -> list[Surface]:
     return [each for each in surfaces if is_as_large(each)]
 
 
-def law_of(surfaces: Sequence[Surface]) -> SelfAffineFit | None:
+def _law_of(surfaces: Sequence[Surface]) -> SelfAffineFit | None:
     """Law of the mean spectrum of maps of one size; None where there are too few points."""
     try:
         return fit_self_affine(mean_spectrum([isotropic_spectrum(each) for each in surfaces]))

@@ -66,9 +66,9 @@ class Case:
         return hardness_of(self.question) if isinstance(self.body, Surface) else None
 
     @property
-    def is_scan(self) -> bool:
-        """Whether a line scan is pressed, through the surfaces that it may be cut from."""
-        return isinstance(self.body, Line) and self.body.kind == "profile"
+    def scan(self) -> Line | None:
+        """The line scan that is pressed through the surfaces that it may be cut from, if one is."""
+        return self.body if isinstance(self.body, Line) and self.body.kind == "profile" else None
 
     @property
     def filled(self) -> Sequence[Topography]:

@@ -125,36 +125,22 @@ def of_unknown_hardness(pair: MaterialPair) -> list[str]:
     ]
 
 
-def _largest_elastic_slope(question: Question, body: Body) -> float | None:
-    """Rms slope up to which a line, whose model has no yield, stands for metals."""
-    pair = question.pair
-    if pair is None or pair.hardness is None or not isinstance(body, Line):
-        return None
-    return 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
-
-
-def is_scan_that_yields(question: Question, body: Body) -> bool:
-    """Whether a scan is so steep that metals yield, of which its model knows nothing."""
-    most = _largest_elastic_slope(question, body)
-    is_scan = isinstance(body, Line) and body.kind == "profile"
-    return is_scan and most is not None and body.rms_slope > most
-
-
 def how_far_a_line_serves(question: Question, body: Body) -> tuple[str, bool]:
     """Say up to which slopes a line, whose model has no yield, stands for metals.
 
-    It is grave where the slopes of a scan are larger.
+    The second result says whether it is a scan that is so steep that they yield.
     """
-    most = _largest_elastic_slope(question, body)
-    if most is None or not isinstance(body, Line):
+    pair = question.pair
+    if pair is None or pair.hardness is None or not isinstance(body, Line):
         return "", False
+    most = 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
     said = (
         f"the reduced model {WITHOUT_YIELD}; rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
         f"{decimal(most, 2)} exceed that"
     )
     if body.kind == "profile":
         said += f"; the rms slope of the scan is {decimal(body.rms_slope, 2)}"
-    if not is_scan_that_yields(question, body):
+    if body.kind != "profile" or body.rms_slope <= most:
         return said, False
     return (
         f"{said}, so these elastic answers do not hold, and come without intervals: press a map, "

@@ -10,14 +10,7 @@ import numpy as np
 from roughline.assessment.answers import answers_of
 from roughline.assessment.case import Case
 from roughline.assessment.solution import Solution, larger_behind
-from roughline.assessment.variants import (
-    AS_HARD,
-    ELASTIC,
-    HARDEST,
-    SOFTEST,
-    Curves,
-    periodic,
-)
+from roughline.assessment.variants import Curves, Way, periodic
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends, Intervals
@@ -44,9 +37,9 @@ class Scatter:
 
 def elastic_answers(case: Case, curves: Curves) -> Mapping[str, Answer]:
     """The answers of elastic bodies; none where nothing yields, and before they were pressed."""
-    if curves.stopped in (ELASTIC, periodic(ELASTIC)) or curves.get(ELASTIC) is None:
+    if curves.stopped in (Way.ELASTIC, periodic(Way.ELASTIC)) or curves.get(Way.ELASTIC) is None:
         return {}
-    return _of_way(case, curves, ELASTIC, None, case.body).answers
+    return _of_way(case, curves, Way.ELASTIC, None, case.body).answers
 
 
 def scatter_of(
@@ -68,12 +61,12 @@ def scatter_of(
         return Scatter({}, {key: each.bare for key, each in answers.items()}, None)
     (softest, hardest), judged = hardness.ends, case.judged
     moved = [
-        _of_way(case, curves, SOFTEST, softest, judged),
-        _of_way(case, curves, HARDEST, hardest, judged),
+        _of_way(case, curves, Way.SOFTEST, softest, judged),
+        _of_way(case, curves, Way.HARDEST, hardest, judged),
     ]
     nominal = _Way(solution.curve, answers)
     if judged is not case.body:
-        nominal = _of_way(case, curves, AS_HARD, hardness.value, judged)
+        nominal = _of_way(case, curves, Way.AS_HARD, hardness.value, judged)
     return _widened(solution.intervals, answers, nominal, moved)
 
 

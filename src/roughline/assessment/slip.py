@@ -8,7 +8,7 @@ import numpy as np
 
 from roughline.assessment.case import Case
 from roughline.assessment.kinds import nominal_area
-from roughline.assessment.variants import UNLOADED, Curves
+from roughline.assessment.variants import Curves, Way
 from roughline.computing.arrays import Real
 from roughline.engineering.formulas import partial_slip
 
@@ -32,7 +32,7 @@ def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:
     largest = case.loads.largest
     if pair is None or friction is None or not curve.converged[largest]:
         return None
-    branch = curve if curve.hardness is None else curves.whole(UNLOADED)
+    branch = curve if curve.hardness is None else curves.whole(Way.UNLOADED)
     if branch is None:
         return None
     force = float(curve.force[largest])

@@ -11,18 +11,11 @@ from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
 from roughline.assessment.larger_surface import LargerSurface, larger_surface
 from roughline.assessment.line_scan import press_scan
-from roughline.assessment.notes import is_scan_that_yields
+from roughline.assessment.notes import how_far_a_line_serves
 from roughline.assessment.source import Topography
 from roughline.assessment.tiles import Tiles, coarse_shape, has_tiles, tiles_from
 from roughline.assessment.uncertainty import change, intervals_of
-from roughline.assessment.variants import (
-    AS_ASKED,
-    COARSE,
-    Curves,
-    filled_otherwise,
-    periodic,
-    tile,
-)
+from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Intervals
@@ -45,8 +38,8 @@ class Solution:
 def solution_of(case: Case, curves: Curves) -> Solution:
     """The solution of a case from the curves of its variants."""
     curve = curves.as_asked
-    intervals, note = _with_filling(case, curves, AS_ASKED, case.body)
-    larger = larger_behind(case, curves, AS_ASKED)
+    intervals, note = _with_filling(case, curves, Way.AS_ASKED, case.body)
+    larger = larger_behind(case, curves, Way.AS_ASKED)
     if larger is not None and case.question.joint is not None and intervals is not None:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
@@ -62,7 +55,8 @@ def solution_of_scan(case: Case, body: Line) -> Solution:
     against = second if isinstance(second, Line) else None
     scan = press_scan(body, E_star=case.loads.E_star, forces=case.loads.forces, against=against)
     ends = scan.low, scan.high
-    known = not (np.isnan(scan.low).any() or is_scan_that_yields(case.question, body))
+    _, is_too_steep = how_far_a_line_serves(case.question, body)
+    known = not (is_too_steep or np.isnan(scan.low).any())
     return Solution(scan.curve, Intervals(ends, ends) if known else None)
 
 
@@ -120,7 +114,7 @@ def _tiles(curves: Curves, whole: Curve | None, body: Surface) -> tuple[Tiles, T
         return None
     shape = coarse_shape(body.shape)
     if shape != body.shape:
-        whole = curves.whole(COARSE)
+        whole = curves.whole(Way.COARSE)
     halves, quarters = (
         [each for i in range(count**2) if (each := curves.whole(tile(count, i))) is not None]
         for count in (2, 4)

@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from functools import cache, partial
-from typing import Final, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -28,16 +29,18 @@ from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
 
-AS_ASKED: Final = "as asked"
-UNLOADED = "unloaded"
-"""From the largest load, where bodies yield and slip."""
 
-ELASTIC, SOFTEST, HARDEST = "elastic", "softest", "hardest"
-AS_HARD = "as hard on half as many points a side"
-"""What a large body's softest and hardest are compared with."""
+class Way(StrEnum):
+    """In which way a body is pressed; the names of variants begin so."""
 
-COARSE = "coarse map"
-"""Of which the tiles are, where the map has many points."""
+    AS_ASKED = "as asked"
+    UNLOADED = "unloaded"  # from the largest load, where bodies yield and slip
+    ELASTIC = "elastic"
+    SOFTEST = "softest"
+    HARDEST = "hardest"
+    AS_HARD = "as hard on half as many points a side"  # for the softest and hardest of large bodies
+    COARSE = "coarse map"  # of which the tiles are, where the map has many points
+
 
 _UNLOADING_LOADS = 16
 """Loads on the way back from the largest one, which partial slip follows where bodies yield."""
@@ -60,7 +63,7 @@ class Curves:
     @property
     def as_asked(self) -> Curve:
         """Curve of the body as it was asked for."""
-        return self.by_name[AS_ASKED]
+        return self.by_name[Way.AS_ASKED]
 
     def get(self, name: str) -> Curve | None:
         """The curve of a variant, whole or as far as it came."""
@@ -160,7 +163,7 @@ def variants_of(case: Case) -> list[Variant]:
     if case.question.fields:  # of the largest load asked for, or of one at three quarters of them
         loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
     shape = body.shape if isinstance(body, Surface) else (1, body.heights.size)
-    listed = [Variant(AS_ASKED, AS_ASKED, lambda _: loads, shape, loads.periodic)]
+    listed = [Variant(Way.AS_ASKED, "as asked", lambda _: loads, shape, loads.periodic)]
     if not isinstance(body, Surface):
         return listed
     if case.filled:
@@ -170,7 +173,7 @@ def variants_of(case: Case) -> list[Variant]:
     if case.question.friction is not None and case.hardness is not None:
         share = _UNLOADING_LOADS / loads.count
         needed = partial(_unloaded, case)
-        listed.append(Variant(UNLOADED, "slip", needed, shape, loads.periodic, share))
+        listed.append(Variant(Way.UNLOADED, "slip", needed, shape, loads.periodic, share))
     return listed
 
 
@@ -208,12 +211,12 @@ def _of_other_hardness(case: Case) -> list[Variant]:
     hardness, body = case.hardness, case.body
     if hardness is None or case.pair is None or not isinstance(body, Surface):
         return []
-    ways: list[tuple[str, float | None, Body]] = [(ELASTIC, None, body)]
+    ways: list[tuple[str, float | None, Body]] = [(Way.ELASTIC, None, body)]
     if hardness.factor != 1:
         (softest, hardest), judged = hardness.ends, case.judged
         if judged is not body:
-            ways.append((AS_HARD, hardness.value, judged))
-        ways += [(SOFTEST, softest, judged), (HARDEST, hardest, judged)]
+            ways.append((Way.AS_HARD, hardness.value, judged))
+        ways += [(Way.SOFTEST, softest, judged), (Way.HARDEST, hardest, judged)]
     listed = []
     for name, value, pressed in ways:
         needed = partial(_as_hard, case, value, pressed)
@@ -272,7 +275,7 @@ def _of_the_larger_surface(
         repeated = replace(
             variant,
             name=periodic(variant.name),
-            purpose="interface" if variant.name == AS_ASKED else variant.purpose,
+            purpose="interface" if variant.name == Way.AS_ASKED else variant.purpose,
             needed=partial(_repeated, variant),
             is_periodic=True,
         )
@@ -286,7 +289,7 @@ def _repeated(variant: Variant, curves: Curves) -> LoadCase | Curve | None:
     """Press the same body periodically, under the forces that it bears."""
     first, curve = variant.needed(curves), curves.get(variant.name)
     if isinstance(first, Curve):  # as asked, or under no load
-        return curves.get(periodic(AS_ASKED)) if first.converged.any() else None
+        return curves.get(periodic(Way.AS_ASKED)) if first.converged.any() else None
     if first is None or curve is None or not first.borne(curve).any():
         return None
     return replace(first.under_forces_of(curve), fields=(), periodic=True, levelled=True)
@@ -321,7 +324,7 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
 
     listed = []
     if shape != body.shape:
-        listed.append(Variant(COARSE, of_larger, partial(needed, coarse), shape, True))
+        listed.append(Variant(Way.COARSE, of_larger, partial(needed, coarse), shape, True))
     for count in (2, 4):
         for i in range(count**2):
             of = partial(lambda count, i: cut(count)[i], count, i)

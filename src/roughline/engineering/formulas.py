@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 
-Value = TypeVar("Value", float, NDArray[np.float64])
+_Value = TypeVar("_Value", float, NDArray[np.float64])
 
 _FULL = 1e-6  # of the saturated stiffness, which may be missing in full contact
 
@@ -23,24 +23,13 @@ ELASTIC_UP_TO = 0.4
 
 
 def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
-    """Stiffness of the interface alone, 1 / k_interface = 1 / k - 1 / k_s.
+    """Stiffness of the interface alone, 1 / k_interface = 1 / k - 1 / k_s. [force / length]
 
-    A free surface in full contact is as stiff as its flat punch, k_s. That compliance belongs to
-    the bodies, and the rest to the roughness. This is exact under a uniform mean pressure, which a
-    punch does not have: see :mod:`roughline.assessment.larger_surface` for a piece of a larger
-    surface.
-
-    Parameters
-    ----------
-    stiffness : float or ndarray
-        Of the contact, below `saturated`. [force / length]
-    saturated : float
-        Of the flat punch of the same outline, on the same grid. [force / length]
-
-    Returns
-    -------
-    ndarray
-        Infinite in full contact, where k is k_s to one part in a million. [force / length]
+    A free surface in full contact is as stiff as the flat punch of its outline on the same grid,
+    k_s, the saturated stiffness. That compliance belongs to the bodies, and the rest to the
+    roughness. This is exact under a uniform mean pressure, which a punch does not have: see
+    :mod:`roughline.assessment.larger_surface` for a piece of a larger surface. It is infinite in
+    full contact, where k is k_s to one part in a million.
     """
     k = np.asarray(stiffness, dtype=np.float64)
     left = saturated - k
@@ -50,21 +39,14 @@ def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
 
 
 def electrical_resistance(
-    stiffness: Value, E_star: float, resistivities: tuple[float, float]
-) -> Value:
-    """Constriction resistance by Barber's identity, 1 / R = 2 k / (E* (rho1 + rho2)).
+    stiffness: _Value, E_star: float, resistivities: tuple[float, float]
+) -> _Value:
+    """Constriction resistance by Barber's identity, 1 / R = 2 k / (E* (rho1 + rho2)). [ohm]
 
-    Exact for clean metallic contact of any shape: current and stress follow from the same
-    potential. Films and the mean free path of electrons add to the resistance.
-
-    Parameters
-    ----------
-    stiffness : float or ndarray
-        Normal contact stiffness k. [N / m]
-    E_star : float
-        Contact modulus. [Pa]
-    resistivities : tuple of float
-        Of both bodies. [ohm m]
+    k is the normal contact stiffness [N / m], E* the contact modulus [Pa], and the resistivities
+    are those of both bodies [ohm m]. It is exact for clean metallic contact of any shape: current
+    and stress follow from the same potential. Films and the mean free path of electrons add to the
+    resistance.
 
     References
     ----------
@@ -75,25 +57,14 @@ def electrical_resistance(
 
 
 def thermal_conductance(
-    stiffness: Value, E_star: float, conductivities: tuple[float, float]
-) -> Value:
-    """Thermal conductance of the solid contact by Barber's identity, G = kappa_s k / E*.
+    stiffness: _Value, E_star: float, conductivities: tuple[float, float]
+) -> _Value:
+    """Thermal conductance of the solid contact by Barber's identity, G = kappa_s k / E*. [W / K]
 
-    With ``kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)``. Gas in the gaps and radiation add to it.
-
-    Parameters
-    ----------
-    stiffness : float or ndarray
-        Normal contact stiffness k [N / m], or k over the nominal area [N / m³].
-    E_star : float
-        Contact modulus. [Pa]
-    conductivities : tuple of float
-        Of both bodies. [W / (m K)]
-
-    Returns
-    -------
-    float or ndarray
-        Conductance [W / K], or per nominal area [W / (m² K)].
+    With ``kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)`` of the conductivities of both bodies
+    [W / (m K)], and the contact modulus E* [Pa]. Of a normal contact stiffness per nominal area
+    [N / m³] instead of k [N / m] it is the conductance per area [W / (m² K)]. Gas in the gaps and
+    radiation add to it.
     """
     return harmonic_conductivity(conductivities) * stiffness / E_star
 
@@ -104,20 +75,12 @@ def harmonic_conductivity(conductivities: tuple[float, float]) -> float:
     return 2 * first * second / (first + second)
 
 
-def holm_resistance(force: Value, hardness: float, resistivities: tuple[float, float]) -> Value:
-    """Holm's resistance of one round spot at the hardness of the softer body.
+def holm_resistance(force: _Value, hardness: float, resistivities: tuple[float, float]) -> _Value:
+    """Holm's resistance of one round spot at the hardness of the softer body. [ohm]
 
-    R = (rho1 + rho2) / (4 a) with pi a² = F / H: all the load on a single plastic spot. Many
-    spots far apart have less.
-
-    Parameters
-    ----------
-    force : float or ndarray
-        Normal force. [N]
-    hardness : float
-        Of the softer body. [Pa]
-    resistivities : tuple of float
-        Of both bodies. [ohm m]
+    R = (rho1 + rho2) / (4 a) with pi a² = F / H: all the load F [N] on a single plastic spot of
+    the hardness H [Pa], between bodies of these resistivities [ohm m]. Many spots far apart have
+    less.
 
     References
     ----------
@@ -128,33 +91,18 @@ def holm_resistance(force: Value, hardness: float, resistivities: tuple[float, f
 
 
 def mikic_conductance(
-    pressure: Value,
+    pressure: _Value,
     E_star: float,
     rms_height: float,
     rms_slope: float,
     conductivities: tuple[float, float],
-) -> Value:
-    """Mikic's elastic conductance per area, 1.55 kappa_s m / sigma (sqrt(2) p / (E* m))^0.94.
+) -> _Value:
+    """Mikic's elastic conductance, 1.55 kappa_s m / sigma (sqrt(2) p / (E* m))^0.94. [W / (m² K)]
 
-    With m the mean absolute slope of a cut, for Gaussian heights rms grad h / sqrt(pi).
-
-    Parameters
-    ----------
-    pressure : float or ndarray
-        Mean pressure over the nominal area. [Pa]
-    E_star : float
-        Contact modulus. [Pa]
-    rms_height : float
-        Of the sum of both surfaces. [m]
-    rms_slope : float
-        Rms gradient of the sum of both surfaces. [1]
-    conductivities : tuple of float
-        Of both bodies. [W / (m K)]
-
-    Returns
-    -------
-    float or ndarray
-        [W / (m² K)]
+    p is the mean pressure over the nominal area [Pa], E* the contact modulus [Pa], kappa_s that of
+    the conductivities of both bodies [W / (m K)]. Of the sum of both surfaces, sigma is the rms
+    height [m], and m the mean absolute slope of a cut, for Gaussian heights rms grad h / sqrt(pi)
+    with the rms slope of the surface.
 
     References
     ----------
@@ -167,25 +115,15 @@ def mikic_conductance(
 
 
 def yovanovich_conductance(
-    pressure: Value,
+    pressure: _Value,
     hardness: float,
     rms_height: float,
     rms_slope: float,
     conductivities: tuple[float, float],
-) -> Value:
-    """Plastic conductance per area, 1.25 kappa_s m / sigma (p / H)^0.95 (Yovanovich).
+) -> _Value:
+    """Yovanovich's plastic conductance, 1.25 kappa_s m / sigma (p / H)^0.95. [W / (m² K)]
 
-    Parameters
-    ----------
-    pressure, rms_height, rms_slope, conductivities
-        As for :func:`mikic_conductance`.
-    hardness : float
-        Of the softer body. [Pa]
-
-    Returns
-    -------
-    float or ndarray
-        [W / (m² K)]
+    H is the hardness of the softer body [Pa], and the rest as for :func:`mikic_conductance`.
 
     References
     ----------
@@ -198,16 +136,10 @@ def yovanovich_conductance(
 
 
 def plasticity_index(E_star: float, hardness: float, summits: tuple[float, float]) -> float:
-    """Greenwood and Williamson's index, E* / H sqrt(sigma_s / R); < 0.6 elastic, > 1 plastic.
+    """Greenwood and Williamson's index, E* / H sqrt(sigma_s / R); < 0.6 elastic, > 1 plastic. [1]
 
-    Parameters
-    ----------
-    E_star : float
-        Contact modulus. [Pa]
-    hardness : float
-        Of the softer body. [Pa]
-    summits : tuple of float
-        Standard deviation of summit heights, and mean radius of summits. [m]
+    E* is the contact modulus and H the hardness of the softer body [Pa]; of the summits, sigma_s is
+    the standard deviation of their heights, and R their mean radius [m].
 
     References
     ----------
@@ -221,24 +153,12 @@ def plasticity_index(E_star: float, hardness: float, summits: tuple[float, float
 def partial_slip(
     depth: Real, force: Real, E_star: float, G_star: float, friction: float
 ) -> tuple[Real, Real]:
-    """Tangential force over tangential displacement at constant normal load, up to full sliding.
+    """Tangential displacement and force at constant normal load, from none to full sliding.
 
     Q = mu (F(d) - F(d_c)), u_x = mu E* / G* (d - d_c) for a stick area as large as the contact at
-    d_c, whatever its shape (Ciavarella 1998, Jäger 1998). The last load is the normal load.
-
-    Parameters
-    ----------
-    depth, force : ndarray, shape (loads,)
-        A curve, rising, up to the normal load. [length], [force]
-    E_star, G_star : float
-        Contact moduli. [pressure]
-    friction : float
-        Coefficient of friction. [1]
-
-    Returns
-    -------
-    displacement, tangential_force : ndarray, shape (loads + 1,)
-        From no load to full sliding.
+    d_c, whatever its shape (Ciavarella 1998, Jäger 1998). Depths [length] and forces [force] are
+    those of a rising curve up to the normal load; what is returned has one value more. E* and G*
+    are contact moduli [pressure].
 
     Raises
     ------
@@ -263,19 +183,12 @@ def partial_slip(
 def reflection(
     stiffness_per_area: ArrayLike, frequency: float, impedances: tuple[float, float]
 ) -> Real:
-    """Modulus of the reflection coefficient of a longitudinal plane wave at normal incidence.
+    """Modulus of the reflection coefficient of a longitudinal plane wave at normal incidence. [1]
 
-    ``|r| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|``, for waves much longer than
-    the distances between contact spots; w = 2 pi frequency.
-
-    Parameters
-    ----------
-    stiffness_per_area : float or ndarray
-        Of the interface alone, K; where it is zero, the whole wave is reflected. [N / m³]
-    frequency : float
-        [Hz]
-    impedances : tuple of float
-        Of both bodies, z. [kg / (m² s)]
+    ``|r| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|``, for waves much longer than the
+    distances between contact spots; w = 2 pi frequency [Hz], and z are the impedances of both
+    bodies [kg / (m² s)]. K is the stiffness per area of the interface alone [N / m³]; where it is
+    zero, the whole wave is reflected.
 
     References
     ----------
