@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.disk import write_dataset
+from roughline.computing.summary import in_notebook
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
-from roughline.contact.notebook import Column, described, html_of_loads, with_unit
 from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import Status
 from roughline.errors import InputError, StoreError
@@ -25,6 +25,7 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.yielding import Yielding
 from roughline.topography.body import Surface, with_heights
+from roughline.units import in_words
 
 if TYPE_CHECKING:
     import xarray
@@ -145,30 +146,17 @@ class Curve:
     law: ContactLaw | None = field(default=None, repr=False)
     control: Literal["forces", "depths"] = field(default="forces", repr=False)
 
-    def __repr__(self) -> str:
-        return described(self.force, self.status, self.unit)
+    _repr_html_ = in_notebook
 
-    def _repr_html_(self) -> str:
-        """Return what a notebook shows: a table of the loads."""
-        columns: list[Column] = [
-            ("depth d", self.depth, None, "length"),
-            ("force F", self.force, None, "force"),
-            ("stiffness k", self.stiffness, self.stiffness_error, "force/length"),
-        ]
-        if self.hardness is not None and self.unloading_stiffness is not None:
-            unloading = self.unloading_stiffness, self.unloading_stiffness_error
-            columns.append(("unloading stiffness", *unloading, "force/length"))
-        if self.area_fraction is not None:
-            columns.append(("raw area", self.area_fraction, None, None))
-        if self.area_fraction_corrected is not None:
-            area = self.area_fraction_corrected, self.area_fraction_error
-            columns.append(("corrected area A/A_0", *area, None))
-        model = "reduced model" if self.area_fraction is None else "full model"
-        boundary = "periodic" if self.half_space.periodic else "free"
-        place = "" if self.area_fraction is None else f", {boundary} half-space"
-        title = f"Curve of the {model}{place}, E* = {with_unit(self.E_star, 'pressure', self.unit)}"
-        grid_decides = ~self.resolved & (self.force != 0)
-        return html_of_loads(title, columns, self.status, grid_decides, self.unit)
+    def __repr__(self) -> str:
+        count, solved = self.status.size, self.converged
+        loads = f"{count} load{'' if count == 1 else 's'}"
+        if not solved.any():
+            return f"<Curve: {loads}, none solved>"
+        unit = unit_of("force", "m") if self.unit == "m" else None
+        low, high = (in_words(float(end(self.force[solved])), unit) for end in (np.min, np.max))
+        missing = "" if solved.all() else f", {count - int(solved.sum())} of them not solved"
+        return f"<Curve: {loads}, force {low} to {high}{missing}>"
 
     @property
     def E_star(self) -> float:

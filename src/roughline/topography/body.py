@@ -9,10 +9,11 @@ from typing import Any, Literal, TypeVar
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.computing.summary import in_notebook
 from roughline.errors import InputError
 from roughline.errors.checks import is_whole, one_of, refuse, rising_pair
 from roughline.errors.public import public
-from roughline.topography.borders import borders_of
+from roughline.topography.borders import borders_of, whole_or_piece
 from roughline.topography.crop import settings_of_piece
 from roughline.topography.heights import (
     checked_heights,
@@ -22,7 +23,6 @@ from roughline.topography.heights import (
     rms,
     rms_deviation,
 )
-from roughline.topography.notebook import described, html_of_body
 from roughline.topography.settings import (
     NOTHING_RECORDED,
     PERIODIC,
@@ -35,7 +35,16 @@ from roughline.topography.settings import (
     record_of_tilt,
 )
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
-from roughline.units import metres_per
+from roughline.units import in_words, metres_per
+
+
+def _described(body: Body) -> str:
+    """Describe a body in a line: its points, sizes, rms height, and whether it is a piece."""
+    points = " × ".join(map(str, body.heights.shape))
+    sizes = " × ".join(in_words(side, body.unit) for side in sides_of(body))
+    rms_height = in_words(body.rms_height, body.unit)
+    name, kind = type(body).__name__, whole_or_piece(body)
+    return f"<{name}: {points} points, {sizes}, rms height {rms_height}, {kind}>"
 
 
 @public
@@ -89,8 +98,8 @@ class Surface:
     is_cut_out: bool
     removed_trend: Trend
 
-    __repr__ = described
-    _repr_html_ = html_of_body
+    __repr__ = _described
+    _repr_html_ = in_notebook
 
     def __init__(
         self,
@@ -256,8 +265,8 @@ class Line:
     is_cut_out: bool
     removed_trend: Trend
 
-    __repr__ = described
-    _repr_html_ = html_of_body
+    __repr__ = _described
+    _repr_html_ = in_notebook
 
     def __init__(
         self,
