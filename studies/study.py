@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from roughline.paper.studies import StudyPanel, StudySummary, write_summary
+from roughline.paper.results import published_folder
+from roughline.paper.studies import StudyPanel, StudySummary
 from roughline.plot.style import save, styled
 from roughline.report.page import Table, markdown_table
 from roughline.statistics.verdict import Claim
 
 DOCS = Path(__file__).parents[1] / "docs"
+SUMMARIES = published_folder() / "studies"
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,13 @@ class Study:
                 pdf.unlink()
         (DOCS / f"{name}.md").write_text(text, encoding="utf-8")
         if self.panels:
-            write_summary(self.summary())
+            # five digits are more than a figure shows
+            rounded = json.loads(
+                json.dumps(asdict(self.summary())), parse_float=lambda x: float(f"{float(x):.5g}")
+            )
+            kept = json.dumps(rounded, ensure_ascii=False, indent=0) + "\n"
+            SUMMARIES.mkdir(exist_ok=True)
+            (SUMMARIES / f"{name}.json").write_text(kept, encoding="utf-8")
 
 
 def filled(text: str, told: Mapping[str, object]) -> str:

@@ -23,7 +23,7 @@ from roughline.contact.comparison.trust import COLUMNS, TrustMap
 from roughline.paper.laws import exponents_of
 from roughline.paper.page import compose
 from roughline.paper.results import published_dataset, published_folder, published_results
-from roughline.paper.windows import WINDOWS_REDUCED
+from roughline.paper.windows import Windows
 from roughline.plot.style import save, styled
 from roughline.report.page import render_markdown
 from roughline.statistics.averages import relative_difference
@@ -52,7 +52,7 @@ def reduce(path: Path) -> None:
         finished(store, ensemble)
     DATA.mkdir(exist_ok=True)
     lines, surfaces = store.dataset("lines"), store.dataset("surfaces")
-    write_netcdf(exponents_of(lines, WINDOWS_REDUCED), DATA / "exponents.nc")
+    write_netcdf(exponents_of(lines, Windows().all_reduced), DATA / "exponents.nc")
     for file_name, name in ENSEMBLES.items():
         data = store.dataset(name)
         if file_name == "lines":

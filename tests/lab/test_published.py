@@ -13,10 +13,10 @@ from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.laws import exponent_estimate
-from roughline.paper.plan import PAPER_DIMENSIONS, paper_plan
+from roughline.paper.plan import ENSEMBLE_FULL, paper_plan
 from roughline.paper.stated import stated_exponents
 from roughline.paper.tables import constant_table, exponent_table
-from roughline.paper.windows import WINDOW_AREA, WINDOW_FULL, WINDOW_REDUCED
+from roughline.paper.windows import WINDOW_AREA, Windows
 
 PAGE = Path(__file__).parents[2] / "docs" / "paper.md"
 SESSION = {"names": {}, "files": {}, "max_points": 64}
@@ -45,10 +45,11 @@ def fits():
 
 
 def test_the_controls_are_those_of_the_study(published_results):
-    assert controls.DIMENSIONS == PAPER_DIMENSIONS
-    assert tuple(published_results.full.fractal_dimension.values) == PAPER_DIMENSIONS
+    dimensions = paper_plan("full").ensemble(ENSEMBLE_FULL).fractal_dimensions
+    assert dimensions == controls.DIMENSIONS
+    assert tuple(published_results.full.fractal_dimension.values) == dimensions
     default = state.state_of({})
-    assert default.windows == {"1D": WINDOW_REDUCED, "3D": WINDOW_FULL}
+    assert default.windows == {"1D": Windows().reduced, "3D": Windows().full}
     gallery = paper_plan("full").gallery.fractal_dimensions
     shown = [eval(text) for text in controls.GALLERY]
     assert np.allclose(shown, gallery)

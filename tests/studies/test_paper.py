@@ -11,7 +11,7 @@ import roughline as rl
 from roughline import campaign
 from roughline.paper.laws import exponent_estimate
 from roughline.paper.results import published_dataset, published_results
-from roughline.paper.windows import WINDOW_FULL
+from roughline.paper.windows import Windows
 from studies.area.measure import REDUCED as AREA
 from studies.correlations.measure import version as version_of_correlations
 from studies.finite_size.samples import REDUCED as FINITE_SIZE
@@ -82,7 +82,7 @@ def test_half_of_the_surfaces_widen_an_interval_by_the_square_root_of_two():
         full = published_results().full.sel(fractal_dimension=dimension)
         force, stiffness = full.force_bar.values, full.stiffness.values
         whole, half = (
-            exponent_estimate(rl.fit_power_law(force, stiffness[:count], WINDOW_FULL))
+            exponent_estimate(rl.fit_power_law(force, stiffness[:count], Windows().full))
             for count in (60, 30)
         )
         ratios.append((half.high - half.low) / (whole.high - whole.low))

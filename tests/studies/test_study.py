@@ -114,7 +114,7 @@ def toy(tmp_path_factory):
 
 def test_data_verdicts_page_figures_and_summary_come_from_the_skeleton(toy, tmp_path, monkeypatch):
     monkeypatch.setattr(skeleton, "DOCS", tmp_path / "docs")
-    monkeypatch.setattr(summaries, "summaries_folder", lambda: tmp_path / "summaries")
+    monkeypatch.setattr(skeleton, "SUMMARIES", tmp_path / "summaries")
     toy.study.publish()
     assert toy.reduced.data["lines"].stiffness.shape == (3, 12, 9)
     assert toy.reduced.unsolved_loads() == (0, 3 * 12 * 9)

@@ -19,7 +19,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.public import public
 
-Kind = Callable[[Any], Any]
+_Kind = Callable[[Any], Any]
 _MOST_VALUES = 10_000  # of one range; more values are a typing error
 
 
@@ -105,7 +105,7 @@ def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemb
 
 
 def _values(
-    table: Mapping[str, Any], place: str, kinds: Mapping[str, Kind], **left_out: Any
+    table: Mapping[str, Any], place: str, kinds: Mapping[str, _Kind], **left_out: Any
 ) -> dict[str, Any]:
     """The values of a table by their keys, each of its kind, and of those that are left out."""
     for key in table:

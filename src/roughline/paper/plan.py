@@ -7,8 +7,7 @@ from typing import Any, Literal
 
 from roughline.campaign.plan import Ensemble, Gallery, Plan, decades, evenly
 
-PAPER_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
-"""The six fractal dimensions of the paper's Figures 3 and 4."""
+_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)  # of the paper's Figures 3 and 4
 
 ENSEMBLE_REDUCED = "lines"
 ENSEMBLE_FULL = "surfaces"
@@ -38,7 +37,7 @@ def paper_plan(scale: Literal["quick", "full"], seed: int = 2012) -> Plan:
     surfaces = Ensemble(
         name=ENSEMBLE_FULL,
         model="full",
-        fractal_dimensions=PAPER_DIMENSIONS,
+        fractal_dimensions=_DIMENSIONS,
         n=n,
         realisations=10 if quick else 60,
         force_bars=forces,
@@ -48,7 +47,7 @@ def paper_plan(scale: Literal["quick", "full"], seed: int = 2012) -> Plan:
     matched = Ensemble(
         name=ENSEMBLE_MATCHED,
         model="reduced",
-        fractal_dimensions=PAPER_DIMENSIONS,
+        fractal_dimensions=_DIMENSIONS,
         n=256 * n,
         realisations=line_count,
         force_bars=forces,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -53,25 +53,8 @@ class StudySummary:
 @cache
 def study_summaries() -> list[StudySummary]:
     """Return the results of the studies that come with the package, by their names."""
-    folder = summaries_folder()
+    folder = Path(str(files("roughline.paper").joinpath("data", "studies")))
     return [_read(path) for path in sorted(folder.glob("*.json"))]
-
-
-def write_summary(summary: StudySummary) -> None:
-    """Write what a study found into the package."""
-    folder = summaries_folder()
-    folder.mkdir(exist_ok=True)
-    # five digits are more than a figure shows
-    rounded = json.loads(
-        json.dumps(asdict(summary)), parse_float=lambda digits: float(f"{float(digits):.5g}")
-    )
-    text = json.dumps(rounded, ensure_ascii=False, indent=0)
-    (folder / f"{summary.name}.json").write_text(text + "\n", encoding="utf-8")
-
-
-def summaries_folder() -> Path:
-    """Folder of these results, a file for each study."""
-    return Path(str(files("roughline.paper").joinpath("data", "studies")))
 
 
 def _read(path: Path) -> StudySummary:

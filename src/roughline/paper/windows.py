@@ -15,10 +15,6 @@ if TYPE_CHECKING:
 Window = tuple[float, float]
 """Smallest and largest F̄, both included."""
 
-WINDOW_REDUCED: Window = (1e-4, 1e-2)
-"""Range of the exponent of the reduced model."""
-WINDOW_FULL: Window = (1e-2, 1e-1)
-"""Range of the exponent of the full model, whose grid does not resolve lighter loads."""
 WINDOW_AGREEMENT: Window = (1e-2, 0.3)
 """Range in which the stiffness of both models with the same waves is compared."""
 WINDOW_AREA: Window = (10**-1.5, 10**-0.5)
@@ -26,19 +22,17 @@ WINDOW_AREA: Window = (10**-1.5, 10**-0.5)
 
 OTHER_WINDOWS_REDUCED: tuple[Window, ...] = ((1e-3, 1e-1), (1e-2, 0.3))
 """Further ranges, which show how much the exponent of the reduced model depends on its window."""
-WINDOWS_REDUCED: tuple[Window, ...] = (WINDOW_REDUCED, *OTHER_WINDOWS_REDUCED)
 MEDIUM_FORCE = 0.1
 """Largest F̄ that counts as a medium force."""
-_WINDOWS_FULL: tuple[Window, ...] = ((1e-3, 1e-2), WINDOW_FULL, (1e-2, 0.3))
 
 
 @dataclass(frozen=True)
 class Windows:
     """The ranges of F̄ in which the exponents of a study are fitted."""
 
-    # of each model; both models with the same waves are compared in that of the full one
-    reduced: Window = WINDOW_REDUCED
-    full: Window = WINDOW_FULL
+    reduced: Window = (1e-4, 1e-2)
+    # whose grid does not resolve lighter loads; here both models with the same waves are compared
+    full: Window = (1e-2, 1e-1)
 
     @property
     def all_reduced(self) -> tuple[Window, ...]:
@@ -48,7 +42,7 @@ class Windows:
     @property
     def all_full(self) -> tuple[Window, ...]:
         """The range of the full model between a lower and a higher one."""
-        return (_WINDOWS_FULL[0], self.full, _WINDOWS_FULL[-1])
+        return ((1e-3, 1e-2), self.full, (1e-2, 0.3))
 
     def within(self, reduced: Real, full: Real) -> Windows:
         """Return the windows as far as the loads of both models reach."""
