@@ -11,7 +11,7 @@ import xarray
 
 from roughline._version import __version__
 from roughline.campaign.export import write_netcdf
-from roughline.campaign.gallery import bodies_of
+from roughline.paper.gallery import Gallery
 from roughline.paper.plan import paper_plan
 from roughline.paper.results import published_folder
 
@@ -20,9 +20,8 @@ _EVERY, _BLOCK = 16, 4
 
 def main() -> None:
     """Press them all."""
-    gallery = paper_plan("full").gallery
-    assert gallery is not None
-    bodies = [bodies_of(gallery, each) for each in gallery.fractal_dimensions]
+    gallery = Gallery.of(paper_plan("full"))
+    bodies = [gallery.bodies(each) for each in gallery.fractal_dimensions]
     places = ("fractal_dimension", "x", "y")
     blocks = ("fractal_dimension", "x_block", "y_block")
     shares = [_shares(body["contact"]) for body in bodies]

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.campaign.gallery import bodies_of
 from roughline.lab.published import controls, state
 from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
 from roughline.paper.claims import claims_section, judge_claims
+from roughline.paper.gallery import Gallery
 from roughline.paper.laws import exponent_estimate
 from roughline.paper.plan import ENSEMBLE_FULL, paper_plan
 from roughline.paper.stated import stated_exponents
@@ -50,7 +50,7 @@ def test_the_controls_are_those_of_the_study(published_results):
     assert tuple(published_results.full.fractal_dimension.values) == dimensions
     default = state.state_of({})
     assert default.windows == {"1D": Windows().reduced, "3D": Windows().full}
-    gallery = paper_plan("full").gallery.fractal_dimensions
+    gallery = Gallery.of(paper_plan("full")).fractal_dimensions
     shown = [eval(text) for text in controls.GALLERY]
     assert np.allclose(shown, gallery)
 
@@ -211,8 +211,7 @@ def test_a_point_of_the_map_is_one_sentence():
 
 def test_bodies_are_those_of_the_plan():
     answer = ask("body", row=3)
-    gallery = replace(paper_plan("full").gallery, n=64)
-    found = bodies_of(gallery, 3.0)
+    found = replace(Gallery.of(paper_plan("full")), n=64).bodies(3.0)
     assert np.array_equal(answer["arrays"]["contact"].T, found["contact"])
     assert np.allclose(answer["arrays"]["deflection"].T, found["displacement"])
     assert np.allclose(answer["arrays"]["line"], found["line_heights"], atol=1e-6)

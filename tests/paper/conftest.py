@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from roughline import campaign
+from roughline.paper.gallery import Gallery
 from roughline.paper.page import write_page
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED, paper_plan
 from roughline.paper.results import results_of_store
@@ -25,14 +26,19 @@ def small_plan():
         )
         for ensemble in plan.ensembles
     )
-    gallery = replace(plan.gallery, fractal_dimensions=(2.0, 3.0), n=24, n_line=128)
-    return replace(plan, ensembles=ensembles, gallery=gallery)
+    return replace(plan, ensembles=ensembles)
 
 
 @pytest.fixture(scope="session")
-def finished(small_plan, tmp_path_factory):
+def small_gallery(small_plan):
+    return replace(Gallery.of(small_plan, (2.0, 3.0)), n_line=128)
+
+
+@pytest.fixture(scope="session")
+def finished(small_plan, small_gallery, tmp_path_factory):
     path = tmp_path_factory.mktemp("finished") / "store"
     campaign.run(small_plan, path)
+    small_gallery.draw(path)
     return path
 
 

@@ -12,6 +12,7 @@ import pytest
 import roughline as rl
 from roughline import campaign
 from roughline.cli.paper import study_of
+from roughline.paper.gallery import Gallery
 from roughline.paper.plan import paper_plan, with_settings
 from roughline.paper.results import results_of_store
 from roughline.paper.roles import departures, roles_of
@@ -70,7 +71,8 @@ def test_settings_of_ones_own_are_in_all_ensembles_that_they_concern():
     assert (lines.n, lines.realisations) == (4096, 8)
     assert lines.force_bars[0] == 1e-5  # of its own window
     assert (matched.n, matched.cutoff_ratio, matched.force_bars) == (2**14, 32, (0.01, 0.1))
-    assert own.gallery.fractal_dimensions == (2.1, 2.5, 2.9)
+    gallery = Gallery.of(own, (2.1, 2.5, 2.9))
+    assert (gallery.fractal_dimensions, gallery.n) == ((2.1, 2.5, 2.9), 64)
     assert roles_of({each.name: each.identity() for each in own.ensembles}).matched == matched.name
     assert with_settings(paper_plan("full")) == paper_plan("full")
     with pytest.raises(rl.InputError, match="fractal dimension 3.5; allowed is 2 to 3"):

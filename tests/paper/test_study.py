@@ -14,27 +14,26 @@ import pytest
 import roughline as rl
 from roughline import campaign
 from roughline.paper import plan as plans
+from roughline.paper.gallery import gallery_in
 from small_campaign import hear_interrupts, tree
 
 
-def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, tmp_path):
-    plan = small_plan
-    gallery = campaign.Store(finished).gallery()
+def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, small_gallery, tmp_path):
+    gallery = gallery_in(campaign.Store(finished))
     assert gallery.heights.shape == (2, 24, 24)
     assert gallery.fractal_dimension.values == pytest.approx([2.0, 3.0])
     spectrum = rl.SelfAffine(fractal_dimension=3.0, rms_height=1.0)
-    assert (gallery.heights.values[1] == spectrum.surface(24, plan.gallery.seed).heights).all()
+    assert (gallery.heights.values[1] == spectrum.surface(24, small_gallery.seed).heights).all()
     before = tree(finished)
-    campaign.run(plan, finished)
+    campaign.run(small_plan, finished)
+    small_gallery.draw(finished)
     assert tree(finished) == before
-    other = replace(plan, gallery=replace(plan.gallery, force_bar=0.1))
     with pytest.raises(rl.StoreError, match="a gallery with other settings"):
-        campaign.run(other, finished)
+        replace(small_gallery, force_bar=0.1).draw(finished)
     # of other fractal dimensions, as a study grows by them, it is drawn again
-    grown = replace(plan, gallery=replace(plan.gallery, fractal_dimensions=(2.5,)))
     shutil.copytree(finished, tmp_path / "grown")
-    campaign.run(grown, tmp_path / "grown")
-    drawn = campaign.Store(tmp_path / "grown").gallery()
+    replace(small_gallery, fractal_dimensions=(2.5,)).draw(tmp_path / "grown")
+    drawn = gallery_in(campaign.Store(tmp_path / "grown"))
     assert drawn.heights.shape == (1, 24, 24)
     assert drawn.fractal_dimension.values == pytest.approx([2.5])
     # a damaged one is drawn again
@@ -43,7 +42,7 @@ def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, tmp_path):
     content = {path: path.read_bytes() for path in chunk.parent.rglob("*") if path.is_file()}
     for path in content:
         path.write_bytes(b"")
-    campaign.run(plan, finished)
+    small_gallery.draw(finished)
     assert tree(finished) == before
 
 
@@ -98,4 +97,4 @@ def in_small(scale, seed):
         )
         for each in plan.ensembles
     )
-    return replace(plan, ensembles=ensembles, gallery=replace(plan.gallery, n=48))
+    return replace(plan, ensembles=ensembles)

@@ -14,8 +14,6 @@ from typing import Any
 from roughline._version import __version__
 from roughline.campaign.batch import Batch, BatchResult, VersionError, evaluate
 from roughline.campaign.cluster import Cluster, interrupts_held_back
-from roughline.campaign.gallery import evaluate_gallery
-from roughline.campaign.plan import Plan
 from roughline.campaign.writer import Writer
 from roughline.contact.status import Status
 from roughline.errors import ClusterError
@@ -67,38 +65,35 @@ class Dispatch:
 
     def __init__(
         self,
-        plan: Plan,
         writer: Writer,
         cluster: Cluster,
         threads: int,
         missing: dict[str, int],
         report: EnsembleProgress,
     ) -> None:
-        self._plan, self._writer, self._cluster = plan, writer, cluster
+        self._writer, self._cluster = writer, cluster
         self._missing, self._report = missing, report
         self.threads = threads  # for each case
         self.summary = Summary()  # of what was done so far
-        self._pending: dict[Any, Batch | None] = {}
+        self._pending: dict[Any, Batch] = {}
         # cases of batches whose workers died: each is computed alone, to find the one that fails
         self._suspects: list[Batch] = []
         self._alone = False
         self.cores = cluster.cores()  # cases that the cluster computes at a time
         self._checked = self._last_with_workers = time.monotonic()
 
-    def work(self, batches: dict[str, list[Batch]], with_gallery: bool) -> None:
-        """Compute and write all batches, and the gallery if it is wanted."""
+    def work(self, batches: dict[str, list[Batch]]) -> None:
+        """Compute and write all batches."""
         from distributed.comm.core import CommClosedError  # here because it loads slowly
 
         waiting = iter([batch for each in batches.values() for batch in each])
-        if with_gallery and self._plan.gallery is not None:
-            self._pending[self._submit(partial(evaluate_gallery, self._plan.gallery))] = None
         try:
             self._send(waiting)
             while self._pending or self._suspects:
                 if not self._pending:
                     alone = self._suspects.pop()
                     self._alone = True
-                    self._pending[self._submit(partial(evaluate, alone))] = alone
+                    self._pending[self._submit(alone)] = alone
                 for future in self._finished():
                     self._take(future)
                 self._send(waiting)
@@ -113,9 +108,10 @@ class Dispatch:
             batch = next(waiting, None)
             if batch is None:
                 return
-            self._pending[self._submit(partial(evaluate, batch))] = batch
+            self._pending[self._submit(batch)] = batch
 
-    def _submit(self, work: Callable[..., object]) -> Any:
+    def _submit(self, batch: Batch) -> Any:
+        work = partial(evaluate, batch)
         return self._cluster.client.submit(work, self.threads, __version__, pure=False)
 
     def _finished(self) -> list[Any]:
@@ -153,12 +149,6 @@ class Dispatch:
         error = future.exception() if future.status == "error" else None
         if isinstance(error, VersionError | ImportError):
             raise ClusterError(f"{error}; install version {__version__} on every worker")
-        if batch is None:
-            if error is not None:
-                raise error
-            assert self._plan.gallery is not None
-            self._writer.put_gallery(self._plan.gallery, future.result())
-            return
         if type(error).__name__ == "KilledWorker" and not self._alone:
             self._suspects += batch.split()
             return

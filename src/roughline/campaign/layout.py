@@ -18,8 +18,6 @@ FORMAT = 1  # changes when older stores can no longer be read
 PENDING, DONE, FAILED = 0, 1, 2
 
 _DIMENSIONS = ("fractal_dimension", "realisation", "force_bar")
-GALLERY = "gallery"
-GALLERY_DONE = "gallery_done"  # attribute of the root
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a campaign computes: ensembles of random bodies, and a gallery of single ones."""
+"""What a campaign computes: ensembles of random bodies."""
 
 from __future__ import annotations
 
@@ -180,29 +180,6 @@ class Ensemble:
 
 
 @dataclass(frozen=True)
-class Gallery:
-    """Single bodies of both models for pictures, as in the paper's Figures 1 and 2.
-
-    Attributes
-    ----------
-    fractal_dimensions : tuple of float
-        One surface and one line for each.
-    n, n_line : int
-        Points along a side of the surface, points of the line.
-    force_bar : float
-        Dimensionless force on each body.
-    seed : int
-        Seed of all bodies; the surfaces share their phases.
-    """
-
-    fractal_dimensions: tuple[float, ...]
-    n: int
-    n_line: int
-    force_bar: float
-    seed: int
-
-
-@dataclass(frozen=True)
 class Plan:
     """A whole campaign.
 
@@ -212,8 +189,6 @@ class Plan:
         Name of the campaign.
     ensembles : tuple of Ensemble
         What is computed, in this order; their names differ.
-    gallery : Gallery or None
-        Single bodies to look at.
 
     Raises
     ------
@@ -223,7 +198,6 @@ class Plan:
 
     name: str
     ensembles: tuple[Ensemble, ...]
-    gallery: Gallery | None = None
 
     def __post_init__(self) -> None:
         if not self.ensembles:

@@ -108,18 +108,17 @@ def _computed(
             writer = stack.enter_context(writing(store, plan))
             batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
         missing = {name: sum(len(batch.cells) for batch in each) for name, each in batches.items()}
-        with_gallery = plan.gallery is not None and not writer.has_gallery
-        if not (with_gallery or any(missing.values())):
+        if not any(missing.values()):
             _report_all(plan, missing, report)
             return Summary()
         if cluster is None:
             refuse_beyond_disk(plan, missing, store)
             cluster, threads = _started(stack, plan, missing, scheduler, workers, threads, say)
         _report_all(plan, missing, report)
-        dispatch = Dispatch(plan, writer, cluster, threads or 1, missing, report)
+        dispatch = Dispatch(writer, cluster, threads or 1, missing, report)
         started = time.time()
         try:
-            dispatch.work(batches, with_gallery)
+            dispatch.work(batches)
         finally:
             _log(store, started, dispatch)
         return dispatch.summary

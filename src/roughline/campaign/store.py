@@ -11,15 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline._version import __version__
-from roughline.campaign.layout import (
-    CASE_STATUS,
-    DONE,
-    FAILED,
-    FORMAT,
-    GALLERY,
-    GALLERY_DONE,
-    VARIABLES,
-)
+from roughline.campaign.layout import CASE_STATUS, DONE, FAILED, FORMAT, VARIABLES
 from roughline.errors import StoreError
 
 if TYPE_CHECKING:
@@ -47,7 +39,7 @@ class Store:
     @property
     def names(self) -> list[str]:
         """Names of the ensembles."""
-        return sorted(name for name in self._root.group_keys() if name != GALLERY)
+        return sorted(name for name, group in self._root.groups() if CASE_STATUS.name in group)
 
     def counts(self, name: str) -> tuple[int, int, int]:
         """Return the numbers of cases that are done, that failed, and of all cases."""
@@ -71,18 +63,6 @@ class Store:
         data.attrs["failures"] = json.dumps(data.attrs["failures"])
         names = [key for key in (*VARIABLES, CASE_STATUS.name) if key in data]
         return _in_order(data, names).sortby("fractal_dimension")
-
-    @property
-    def has_gallery(self) -> bool:
-        """Whether the whole gallery is on disk."""
-        return bool(self._root.attrs.get(GALLERY_DONE, False))
-
-    def gallery(self) -> xarray.Dataset:
-        """Return the gallery over (fractal_dimension, x, y) and (fractal_dimension, s)."""
-        import xarray
-
-        data = xarray.open_zarr(self.path, group=GALLERY, consolidated=False, chunks=None).load()
-        return _in_order(data, sorted(map(str, data)))
 
     def _group(self, name: str) -> Any:
         if name not in self._root:

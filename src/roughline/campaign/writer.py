@@ -19,23 +19,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline._version import __version__
-from roughline.campaign.batch import Batch, BatchResult, Results
+from roughline.campaign.batch import Batch, BatchResult
 from roughline.campaign.cost import chunk_shape
-from roughline.campaign.gallery import gallery_is_whole, write_gallery
 from roughline.campaign.layout import (
     CASE_STATUS,
     COORDINATES,
     DONE,
     FAILED,
     FORMAT,
-    GALLERY_DONE,
     PENDING,
     VARIABLES,
     Variable,
     codecs,
     variables_of,
 )
-from roughline.campaign.plan import Ensemble, Gallery, Plan
+from roughline.campaign.plan import Ensemble, Plan
 from roughline.campaign.store import damaged_or_foreign, opened, read_or_none
 from roughline.contact.status import Status
 from roughline.errors import StoreError
@@ -50,12 +48,6 @@ class Writer:
         try:
             for ensemble in plan.ensembles:
                 _refuse_other_settings(self._root, ensemble, path)
-            if (
-                plan.gallery is not None
-                and self.has_gallery
-                and not gallery_is_whole(self._root, plan.gallery, path)
-            ):
-                self._root.attrs[GALLERY_DONE] = False
             self._groups = {
                 ensemble.name: _prepared_group(self._root, ensemble) for ensemble in plan.ensembles
             }
@@ -65,11 +57,6 @@ class Writer:
                 _mend(arrays)
         except (ValueError, KeyError, TypeError) as error:
             raise damaged_or_foreign(path) from error
-
-    @property
-    def has_gallery(self) -> bool:
-        """Whether the whole gallery is on disk."""
-        return bool(self._root.attrs.get(GALLERY_DONE, False))
 
     def missing(self, ensemble: Ensemble) -> list[Batch]:
         """List what is not done, a batch for each chunk; cases that failed are tried again."""
@@ -102,21 +89,6 @@ class Writer:
         except OSError as error:
             raise _unwritable(self._path, error) from error
 
-    def put_gallery(self, gallery: Gallery, results: Results) -> None:
-        """Write the gallery."""
-        try:
-            write_gallery(self._root, gallery, results)
-        except OSError as error:
-            raise _unwritable(self._path, error) from error
-
-    def consolidate(self) -> None:
-        """Gather the metadata of all groups in one place, where xarray looks first."""
-        import zarr
-
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
-            zarr.consolidate_metadata(self._path)
-
     def _write_failures(self, batch: Batch, failures: dict[int, str]) -> None:
         """Write why cases failed, and forget the reasons of cases that are done now."""
         group = self._groups[batch.ensemble.name]
@@ -136,12 +108,26 @@ class Writer:
 
 
 @contextmanager
-def writing(path: str | Path, plan: Plan) -> Iterator[Writer]:
+def writing(path: Path, plan: Plan) -> Iterator[Writer]:
     """Lock a store for writing; it is made, enlarged or repaired as the plan needs."""
+    import zarr
+
+    with locked(path):
+        if path.is_dir() and any(path.iterdir()):
+            for leftover in path.rglob("*.partial"):  # of a writer that was killed
+                leftover.unlink()
+        if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+            marks = {"roughline_store": FORMAT, "roughline_version": __version__}
+            zarr.create_group(path, attributes=marks)
+        yield Writer(path, plan)
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Lock a store; at the end, gather the metadata of all groups where xarray looks first."""
     import filelock
     import zarr
 
-    path = Path(path)
     lock = filelock.FileLock(path.parent / f".{path.name}.lock", timeout=0)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -153,15 +139,10 @@ def writing(path: str | Path, plan: Plan) -> Iterator[Writer]:
     except OSError as error:
         raise _unwritable(path, error) from error
     try:
-        if path.is_dir() and any(path.iterdir()):
-            for leftover in path.rglob("*.partial"):  # of a writer that was killed
-                leftover.unlink()
-        if not path.exists() or (path.is_dir() and not any(path.iterdir())):
-            marks = {"roughline_store": FORMAT, "roughline_version": __version__}
-            zarr.create_group(path, attributes=marks)
-        writer = Writer(path, plan)
-        yield writer
-        writer.consolidate()
+        yield
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
+            zarr.consolidate_metadata(path)
     except OSError as error:
         raise _unwritable(path, error) from error
     finally:

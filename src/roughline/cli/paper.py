@@ -153,6 +153,7 @@ def study_of(
         If a value cannot be read, or options contradict each other.
     """
     from roughline.campaign import read_plan
+    from roughline.paper.gallery import Gallery
     from roughline.paper.plan import paper_plan, with_settings
     from roughline.paper.study import Study
 
@@ -163,13 +164,16 @@ def study_of(
     command = shlex.join(["roughline", "paper", *told])
     fitted = _windows(windows)
     if plan is None and store is None:
+        settings = _settings(given)
         plan_of_paper = paper_plan(given.get("scale", "quick"), given.get("seed", 2012))
+        own = with_settings(plan_of_paper, **settings)
         return Study(
-            with_settings(plan_of_paper, **_settings(given)),
+            own,
             out / "results.zarr",
             f"at the {given.get('scale', 'quick')} scale{_changed(given)}",
             command,
             fitted,
+            Gallery.of(own, settings.get("fractal_dimensions")),
         )
     if given:
         raise InputError(

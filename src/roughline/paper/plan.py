@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, Literal
 
-from roughline.campaign.plan import Ensemble, Gallery, Plan, decades, evenly
+from roughline.campaign.plan import Ensemble, Plan, decades, evenly
 
 _DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)  # of the paper's Figures 3 and 4
 
@@ -55,14 +55,7 @@ def paper_plan(scale: Literal["quick", "full"], seed: int = 2012) -> Plan:
         boundary="none",
         cutoff_ratio=n / 2,
     )
-    gallery = Gallery(
-        fractal_dimensions=(2.0, 7 / 3, 8 / 3, 3.0),
-        n=n,
-        n_line=2**12,
-        force_bar=0.3,
-        seed=seed,
-    )
-    return Plan(f"the paper, {scale} scale", (lines, matched, surfaces), gallery)
+    return Plan(f"the paper, {scale} scale", (lines, matched, surfaces))
 
 
 def with_settings(
@@ -96,19 +89,4 @@ def with_settings(
         )
         for each in reversed(plan.ensembles)  # surfaces first: what is wrong is said of them
     }
-    gallery = plan.gallery
-    if gallery is not None:
-        gallery = replace(
-            gallery,
-            fractal_dimensions=_shown(fractal_dimensions or gallery.fractal_dimensions),
-            n=gallery.n if points is None else points,
-        )
-    ensembles = tuple(changed[each.name] for each in plan.ensembles)
-    return replace(plan, ensembles=ensembles, gallery=gallery)
-
-
-def _shown(fractal_dimensions: tuple[float, ...]) -> tuple[float, ...]:
-    """Up to four of several fractal dimensions, as Figure 1 shows."""
-    rising = sorted(fractal_dimensions)
-    places = {round(i * (len(rising) - 1) / 3) for i in range(4)}
-    return tuple(rising[place] for place in sorted(places))
+    return replace(plan, ensembles=tuple(changed[each.name] for each in plan.ensembles))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from roughline.campaign.layout import CASE_STATUS, PENDING
 from roughline.errors import StoreError
+from roughline.paper.gallery import gallery_in
 from roughline.paper.laws import DimensionLaws, at_dimension, dimension_laws, exponents_of
 from roughline.paper.roles import roles_of
 from roughline.paper.windows import Windows
@@ -106,7 +107,7 @@ def results_of_store(
         full=surfaces,
         matched=every[roles.matched] if roles.matched else None,
         exponents=exponents_of(lines, reached.all_reduced),
-        gallery=store.gallery() if store.has_gallery else None,
+        gallery=gallery_in(store),
         other_grid=every[roles.other_grid] if roles.other_grid else None,
         windows=reached,
     )

@@ -16,6 +16,7 @@ from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
     from roughline.campaign.plan import Plan
+    from roughline.paper.gallery import Gallery
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,7 @@ class Study:
     command: str  # the command that repeats it
     # where exponents are fitted, as far as the loads reach
     windows: Windows = field(default_factory=Windows)
+    gallery: Gallery | None = None  # bodies for Figures 1 and 2
 
 
 def recompute(study: Study, out: Path, **how: Any) -> Path:
@@ -41,6 +43,8 @@ def recompute(study: Study, out: Path, **how: Any) -> Path:
     if study.plan is not None:
         roles_of({ensemble.name: ensemble.identity() for ensemble in study.plan.ensembles})
         run(study.plan, study.store, **how)
+        if study.gallery is not None:
+            study.gallery.draw(study.store)
     results = results_of_store(
         Store(study.store), study.name, study.command, study.windows, study.plan
     )

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 import roughline as rl
-from roughline.campaign.gallery import bodies_of
 from roughline.lab.controls import ControlError
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
 from roughline.lab.server.tasks import Progress
+from roughline.paper.gallery import Gallery
 from roughline.paper.plan import paper_plan
 from roughline.report.shading import shaded
 
@@ -23,10 +23,9 @@ _POINTS = 512  # along a side; the paper's own plan has 2048
 def body(arguments: Mapping[str, Any], progress: Progress) -> bytes:
     """One row of Figure 1; the second row is Figure 2 as well."""
     row = _row(arguments.get("row"))
-    gallery = paper_plan("full").gallery
-    assert gallery is not None
     n = min(_POINTS, arguments["session"]["max_points"])
-    found = bodies_of(replace(gallery, n=n), gallery.fractal_dimensions[row])
+    gallery = replace(Gallery.of(paper_plan("full")), n=n)
+    found = gallery.bodies(gallery.fractal_dimensions[row])
     heights, line = found["heights"], found["line_heights"]
     level = float(line.max() - found["line_depth"])
     fraction = float(found["contact"].mean())
