@@ -94,14 +94,9 @@ def good_size(n: int, factor: int = 2) -> int:
     return factor * ducc0.fft.good_size(-(-n // factor))
 
 
-def fft_rows(rows: _ComplexFloats, *, forward: bool) -> None:
-    """Transform each row in place."""
-    ducc0.fft.c2c(rows, axes=(1,), forward=forward, out=rows, nthreads=1)
-
-
-def fft_columns(columns: _ComplexFloats, *, forward: bool) -> None:
-    """Transform each column in place."""
-    ducc0.fft.c2c(columns, axes=(0,), forward=forward, out=columns, nthreads=1)
+def fft_along(lines: _ComplexFloats, axis: int, *, forward: bool) -> None:
+    """Transform each line along an axis in place."""
+    ducc0.fft.c2c(lines, axes=(axis,), forward=forward, out=lines, nthreads=1)
 
 
 def cosine_spectrum(quarter: Real) -> None:
@@ -142,9 +137,9 @@ def convolved(values: Any, half_spectrum: Any, periods: tuple[int, int]) -> Any:
     rows[:, :ny] = values
     modes = np.zeros((mx, my // 2 + 1), dtype=np.result_type(values.dtype, np.complex64))
     ducc0.fft.r2c(rows, axes=(1,), out=modes[:nx], nthreads=1)
-    fft_columns(modes, forward=True)
+    fft_along(modes, 0, forward=True)
     modes *= half_spectrum
-    fft_columns(modes, forward=False)
+    fft_along(modes, 0, forward=False)
     ducc0.fft.c2r(modes[:nx], axes=(1,), lastsize=my, forward=False, out=rows, nthreads=1)
     return rows[:, :ny]
 

@@ -15,7 +15,7 @@ from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
-from roughline.spectra.law_search import Corner, Interval, Law, LikelyLaws, Observed, power_law
+from roughline.spectra.law_search import Corner, Law, LikelyLaws, Observed, power_law
 from roughline.spectra.map_rings import MapRings
 from roughline.spectra.means import LEAST_MEANS
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
@@ -25,6 +25,7 @@ from roughline.spectra.self_affine import SelfAffine
 from roughline.topography.body import Body, Surface
 
 _Spectrum = IsotropicSpectrum | ProfileSpectrum
+_Interval = tuple[float, float]
 
 _LEVEL = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
 _LEAST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
@@ -87,20 +88,20 @@ class SelfAffineFit:
     """
 
     hurst: float
-    hurst_interval: Interval
+    hurst_interval: _Interval
     q_roll: float | None
-    q_roll_interval: Interval
+    q_roll_interval: _Interval
     q_high: float | None
-    q_high_interval: Interval
+    q_high_interval: _Interval
     C_0: float
     rms_height: float
-    rms_interval: Interval
+    rms_interval: _Interval
     scatter: float
     q_low: float
     q_last: float
     corner: Corner = "sharp"
     blur: float = 0.0
-    blur_interval: Interval = (0.0, 0.0)
+    blur_interval: _Interval = (0.0, 0.0)
     q_tail: float | None = None
     remarks: tuple[str, ...] = ()
 

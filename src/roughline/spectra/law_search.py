@@ -23,7 +23,6 @@ from roughline.spectra.response import Instrument, Responses
 Corner = Literal["sharp", "smooth"]
 """Of a law at its roll-off: a plateau up to it, or 1 + (q / q_roll)² to a power."""
 
-Interval = tuple[float, float]
 IMPOSSIBLE = 1e30  # deviance of laws that cannot be
 
 _CORNERS: tuple[Corner, ...] = ("sharp", "smooth")  # both are tried
@@ -56,7 +55,7 @@ class Law(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Laws:
+class _Laws:
     """Deviances of laws from a spectrum, each at its best level, corner and response.
 
     A deviance is minus twice the logarithm of the likelihood, up to a constant. Arrays are over
@@ -99,16 +98,16 @@ class Laws:
 
 @dataclass(frozen=True, eq=False)
 class LikelyLaws:
-    """Laws that explain a spectrum hardly worse than the best one."""
+    """_Laws that explain a spectrum hardly worse than the best one."""
 
-    laws: Laws  # all that were tried
+    laws: _Laws  # all that were tried
     hursts: Indices  # of each likely law
     rolls: Indices
     ends: Indices
     responses: Indices  # what the instrument may do with one of them
 
     @classmethod
-    def of(cls, laws: Laws, level: float) -> LikelyLaws:
+    def of(cls, laws: _Laws, level: float) -> LikelyLaws:
         """Take the laws within a level of the profile likelihood."""
         # a chi-squared variable with one degree of freedom is twice a gamma variable of shape 1/2
         most = 2 * special.gammaincinv(0.5, level)
@@ -118,13 +117,13 @@ class LikelyLaws:
         return cls(laws, hursts, rolls, ends, responses)
 
     @property
-    def hurst_interval(self) -> Interval:
+    def hurst_interval(self) -> tuple[float, float]:
         """Exponents of likely laws, and one step further, as those between were not tried. [1]"""
         step = _HURSTS[1] - _HURSTS[0]
         return float(_HURSTS[self.hursts.min()] - step), float(_HURSTS[self.hursts.max()] + step)
 
     @property
-    def roll_interval(self) -> Interval:
+    def roll_interval(self) -> tuple[float, float]:
         """Roll-offs of likely laws, and the next that was tried on either side. [q_low]
 
         It begins at zero if a likely law has its roll-off beyond the longest waves of the piece.
@@ -135,12 +134,12 @@ class LikelyLaws:
         return float(begin), float(max(end, 1.0))
 
     @property
-    def end_interval(self) -> Interval:
+    def end_interval(self) -> tuple[float, float]:
         """Ends of likely laws, with their margins; infinite if one has no end. [q_low]"""
         ends, margins = self.laws.ends, self.laws.margins
         return float((ends - margins)[self.ends].min()), float((ends + margins)[self.ends].max())
 
-    def blur_interval(self, blurs: Real) -> Interval:
+    def blur_interval(self, blurs: Real) -> tuple[float, float]:
         """Blurs of likely responses, and the next that was tried on either side. [spacings]"""
         tried = np.unique(blurs)
         likely = np.searchsorted(tried, blurs[self.responses])
@@ -225,8 +224,8 @@ class Observed(ABC):
         return self.means.weighed(self.responses.unknown)
 
     @cached_property
-    def laws(self) -> Laws:
-        """Laws that are not far from the spectrum."""
+    def laws(self) -> _Laws:
+        """_Laws that are not far from the spectrum."""
         with linear_algebra.on_one_thread():  # threads gain nothing on small matrices
             kept, ends = self._first_search()
             return self._second_search(kept, ends)
@@ -293,7 +292,7 @@ class Observed(ABC):
         most = float(found.min()) + _MARGIN
         return found <= most, np.append(np.flatnonzero(of_ends[:-1] <= most), none)
 
-    def _second_search(self, kept: Mask, ends: Indices) -> Laws:
+    def _second_search(self, kept: Mask, ends: Indices) -> _Laws:
         """Compare the spectrum with all laws between those that were found."""
         shape = (_HURSTS.size, self.rolls.size, ends.size)
         deviance, log_level = np.full(shape, np.inf), np.zeros(shape)
@@ -321,7 +320,7 @@ class Observed(ABC):
                 explained[:, j][better] = first + best[better]
         deviance[deviance > IMPOSSIBLE / 2] = np.inf
         at, margins = self.ends.at[ends], self.ends.margins[ends]
-        return Laws(
+        return _Laws(
             self.rolls, at, margins, deviance, log_level, explained, explanations, of_responses
         )
 

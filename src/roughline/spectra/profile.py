@@ -15,7 +15,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, several
 from roughline.errors.public import public
 from roughline.spectra.leakage import LONG_WAVES
-from roughline.spectra.response import UNKNOWN, Instrument
+from roughline.spectra.response import Instrument
 from roughline.topography.body import Line
 
 _BINS_PER_DECADE = 20
@@ -45,7 +45,7 @@ class ProfileSpectrum:
     rms_height : float
         Rms height of the cuts. [length]
     spacing : float
-        Of their points; where it is not given, half the shortest wavelength. [length]
+        Of their points. [length]
     instrument : Instrument
         What is known of the instrument that measured the heights.
     """
@@ -56,14 +56,10 @@ class ProfileSpectrum:
     edges: Real
     length: float
     rms_height: float
-    spacing: float = 0.0
-    instrument: Instrument = UNKNOWN
+    spacing: float
+    instrument: Instrument
 
     __repr__ = summary
-
-    def __post_init__(self) -> None:
-        if not self.spacing:
-            object.__setattr__(self, "spacing", math.pi / float(self.edges[-1]))
 
 
 @public

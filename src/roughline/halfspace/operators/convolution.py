@@ -146,19 +146,19 @@ class Convolution:
             _scatter_pairs(pressure, *sources.listed[:2], first, last, real_modes)
             if turns is not None:
                 modes[first:last, :ny] *= turns.conj()
-            fft.fft_rows(modes[first:last, :period], forward=True)
+            fft.fft_along(modes[first:last, :period], 1, forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
             columns = np.empty((mx, last - first), dtype=modes.dtype)
             real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
             _load_columns(real_modes, period, sources.rows, first, odd, real_columns)
-            fft.fft_columns(columns, forward=True)
+            fft.fft_along(columns, 0, forward=True)
             _weigh_columns(real_columns, spectrum, first)
-            fft.fft_columns(columns, forward=False)
+            fft.fft_along(columns, 0, forward=False)
             _store_columns(real_columns, rows_out, first, odd, real_modes, period)
 
         def transform_rows_back(first: int, last: int) -> None:
-            fft.fft_rows(modes[first:last, :period], forward=False)
+            fft.fft_along(modes[first:last, :period], 1, forward=False)
             if turns is not None:
                 modes[first:last, :ny] *= turns
             if targets is None:
