@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy import ndimage
@@ -72,6 +73,12 @@ class Make:
         x = np.arange(self.n) / self.points
         return x[:, None], x[None, :]
 
+    def waviness(self, maps, rng) -> np.ndarray:
+        """One wave along each axis, so many maps long, at random places."""
+        x, y = (math.tau * each / maps for each in self.places())
+        first, second = rng.uniform(0, math.tau, 2)
+        return np.cos(x + first) + np.cos(y + second)
+
 
 def unit(heights):
     """Heights of mean zero and unit rms."""
@@ -79,24 +86,9 @@ def unit(heights):
     return heights / heights.std()
 
 
-def sharp(make, rng):
-    """Self-affine, with a sharp roll-off."""
-    return make.rough(rng)
-
-
-def smooth(make, rng):
-    """Self-affine, with the smooth roll-off of a K-correlation."""
-    return make.rough(rng, smooth=True)
-
-
-def endless(make, rng):
-    """Self-affine without a roll-off on the map; the longest wave is the parent's."""
-    return Make(make.points, make.maps, make.hurst, 0.0, make.cells).rough(rng)
-
-
-def lognormal(sign, sigma=0.6):
-    """Heights with a long tail of summits (1) or of pits (-1)."""
-    return lambda make, rng: sign * unit(np.exp(sigma * make.rough(rng)))
+def lognormal(make, rng):
+    """Heights with a long tail of summits."""
+    return unit(np.exp(0.6 * make.rough(rng)))
 
 
 def worn(make, rng):
@@ -126,11 +118,6 @@ def turned(make, rng):
     return 4 * across**2 + depth * (1 - 4 * across**2) + 0.25 * make.rough(rng)
 
 
-def ground(anisotropy):
-    """Ground: drawn out along the lay."""
-    return lambda make, rng: make.rough(rng, along=float(anisotropy), angle=0.2)
-
-
 def blasted(make, rng):
     """Blasted: dents of many shots, of about the roll-off wavelength."""
     waves = max(make.waves, 2.0)
@@ -154,27 +141,15 @@ def scratched(make, rng):
     return heights
 
 
-def wavy(waves_a_map, rms=2.0):
-    """Waviness longer than the map beside the roughness, of so many waves a map."""
-
-    def kind(make, rng):
-        x, y = make.places()
-        phases = rng.uniform(0, math.tau, 2)
-        waves = np.cos(math.tau * waves_a_map * x + phases[0]) + np.cos(
-            math.tau * waves_a_map * y + phases[1]
-        )
-        return unit(make.rough(rng) + rms * unit(waves))
-
-    return kind
+def wavy(make, rng, maps):
+    """Waviness of so many maps beside the roughness."""
+    waves = make.waviness(maps, rng)
+    return unit(make.rough(rng) + 2 * unit(waves))
 
 
 def uneven(make, rng):
     """Roughness that varies over the part by a factor of about three."""
-    x, y = make.places()
-    phases = rng.uniform(0, math.tau, 2)
-    level = np.cos(math.tau * x / make.maps + phases[0]) + np.cos(
-        math.tau * y / make.maps + phases[1]
-    )
+    level = make.waviness(make.maps, rng)
     return make.rough(rng) * np.exp(0.35 * level)
 
 
@@ -192,22 +167,22 @@ def spotted(make, rng):
 
 
 KINDS = {
-    "sharp roll-off": sharp,
-    "smooth roll-off": smooth,
-    "no roll-off": endless,
-    "lognormal summits": lognormal(1),
-    "lognormal pits": lognormal(-1),
+    "sharp roll-off": Make.rough,
+    "smooth roll-off": partial(Make.rough, smooth=True),  # that of a K-correlation
+    "no roll-off": lambda make, rng: replace(make, waves=0.0).rough(rng),
+    "lognormal summits": lognormal,
+    "lognormal pits": lambda make, rng: -lognormal(make, rng),
     "worn": worn,
     "plateau-honed": honed,
     "cross-hatched": hatched,
     "turned": turned,
-    "ground, 3": ground(3),
-    "ground, 9": ground(9),
-    "ground, 30": ground(30),
+    "ground, 3": partial(Make.rough, along=3.0, angle=0.2),
+    "ground, 9": partial(Make.rough, along=9.0, angle=0.2),
+    "ground, 30": partial(Make.rough, along=30.0, angle=0.2),
     "blasted": blasted,
     "scratched": scratched,
-    "waviness of 4 maps": wavy(1 / 4),
-    "waviness of 2 maps": wavy(1 / 2),
+    "waviness of 4 maps": partial(wavy, maps=4),
+    "waviness of 2 maps": partial(wavy, maps=2),
     "uneven roughness": uneven,
     "rough spots": spotted,
 }
@@ -237,53 +212,31 @@ def pixel_means(fine, times, rng):
     return fine.reshape(n, times, n, times).mean((1, 3))
 
 
-def points_of_rougher(fine, times, rng):
-    """Points of a surface that is rough below their spacing."""
-    return fine[::times, ::times]
-
-
-def blurred(pixels):
+def blurred(fine, times, rng, pixels):
     """An optical blur whose standard deviation is so many pixels, then points."""
-
-    def instrument(fine, times, rng):
-        return ndimage.gaussian_filter(fine, pixels * times, mode="reflect")[::times, ::times]
-
-    return instrument
+    return ndimage.gaussian_filter(fine, pixels * times, mode="reflect")[::times, ::times]
 
 
-def stylus(radius):
+def stylus(fine, times, rng, radius=5e-6):
     """A spherical tip of some radius [m] traced over the finer surface, then points."""
-
-    def instrument(fine, times, rng):
-        step = SIDE / (fine.shape[0])
-        reach = max(2, math.ceil(math.sqrt(2 * radius * 4 * RMS) / step))
-        x = np.arange(-reach, reach + 1) * step
-        tip = -(x[:, None] ** 2 + x[None, :] ** 2) / (2 * radius)
-        traced = ndimage.grey_dilation(fine, structure=tip, mode="reflect")
-        return traced[::times, ::times]
-
-    return instrument
+    step = SIDE / (fine.shape[0])
+    reach = max(2, math.ceil(math.sqrt(2 * radius * 4 * RMS) / step))
+    x = np.arange(-reach, reach + 1) * step
+    tip = -(x[:, None] ** 2 + x[None, :] ** 2) / (2 * radius)
+    return ndimage.grey_dilation(fine, structure=tip, mode="reflect")[::times, ::times]
 
 
-def noisy(share):
-    """White noise of a share of the rms height on pixels that are means."""
-
-    def instrument(fine, times, rng):
-        pixels = pixel_means(fine, times, rng)
-        return pixels + share * pixels.std() * rng.normal(size=pixels.shape)
-
-    return instrument
+def noisy(fine, times, rng):
+    """White noise of a few hundredths of the rms height on pixels that are means."""
+    pixels = pixel_means(fine, times, rng)
+    return pixels + 0.03 * pixels.std() * rng.normal(size=pixels.shape)
 
 
-def quantised(share):
-    """Heights in steps of a share of the rms height."""
-
-    def instrument(fine, times, rng):
-        pixels = pixel_means(fine, times, rng)
-        step = share * pixels.std()
-        return np.round(pixels / step) * step
-
-    return instrument
+def quantised(fine, times, rng):
+    """Heights in steps of a tenth of the rms height."""
+    pixels = pixel_means(fine, times, rng)
+    step = 0.1 * pixels.std()
+    return np.round(pixels / step) * step
 
 
 def tilted(fine, times, rng):
@@ -311,12 +264,12 @@ def with_missing(fine, times, rng):
 
 INSTRUMENTS = {
     "pixel means": pixel_means,
-    "points of a rougher surface": points_of_rougher,
-    "blur of half a pixel": blurred(0.5),
-    "blur of a pixel": blurred(1.0),
-    "stylus tip": stylus(5e-6),
-    "noise": noisy(0.03),
-    "quantised": quantised(0.1),
+    "points of a rougher surface": lambda fine, times, rng: fine[::times, ::times],
+    "blur of half a pixel": partial(blurred, pixels=0.5),
+    "blur of a pixel": partial(blurred, pixels=1.0),
+    "stylus tip": stylus,
+    "noise": noisy,
+    "quantised": quantised,
     "tilted stage": tilted,
     "bow": bowed,
     "missing points": with_missing,
