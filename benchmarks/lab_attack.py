@@ -262,10 +262,8 @@ def write(told, share, seed):
     written.say("\n## Times of the page that is used meanwhile\n")
     written.table("question", "alone, median", "times", "median", "95th percentile", "worst")
     for what, times in told["times"].items():
-        times = sorted(times)
-        parts = statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1]
-        alone = statistics.median(told["alone"][what])
-        shown = [f"{1e3 * part:.0f} ms" for part in (alone, *parts)]
+        parts = statistics.median(told["alone"][what]), *page.percentiles(times)
+        shown = [f"{1e3 * part:.0f} ms" for part in parts]
         written.row(what, shown[0], len(times), *shown[1:])
     written.say("\n## What came\n")
     written.table("what", "times")

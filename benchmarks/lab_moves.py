@@ -6,21 +6,18 @@ belongs to this very value. The machine should have nothing else to do.
 """
 
 import argparse
-import os
-import statistics
 import sys
 import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
-from page import machine
+from page import Page, percentiles
 from playwright.sync_api import sync_playwright
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from lab_in_browser import Pages, RunningLab, launched
 
-TABLE = Path(__file__).parents[1] / "docs" / "lab-table.md"
 SERVERS = 5
 SURFACES = ((2.05, 1), (2.2, 7), (2.5, 3), (2.8, 4))  # fractal dimension and seed
 MOVES = 12  # of each slider for each surface
@@ -76,11 +73,8 @@ def main():
                     measure_moves(browser, running, times, moves, points, dimension, seed)
         finally:
             running.close()
-        text = table(times, browser.version)
+        write(times, browser.version, save=not short)
         browser.close()
-    print(text)
-    if not short:
-        TABLE.write_text(text, encoding="utf-8")
 
 
 def measure_start(browser, log, times):
@@ -145,29 +139,23 @@ def drag(page, key, moves):
     time.sleep(0.5)
 
 
-def table(times, browser):
-    """Return the medians and percentiles as a page."""
-    rows = []
+def write(times, browser, save):
+    """Write the medians and percentiles, or print them alone."""
+    page = Page("lab-table.md", "How soon the lab answers, measured", "lab-benchmark")
+    page.say(f"Headless Chromium {browser} without a graphics card, on the same machine.\n")
+    measures = ("median", "95th percentile", "longest", "measured", "wanted (median)")
+    page.table("from, to", *measures)
     for name, target in TARGETS.items():
-        each = times[name]
-        rows.append(
-            f"| {name} | {shown(statistics.median(each))} | {shown(np.percentile(each, 95))} "
-            f"| {shown(max(each))} | {len(each)} | {shown(target)} |"
-        )
-    return f"""# How soon the lab answers, measured
-
-Written by `make lab-benchmark`: {machine()}, {memory():.0f} GB of memory, headless Chromium \
-{browser} without a graphics card, on the same machine.
-
-| from, to | median | 95th percentile | longest | measured | wanted (median) |
-|---|---|---|---|---|---|
-{chr(10).join(rows)}
-
-A move counts from the event of the slider until the frame in which the picture of this value is on
-the screen. Sliders are dragged with the mouse over the loads, fractal dimensions and cutoffs of
-{len(SURFACES)} surfaces; the times of 512² and 1024² points hold the 250 ms without a move after
-which a slider counts as at rest.
-"""
+        parts = (shown(part) for part in percentiles(times[name]))
+        page.row(name, *parts, len(times[name]), shown(target))
+    page.say(
+        "\nA move counts from the event of the slider until the frame in which the picture of this "
+        "value is on the screen. Sliders are dragged with the mouse over the loads, fractal "
+        f"dimensions and cutoffs of {len(SURFACES)} surfaces; the times of 512² and 1024² points "
+        "hold the 250 ms without a move after which a slider counts as at rest."
+    )
+    if save:
+        page.save()
 
 
 def shown(milliseconds):
@@ -175,11 +163,6 @@ def shown(milliseconds):
     if milliseconds is None:
         return "-"
     return f"{milliseconds:.0f} ms" if milliseconds < 1000 else f"{milliseconds / 1e3:.2f} s"
-
-
-def memory():
-    """Return the memory of this machine. [GB]"""
-    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9
 
 
 if __name__ == "__main__":

@@ -106,8 +106,7 @@ class Page:
 
 def row(times, lonely):
     """How many times there are, and their percentiles beside the lonely median."""
-    times = sorted(times)
-    parts = (statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1])
+    parts = page.percentiles(times)
     return len(times), *(f"{1e3 * part:.0f} ms, {part / lonely:.1f}" for part in parts)
 
 

@@ -1,6 +1,7 @@
 """Pages of the handbook that benchmarks write; no number of theirs is typed by hand."""
 
 import platform
+import statistics
 from pathlib import Path
 
 import numpy as np
@@ -43,3 +44,9 @@ def machine():
         f"roughline {rl.__version__}, {available_cores()} cores, {processor_name()}, "
         f"Python {platform.python_version()}, NumPy {np.__version__}"
     )
+
+
+def percentiles(times):
+    """Return the median of some times, their 95th percentile and the longest."""
+    times = sorted(times)
+    return statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1]

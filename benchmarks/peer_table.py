@@ -28,7 +28,8 @@ stands where a program was not run; Tamaas and ContactMechanics press the smalle
 def table(rows):
     """Return the page of all measured rows."""
     sections = (head, convolutions, cold_loads, contact_areas, paths)
-    return "\n".join(section for write in sections if (section := write(rows)))
+    written = [[*write(rows)] for write in sections]
+    return "\n".join("\n".join(lines) + "\n" for lines in written if lines)
 
 
 def of_kind(rows, kind):
@@ -38,34 +39,25 @@ def of_kind(rows, kind):
     return sorted(found, key=lambda row: [row.get(name, 0) for name in order])
 
 
-def lines(*columns):
-    """Return the head of a table."""
-    return [f"| {' | '.join(columns)} |", "|---" * len(columns) + "|"]
-
-
-def line(cells):
-    """Return a row of a table."""
-    return f"| {' | '.join(cells)} |"
-
-
-def page(parts):
-    """Return lines as text."""
-    return "\n".join(parts) + "\n"
+def tabled(heading, columns, rows, cells_of):
+    """Give a heading and a table under it; nothing where there are no rows."""
+    if rows:
+        yield from (heading, f"| {' | '.join(columns)} |", "|---" * len(columns) + "|")
+    for row in rows:
+        yield f"| {' | '.join(cells_of(row))} |"
 
 
 def head(rows):
     """Name the machine and the programs."""
     (machine,) = of_kind(rows, "machine")
     programs = ", ".join(f"{name} {version}" for name, version in machine["programs"].items())
-    return page(
-        [
-            "# Beside other programs, measured\n",
-            f"Written by `make peers`: {programs}; {machine['processor']}, {machine['cores']} "
-            f"cores, {machine['vectors']}; Python {machine['python']}, NumPy {machine['numpy']}.\n",
-            INTRODUCTION,
-            other_work(rows),
-        ]
+    yield "# Beside other programs, measured\n"
+    yield (
+        f"Written by `make peers`: {programs}; {machine['processor']}, {machine['cores']} "
+        f"cores, {machine['vectors']}; Python {machine['python']}, NumPy {machine['numpy']}.\n"
     )
+    yield INTRODUCTION
+    yield other_work(rows)
 
 
 def ended(row):
@@ -93,15 +85,13 @@ def other_work(rows):
 
 def convolutions(rows):
     """Tabulate convolutions."""
-    found = of_kind(rows, "convolution")
-    if not found:
-        return ""
-    parts = ["## One convolution\n"]
-    parts += lines("grid", "plain, zero-padded", "roughline, double", "single")
-    for row in found:
+
+    def cells(row):
         times = (f"{row[name] * 1e3:.1f} ms" for name in ("plain", "double", "single"))
-        parts.append(line([f"{row['n']}²", *times]))
-    return page(parts)
+        return [f"{row['n']}²", *times]
+
+    columns = ("grid", "plain, zero-padded", "roughline, double", "single")
+    return tabled("## One convolution\n", columns, of_kind(rows, "convolution"), cells)
 
 
 def best(row, program):
@@ -144,83 +134,79 @@ def peers_in(rows):
     return [program for program in PEERS if program in labels]
 
 
+def time_of(run):
+    """Return the seconds that a run took, or after which it was stopped."""
+    return run["seconds"] if run.get("converged") else run.get("stopped_after")
+
+
 def cold_loads(rows):
     """Tabulate the times of cold loads."""
     found = of_kind(rows, "cold")
-    if not found:
-        return ""
     peers = peers_in(found)
-    columns = [column for peer in peers for column in (peer, "over roughline")]
-    parts = ["## One cold load\n", *lines("grid", "H", "F̄", "contact", "roughline", *columns)]
-    for row in found:
+
+    def cells(row):
         _, ours = best(row, "roughline")
-        cells = [f"{row['n']}²", f"{row['hurst']}", f"{row['force_bar']}"]
-        cells += [f"{ours['area']:.2%}", duration(ours)]
+        yield from (f"{row['n']}²", f"{row['hurst']}", f"{row['force_bar']}")
+        yield from (f"{ours['area']:.2%}", duration(ours))
         for peer in peers:
             label, run = best(row, peer)
             engine = label.partition(", ")[2]
-            time = run["seconds"] if run.get("converged") else run.get("stopped_after")
-            cells.append(duration(run) + (f" ({engine})" if engine and "seconds" in run else ""))
-            cells.append(ratio(time, ours["seconds"], "stopped_after" in run))
-        parts.append(line(cells))
-    return page(parts)
+            yield duration(run) + (f" ({engine})" if engine and "seconds" in run else "")
+            yield ratio(time_of(run), ours["seconds"], "stopped_after" in run)
+
+    columns = [column for peer in peers for column in (peer, "over roughline")]
+    columns = ("grid", "H", "F̄", "contact", "roughline", *columns)
+    return tabled("## One cold load\n", columns, found, cells)
 
 
 def contact_areas(rows):
     """Tabulate the contact areas of the same loads."""
     found = of_kind(rows, "cold")
-    if not found:
-        return ""
     peers = peers_in(found)
-    parts = ["## Contact areas of these loads\n", *lines("grid", "H", "F̄", "roughline", *peers)]
-    furthest = 0.0
-    for row in found:
+
+    def cells(row):
         _, ours = best(row, "roughline")
-        areas = [best(row, peer)[1].get("area") for peer in peers]
-        forces = [best(row, peer)[1].get("force", row["force_bar"]) for peer in peers]
-        furthest = max([furthest, *(abs(force / row["force_bar"] - 1) for force in forces)])
-        cells = [f"{row['n']}²", f"{row['hurst']}", f"{row['force_bar']}", f"{ours['area']:.4%}"]
-        for area in areas:
+        yield from (f"{row['n']}²", f"{row['hurst']}", f"{row['force_bar']}", f"{ours['area']:.4%}")
+        for peer in peers:
+            area = best(row, peer)[1].get("area")
             far = area is not None and abs(area / ours["area"] - 1) > SAME_AREA
-            cells.append("–" if area is None else f"{area:.4%}{', differs' if far else ''}")
-        parts.append(line(cells))
-    parts.append(
-        f"\nAreas that differ by more than {SAME_AREA:.0e} of themselves are marked. "
-        f"Mean pressures are met to {furthest:.0e}."
-    )
-    return page(parts)
+            yield "–" if area is None else f"{area:.4%}{', differs' if far else ''}"
+
+    columns = ("grid", "H", "F̄", "roughline", *peers)
+    yield from tabled("## Contact areas of these loads\n", columns, found, cells)
+    if found:
+        runs = [(row["force_bar"], best(row, peer)[1]) for row in found for peer in peers]
+        furthest = max((abs(run.get("force", f) / f - 1) for f, run in runs), default=0.0)
+        yield (
+            f"\nAreas that differ by more than {SAME_AREA:.0e} of themselves are marked. "
+            f"Mean pressures are met to {furthest:.0e}."
+        )
 
 
 def paths(rows):
     """Tabulate paths of loads beside cold solutions of the same loads."""
-    found = of_kind(rows, "path")
-    if not found:
-        return ""
-    parts = [
-        "## A path of loads from first touch to saturation\n",
+
+    def cells(row):
+        _, ours = best(row, "roughline")
+        each, counts = ours["seconds"] / row["n_loads"], ours["convolutions"]
+        areas = [f"{100 * area:.2g}%" for area in ours["areas"]]
+        yield from (f"{row['n']}²", f"{row['hurst']}", f"{areas[0]} to {areas[-1]}")
+        yield from (f"{each:.2f} s", f"{each / row['plain']:.1f}")
+        yield f"{sum(counts) / row['n_loads']:.0f}, at most {max(counts)}"
+        yield from (*cold_path(rows, row, each), *warm_path(row, each))
+
+    heading = (
+        "## A path of loads from first touch to saturation\n\n"
         "Times are seconds a load, each run once. ASPHER's cold loads are those of roughline's "
         "path, each with the best of its engines; of some paths only every k-th is solved, as the "
         "table says, and one that is stopped counts with the time until then. Its warm loads start "
-        "from the pressures of the load before, with its FFT.\n",
-        *lines(
-            "grid", "H", "contact", "roughline", "plain convolutions", "own convolutions",
-            "ASPHER, cold", "over roughline", "its loads", "ASPHER, warm", "over roughline",
-        ),
-    ]  # fmt: skip
-    for row in found:
-        _, ours = best(row, "roughline")
-        n_loads = row["n_loads"]
-        each = ours["seconds"] / n_loads
-        cells = [
-            f"{row['n']}²",
-            f"{row['hurst']}",
-            f"{100 * ours['areas'][0]:.2g}% to {100 * ours['areas'][-1]:.2g}%",
-            f"{each:.2f} s",
-            f"{each / row['plain']:.1f}",
-            f"{sum(ours['convolutions']) / n_loads:.0f}, at most {max(ours['convolutions'])}",
-        ]
-        parts.append(line([*cells, *cold_path(rows, row, each), *warm_path(row, each)]))
-    return page(parts)
+        "from the pressures of the load before, with its FFT.\n"
+    )
+    columns = (
+        *("grid", "H", "contact", "roughline", "plain convolutions", "own convolutions"),
+        *("ASPHER, cold", "over roughline", "its loads", "ASPHER, warm", "over roughline"),
+    )
+    return tabled(heading, columns, of_kind(rows, "path"), cells)
 
 
 def cold_path(rows, path, each):
@@ -233,9 +219,7 @@ def cold_path(rows, path, each):
     ]
     if not loads:
         return ["–", "–", "–"]
-    times = [
-        load["seconds"] if load.get("converged") else load.get("stopped_after") for load in loads
-    ]
+    times = [time_of(load) for load in loads]
     known = [time for time in times if time is not None]
     stopped = any("stopped_after" in load for load in loads)
     mean = sum(known) / len(known) if known else None
@@ -248,7 +232,7 @@ def cold_path(rows, path, each):
 def warm_path(path, each):
     """Return the cells of ASPHER's warm loads along a path."""
     _, run = best(path, "ASPHER")
-    time = run["seconds"] if run.get("converged") else run.get("stopped_after")
+    time = time_of(run)
     if time is None:
         return [duration(run), "–"]
     mean, stopped = time / path["n_loads"], "stopped_after" in run

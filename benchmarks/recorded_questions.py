@@ -1,12 +1,13 @@
-"""What else the recorder asks of the package from Python: spectra, theories, fits, files."""
+"""What the recorder asks of the package from Python, besides the commands."""
 
 import math
 import tempfile
+from functools import partial
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 from recorded_problems import LOADS, PRESSED, line, press, rough, scan, shape, spectrum, strip
-from recorded_statistics import statistics
 from recorded_values import contents
 
 import roughline as rl
@@ -39,6 +40,15 @@ _PREPARATIONS = {
 }
 
 
+_CURVES = 1 + np.random.default_rng(3).random((12, 20)) / 5
+_FORCES = np.geomspace(1e-4, 1, 20)
+_LAW = 0.7 * _FORCES**0.55 * _CURVES
+_MATERIALS = (
+    *("steel", "E=70 GPa nu=0.33", "copper hardness=1.2 GPa", "rigid", "stel", "E=70 nu=0.3"),
+    *("steel colour=3", "E=1 GPa E=2 GPa", "nu=0.3"),
+)
+
+
 def refused_or(ask, *arguments):
     """What a function returns, or the text of its refusal."""
     try:
@@ -57,7 +67,7 @@ def questions(topographies):
     yield from _scans()
     yield from _spectra()
     yield from _descriptions()
-    yield from statistics()
+    yield from _statistics()
     yield from _bodies()
     for name, options in _MEASURED.items():
         path = topographies / name
@@ -67,10 +77,8 @@ def questions(topographies):
         yield f"refused {name}", lambda name=name: rl.read(topographies / name)
     for name in ("al3d-1.al3d", "opd-1.opd", "di-1.di"):
         path = topographies / name
-        yield (
-            f"read untouched {name}",
-            lambda path=path: rl.read(path, missing="nearest", trend="none"),
-        )
+        read = {"missing": "nearest", "trend": "none"}
+        yield f"read untouched {name}", lambda path=path, read=read: rl.read(path, **read)
 
 
 def _interrupted():
@@ -117,14 +125,12 @@ def _written():
 
 
 def _scans():
-    yield "scan", lambda: rl.press_scan(scan(128, 91), E_star=1.0, forces=LOADS)
-    yield "scan rolled off", lambda: rl.press_scan(scan(256, 92, roll=8), E_star=2.0, forces=LOADS)
-    yield "scan, seed", lambda: rl.press_scan(scan(128, 91), E_star=1.0, forces=LOADS, rng=5)
-    yield (
-        "scan against scan",
-        lambda: rl.press_scan(scan(128, 93), E_star=1.0, forces=LOADS, against=scan(96, 94)),
-    )
-    yield "scan of a line", lambda: rl.press_scan(line(128, 95), E_star=1.0, forces=LOADS)
+    pressed = partial(rl.press_scan, E_star=1.0, forces=LOADS)
+    yield "scan", lambda: pressed(scan(128, 91))
+    yield "scan rolled off", lambda: pressed(scan(256, 92, roll=8), E_star=2.0)
+    yield "scan, seed", lambda: pressed(scan(128, 91), rng=5)
+    yield "scan against scan", lambda: pressed(scan(128, 93), against=scan(96, 94))
+    yield "scan of a line", lambda: pressed(line(128, 95))
     yield "compare spectrum", lambda: _compared(spectrum(roll=2), n=32, surfaces=3)
     yield "compare surface", lambda: _compared(rough(64, 96), rng=3)
     yield "compare piece", lambda: _compared(rough(64, 97).cropped((0, 40), (0, 48)))
@@ -134,6 +140,31 @@ def _scans():
 def _compared(body, **options):
     found = rl.compare(body, force_bars=np.geomspace(0.01, 1, 5), **options)
     return {"found": found, "differences": found.differences(), "trusted": found.trusted(0.2)}
+
+
+def _statistics():
+    law = partial(rl.fit_power_law, _FORCES)
+    yield "average", lambda: rl.average(_LAW)
+    yield "average geometric", lambda: rl.average(_LAW, "geometric", 0.8, rng=4)
+    yield "power law", lambda: law(_LAW, (1e-3, 0.1))
+    yield "power law of one", lambda: law(_LAW[0], (1e-3, 0.1))
+    yield "power law geometric", lambda: law(_LAW, (1e-3, 0.1), averaging="geometric")
+    yield "power law, no window", lambda: law(_LAW, (0.5, 0.6))
+    yield "window", lambda: rl.find_window(_FORCES, _LAW)
+    yield "trust map", rl.trust_map
+    places = [(2.2, 0.1, 1.0), (2.75, 0.03, 3.0), (2.0, 1.0, 2.5)]
+    yield "trust map read", lambda: [_trusted(rl.trust_map().at(*each)) for each in places]
+    yield "trust map, outside", lambda: rl.trust_map().at(2.2, 1e-9)
+    yield "punches", lambda: [rl.PAPER_PUNCH, rl.EXACT_PUNCH]
+    yield "public names", lambda: sorted(rl.__all__)
+    yield "status", lambda: {each.name: [int(each), each.reason] for each in rl.Status}
+    for name in _MATERIALS:
+        yield f"material {name}", lambda name=name: rl.material(name)
+    yield "contact modulus", lambda: rl.contact_modulus(rl.material("steel"), rl.material("pmma"))
+
+
+def _trusted(found):
+    return {"found": found, "text": str(found), "verdict": found.verdict(0.1)}
 
 
 def _spectra():
@@ -148,15 +179,12 @@ def _spectra():
         yield f"theories {name}", lambda law=law: _theories(spectrum(**law))
     yield "spectrum by C_0", lambda: _of_spectrum(rl.SelfAffine(fractal_dimension=2.3, C_0=1e-3))
     yield "spectrum, none", lambda: rl.SelfAffine(rms_height=1.0)
-    yield (
-        "estimate",
-        lambda: [
-            rl.estimate((n, 2 * n), 10, periodic=periodic, fields=fields).memory
-            for n in (64, 1024)
-            for periodic in (False, True)
-            for fields in (False, True)
-        ],
-    )
+    asked = [*product((64, 1024), (False, True), (False, True))]
+    yield "estimate", lambda: [_memory(*each) for each in asked]
+
+
+def _memory(n, periodic, fields):
+    return rl.estimate((n, 2 * n), 10, periodic=periodic, fields=fields).memory
 
 
 def _of_spectrum(law):
@@ -193,10 +221,8 @@ def _descriptions():
     }
     for name, make in bodies.items():
         yield f"roughness {name}", lambda make=make: _described(make())
-    yield (
-        "spectrum of scans",
-        lambda: _fitted(rl.profile_spectrum([scan(128, i) for i in range(4)])),
-    )
+    scans = (scan(128, i) for i in range(4))
+    yield "spectrum of scans", lambda: _fitted(rl.profile_spectrum([*scans]))
 
 
 def _described(body):

@@ -20,13 +20,21 @@ import time
 from pathlib import Path
 
 import psutil
+from page import Page
 
-ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests"))
-from dask_processes import start_scheduler, start_worker  # noqa: E402
-from small_campaign import PLAN, finish, start, tree  # noqa: E402
+from roughline import campaign
 
-KINDS = ("client", "worker", "scheduler", "interrupt", "chunk")
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+from dask_processes import start_scheduler, start_worker
+from small_campaign import PLAN, finish, start, tree
+
+KINDS = {
+    "client": "kill -9 of the client",
+    "worker": "kill -9 of a worker",
+    "scheduler": "kill -9 of the scheduler of a cluster",
+    "interrupt": "Ctrl-C",
+    "chunk": "kill -9 of the client, and a chunk cut off",
+}
 LONGEST = 8.0  # until a kill, from the start of the command [s]
 WORKERS_A_RUN = 3
 
@@ -37,7 +45,8 @@ class Soak:
     def __init__(self, folder: Path, seed: int) -> None:
         self.folder, self.chance = folder, random.Random(seed)
         self.plan = folder / "plan.toml"
-        self.plan.write_text(PLAN.replace("realisations = 62", "realisations = 150"))
+        self.plan.write_text(PLAN.replace("realisations = 60", "realisations = 200"))
+        self.cases = campaign.read_plan(self.plan).cases
         self.kills: collections.Counter[str] = collections.Counter()
         self.campaigns = self.runs = 0
         code, _, err = finish(start(self.plan, folder / "calm"))
@@ -62,7 +71,7 @@ class Soak:
         self.runs += 1
         if calm:
             return finish(start(self.plan, store))[0] == 0
-        kind = self.chance.choice(KINDS)
+        kind = self.chance.choice([*KINDS])
         if kind == "scheduler":
             return self._with_cluster(store)
         process = start(self.plan, store)
@@ -124,21 +133,16 @@ def main(kills: int, seed: int) -> None:
         soak = Soak(Path(folder), seed)
         soak.disturb(kills)
     minutes = (time.monotonic() - started) / 60
-    names = {
-        "client": "kill -9 of the client",
-        "worker": "kill -9 of a worker",
-        "scheduler": "kill -9 of the scheduler of a cluster",
-        "interrupt": "Ctrl-C",
-        "chunk": "kill -9 of the client, and a chunk cut off",
-    }
-    rows = "\n".join(f"| {names[kind]} | {soak.kills[kind]} |" for kind in KINDS)
-    (ROOT / "docs" / "soak-table.md").write_text(
-        "# Campaigns under disturbances\n\n"
-        f"Written by `make soak`, seed {seed}: {sum(soak.kills.values())} "
-        f"kills in {soak.runs} runs of {soak.campaigns} campaigns of 630 cases, {minutes:.0f} "
-        "minutes. Every campaign ended with the same bytes as one that was not disturbed.\n\n"
-        f"| disturbance | times |\n|---|---|\n{rows}\n"
+    page = Page("soak-table.md", "Campaigns under disturbances", "soak")
+    page.say(
+        f"Of seed {seed}: {sum(soak.kills.values())} kills in {soak.runs} runs of {soak.campaigns} "
+        f"campaigns of {soak.cases} cases, {minutes:.0f} minutes. Every "
+        "campaign ended with the same bytes as one that was not disturbed.\n"
     )
+    page.table("disturbance", "times")
+    for kind, name in KINDS.items():
+        page.row(name, soak.kills[kind])
+    page.save()
 
 
 if __name__ == "__main__":
