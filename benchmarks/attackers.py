@@ -75,7 +75,6 @@ class Crowd:
         }
 
     async def run(self):
-        """Hold them until it is over."""
         kinds = list(self.kinds.items())
         sources = [each for each, count in CROWDS.items() for _ in range(round(count * self.share))]
         held = (self._hold(each, *kinds[i % len(kinds)]) for i, each in enumerate(sources))
@@ -164,7 +163,6 @@ class Page:
         return True
 
     def say(self):
-        """Send one message."""
         self.lab.counts["messages"] += 1
         if self.chance.random() < 0.05:
             self._send(1, self.chance.choice(_MESSAGES).encode())
@@ -261,7 +259,6 @@ class Requests:
         self.lab, self.chance = lab, chance
 
     async def send(self):
-        """Send one, and count how it is answered."""
         said = await _asked(self.lab, REQUESTS_FROM, self._drawn())
         status = said.partition(b"\r\n")[0].split(b" ")
         answered = f"{status[1][:1].decode(errors='replace')}xx" if len(status) > 1 else "no answer"

@@ -6,9 +6,9 @@ means, exponent and prefactor are known in closed form.
 """
 
 import argparse
-import sys
 
 import numpy as np
+from page import Page
 
 import roughline as rl
 from roughline.statistics import bootstrap
@@ -57,23 +57,19 @@ def trial(rng, count, scatter):
 
 
 def main():
-    """Print a table by count of realisations and scatter."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--trials", type=int, default=2000)
     trials = parser.parse_args().trials
-    print(f"\nroughline {rl.__version__}, {trials} ensembles a row\n")
-    print(
-        f"| realisations | scatter | mean | α | ζ | over {LINES} others | percentiles: mean | α | "
-        f"over {LINES} others |"
-    )
-    print("|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
+    page = Page("", "Bootstrap intervals", "bootstrap-coverage")  # printed alone
+    page.say(f"{trials} ensembles a row.\n")
+    others = f"over {LINES} others"
+    measures = ("mean", "α", "ζ", others, "percentiles: mean", "α", others)
+    page.table("realisations", "scatter", *measures)
     for count in COUNTS:
         for scatter in SCATTERS:
             rng = np.random.default_rng([count, round(10 * scatter)])
             held = np.mean([trial(rng, count, scatter) for _ in range(trials)], axis=0)
-            cells = " | ".join(f"{share:.1%}" for share in held)
-            print(f"| {count} | {scatter:g} | {cells} |", flush=True)
-            print(".", end="", file=sys.stderr, flush=True)
+            page.row(count, f"{scatter:g}", *(f"{share:.1%}" for share in held))
 
 
 if __name__ == "__main__":

@@ -37,7 +37,6 @@ def bodies(n, rng):
 
 
 def main():
-    """Print a row for each number of points and kind."""
     rng = np.random.default_rng(7)
     for n, made in MADE.items():
         kinds = [bodies(n, rng) for _ in range(made)]

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from page import Page
 
 import roughline as rl
 
@@ -39,17 +40,15 @@ def errors(n):
 
 
 def main():
-    """Print the table of docs/science.md."""
-    print(f"roughline {rl.__version__}\n")
-    print(f"| grid | | {' | '.join(f'F̄ = {load:g}' for load in LOADS)} | rms |")
-    print("|---" * (LOADS.size + 3) + "|")
+    page = Page("", "Contact areas of flat tops", "contact-area")  # printed alone
+    page.table("grid", "", *(f"F̄ = {load:g}" for load in LOADS), "rms")
     for n in (64, 128):
         found = np.array(list(errors(n)))
         for i, name in enumerate(("cells", "all as under summits", "`area_fraction_corrected`")):
             ranges = zip(found[:, i].min(axis=0), found[:, i].max(axis=0), strict=True)
             cells = [f"{low:+.1f} to {high:+.1f} %" for low, high in ranges]
             rms = math.sqrt(float((found[:, i] ** 2).mean()))
-            print(f"| {n}² | {name} | {' | '.join(cells)} | {rms:.1f} % |", flush=True)
+            page.row(f"{n}²", name, *cells, f"{rms:.1f} %")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ import roughline as rl
 
 
 def main():
-    """Press, draw, write, read, ask, and look at the published data."""
     made = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=3e4).surface(64, rng=1)
     surface = rl.Surface(made.heights, made.sizes, unit="m")
     curve = rl.press(surface, E_star=110e9, n_loads=5, fields=True)

@@ -29,7 +29,7 @@ import psutil
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 import attackers  # noqa: E402
-from lab_sessions import Page  # noqa: E402
+from lab_sessions import Page, megabytes  # noqa: E402
 
 from lab.server.serving import entered, running_lab  # noqa: E402
 
@@ -59,31 +59,23 @@ IDLE = 0.02  # of a core that the lab may take when nobody is there
 
 
 class Watch:
-    """Looks at a lab."""
-
     def __init__(self, lab):
         self.lab, self.server = lab, psutil.Process(lab.process.pid)
         self.samples = []
 
     def look(self):
-        """What it holds now."""
-        own = []
-        for each in self.server.children(recursive=True):
-            with contextlib.suppress(psutil.Error):  # it has ended meanwhile
-                own.append(each.memory_full_info().uss)
+        own = megabytes(self.server)
         files = [each for each in self.lab.folder.rglob("*") if each.is_file()]
         sizes = []
         for each in files:
             with contextlib.suppress(OSError):
                 sizes.append(each.stat().st_size)
-        held = self.server.memory_full_info()
-        memory = (held.rss / 1e6, held.uss / 1e6, (held.uss + sum(own)) / 1e6)
+        memory = (self.server.memory_info().rss / 1e6, own[0], sum(own))
         on_disk = (len(files), sum(sizes) / 1e3, self.lab.log.stat().st_size)
-        found = (self.server.num_fds(), *memory, 1 + len(own), *on_disk)
+        found = (self.server.num_fds(), *memory, len(own), *on_disk)
         return dict(zip(HELD, found, strict=True))
 
     async def run(self, counts):
-        """Look every few seconds."""
         started = time.monotonic()
         while True:
             sample = await asyncio.to_thread(self.look)
@@ -235,7 +227,6 @@ def drift_of(samples):
 
 
 def faults_of(told, refused, log):
-    """In which the lab failed."""
     exceeding = exceeded(told["before"], told["after"])
     faults = [f"{HELD[name][0]}: {by:.4g} more than before" for name, by in exceeding.items()]
     faults += [f"the honest page was refused: {each}" for each in refused]
@@ -249,7 +240,6 @@ def faults_of(told, refused, log):
 
 
 def write(told, share, seed):
-    """Write the page."""
     counts = told["counts"]
     written = page.Page("lab-attack-table.md", "The lab under attack", "lab-attack")
     written.say(
@@ -275,7 +265,6 @@ def write(told, share, seed):
 
 
 def _write_holdings(written, told):
-    """Tell what the lab held before, meanwhile and afterwards."""
     written.say(
         f"All is quiet {told['quiet']:.0f} s after the last attacker has gone; it then takes "
         f"{told['idle']:.1%} of a core.\n"
@@ -288,7 +277,6 @@ def _write_holdings(written, told):
 
 
 def main(share, seed):
-    """Start a lab, attack it, and close it."""
     limits = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (min(limits[1], FILES_OF_A_PROCESS), limits[1]))
     with tempfile.TemporaryDirectory() as folder:

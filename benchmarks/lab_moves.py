@@ -56,7 +56,6 @@ addEventListener("drawn", ({target, detail: {what, points, numbers}}) => {
 
 
 def main():
-    """Measure, print the table and write it."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--short", action="store_true", help="a few moves only; write nothing")
     short = parser.parse_args().short
@@ -78,7 +77,6 @@ def main():
 
 
 def measure_start(browser, log, times):
-    """Time a fresh server and its first page."""
     running = RunningLab(log)
     pages = Pages(browser, running.address)
     try:
@@ -159,7 +157,6 @@ def write(times, browser, save):
 
 
 def shown(milliseconds):
-    """Return a time in words."""
     if milliseconds is None:
         return "-"
     return f"{milliseconds:.0f} ms" if milliseconds < 1000 else f"{milliseconds / 1e3:.2f} s"

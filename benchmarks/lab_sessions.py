@@ -110,19 +110,19 @@ def row(times, lonely):
     return len(times), *(f"{1e3 * part:.0f} ms, {part / lonely:.1f}" for part in parts)
 
 
-def megabytes(pid):
-    """What the server, and all its processes, hold for themselves."""
-    server = psutil.Process(pid)
+def megabytes(server):
+    """What a server, and each of its processes, hold for themselves."""
     own = []
     for each in (server, *server.children(recursive=True)):
         with suppress(psutil.Error):  # it has ended meanwhile
-            own.append(each.memory_full_info().uss)
-    return own[0] / 1e6, sum(own) / 1e6
+            own.append(each.memory_full_info().uss / 1e6)
+    return own
 
 
 async def measure(address, cookie, pid):
     """Measure one page, and many; write the tables."""
-    before = megabytes(pid)
+    server = psutil.Process(pid)
+    before = megabytes(server)
     lone = await Page.open(address, cookie, 1000)
     lonely = {}
     for task in TASKS:
@@ -140,7 +140,7 @@ async def measure(address, cookie, pid):
             each.seed += SESSIONS
         await asyncio.gather(*(each.ask_twice(task, burst) for each in pages))
     await asyncio.gather(*(each.move(people) for each in pages))
-    during = megabytes(pid)
+    during = megabytes(server)
     await asyncio.gather(*(each.close() for each in pages))
     await asyncio.sleep(1)
     written = page.Page("sessions-table.md", "Twenty pages at once, measured", "lab-sessions")
@@ -159,14 +159,13 @@ async def measure(address, cookie, pid):
                 written.row(question, when, alone, *row(times[what], lonely[task]))
     written.say("\n## Memory\n")
     written.table("when", "the server", "with its processes")
-    held = {"no page is open": before, "all are open": during, "all are closed": megabytes(pid)}
-    for when, parts in held.items():
-        written.row(when, *(f"{part:.0f} MB" for part in parts))
+    held = {"no page is open": before, "all are open": during, "all are closed": megabytes(server)}
+    for when, own in held.items():
+        written.row(when, f"{own[0]:.0f} MB", f"{sum(own):.0f} MB")
     written.save()
 
 
 def main():
-    """Start a lab, measure it and close it."""
     with tempfile.TemporaryDirectory() as folder, running_lab(temporary=folder) as lab:
         time.sleep(3)  # what is prepared in the background
         asyncio.run(measure(*entered(lab.opened), lab.process.pid))

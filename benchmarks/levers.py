@@ -70,7 +70,6 @@ def measured(row, lever):
 
 
 def main():
-    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rows", nargs="+", default=["cold free 1024", "path of 20 512"])
     parser.add_argument("--without", nargs="+", default=[""], help="what names of levers contain")

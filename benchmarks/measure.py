@@ -10,13 +10,12 @@ import os
 import statistics
 import subprocess
 import sys
-import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import ducc0.fft
 import numpy as np
-from page import Page
+from page import Page, once
 
 import roughline as rl
 from roughline.computing.cores import available_cores
@@ -30,18 +29,7 @@ CORES = available_cores()
 def seconds(function, repeats=5):
     """Return the median wall time of a call, after one that is not counted."""
     function()
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - start)
-    return statistics.median(times)
-
-
-def once(function):
-    """Return what a call gives, and its wall time."""
-    start = time.perf_counter()
-    return function(), time.perf_counter() - start
+    return statistics.median(once(function)[1] for _ in range(repeats))
 
 
 def plain_convolution(n):
@@ -66,51 +54,44 @@ def our_convolution(n, precision):
     return seconds(lambda: operator.displacement(pressure, loaded, loaded, precision))
 
 
-def convolutions(say):
-    """Compare our convolution with a plain one."""
-    say("## One convolution\n")
-    say("| grid | plain, zero-padded | ours, double | ours, single |")
-    say("|---|---|---|---|")
+def convolutions(page):
+    page.say("## One convolution\n")
+    page.table("grid", "plain, zero-padded", "ours, double", "ours, single")
     for n in (512, 1024, 2048):
         plain = plain_convolution(n)
-        double, single = (our_convolution(n, p) for p in ("float64", "float32"))
-        say(
-            f"| {n}² | {plain * 1e3:.1f} ms | {double * 1e3:.1f} ms, 1/{plain / double:.1f} | "
-            f"{single * 1e3:.1f} ms, 1/{plain / single:.1f} |"
-        )
+        ours = (our_convolution(n, precision) for precision in ("float64", "float32"))
+        told = (f"{each * 1e3:.1f} ms, 1/{plain / each:.1f}" for each in ours)
+        page.row(f"{n}²", f"{plain * 1e3:.1f} ms", *told)
 
 
-def paths(say, n_loads=20):
+def paths(page, n_loads=20):
     """Time whole paths from first touch to saturation, stiffness included, and cold loads."""
-    say(f"\n## Full model: {n_loads} loads from first touch to saturation\n")
-    say("| grid | H | per load | plain convolutions | own convolutions | last k | residual |")
-    say("|---|---|---|---|---|---|---|")
+    page.say(f"\n## Full model: {n_loads} loads from first touch to saturation\n")
+    counts = ("plain convolutions", "own convolutions")
+    page.table("grid", "H", "per load", *counts, "last k", "residual")
     for n in (512, 1024, 2048):
         for hurst in (0.2, 0.5, 0.8):
             surface = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(n, 7)
             plain = plain_convolution(n)
             curve, wall = once(lambda s=surface: rl.press(s, E_star=1.0, n_loads=n_loads))
             plain = (plain + plain_convolution(n)) / 2  # as fast as the machine was meanwhile
-            say(
-                f"| {n}² | {hurst} | {wall / n_loads:.2f} s | {wall / n_loads / plain:.0f} | "
-                f"{curve.convolutions.mean():.0f}, at most {curve.convolutions.max()} | "
-                f"{curve.stiffness_bar[-1]:.2f} | {curve.residual.max():.0e} |"
-            )
-    say("\n## Full model: one cold load, H = 0.8\n")
-    say("| grid | contact | time | plain convolutions |")
-    say("|---|---|---|---|")
+            times = (f"{wall / n_loads:.2f} s", f"{wall / n_loads / plain:.0f}")
+            own = f"{curve.convolutions.mean():.0f}, at most {curve.convolutions.max()}"
+            last = (f"{curve.stiffness_bar[-1]:.2f}", f"{curve.residual.max():.0e}")
+            page.row(f"{n}²", hurst, *times, own, *last)
+    page.say("\n## Full model: one cold load, H = 0.8\n")
+    page.table("grid", "contact", "time", "plain convolutions")
     for n in (512, 1024, 2048):
         plain = plain_convolution(n)
         surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
         curve, wall = once(lambda s=surface: rl.press(s, E_star=1.0, forces=[0.38]))
-        say(f"| {n}² | {curve.area_fraction[0]:.1%} | {wall:.2f} s | {wall / plain:.0f} |")
+        page.row(f"{n}²", f"{curve.area_fraction[0]:.1%}", f"{wall:.2f} s", f"{wall / plain:.0f}")
 
 
-def growth(say, n_loads=6):
+def growth(page, n_loads=6):
     """Fit how time and convolutions per load grow with the number of points."""
-    say(f"\n## Full model: growth with the grid, H = 0.8, {n_loads} loads to saturation\n")
-    say("| grid | per load | convolutions per load |")
-    say("|---|---|---|")
+    page.say(f"\n## Full model: growth with the grid, H = 0.8, {n_loads} loads to saturation\n")
+    page.table("grid", "per load", "convolutions per load")
     sizes, times, counts = [256, 512, 1024, 2048, 4096], [], []
     forces = np.geomspace(0.1, 3.0, n_loads)
     for n in sizes:
@@ -118,10 +99,10 @@ def growth(say, n_loads=6):
         curve, wall = once(lambda s=surface: rl.press(s, E_star=1.0, forces=forces))
         times.append(wall / n_loads)
         counts.append(curve.convolutions.mean())
-        say(f"| {n}² | {times[-1]:.3f} s | {counts[-1]:.0f} |")
+        page.row(f"{n}²", f"{times[-1]:.3f} s", f"{counts[-1]:.0f}")
     points = np.log(np.square(sizes))
     exponents = [np.polyfit(points, np.log(values), 1)[0] for values in (times, counts)]
-    say(
+    page.say(
         f"\nTime per load grows like N^{exponents[0]:.2f} with the number of points N, "
         f"convolutions per load like N^{exponents[1]:.2f}."
     )
@@ -136,9 +117,9 @@ def press_lines(task):
     return len(seeds)
 
 
-def reduced_model(say, n_lines=500):
+def reduced_model(page, n_lines=500):
     """Time lines: one, and the paper's ensemble for six fractal dimensions."""
-    say("\n## Reduced model: lines of 2^20 points, 200 loads\n")
+    page.say("\n## Reduced model: lines of 2^20 points, 200 loads\n")
     n, forces = 2**20, np.geomspace(1e-5, 10, 200)
     spectrum, modes = rl.SelfAffine(hurst=0.8, rms_height=1.0), np.ones(2**19 + 1, dtype=complex)
     numpys = seconds(lambda: np.fft.irfft(modes), 15)
@@ -147,7 +128,7 @@ def reduced_model(say, n_lines=500):
     line = spectrum.line(n, 7)
     press = seconds(lambda: rl.press(line, E_star=1.0, forces=forces), 15)
     total = generate + press
-    say(
+    page.say(
         f"One line: generated in {generate * 1e3:.1f} ms and pressed in {press * 1e3:.1f} ms, "
         f"together {total / duccs:.1f} times its inverse real FFT by ducc0 on one thread "
         f"({duccs * 1e3:.1f} ms), {total / numpys:.1f} times NumPy's ({numpys * 1e3:.1f} ms)."
@@ -160,15 +141,14 @@ def reduced_model(say, n_lines=500):
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(CORES, context) as pool:
         done, wall = once(lambda: sum(pool.map(press_lines, tasks)))
-    say(
+    page.say(
         f"\n{n_lines} lines for each of six fractal dimensions: {wall:.0f} s on {CORES} cores, "
         f"{wall / done * 1e3:.1f} ms a line."
     )
 
 
-def start_up(say):
-    """Time whole processes."""
-    say("\n## Start-up\n")
+def start_up(page):
+    page.say("\n## Start-up\n")
     empty, ours, usage = (
         seconds(lambda a=a: subprocess.run(a, check=True, stdout=subprocess.DEVNULL))
         for a in (
@@ -177,14 +157,13 @@ def start_up(say):
             [str(Path(sys.executable).with_name("roughline")), "--help"],
         )
     )
-    say(
+    page.say(
         f"`import roughline`: {1e3 * (ours - empty):.0f} ms above an empty interpreter; "
         f"`roughline --help`: {usage:.2f} s as a whole."
     )
 
 
 def main():
-    """Write the tables."""
     parts = (convolutions, paths, growth, reduced_model, start_up)
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", choices=[part.__name__ for part in parts])
@@ -194,7 +173,7 @@ def main():
     page = Page("speed-table.md", "Speed, measured", "benchmark")
     for part in parts:
         if only in (None, part.__name__):
-            part(page.say)
+            part(page)
     if only is None:
         page.save()
 

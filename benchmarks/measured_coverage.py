@@ -22,7 +22,6 @@ STUDIES = {**OF_THE_PAGE, "finer": FINER, "tiled": TILED, "mine": MINE, "pieces"
 
 
 def main():
-    """Run the studies, and print their tables."""
     parser = argparse.ArgumentParser()
     parser.add_argument("studies", nargs="*", default=[*OF_THE_PAGE], help=", ".join(STUDIES))
     parser.add_argument("--folder", type=Path, default=Path("out/intervals"))

@@ -8,13 +8,11 @@ the mean contact pressure of elastic ones, half of E* times the rms slope.
 
 import argparse
 import itertools
-import resource
 import subprocess
 import sys
-import time
 
 import numpy as np
-from page import Page
+from page import Page, once, peak
 
 import roughline as rl
 from roughline.contact.estimates import bytes_at_a_point, expected_area_fraction
@@ -31,12 +29,6 @@ ELASTIC = (
     *((4096, "periodic", (force,)) for force in (0.03, 3.0)),
 )
 YIELDING = tuple(itertools.product((1024,), ("free", "periodic"), (HISTORY,), (1.0, 3.0, 6.0)))
-
-
-def peak():
-    """Return the largest memory that this process has held so far. [bytes]"""
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 
 
 def estimated(surface, forces, hardness, *, periodic):
@@ -62,9 +54,8 @@ def cells(n, boundary, forces, pressure_over_hardness=None):
     hardness = None
     if pressure_over_hardness:
         hardness = surface.rms_slope / 2 / pressure_over_hardness
-    start = time.perf_counter()
-    curve = rl.press(surface, E_star=1.0, forces=forces, periodic=periodic, hardness=hardness)
-    wall = time.perf_counter() - start
+    given = {"E_star": 1.0, "forces": forces, "periodic": periodic, "hardness": hardness}
+    curve, wall = once(lambda: rl.press(surface, **given))
     held = (peak() - interpreter) / n**2
     told = estimated(surface, forces, hardness, periodic=periodic)
     asked = ["rising and falling" if forces == HISTORY else ", ".join(f"{f:g}" for f in forces)]
@@ -87,7 +78,6 @@ def measured(n, boundary, forces, pressure_over_hardness=None):
 
 
 def main():
-    """Print one row, or write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("points", type=int, nargs="?")
     parser.add_argument("boundary", choices=["free", "periodic"], default="free", nargs="?")

@@ -1,7 +1,10 @@
-"""Pages of the handbook that benchmarks write; no number of theirs is typed by hand."""
+"""Pages of the handbook that benchmarks write, and what they measure: times and memory."""
 
 import platform
+import resource
 import statistics
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -25,16 +28,13 @@ class Page:
         self.lines.append(line)
 
     def table(self, *columns):
-        """Begin a table."""
         self.row(*columns)
         self.row(*["---"] * len(columns))
 
     def row(self, *cells):
-        """Add a row of a table."""
         self.say(f"| {' | '.join(map(str, cells))} |")
 
     def save(self):
-        """Write the page."""
         self.path.write_text("\n".join(self.lines) + "\n", encoding="utf-8")
 
 
@@ -50,3 +50,15 @@ def percentiles(times):
     """Return the median of some times, their 95th percentile and the longest."""
     times = sorted(times)
     return statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1]
+
+
+def once(function):
+    """Return what a call gives, and its wall time. [s]"""
+    start = time.perf_counter()
+    return function(), time.perf_counter() - start
+
+
+def peak():
+    """Return the largest memory that this process has held so far. [bytes]"""
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit

@@ -40,7 +40,6 @@ PACKAGES = {"ASPHER": "aspher", "Tamaas": "tamaas", "ContactMechanics": "Contact
 
 
 def press_roughline(surface, force):
-    """Press with roughline; the stiffness is included."""
     curve = rl.press(surface, E_star=1.0, forces=[force], rtol=TOLERANCE)
     return {
         "area": float(curve.area_fraction[0]),
@@ -108,7 +107,6 @@ def path_of_aspher(surface, forces):
 
 
 def press_tamaas(surface, force):
-    """Press with Tamaas and its operator that is not periodic."""
     import tamaas as tm
 
     tm.set_log_level(tm.LogLevel.error)
@@ -129,7 +127,6 @@ def press_tamaas(surface, force):
 
 
 def press_contact_mechanics(surface, force):
-    """Press with ContactMechanics and its free half-space."""
     from ContactMechanics import FreeFFTElasticHalfSpace
     from ContactMechanics.Factory import make_system
     from SurfaceTopography import Topography
@@ -150,7 +147,6 @@ def press_contact_mechanics(surface, force):
 
 
 def versions():
-    """Return the versions of the programs that are installed."""
     found = {"roughline": rl.__version__}
     for program, package in PACKAGES.items():
         try:

@@ -26,7 +26,6 @@ stands where a program was not run; Tamaas and ContactMechanics press the smalle
 
 
 def table(rows):
-    """Return the page of all measured rows."""
     sections = (head, convolutions, cold_loads, contact_areas, paths)
     written = [[*write(rows)] for write in sections]
     return "\n".join("\n".join(lines) + "\n" for lines in written if lines)
@@ -71,7 +70,6 @@ def part_of_others(runs):
 
 
 def other_work(rows):
-    """Say how much of the cores other work had."""
     found = [runs for row in rows if (runs := ended(row))]
     if not found:
         return ""
@@ -84,8 +82,6 @@ def other_work(rows):
 
 
 def convolutions(rows):
-    """Tabulate convolutions."""
-
     def cells(row):
         times = (f"{row[name] * 1e3:.1f} ms" for name in ("plain", "double", "single"))
         return [f"{row['n']}²", *times]
@@ -129,7 +125,6 @@ def ratio(theirs, ours, at_least=False):
 
 
 def peers_in(rows):
-    """Return the programs beside ours that any row holds."""
     labels = {program_of(label) for row in rows for label in row["runs"]}
     return [program for program in PEERS if program in labels]
 
@@ -140,7 +135,6 @@ def time_of(run):
 
 
 def cold_loads(rows):
-    """Tabulate the times of cold loads."""
     found = of_kind(rows, "cold")
     peers = peers_in(found)
 
@@ -160,7 +154,6 @@ def cold_loads(rows):
 
 
 def contact_areas(rows):
-    """Tabulate the contact areas of the same loads."""
     found = of_kind(rows, "cold")
     peers = peers_in(found)
 
@@ -184,8 +177,6 @@ def contact_areas(rows):
 
 
 def paths(rows):
-    """Tabulate paths of loads beside cold solutions of the same loads."""
-
     def cells(row):
         _, ours = best(row, "roughline")
         each, counts = ours["seconds"] / row["n_loads"], ours["convolutions"]
@@ -210,7 +201,6 @@ def paths(rows):
 
 
 def cold_path(rows, path, each):
-    """Return the cells of ASPHER's cold loads along a path."""
     same = ("n", "hurst", "n_loads")
     loads = [
         best(row, "ASPHER")[1]
@@ -230,7 +220,6 @@ def cold_path(rows, path, each):
 
 
 def warm_path(path, each):
-    """Return the cells of ASPHER's warm loads along a path."""
     _, run = best(path, "ASPHER")
     time = time_of(run)
     if time is None:

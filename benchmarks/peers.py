@@ -71,7 +71,6 @@ def was_disturbed(row):
 
 
 def machine(cores):
-    """Describe the machine and the programs on it."""
     info = Path("/proc/cpuinfo")
     lines = (line.partition(":") for line in info.read_text().splitlines()) if info.exists() else ()
     facts = {name.strip(): value.strip() for name, _, value in lines}
@@ -113,7 +112,6 @@ def race(presses, n, hurst, limit, repeats):
 
 
 def cold_loads(rows, wanted):
-    """Time cold loads of all programs."""
     programs = versions()
     for n in wanted.sizes:
         slow = () if n in wanted.slow_sizes else ("Tamaas", "ContactMechanics")
@@ -162,7 +160,6 @@ def paths(rows, wanted):
 
 
 def main():
-    """Measure the rows that are not there yet, and write the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     add = parser.add_argument
     add("--sizes", type=int, nargs="+", default=[512, 1024, 2048], help="points along a side")

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from page import Page
 
 import roughline as rl
 
@@ -12,7 +13,7 @@ PRESSURES = np.array([0.02, 0.05, 0.1, 0.17, 0.25, 0.4])  # p / (E* rms slope)
 
 
 def main():
-    """Print the table of docs/science.md."""
+    page = Page("", "Persson's stiffness", "persson")  # printed alone
     for roll in ROLL_OFFS:
         for hurst in HURSTS:
             spectrum = rl.SelfAffine(
@@ -27,20 +28,11 @@ def main():
                 ratios.append(curve.stiffness / theory.stiffness)
                 areas.append(curve.area_fraction_corrected)
             if roll == ROLL_OFFS[0] and hurst == HURSTS[0]:
-                header = " | ".join(f"{area:.0%}" for area in np.mean(areas, axis=0))
-                print(f"roughline {rl.__version__}\n\n| roll-off | H | {header} |")
-                print("|---" * (PRESSURES.size + 2) + "|")
-            cells = [
-                f"{mean:.2f} ({low:.2f}-{high:.2f})"
-                for mean, low, high in zip(
-                    np.exp(np.mean(np.log(ratios), axis=0)),
-                    np.min(ratios, axis=0),
-                    np.max(ratios, axis=0),
-                    strict=True,
-                )
-            ]
-            name = "none" if roll == 1 else f"{roll} q_0"
-            print(f"| {name} | {hurst:g} | {' | '.join(cells)} |", flush=True)
+                page.table("roll-off", "H", *(f"{area:.0%}" for area in np.mean(areas, axis=0)))
+            means = np.exp(np.mean(np.log(ratios), axis=0))
+            told = zip(means, np.min(ratios, axis=0), np.max(ratios, axis=0), strict=True)
+            cells = (f"{mean:.2f} ({low:.2f}-{high:.2f})" for mean, low, high in told)
+            page.row("none" if roll == 1 else f"{roll} q_0", f"{hurst:g}", *cells)
 
 
 if __name__ == "__main__":

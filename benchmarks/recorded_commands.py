@@ -98,7 +98,6 @@ def _named():
 
 
 def _of_map(file, piece, wave, depths):
-    """A measured map, pressed and described in several ways."""
     path, cropped = f"measured/{file}", f"--crop '{piece}'"
     short, modulus = f"{path} --resample 64", "--modulus '100 GPa'"
     theories = "--theory persson --theory bush-gibson-thomas --theory greenwood-williamson"
@@ -128,7 +127,6 @@ def _of_map(file, piece, wave, depths):
 
 
 def _of_scan(file, piece, wave, unit):
-    """A measured line scan, pressed and described in several ways."""
     path, low_pass = f"measured/{file}{unit}", f"--low-pass '{wave}'"
     ways = {
         "plain": "--modulus '100 GPa' --loads 6",

@@ -21,12 +21,10 @@ def spectrum(*, hurst=0.8, roll=1.0, cut=None, length=1.0, height=1.0):
 
 
 def rough(n, seed, amplitudes="fixed", **law):
-    """A random square surface."""
     return spectrum(**law).surface(n, seed, amplitudes)
 
 
 def line(n, seed, amplitudes="fixed", **law):
-    """A random reduced line."""
     return spectrum(**law).line(n, seed, amplitudes)
 
 

@@ -50,7 +50,6 @@ def flat(value, place=""):
 
 
 def _attributes(value):
-    """Public fields and properties of an object."""
     names = [each.name for each in fields(value)]
     kinds = property | functools.cached_property
     names += [name for name, _ in inspect.getmembers(type(value), lambda m: isinstance(m, kinds))]
@@ -65,7 +64,6 @@ def _attributes(value):
 
 
 def _of_dataset(data):
-    """Variables, dimensions and attributes of an xarray Dataset."""
     variables = {
         str(name): {
             "dims": " ".join(map(str, variable.dims)),
@@ -78,7 +76,6 @@ def _of_dataset(data):
 
 
 def _is_vector(values):
-    """Whether a sequence is of numbers of one kind."""
     return len({type(each) for each in values}) == 1 and isinstance(values[0], float | int)
 
 
@@ -149,7 +146,6 @@ def _decoded(path):
 
 
 def _of_zarr(path):
-    """Arrays and attributes of a Zarr folder, by group."""
     import zarr
 
     root, found = zarr.open_group(path, mode="r", use_consolidated=False), {}
@@ -165,7 +161,6 @@ def _digest(data):
 
 
 def keep(values, path):
-    """Write named arrays to a file."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("wb") as file:
         np.savez_compressed(file, names=np.array(list(values)), **_numbered(values))
@@ -176,7 +171,6 @@ def _numbered(values):
 
 
 def kept(path):
-    """Read named arrays from a file."""
     with np.load(path, allow_pickle=False) as stored:
         return {str(name): stored[f"v{i}"] for i, name in enumerate(stored["names"])}
 

@@ -104,7 +104,6 @@ def compare(first, second, kinds, rtol):
 
 
 def main():
-    """Record or compare."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("action", choices=("record", "compare"))
     parser.add_argument("folders", type=Path, nargs="+", metavar="DIR")

@@ -1,13 +1,13 @@
 """Press thousands of random bodies: ``make robustness`` writes ``docs/robustness-table.md``."""
 
 import argparse
+import math
 import sys
-import time
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
-from page import Page
+import pandas as pd
+from page import Page, once
 
 import roughline as rl
 
@@ -20,82 +20,61 @@ SLOWEST = "slowest over median of its size"
 _SLOW = 5.0  # times the median of all problems of about the same number of points
 
 
-def timed(problem):
-    """Press a body; return the curve, or the refusal, and the seconds."""
-    start = time.perf_counter()
+def ended(seed, number):
+    """How a problem ended, and in what time. [s]"""
+    problem = random_problem(np.random.default_rng([seed, number]))
+    surface, given = problem.surface, {"periodic": problem.periodic, **problem.loads}
+    told = {
+        "kind": problem.kind,
+        "points": surface.heights.size,
+        "loads": len(next(iter(problem.loads.values()))),
+        "case": f"{problem.kind}, {surface.shape}, spacing {surface.spacing}, periodic "
+        f"{problem.periodic}, {problem.loading}",
+    }
     try:
-        outcome = rl.press(
-            problem.surface, E_star=E_STAR, periodic=problem.periodic, throw=False, **problem.loads
-        )
+        curve, seconds = once(lambda: rl.press(surface, E_star=E_STAR, throw=False, **given))
     except rl.InputError as error:
-        outcome = error
-    return outcome, time.perf_counter() - start
+        return told | {"end": "refused", "seconds": math.nan, "why": f"refused: {error}"}
+    numbers = (curve.depth, curve.force, curve.stiffness, curve.area_fraction)
+    sound = curve.converged.all() and not any(np.isnan(each).any() for each in numbers)
+    end = "certified" if sound and (curve.residual <= 1e-6).all() else "not"
+    return told | {"end": end, "seconds": seconds, "why": f"{curve.status}, {curve.residual}"}
 
 
-def slow_beside_others(rows, loads, size_class):
-    """Return the time per load of each problem over the median of problems of about its size."""
-    per_load = np.array([row[3] for row in rows]) / loads
-    slowness = np.full(len(rows), np.nan)
-    for size in np.unique(size_class):
-        here = size_class == size
-        slowness[here] = per_load[here] / np.nanmedian(per_load[here])
-    return slowness
+def slowness_of(rows):
+    """Time per load of each problem over the median of problems of about its size."""
+    per_load = rows.seconds / rows.loads
+    return per_load / per_load.groupby(np.log2(rows.points).astype(int)).transform("median")
 
 
 def main():
-    """Solve the problems and write a table by kind."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--problems", type=int, default=PROBLEMS)
     parser.add_argument("--seed", type=int, default=SEED)
-    arguments = parser.parse_args()
-    rows, wrong = [], []
-    timed(random_problem(np.random.default_rng(0)))  # compiles
-    for i in range(arguments.problems):
-        problem = random_problem(np.random.default_rng([arguments.seed, i]))
-        outcome, seconds = timed(problem)
-        points = problem.surface.heights.size
-        if isinstance(outcome, rl.InputError):
-            rows.append((problem, "refused", points, np.nan, i))
-            wrong.append(f"{i}: refused: {outcome}")
-            continue
-        numbers = (outcome.depth, outcome.force, outcome.stiffness, outcome.area_fraction)
-        sound = all(not np.isnan(number).any() for number in numbers)
-        certified = outcome.converged.all() and (outcome.residual <= 1e-6).all() and sound
-        rows.append((problem, "certified" if certified else "not", points, seconds, i))
-        if not certified:
-            wrong.append(
-                f"{i}: {problem.kind}, {problem.surface.shape}, periodic {problem.periodic}, "
-                f"{problem.loading}: {outcome.status}, {outcome.residual}"
-            )
-    loads = np.array([len(next(iter(row[0].loads.values()))) for row in rows])
-    size_class = np.array([int(np.log2(row[2])) for row in rows])
-    slowness = slow_beside_others(rows, loads, size_class)
-    for i in np.flatnonzero(slowness > _SLOW):  # code that is loaded, or other work, came between
-        problem, end, points, seconds, number = rows[i]
-        rows[i] = (problem, end, points, min(seconds, timed(problem)[1]), number)
-    slowness = slow_beside_others(rows, loads, size_class)
+    asked = parser.parse_args()
+    ended(0, 0)  # compiles
+    rows = pd.DataFrame([ended(asked.seed, number) for number in range(asked.problems)])
+    for number in np.flatnonzero(slowness_of(rows) > _SLOW):  # other work came between
+        again = ended(asked.seed, number)["seconds"]
+        rows.loc[number, "seconds"] = min(rows.seconds[number], again)
+    rows["slowness"] = slowness_of(rows)
     page = Page("robustness-table.md", "Random problems, and how they ended", "robustness")
-    page.say(f"{len(rows)} problems, seed {arguments.seed}.\n")
+    page.say(f"{len(rows)} problems, seed {asked.seed}.\n")
     page.table("bodies", "problems", "loads", "certified", "refused", SLOWEST)
-    kinds = np.array([row[0].kind for row in rows])
-    ends = np.array([row[1] for row in rows])
-    for kind in [*sorted(set(kinds)), "all"]:
-        here = (kinds == kind) | (kind == "all")
-        count = Counter(ends[here])
-        slowest = f"{np.nanmax(slowness[here]):.1f}"
-        ended = (count["certified"], count["refused"])
-        page.row(kind, here.sum(), loads[here].sum(), *ended, slowest)
-    if (arguments.problems, arguments.seed) == (PROBLEMS, SEED):
+    for kind in [*sorted(set(rows.kind)), "all"]:
+        here = rows[(rows.kind == kind) | (kind == "all")]
+        ends = ((here.end == end).sum() for end in ("certified", "refused"))
+        page.row(kind, len(here), here.loads.sum(), *ends, f"{here.slowness.max():.1f}")
+    if (asked.problems, asked.seed) == (PROBLEMS, SEED):
         page.save()
-    for i in np.flatnonzero(slowness > _SLOW):
-        problem, _, _, seconds, number = rows[i]
-        wrong.append(
-            f"{number}: {slowness[i]:.1f} times the median: {problem.kind}, "
-            f"{problem.surface.shape}, spacing {problem.surface.spacing}, periodic "
-            f"{problem.periodic}, {problem.loading}, {seconds:.3f} s"
-        )
-    print("\n" + "\n".join(wrong) if wrong else "\nnothing failed, nothing was slow")
-    return bool(wrong)
+    wrong, slow = rows[rows.end != "certified"], rows[rows.slowness > _SLOW]
+    told = [f"{each.Index}: {each.case}: {each.why}" for each in wrong.itertuples()]
+    told += [
+        f"{each.Index}: {each.slowness:.1f} times the median: {each.case}, {each.seconds:.3f} s"
+        for each in slow.itertuples()
+    ]
+    print("", *(told or ["nothing failed, nothing was slow"]), sep="\n")
+    return bool(told)
 
 
 if __name__ == "__main__":

@@ -7,19 +7,18 @@ The work itself is what the same command takes in a process that has run it befo
 """
 
 import contextlib
-import io
 import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
-from page import Page
+from page import Page, once
+from recorded_runs import run
 
 import roughline as rl
-from roughline import cli
 
 ROUNDS = 7
 SIDES = ("--unit", "um", "--size", "1 mm")
@@ -36,7 +35,6 @@ LIBRARY = [sys.executable, "-W", "ignore", "-c", "import SurfaceTopography"]
 
 
 def main():
-    """Time the commands and write the table."""
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         write_surface()
         ours = [sys.executable, "-m", "roughline"]
@@ -45,7 +43,8 @@ def main():
         times = {name: [] for name in calls}
         for _ in range(ROUNDS):
             for name, call in calls.items():
-                times[name].append(seconds(call))
+                ran = partial(subprocess.run, call, check=True, capture_output=True)
+                times[name].append(once(ran)[1])
         work = {name: seconds_of_work(arguments) for name, arguments in COMMANDS.items()}
     bare = statistics.median(times.pop("the import"))
     page = Page("start-up-table.md", "How soon a command answers, measured", "start-up")
@@ -59,7 +58,6 @@ def main():
 
 
 def write_surface():
-    """Write a surface as an array, as a file of our own, and as a text."""
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
     surface = replace(spectrum.surface(256, 7), unit="m")
     np.save("map.npy", surface.heights * 1e6)
@@ -67,24 +65,9 @@ def write_surface():
     rl.write(surface, "map.nc")
 
 
-def seconds(command):
-    """Return the wall time of a command. [s]"""
-    start = time.perf_counter()
-    subprocess.run(command, check=True, capture_output=True)
-    return time.perf_counter() - start
-
-
 def seconds_of_work(arguments):
     """Return the least time of a command among calls in this process. [s]"""
-    times = []
-    for _ in range(4):
-        start = time.perf_counter()
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-            sys.argv = ["roughline", *arguments]
-            with contextlib.suppress(SystemExit):
-                cli.main()
-        times.append(time.perf_counter() - start)
-    return min(times)
+    return min(once(lambda: run(arguments))[1] for _ in range(4))
 
 
 if __name__ == "__main__":

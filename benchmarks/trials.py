@@ -60,7 +60,6 @@ class Study:
 
 
 def row(quantity, load, truth, value, low, high, said="", **more):
-    """One interval and its truth."""
     ends = {"truth": truth, "value": value, "low": low, "high": high}
     told = {name: math.nan if each is None else float(each) for name, each in ends.items()}
     return {"quantity": quantity, "load": load, **told, "said": said, **more}
@@ -118,7 +117,6 @@ def recorded(file, trials, rows_of):
 
 
 def read(file):
-    """The rows of a file."""
     return pd.read_csv(file, dtype={"option": str})
 
 

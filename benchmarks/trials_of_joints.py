@@ -39,7 +39,6 @@ def pressed(surface, pressures, **given):
 
 
 def asked(surface, pressures, joint, **given):
-    """The question of a user of a map."""
     loads = [f"{each:.9g} Pa" for each in pressures]
     return rl.Question(
         surface, MATERIALS, ask=rl.Joint(joint) if joint else (), loads=loads, fields=False, **given
@@ -102,7 +101,6 @@ def mine_rows(kind, option, seed):
 
 
 def pieces_of(parent, make):
-    """All maps that a parent consists of."""
     side, count = make.points, make.maps
     places = [(i * side, j * side) for i in range(count) for j in range(count)]
     one = parent.cropped((0, side), (0, side))

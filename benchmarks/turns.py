@@ -49,7 +49,6 @@ def rows():
 
 @cache
 def surface(n):
-    """The surface of all rows with so many points along a side."""
     return rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
 
 
@@ -73,7 +72,6 @@ def forget():
 
 
 def compile_loops():
-    """Press what compiles all loops."""
     press(512, {"forces": [0.01, 0.3], "hardness": True})
     press(512, {"forces": [0.01, 0.3], "periodic": True})
 
@@ -120,7 +118,6 @@ class State:
 
 
 def compare(states, names, rounds):
-    """Print the table."""
     print("| row | old | new | wall | cores | best | convolutions |\n|---|---|---|---|---|---|---|")
     ratios = {}
     for name in names:
@@ -146,7 +143,6 @@ def compare(states, names, rounds):
 
 
 def main():
-    """Compare two states, or be one of them."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("sources", nargs="*", metavar="SOURCE", help="folders that hold roughline")
     parser.add_argument("--rows", nargs="+", default=[""], help="what their names contain")

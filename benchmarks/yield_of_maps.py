@@ -32,7 +32,6 @@ COLUMNS = (
 
 
 def rows(folder, name, materials, loads):
-    """The rows of a case, one for each load."""
     question = rl.Question(folder / name, materials, loads=loads, grid_error=True, fields=False)
     result = rl.assess(question)
     share = result.answers["plastic_fraction"].values
@@ -48,7 +47,6 @@ def rows(folder, name, materials, loads):
 
 
 def main():
-    """Write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     folder = parser.parse_args().folder

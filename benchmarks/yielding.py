@@ -7,14 +7,12 @@ of several, elastic and yielding in turn; memory is that of processes of their o
 
 import argparse
 import multiprocessing
-import resource
 import subprocess
 import sys
-import time
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
-from page import Page
+from page import Page, once, peak
 
 import roughline as rl
 
@@ -29,14 +27,10 @@ def problem(n, hurst, loads):
 
 
 def timed(surface, forces, hardness):
-    """A curve, and its wall time. [s]"""
-    start = time.perf_counter()
-    curve = rl.press(surface, E_star=1.0, forces=forces, hardness=hardness)
-    return curve, time.perf_counter() - start
+    return once(lambda: rl.press(surface, E_star=1.0, forces=forces, hardness=hardness))
 
 
 def add_times(page, repeats):
-    """Add the table of times and convolutions."""
     timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7), [0.4], 10.0)  # compiles
     page.say(f"\n## Time, the best of {repeats}\n")
     case = ("loads", "grid", "H", "of the contact yields")
@@ -58,13 +52,12 @@ def add_times(page, repeats):
                 page.row(loads, f"{n}²", hurst, share, *times, ratio, *counts)
 
 
-def peak(n, hardness):
+def held(n, hardness):
     """Bytes that this process came to hold over those before, the generation included."""
-    unit = 1 if sys.platform == "darwin" else 1024
     timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 0), [0.01], 1.0)  # compiles
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    before = peak()
     timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7), FORCES["12 loads"], hardness)
-    return (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * unit
+    return peak() - before
 
 
 def add_memory(page):
@@ -83,13 +76,12 @@ def add_memory(page):
 
 
 def main():
-    """Write both tables, or print the memory of one case."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--peak", nargs=2, metavar=("POINTS", "HARDNESS"), help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.peak:
-        print(peak(int(arguments.peak[0]), float(arguments.peak[1])))
+        print(held(int(arguments.peak[0]), float(arguments.peak[1])))
         return
     page = Page("yielding-table.md", "Elastic bodies and bodies that yield, measured", "yielding")
     add_memory(page)
