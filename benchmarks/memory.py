@@ -8,11 +8,9 @@ the mean contact pressure of elastic ones, half of E* times the rms slope.
 
 import argparse
 import itertools
-import subprocess
-import sys
 
 import numpy as np
-from page import Page, once, peak
+from page import Page, elsewhere, once, peak
 
 import roughline as rl
 from roughline.contact.estimates import bytes_at_a_point, expected_area_fraction
@@ -68,15 +66,6 @@ def cells(n, boundary, forces, pressure_over_hardness=None):
     ]
 
 
-def measured(n, boundary, forces, pressure_over_hardness=None):
-    """Return the cells of a row that a process of its own has measured."""
-    call = [sys.executable, __file__, str(n), boundary, *map(str, forces)]
-    if pressure_over_hardness:
-        call += ["--hardness", str(pressure_over_hardness)]
-    row = subprocess.run(call, check=True, stdout=subprocess.PIPE, text=True).stdout
-    return row.strip().split(" | ")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("points", type=int, nargs="?")
@@ -99,7 +88,7 @@ def main():
     measures = ("in contact", "bytes a point", "estimated", "", "peak", "a load", "residual")
     page.table("grid", "half-space", "F̄", *measures)
     for row in ELASTIC:
-        page.row(*measured(*row))
+        page.row(*elsewhere(cells, *row))
     page.say("\n## Bodies that yield\n")
     page.say(
         "$p_c$ is the mean contact pressure of the elastic bodies, half of $E^*$ times the rms "
@@ -107,7 +96,7 @@ def main():
     )
     page.table("grid", "half-space", "$p_c/H$", "F̄", *measures)
     for row in YIELDING:
-        page.row(*measured(*row))
+        page.row(*elsewhere(cells, *row))
     page.save()
 
 

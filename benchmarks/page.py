@@ -1,10 +1,12 @@
 """Pages of the handbook that benchmarks write, and what they measure: times and memory."""
 
+import multiprocessing
 import platform
 import resource
 import statistics
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -62,3 +64,9 @@ def peak():
     """Return the largest memory that this process has held so far. [bytes]"""
     unit = 1 if sys.platform == "darwin" else 1024
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+
+
+def elsewhere(function, *given):
+    """Return what a function gives in a process of its own."""
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as processes:
+        return processes.submit(function, *given).result()

@@ -8,6 +8,7 @@ import importlib.metadata
 import multiprocessing
 import time
 import warnings
+from contextlib import suppress
 from functools import partial
 
 import numpy as np
@@ -26,27 +27,24 @@ SPAWN = multiprocessing.get_context("spawn")
 
 # The interpolation of order 6 is the default of its H² product. Order 5 is faster, but the contact
 # area is off by more than 1e-4.
+_FFT = {"backend": "fft", "precond_engine": "fft"}
 ENGINES_OF_ASPHER = {
     "H²": {"active_set": True},
     "H², Fourier": {"active_set": True, "precond_engine": "fft"},
-    "FFT": {"backend": "fft", "precond_engine": "fft"},
-    "FFT, single first": {
-        "backend": "fft",
-        "precond_engine": "fft",
-        "precision": "float_then_double",
-    },
+    "FFT": _FFT,
+    "FFT, single first": _FFT | {"precision": "float_then_double"},
 }
 PACKAGES = {"ASPHER": "aspher", "Tamaas": "tamaas", "ContactMechanics": "ContactMechanics"}
 
 
+def found(area, force, converged):
+    """What a program tells of one load."""
+    return {"area": float(area), "force": float(force), "converged": bool(converged)}
+
+
 def press_roughline(surface, force):
     curve = rl.press(surface, E_star=1.0, forces=[force], rtol=TOLERANCE)
-    return {
-        "area": float(curve.area_fraction[0]),
-        "force": float(curve.force[0]),
-        "depth": float(curve.depth[0]),
-        "converged": True,  # it raises otherwise
-    }
+    return found(curve.area_fraction[0], curve.force[0], True)  # it raises otherwise
 
 
 def path_of_roughline(surface, n_loads):
@@ -74,12 +72,7 @@ def press_aspher(surface, force, engine):
         max_iter=MOST_ITERATIONS,
         **ENGINES_OF_ASPHER[engine],
     )
-    return {
-        "area": result.contact_area,
-        "force": result.mean_pressure,
-        "depth": result.approach,
-        "converged": result.converged,
-    }
+    return found(result.contact_area, result.mean_pressure, result.converged)
 
 
 def path_of_aspher(surface, forces):
@@ -88,18 +81,11 @@ def path_of_aspher(surface, forces):
 
     gap = (surface.heights.max() - surface.heights).ravel()
     solver = aspher.ContactSolver(grid_size=surface.shape[0], E_star=1.0, backend="fft")
+    settings = {"tol": TOLERANCE, "max_iter": MOST_ITERATIONS, "precond": "fourier-fft"}
     pressure, results = None, []
     for force in forces:
-        result = solver.solve(
-            gap,
-            p_nominal=force,
-            tol=TOLERANCE,
-            max_iter=MOST_ITERATIONS,
-            precond="fourier-fft",
-            p_init=pressure,
-        )
-        pressure = result.pressure
-        results.append(result)
+        results.append(solver.solve(gap, p_nominal=force, p_init=pressure, **settings))
+        pressure = results[-1].pressure
     return {
         "areas": [result.contact_area for result in results],
         "converged": all(result.converged for result in results),
@@ -119,11 +105,7 @@ def press_tamaas(surface, force):
     solver.setMaxIterations(MOST_ITERATIONS)
     error = solver.solve(force)
     pressure = np.array(model.traction)
-    return {
-        "area": float(np.mean(pressure > 0)),
-        "force": float(pressure.mean()),
-        "converged": bool(error <= TOLERANCE),
-    }
+    return found(np.mean(pressure > 0), pressure.mean(), error <= TOLERANCE)
 
 
 def press_contact_mechanics(surface, force):
@@ -139,21 +121,15 @@ def press_contact_mechanics(surface, force):
     # the rms height is 1, so pentol is the same bound on gaps
     result = system.minimize_proxy(external_force=force, pentol=TOLERANCE, maxiter=MOST_ITERATIONS)
     forces = np.asarray(result.jac)[:n, :n]
-    return {
-        "area": float(np.mean(forces > 0)),
-        "force": float(forces.sum()),
-        "converged": bool(result.success),
-    }
+    return found(np.mean(forces > 0), forces.sum(), result.success)
 
 
 def versions():
-    found = {"roughline": rl.__version__}
+    installed = {"roughline": rl.__version__}
     for program, package in PACKAGES.items():
-        try:
-            found[program] = importlib.metadata.version(package)
-        except importlib.metadata.PackageNotFoundError:
-            continue
-    return found
+        with suppress(importlib.metadata.PackageNotFoundError):
+            installed[program] = importlib.metadata.version(package)
+    return installed
 
 
 def entrants(programs, force):
@@ -204,10 +180,10 @@ def answer(sender, press, n, hurst):
     surface = spectrum.surface(n, SEED)
     sender.send("begins")
     start, own, all_work = time.perf_counter(), time.process_time(), busy_seconds()
-    found = press(surface)
+    told = press(surface)
     seconds = time.perf_counter() - start
     others = max(0.0, busy_seconds() - all_work - (time.process_time() - own))
-    sender.send({"seconds": seconds, "others": others / available_cores(), **found})
+    sender.send({"seconds": seconds, "others": others / available_cores(), **told})
 
 
 def busy_seconds():

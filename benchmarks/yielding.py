@@ -6,13 +6,9 @@ of several, elastic and yielding in turn; memory is that of processes of their o
 """
 
 import argparse
-import multiprocessing
-import subprocess
-import sys
-from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
-from page import Page, once, peak
+from page import Page, elsewhere, once, peak
 
 import roughline as rl
 
@@ -65,12 +61,8 @@ def add_memory(page):
     page.say("## Memory over the interpreter, the generation included\n")
     page.table("loads", "grid", "H", "elastic", "with yield", "ratio")
     for n in (1024, 2048):
-        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as elsewhere:
-            _, hardness = elsewhere.submit(problem, n, 0.8, "12 loads").result()
-        elastic, yielding = (
-            int(subprocess.check_output([sys.executable, __file__, "--peak", str(n), str(each)]))
-            for each in (np.inf, hardness)
-        )
+        _, hardness = elsewhere(problem, n, 0.8, "12 loads")
+        elastic, yielding = (elsewhere(held, n, each) for each in (np.inf, hardness))
         bytes_a_point = (f"{each / n**2:.0f} bytes a point" for each in (elastic, yielding))
         page.row("12 loads", f"{n}²", 0.8, *bytes_a_point, f"{yielding / elastic:.2f}")
 
@@ -78,14 +70,10 @@ def add_memory(page):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument("--peak", nargs=2, metavar=("POINTS", "HARDNESS"), help=argparse.SUPPRESS)
-    arguments = parser.parse_args()
-    if arguments.peak:
-        print(held(int(arguments.peak[0]), float(arguments.peak[1])))
-        return
+    repeats = parser.parse_args().repeats
     page = Page("yielding-table.md", "Elastic bodies and bodies that yield, measured", "yielding")
     add_memory(page)
-    add_times(page, arguments.repeats)
+    add_times(page, repeats)
     page.save()
 
 
