@@ -15,8 +15,9 @@ NUMBER = re.compile(r"(?<![\w/])\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 @pytest.fixture
-def type_in(invoke, tmp_path, monkeypatch):
+def type_in(invoke, only_drawn, tmp_path, monkeypatch):
     """Run a command of a page in a wide terminal; returns all that it says."""
+    only_drawn()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "160")
 

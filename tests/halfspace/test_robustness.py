@@ -11,7 +11,7 @@ from random_problems import E_STAR, random_problem
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(1, 6))
 def test_random_problems_are_certified(seed):
-    for i in range(cases(500, share=5)):
+    for i in range(cases(500, share=8)):
         problem = random_problem(np.random.default_rng([seed, i]))
         curve = rl.press(problem.surface, E_star=E_STAR, periodic=problem.periodic, **problem.loads)
         assert curve.converged.all()

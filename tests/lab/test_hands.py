@@ -3,15 +3,16 @@
 import functools
 import re
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+import roughline as rl
 from lab.explore_driven import SMALL, settled
 
 QUERIES = {"explore": SMALL, "measured": "?view=measured", "published": "?view=published"}
 PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
-EXAMPLE = "[data-example] >> nth=0"
 
 RANGES = """(name) => {
     const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
@@ -47,15 +48,24 @@ REST = """async (name) => {
 
 
 @pytest.fixture(scope="module")
-def desk(pages):
-    """Views in a low window of a desk, each opened once, by their names."""
-    return functools.cache(lambda view: opened(pages, view, height=700))
+def file(tmp_path_factory):
+    """A small map, which is soon prepared."""
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    path = tmp_path_factory.mktemp("hands") / "map.nc"
+    rl.write(replace(surface, unit="m"), path)
+    return path
 
 
 @pytest.fixture(scope="module")
-def phone(pages):
+def desk(pages, file):
+    """Views in a low window of a desk, each opened once, by their names."""
+    return functools.cache(lambda view: opened(pages, view, file, height=700))
+
+
+@pytest.fixture(scope="module")
+def phone(pages, file):
     """The same on a phone."""
-    return functools.cache(lambda view: opened(pages, view, **PHONE))
+    return functools.cache(lambda view: opened(pages, view, file, **PHONE))
 
 
 def plots(page, view):
@@ -64,15 +74,13 @@ def plots(page, view):
     return [name for name in page.evaluate(PLOTS, view) if not re.search(alike, name)]
 
 
-def opened(pages, view, **context):
+def opened(pages, view, file, **context):
     """Open a view with all it has to show."""
     page = pages.open(QUERIES[view], **context)
     if view == "explore":
         settled(page, points=64)
     elif view == "measured":
-        page.click(EXAMPLE)
-        page.fill("#measured-resample-text", "64")
-        page.press("#measured-resample-text", "Tab")
+        page.set_input_files("#measured [data-file]", file)
         page.click("[data-press]:not([disabled])")
         page.wait_for_selector('[data-table="measured-answers"] tbody tr')
         page.click("[data-compare]")
