@@ -6,10 +6,9 @@
 >>> data = campaign.Store("plan.zarr").dataset("lines")
 """
 
-from roughline.campaign.dispatch import Summary
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.campaign.plan_file import plan_from, read_plan
-from roughline.campaign.run import run
+from roughline.campaign.run import Summary, run
 from roughline.campaign.store import Store
 
 __all__ = ["Ensemble", "Plan", "Store", "Summary", "plan_from", "read_plan", "run"]

@@ -15,7 +15,7 @@ from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
-from roughline.computing.memory import free_memory, refuse_beyond_memory
+from roughline.computing.memory import free_memory
 from roughline.contact import estimates
 from roughline.errors import InputError, StoreError
 
@@ -23,7 +23,6 @@ _BATCH_SECONDS = 1.0  # sending, receiving and writing a batch takes some ten mi
 _MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes
 _GENERATION_BYTES = 40  # per point of a surface, while it is generated
 _LINE_BYTES = 60  # per point of a line, to generate and to press it
-_BYTES_PER_CASE = 500  # in the process that runs the campaign, which lists all cases
 _BLOCK = 4096  # of a file system [bytes]
 _FILES_OF_METADATA = 30  # of an ensemble
 _SATURATED = 3.0  # reduced force, up to which some of a free surface is in contact
@@ -94,12 +93,6 @@ def _disk_of(plan: Plan, missing: dict[str, int]) -> int:
         for ensemble in plan.ensembles
         if missing[ensemble.name]
     )
-
-
-def refuse_countless(plan: Plan) -> None:
-    """Refuse a campaign with more cases than memory can list."""
-    needed = _BYTES_PER_CASE * plan.cases
-    refuse_beyond_memory(needed, f"a campaign of {plan.cases} cases", "split the plan")
 
 
 def refuse_beyond_disk(plan: Plan, missing: dict[str, int], store: Path) -> None:

@@ -12,7 +12,7 @@ import typer
 from roughline.cli.options import Json, Scheduler, Workers, interruptible, kept_in, print_json
 
 if TYPE_CHECKING:
-    from roughline.campaign.dispatch import Summary
+    from roughline.campaign.run import Summary
     from roughline.campaign.store import Store
 
 app = typer.Typer(

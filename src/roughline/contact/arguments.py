@@ -23,11 +23,15 @@ _MOST = 10**9  # loads, points along a side, or iterations
 
 
 def checked_number(
-    name: str, value: Any, allowed: str, least: float = 0.0, most: float = sys.float_info.max
+    name: str,
+    value: Any,
+    allowed: str,
+    least: float = math.ulp(0),
+    most: float = sys.float_info.max,
 ) -> float:
-    """Return a positive number; refuse what is none, or lies outside least to most."""
+    """Return a number, by default a positive one; refuse what is none, or out of range."""
     number = as_number(_plain(value))
-    if number is None or not (least <= number <= most and number > 0):
+    if number is None or not least <= number <= most:
         refuse(name, value, f"{allowed} is needed")
     return number
 
@@ -125,11 +129,3 @@ def _plain(value: Any) -> Any:
 
 def _is_load(number: Any, count: int) -> bool:
     return is_whole(number) and 0 <= int(number) < count
-
-
-def checked_share(name: str, value: Any) -> float:
-    """Return a share, from 0 to 1."""
-    plain = _plain(value)
-    if isinstance(plain, int | float) and not isinstance(plain, bool) and plain == 0:
-        return 0.0
-    return checked_number(name, value, "a share of the surface from 0 to 1", most=1.0)

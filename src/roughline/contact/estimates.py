@@ -12,8 +12,8 @@ import numpy as np
 from roughline.contact.arguments import (
     checked_count,
     checked_flag,
+    checked_number,
     checked_shape,
-    checked_share,
     kept_loads,
 )
 from roughline.contact.loads import Loads
@@ -120,7 +120,8 @@ def estimate(
     periodic, yielding = checked_flag("periodic", periodic), checked_flag("yielding", yielding)
     kept = kept_loads(fields, n_loads)
     if area_fraction is not None:
-        area_fraction = checked_share("area_fraction", area_fraction)
+        share = "a share of the surface from 0 to 1"
+        area_fraction = checked_number("area_fraction", area_fraction, share, 0.0, 1.0)
     pressing = memory_for(
         shape,
         periodic,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -32,12 +33,25 @@ if TYPE_CHECKING:
 
     from roughline.paper.contact_area import AreaLaw
     from roughline.paper.laws import DimensionLaws
+    from roughline.paper.results import PaperResults
 
 CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
 _LINE_STYLES = (":", "-.", "--", "-")
 
 
-def area_law_figure(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
+def added_drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
+    """How each of these figures is drawn that the results allow, by the name of its file."""
+    full, matched = results.full, results.matched
+    drawings = {"area_law": lambda: _area_law_figure(full, results.laws)}
+    if matched is not None and np.isin(full.fractal_dimension, matched.fractal_dimension).any():
+        drawings["models_compared"] = lambda: _both_models_figure(full, matched)
+    if results.grids:
+        grids = results.grids | {int(full.attrs["n"]): full}
+        drawings["grid_convergence"] = lambda: _grid_convergence_figure(grids)
+    return drawings
+
+
+def _area_law_figure(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
     """Draw the real contact area over force, and κ of eq. 4 over fractal dimension."""
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
@@ -94,7 +108,7 @@ def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
     axes.legend(loc="upper left")
 
 
-def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
+def _both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
     """Draw the raw stiffness of both models with the same waves, and their relative difference."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
@@ -133,7 +147,7 @@ def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
     return figure
 
 
-def grid_convergence_figure(grids: dict[int, xarray.Dataset]) -> Figure:
+def _grid_convergence_figure(grids: dict[int, xarray.Dataset]) -> Figure:
     """Draw stiffness and area of the same surfaces on several grids, relative to the finest."""
     figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, 2)

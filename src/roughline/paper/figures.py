@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from roughline.contact import scaling
-from roughline.paper import added_figures
+from roughline.paper.added_figures import added_drawings
 from roughline.paper.mean_curve import mean_curve
 from roughline.plot.style import (
     COLUMN,
@@ -122,14 +122,7 @@ def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
     drawings["figure_3"] = lambda: _figure_3(reduced, dimensions, windows.reduced)
     drawings["figure_4"] = lambda: _figure_4(full, windows.full)
     drawings["figure_5"] = lambda: _figure_5(results.exponents, laws, windows.full)
-    drawings["area_law"] = lambda: added_figures.area_law_figure(full, laws)
-    matched = results.matched
-    if matched is not None and np.isin(dimensions, matched.fractal_dimension).any():
-        drawings["models_compared"] = lambda: added_figures.both_models_figure(full, matched)
-    if results.grids:
-        grids = results.grids | {int(full.attrs["n"]): full}
-        drawings["grid_convergence"] = lambda: added_figures.grid_convergence_figure(grids)
-    return drawings
+    return drawings | added_drawings(results)
 
 
 def _figure_1(gallery: xarray.Dataset) -> Figure:
