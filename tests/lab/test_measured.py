@@ -23,7 +23,7 @@ from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
 from roughline.report.answers import answer_table
-from roughline.report.comparison_table import comparison_table, verdict_in_words
+from roughline.report.comparison import comparison_table, verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table
 from roughline.report.description_table import description_table
 from roughline.report.part_tables import leading_table, maps_table

@@ -53,9 +53,9 @@ def compare_command(
     """
     from roughline.assessment.comparison import compare_models
     from roughline.assessment.told import reading_of
+    from roughline.report.comparison import print_comparison, write_comparison
     from roughline.report.json_output import of_comparison
     from roughline.report.progress import load_progress
-    from roughline.report.terminal import print_comparison
 
     reading = reading_of(told)
     if file is None:
@@ -83,8 +83,6 @@ def compare_command(
             )
         files: list[Path] = []
         if out is not None:
-            from roughline.report.comparison_figures import write_comparison
-
             files = write_comparison(result, out)
     if json:
         print_json(of_comparison(result, files))

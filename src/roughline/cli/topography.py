@@ -38,9 +38,9 @@ def info(
     """
     from roughline.assessment.description import describe
     from roughline.assessment.told import preparation_of, reading_of
-    from roughline.report.curve_file import as_json
+    from roughline.report.curve_file import as_json, print_curve_file
+    from roughline.report.description_table import print_description
     from roughline.report.json_output import of_description
-    from roughline.report.terminal import print_curve_file, print_description
     from roughline.topography.files.curves import curve_in
 
     if curve := curve_in(file):

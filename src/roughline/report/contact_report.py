@@ -8,11 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughline.plot.style import save, styled
-from roughline.report.answers import headline, lead_of
 from roughline.report.contact_figures import overview, overview_in_words, write_contact
 from roughline.report.document import write_document
 from roughline.report.page import Picture, Section, sentence
-from roughline.report.sections import sections_of
 from roughline.topography.body import Body, Line, Surface, sides_of
 from roughline.units import engineering
 
@@ -55,9 +53,9 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
         drawn = save(overview(assessment), folder, "overview")
     pictures = [Picture(drawn[0], "Overview", overview_in_words(assessment))]
     surface = Section("Surface", [_surface(assessment)], pictures=pictures)
-    sections = sections_of(assessment, [surface], [how_to_repeat, _settings(assessment)])
-    title, lead = f"Contact of {assessment.question.name}", lead_of(assessment)
-    document = write_document(folder, title, lead, sections, headline(assessment))
+    title = f"Contact of {assessment.question.name}"
+    repeat = [how_to_repeat, _settings(assessment)]
+    document = write_document(assessment, folder, title, [surface], repeat)
     return [*document, *files, *drawn]
 
 

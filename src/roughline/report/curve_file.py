@@ -1,11 +1,13 @@
-"""A file with a curve as tables: what was pressed and how, and the loads."""
+"""A file with a curve: what was pressed and how, and the loads, on the terminal and as JSON."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from rich.console import Console
 
+from roughline.report.terminal import MOST_SHOWN, print_rows, print_table
 from roughline.units import SI, engineering
 
 if TYPE_CHECKING:
@@ -20,7 +22,19 @@ _HEADER = {
 }
 
 
-def settings_table(curve: CurveInFile) -> list[tuple[str, str]]:
+def print_curve_file(curve: CurveInFile) -> None:
+    """Print what a file with a curve is of, and its loads."""
+    console = Console(markup=False)
+    print_rows(console, _settings_table(curve))
+    header, loads = _loads_table(curve)
+    print_table(console, header, loads[:MOST_SHOWN])
+    if len(loads) > MOST_SHOWN:
+        console.print(f"{len(loads) - MOST_SHOWN} more loads: use --json", highlight=False)
+    opened = f'xarray.open_dataset("{curve.file}", engine="h5netcdf")'
+    console.print(f"all of it in Python: {opened}", highlight=False, soft_wrap=True)
+
+
+def _settings_table(curve: CurveInFile) -> list[tuple[str, str]]:
     """Return names and values of what the curve is of."""
     settings = curve.settings
     rows = [
@@ -39,7 +53,7 @@ def settings_table(curve: CurveInFile) -> list[tuple[str, str]]:
     return rows
 
 
-def loads_table(curve: CurveInFile) -> tuple[list[str], list[list[str]]]:
+def _loads_table(curve: CurveInFile) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the loads."""
     names = [name for name in _HEADER if name in curve.columns]
     if "area_fraction_corrected" in names:

@@ -1,17 +1,20 @@
-"""The description of a topography as a table, and a coarse map of what is missing."""
+"""The description of a topography as a table, and on the terminal with a map of what is missing."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
+from rich.console import Console
 
 from roughline.assessment.assumptions import broken
+from roughline.report.terminal import print_files, print_remarks, print_rows
 from roughline.topography.body import Surface, sides_of, spacings_of
 from roughline.units import engineering, metres_per
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
+    from pathlib import Path
 
     from roughline.assessment.description import Description
     from roughline.spectra.departures import Departure
@@ -39,7 +42,21 @@ def description_table(description: Description) -> list[tuple[str, str]]:
     return rows
 
 
-def missing_map(description: Description) -> list[str]:
+def print_description(description: Description, files: Iterable[Path] = ()) -> None:
+    """Print what a topography is like."""
+    console = Console(markup=False)
+    if description.roughness is not None:
+        print_remarks(console, "warning", description.roughness.remarks)
+    print_rows(console, description_table(description))
+    for line in _missing_map(description):
+        console.print(line, highlight=False, soft_wrap=True)
+    for obstacle in description.obstacles:
+        console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
+    print_remarks(console, "note", description.notes)
+    print_files(files)
+
+
+def _missing_map(description: Description) -> list[str]:
     """Return a coarse map of the missing points in characters; empty if there are few."""
     missing = description.missing
     if missing.share < _MAPPED_FROM:

@@ -1,20 +1,84 @@
-"""A report as two files: the page as HTML, and the same as PDF to be printed."""
+"""A report on a body or on a part, as two files: a page, and the same as PDF to be printed."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from roughline._version import __version__
-from roughline.report.page import Headline, Section, render
+from roughline.assessment.part import PartAssessment
+from roughline.report.answers import (
+    UNRESOLVED,
+    answer_table,
+    groups,
+    headline,
+    lead_of,
+    leading_keys,
+    load_table,
+    star_is_shown,
+    told,
+)
+from roughline.report.contact_tables import formula_table, material_in_words, symbol_table
+from roughline.report.page import Section, Table, render, sentence
 from roughline.report.pdf import write_pdf
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
+
+_ABREAST, _ABREAST_OF_PART = 3, 2  # loads that fit beside each other; those of a part have scatter
+
+_ASSUMPTIONS = (
+    "Both bodies are half-spaces, linear elastic up to the hardness of the softer body, if that is "
+    "known, and perfectly plastic there; small slopes, no friction in the normal problem, no "
+    "adhesion, static loads.",
+    "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
+    "them the real contact area; stiffness and conductance depend on them less.",
+    "Intervals, where given, hold the uncertainty due to the grid, to filled points and to the "
+    "scatter of the hardness, or to a line scan; those of k_i, h_c and |r| of a map hold what one "
+    "map does not show of the larger surface as well. They do not hold the scatter of other "
+    "material data, nor, for all other answers, the scatter between places on the part.",
+)
+_ASSUMPTIONS_OF_JOINT = (
+    *_ASSUMPTIONS[:2],
+    "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and "
+    "has the roughness of the map. The map is pressed at that pressure in a periodic half-space, "
+    "and quantities per area are multiplied by the joint's area. Answers are those of the "
+    "interface; waviness longer than the map, bending, and the constriction of the bodies to the "
+    "joint's outline are left out.",
+    "Intervals, where given, hold the uncertainty due to the grid, to filled points, to the "
+    "scatter of the hardness, and to what one map does not show of the surface around it. They do "
+    "not hold the scatter of other material data, nor that of places which are not alike.",
+)
+_ASSUMPTION_OF_PART = (
+    "Intervals of the part hold the scatter between its places as well. They assume that the "
+    "places were chosen at random, and that quantities scatter by factors."
+)
 
 
 def write_document(
-    folder: Path, title: str, lead: str, sections: Sequence[Section], headline: Headline
+    result: Assessment | PartAssessment,
+    folder: Path,
+    title: str,
+    own: Sequence[Section],
+    how_to_repeat: Sequence[str],
 ) -> list[Path]:
     """Write ``report.html`` and ``report.pdf``, with the date and version that made them.
+
+    Parameters
+    ----------
+    result : Assessment or PartAssessment
+        What is reported on.
+    folder : Path
+        Where to.
+    title : str
+        Heads the page.
+    own : sequence of Section
+        What only such a report has; stands between the notes and the formulas.
+    how_to_repeat : sequence of str
+        Paragraphs on what gives the same numbers again.
 
     Raises
     ------
@@ -22,7 +86,89 @@ def write_document(
         If the PDF cannot be written.
     """
     made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
+    sections = _sections(result, own, how_to_repeat)
+    lead, first = lead_of(result), headline(result)
     page, sheets = folder / "report.html", folder / "report.pdf"
-    page.write_text(render(title, lead, sections, made, headline), encoding="utf-8")
-    write_pdf(sheets, title, lead, sections, made, headline)
+    page.write_text(render(title, lead, sections, made, first), encoding="utf-8")
+    write_pdf(sheets, title, lead, sections, made, first)
     return [page, sheets]
+
+
+def _sections(
+    result: Assessment | PartAssessment, own: Sequence[Section], how_to_repeat: Sequence[str]
+) -> list[Section]:
+    """What the page holds: answers, notes, its own sections, formulas and assumptions."""
+    is_part = isinstance(result, PartAssessment)
+    body = result.assessments[0] if isinstance(result, PartAssessment) else result
+    star = f"A star{'' if is_part else ' after a load'}: {UNRESOLVED}."
+    # how far the scatter of the hardness changes an answer differs between maps
+    formulas = formula_table(replace(body, hardness_scatter={}) if is_part else body)
+    return [
+        Section(
+            "The part" if is_part else "Answers",
+            [*_materials(body), *([star] if star_is_shown(result) else [])],
+            tables=_many_loads(result),
+        ),
+        *_groups(result),
+        *([Section("Notes", notes=[*map(sentence, result.notes)])] if result.notes else []),
+        *own,
+        Section(
+            "Formulas and sources",
+            tables=[Table(*formulas), Table(*symbol_table(body))],
+            behind="how each answer follows, where that holds, and whose result it is",
+        ),
+        Section(
+            "Assumptions",
+            [*_assumptions(body), *([_ASSUMPTION_OF_PART] if is_part else [])],
+            behind="what all answers and their intervals rest on",
+        ),
+        Section("How to repeat it", how_to_repeat, behind="what gives the same numbers again"),
+    ]
+
+
+def _materials(assessment: Assessment) -> list[str]:
+    """A sentence on both materials."""
+    pair = assessment.question.pair
+    if pair is None:
+        return []
+    return [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."]
+
+
+def _abreast(result: Assessment | PartAssessment) -> int:
+    return _ABREAST_OF_PART if isinstance(result, PartAssessment) else _ABREAST
+
+
+def _many_loads(result: Assessment | PartAssessment) -> list[Table]:
+    """Of many loads, the leading answers of each; of a body, others that belong beside them."""
+    if len(result.headings) <= _abreast(result) or not result.answers:
+        return []
+    keys = leading_keys(result)
+    if not isinstance(result, PartAssessment):
+        beside = [key for key, each in result.answers.items() if each.rule.is_shown_at_many_loads]
+        keys = [key for key in result.answers if key in {*keys, *beside}]
+    return [Table.of_numbers(*load_table(result, keys))]
+
+
+def _groups(result: Assessment | PartAssessment) -> list[Section]:
+    """A section for each group, folded behind its headline; a few loads stand beside each other."""
+    loads, abreast = range(len(result.headings)), _abreast(result)
+    return [
+        Section(
+            each.name.capitalize(),
+            tables=[
+                Table.of_numbers(
+                    *answer_table(result, loads[i : i + abreast], each.keys, with_elastic=True)
+                )
+                for i in loads[::abreast]
+            ],
+            behind=told(result, each.headline),
+        )
+        for each in groups(result)
+    ]
+
+
+def _assumptions(assessment: Assessment) -> list[str]:
+    """Assumptions of the answers, and of theories beside them."""
+    of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
+    joint = assessment.question.joint is not None
+    return [*(_ASSUMPTIONS_OF_JOINT if joint else _ASSUMPTIONS), *of_theories]

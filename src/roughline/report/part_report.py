@@ -17,8 +17,6 @@ from roughline.plot.pixels import thinned
 from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.answers import (
     NO_MEAN,
-    headline,
-    lead_of,
     leading_keys,
     quantity,
     starred,
@@ -29,7 +27,6 @@ from roughline.report.contact_report import write_contact_report
 from roughline.report.document import write_document
 from roughline.report.page import Picture, Section, Table
 from roughline.report.part_tables import count_in_words, leading_table, maps_table
-from roughline.report.sections import sections_of
 from roughline.report.values import scale_of
 from roughline.topography.body import Surface
 from roughline.units import prefix
@@ -67,9 +64,11 @@ def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) ->
     for of_map, each in zip(_folders(part, folder), part.assessments, strict=True):
         written.append(write_contact_report(each, of_map, how_to_repeat)[0])
     figures = _figures(part, folder)
-    title, lead = f"Contact of a part, {count_in_words(part)}", lead_of(part)
-    sections = sections_of(part, _of_maps(part, figures[0], figures[2]), [how_to_repeat])
-    document = write_document(folder, title, lead, sections, headline(part))
+    title, own = (
+        f"Contact of a part, {count_in_words(part)}",
+        _of_maps(part, figures[0], figures[2]),
+    )
+    document = write_document(part, folder, title, own, [how_to_repeat])
     return [*document, *figures, *written]
 
 

@@ -1,4 +1,4 @@
-"""Output on the terminal for one body: its curve or answers, its description, the comparison."""
+"""Output on the terminal: the curve or the answers of a body or a part, and how lines are set."""
 
 from __future__ import annotations
 
@@ -25,22 +25,18 @@ from roughline.report.answers import (
     starred,
 )
 from roughline.report.columns import blocks, paragraph
-from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import curve_table
-from roughline.report.curve_file import loads_table, settings_table
-from roughline.report.description_table import description_table, missing_map
 from roughline.report.part_tables import count_in_words, leading_table, maps_table
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
-    from roughline.assessment.comparison import ModelComparison
-    from roughline.assessment.description import Description
     from roughline.theories.theory_curve import TheoryCurve
-    from roughline.topography.files.curves import CurveInFile
 
-_MOST_SHOWN = 1000  # loads that are printed as a table
+MOST_SHOWN = 1000
+"""Loads that are printed as a table, unless all are wanted."""
+
 _MOST_ABREAST = 3  # loads of a body whose answers stand beside each other
 _MOST_OF_PART = 2  # and of a part, whose answers have two columns
 _MOST_NAMED = 5  # loads that were not solved, or maps, that are named
@@ -67,8 +63,8 @@ def print_assessment(
     if pair is not None:
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)
     else:
-        _print_remarks(console, "warning", assessment.warnings)
-        if unfolded_by and assessment.asked.size > _MOST_SHOWN:
+        print_remarks(console, "warning", assessment.warnings)
+        if unfolded_by and assessment.asked.size > MOST_SHOWN:
             ends = f"{_ends_of_curve(assessment)}; for each load use {unfolded_by}"
             console.print(ends, highlight=False, soft_wrap=True)
         else:
@@ -163,12 +159,12 @@ def _print_headline(console: Console, result: Assessment | PartAssessment) -> No
         interval = f"  ({each.interval})" if each.interval else ""
         console.print(Text(f"  {each.name:<{width}}  {each.value}{interval}"), soft_wrap=True)
     console.print()
-    _print_remarks(console, "warning", result.warnings)
+    print_remarks(console, "warning", result.warnings)
     if result.warnings:
         console.print()
 
 
-def _print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:
+def print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:
     """Print remarks, a line each: warnings stand above what they are about, notes below."""
     for remark in remarks:
         console.print(f"{kind}: {remark}", highlight=False, soft_wrap=not console.is_terminal)
@@ -182,7 +178,7 @@ def _explain_star(console: Console, headings: Sequence[str]) -> None:
 
 def _print_end(console: Console, notes: Iterable[str], files: Iterable[Path], folded: str) -> None:
     """Print notes, the files written, and what is folded."""
-    _print_remarks(console, "note", notes)
+    print_remarks(console, "note", notes)
     print_files(files)
     if folded:
         console.print(folded, highlight=False, soft_wrap=True)
@@ -231,50 +227,6 @@ def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:
     return f"{text} ({theory.validity})"
 
 
-def print_description(description: Description, files: Iterable[Path] = ()) -> None:
-    """Print what a topography is like."""
-    console = Console(markup=False)
-    if description.roughness is not None:
-        _print_remarks(console, "warning", description.roughness.remarks)
-    rows = description_table(description)
-    indent = 2 + max(len(name) for name, _ in rows)
-    for name, value in rows:
-        console.print(Text(paragraph(name, value, indent, console.width)), soft_wrap=True)
-    for line in missing_map(description):
-        console.print(line, highlight=False, soft_wrap=True)
-    for obstacle in description.obstacles:
-        console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
-    _print_remarks(console, "note", description.notes)
-    print_files(files)
-
-
-def print_curve_file(curve: CurveInFile) -> None:
-    """Print what a file with a curve is of, and its loads."""
-    console = Console(markup=False)
-    rows = settings_table(curve)
-    indent = 2 + max(len(name) for name, _ in rows)
-    for name, value in rows:
-        console.print(Text(paragraph(name, value, indent, console.width)), soft_wrap=True)
-    header, loads = loads_table(curve)
-    print_table(console, header, loads[:_MOST_SHOWN])
-    if len(loads) > _MOST_SHOWN:
-        console.print(f"{len(loads) - _MOST_SHOWN} more loads: use --json", highlight=False)
-    opened = f'xarray.open_dataset("{curve.file}", engine="h5netcdf")'
-    console.print(f"all of it in Python: {opened}", highlight=False, soft_wrap=True)
-
-
-def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> None:
-    """Print both curves, their difference, and where the reduced model may be trusted."""
-    console = Console(markup=False)
-    console.print(compared.what, highlight=False, soft_wrap=True)
-    _print_remarks(console, "warning", compared.comparison.warnings)
-    print_table(console, *comparison_table(compared))
-    if not compared.comparison.resolved.all():
-        console.print("* fewer than ten cells in contact: the grid decides, not the surface")
-    console.print(verdict_in_words(compared), highlight=False, soft_wrap=True)
-    print_files(files)
-
-
 def print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:
     """Print a table of names and values, in as many blocks as the width of the screen needs."""
     for i, block in enumerate(blocks(header, rows, console.width)):
@@ -283,6 +235,13 @@ def print_table(console: Console, header: list[str], rows: list[list[str]]) -> N
         for lines, style in ((block.header, "bold"), (block.body, "")):
             for line in lines:
                 console.print(Text(line, style), soft_wrap=True)
+
+
+def print_rows(console: Console, rows: Sequence[tuple[str, str]]) -> None:
+    """Print names, and beside them texts that are broken between words."""
+    indent = 2 + max(len(name) for name, _ in rows)
+    for name, value in rows:
+        console.print(Text(paragraph(name, value, indent, console.width)), soft_wrap=True)
 
 
 def print_files(files: Iterable[Path]) -> None:

@@ -9,7 +9,7 @@ from roughline.lab.measured.kept import kept
 from roughline.lab.measured.state import Arguments, at, reading_of, said_of, source_of
 from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
-from roughline.report.comparison_table import comparison_table, verdict_in_words
+from roughline.report.comparison import comparison_table, verdict_in_words
 
 
 @speaking(CONTROLS)
