@@ -36,13 +36,7 @@ class Case:
 
     @classmethod
     def of(cls, question: Question) -> Case:
-        """Read and prepare what a question is about, and check that both fit together.
-
-        Raises
-        ------
-        InputError
-            If a file cannot be read, or the question does not suit what it holds.
-        """
+        """Read and prepare what a question is about; refuse it where it does not suit that."""
         parts = topographies(question)
         body = pressed_body([each.body for each in parts])
         question.refuse_misfit(body)

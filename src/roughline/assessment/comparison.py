@@ -51,11 +51,6 @@ def compare_models(
 
     Models count as agreeing up to a relative difference, the tolerance; progress is told of
     (surfaces done, surfaces in all). The rest is as for :func:`roughline.compare`.
-
-    Raises
-    ------
-    InputError
-        If the tolerance is not between 0 and 1, or the file holds a line.
     """
     if not 0 < tolerance < 1:
         refuse("tolerance", tolerance, "a share between 0 and 1 is needed")

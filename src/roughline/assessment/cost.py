@@ -36,13 +36,7 @@ _BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
 
 
 def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None) -> None:
-    """Refuse what does not fit into memory, and tell what a large run will cost.
-
-    Raises
-    ------
-    InputError
-        If a variant for the interface alone does not fit.
-    """
+    """Refuse variants for the interface alone that do not fit into memory; tell of large runs."""
     body = case.body
     if not isinstance(body, Surface):
         return

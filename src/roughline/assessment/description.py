@@ -39,12 +39,7 @@ def describe(
     """Read a file, prepare what it holds, and describe it.
 
     A file without a unit or sizes, or with too many missing points, is described as far as
-    possible.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or what is asked for does not suit it.
+    possible; one that cannot be read is refused.
     """
     reading = reading or Reading()
     content = measurement(file, reading.channel, reading.name)
@@ -62,11 +57,6 @@ def describe_measurement(
     """Prepare what a file holds, once it is read, and describe it; the content stays as it is.
 
     Bodies are made by another function for a caller that keeps them.
-
-    Raises
-    ------
-    InputError
-        If what is asked for does not suit it.
     """
     piece, obstacles = content, content.scale_obstacles(reading.unit, reading.sizes)
     if not obstacles:

@@ -31,7 +31,7 @@ class Field:
     flag: str = "--{}"
     """On the command line: its name with dashes, or others with commas between; empty for none."""
 
-    control: str = ""  # key in the lab's form and addresses; empty if it has none there
+    control: str = "{}"  # key in the lab's form and addresses: its name, or another; empty for none
     label: str = ""  # what the form calls it
     word: str = ""  # what the lab's messages call it if that differs
     help: str = ""  # one sentence with an example
@@ -46,6 +46,7 @@ class Field:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "flag", self.flag.format(self.name.replace("_", "-")))
+        object.__setattr__(self, "control", self.control.format(self.name))
 
     @property
     def is_asked(self) -> bool:
@@ -108,29 +109,30 @@ _of_preparation = partial(Field, of="Preparation", group=PREPARATION)
 FIELDS: tuple[Field, ...] = (
     _of_bodies(
         name="materials",
+        control="",
         word="two materials",
         help='Both materials, such as "steel,copper" or "E=70 GPa nu=0.33, rigid".',
     ),
     _of_bodies(
         name="E_star",
         flag="--modulus",
+        control="",
         word="the contact modulus",
         help='Contact modulus E* instead of the materials, such as "110 GPa".',
     ),
     _of_bodies(
         name="against",
+        control="",
         help="Topography of the second body, read and prepared like the first.",
         otherwise="a smooth body",
     ),
     _of_bodies(
         name="hardness",
-        control="hardness",
         help='Hardness of the softer body, such as "2 GPa", taken as exact.',
         otherwise="of the materials, with its scatter",
     ),
     _of_bodies(
         name="elastic",
-        control="elastic",
         label="yield",
         word='"elastic"',
         help="Take both bodies as elastic, however high the pressures. Otherwise points bear at "
@@ -141,7 +143,6 @@ FIELDS: tuple[Field, ...] = (
     _of_loads(
         name="loads",
         flag="--load,--force",
-        control="loads",
         help='A total force, such as "10 N", or a mean pressure, such as "2 MPa".',
         otherwise="20 loads up to saturation",
         separator=";",
@@ -149,13 +150,13 @@ FIELDS: tuple[Field, ...] = (
     _of_loads(
         name="depths",
         flag="--depth",
+        control="",
         help='A depth, such as "200 nm".',
         separator=";",
     ),
     _of_loads(
         name="joint_area",
         of="Joint",
-        control="joint_area",
         help='Area of the joint that the map is a part of, such as "2 cm^2": forces then act on '
         "the joint, and the answers are those of the joint.",
         otherwise="the map alone",
@@ -163,12 +164,14 @@ FIELDS: tuple[Field, ...] = (
     _of_loads(
         name="n_loads",
         flag="--loads",
+        control="",
         help="Number of loads from first touch to saturation.",
         otherwise="20",
         kind=int,
     ),
     _of_loads(
         name="history",
+        control="",
         of="History",
         help="Apply several --load in the order given, rising and falling, each to the surface as "
         "the load before it left it.",
@@ -176,6 +179,7 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_loads(
         name="unload",
+        control="",
         of="Unloading",
         help="Remove the largest --load again, in steps down to zero.",
         choices={"no": (False, "no"), "yes": (True, "down to zero")},
@@ -191,7 +195,6 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="friction",
         of="Friction",
-        control="friction",
         help="Coefficient of friction, above 0 and up to 5, such as 0.3: adds partial slip at the "
         "largest load to the report and to JSON.",
         otherwise="none",
@@ -200,7 +203,6 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="frequency",
         of="Ultrasound",
-        control="frequency",
         label="ultrasound",
         word="frequency",
         help='Frequency of ultrasound, such as "5 MHz": adds its reflection by the interface.',
@@ -210,13 +212,11 @@ FIELDS: tuple[Field, ...] = (
         name="theories",
         of="Theories",
         flag="--theory",
-        control="theories",
         help="Theory to compare with, of the same waves and of periodic surfaces: {theories}.",
         separator=",",
     ),
     _of_answers(
         name="grid_error",
-        control="grid_error",
         label="grid error",
         word='grid error "estimate"',
         help="Estimate discretisation errors from coarser grids, without which there are no "
@@ -231,19 +231,18 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="whole_curve",
         flag="",
+        control="",
         of="WholeCurve",
         choices={"no": (False, "no"), "yes": (True, "yes")},
     ),
     _of_file(
         name="unit",
-        control="unit",
         label="unit of lengths",
         word="unit",
         help="Unit of the lengths and heights in a file that states none, such as um.",
     ),
     _of_file(
         name="channel",
-        control="channel",
         help="Channel of the file: its name, or its number from 0; only heights can be pressed.",
     ),
     _of_file(
@@ -268,7 +267,6 @@ FIELDS: tuple[Field, ...] = (
     _of_file(
         name="most_missing",
         flag="--max-missing",
-        control="most_missing",
         label="most missing",
         help="Largest share of missing points, 0 to below 1, that is filled; a file with more is "
         "refused.",
@@ -277,7 +275,6 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_file(
         name="tilt",
-        control="tilt",
         label="tilt is of",
         help="Whose the tilt of measured heights is: the mounting's alone, such as the stage's, or "
         "also that of waves longer than the topography, which change the answers for a larger "
@@ -286,7 +283,6 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_file(
         name="pixels",
-        control="pixels",
         label="heights are",
         help="Whether heights are means over pixels or those of points, which tells the instrument "
         "from the surface in the spectrum's tail.",
@@ -299,7 +295,6 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_file(
         name="blur",
-        control="blur",
         help="Standard deviation of the instrument's Gaussian blur beside the pixels', such as "
         '"0.3 um"; 0 for none.',
         otherwise="not known",
@@ -307,7 +302,6 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_file(
         name="tip_radius",
-        control="tip_radius",
         label="tip radius",
         help='Radius of the tip that traced the surface, such as "2 um": shorter waves than it '
         "follows are left out of the self-affine law.",
@@ -316,7 +310,6 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_preparation(
         name="trend",
-        control="trend",
         help="Trend that is removed from the heights by least squares.",
         otherwise="the tilt of measured ones; our own files stay as they are",
         choices={
@@ -329,14 +322,12 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_preparation(
         name="crop",
-        control="crop",
         help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um".',
         otherwise="all",
         read=_crop,
     ),
     _of_preparation(
         name="low_pass",
-        control="low_pass",
         label="low pass",
         help='Cutoff wavelength of a Gaussian filter after ISO 16610-61, such as "2 um": shorter '
         "waves are removed.",

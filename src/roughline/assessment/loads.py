@@ -114,13 +114,7 @@ class LoadCase:
         return curve if self.among is None else among_loads(curve, self.among)
 
     def press(self, progress: LoadProgress | None = None) -> Curve:
-        """Press the body; loads that fail are marked.
-
-        Raises
-        ------
-        Interrupted
-            On Ctrl-C, with the loads that were solved before.
-        """
+        """Press the body; loads that fail are marked, and Ctrl-C raises Interrupted."""
         return press(
             self.body.detrended() if self.levelled else self.body,
             E_star=self.E_star,

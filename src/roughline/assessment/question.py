@@ -333,15 +333,7 @@ class Question:
         ]
 
     def refuse_misfit(self, body: Body) -> None:
-        """Refuse what does not suit the kind of a body, or its size.
-
-        Raises
-        ------
-        InputError
-            If something that belongs to a surface is asked of a line scan, theories of a body that
-            has no spectrum, or a joint that is smaller than its map; or if a mean pressure is above
-            the contact modulus, or a depth above the shorter side.
-        """
+        """Refuse what does not suit the kind of a body, or its size."""
         if isinstance(body, Line):
             self._refuse_of_line(body)
         elif self.joint is not None and body.area > self.joint * (1 + 1e-9):  # sides are rounded

@@ -41,13 +41,7 @@ class Topography:
     def of(
         cls, given: Body | Path, reading: Reading, preparation: Preparation | None
     ) -> Topography:
-        """Take or read a body, and prepare it.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read, or a step does not suit the body.
-        """
+        """Take or read a body, and prepare it; refuse files and steps that do not suit."""
         if isinstance(given, Surface | Line):
             return cls(as_prepared(given, preparation), None, None, reading, preparation)
         content = measurement(given, reading.channel, reading.name)
@@ -87,13 +81,7 @@ class Topography:
 def of_piece(
     content: Measurement, reading: Reading, preparation: Preparation | None
 ) -> tuple[Measurement, Reading, Preparation | None]:
-    """Crop what a file holds before anything is filled; return how to read and prepare the rest.
-
-    Raises
-    ------
-    InputError
-        If the crop does not suit the file, or its unit or sizes are not known.
-    """
+    """Crop what a file holds before anything is filled; return how to read and prepare the rest."""
     if preparation is None or preparation.crop is None:
         return content, reading, preparation
     piece = content.piece(preparation.crop, reading.unit, reading.sizes)
@@ -137,13 +125,7 @@ def topographies(question: Question) -> list[Topography]:
 
 
 def pressed_body(bodies: Sequence[Body]) -> Body:
-    """Return the body to press: the sum of two surfaces, or the first of two line scans.
-
-    Raises
-    ------
-    InputError
-        If one is a surface and the other is not, or they have too little in common.
-    """
+    """Return the body to press: the sum of two surfaces, or the first of two line scans."""
     if len(bodies) == 1:
         return bodies[0]
     first, second = bodies

@@ -46,13 +46,7 @@ def question_of(body: Any, told: Told, name: str | None = None, **others: Any) -
 
 
 def refuse_alone(field: Field, value: Any) -> None:
-    """Refuse a value of a field that could be used with no others.
-
-    Raises
-    ------
-    InputError
-        As what the field is of refuses it.
-    """
+    """Refuse a value of a field that could be used with no others, as what it is of does."""
     if field.is_asked:
         asked_for({field.name: value})
     elif field.of == "Question":

@@ -105,13 +105,7 @@ class Variant:
 
 
 class Stopped(KeyboardInterrupt):
-    """Ctrl-C came while variants were pressed.
-
-    Attributes
-    ----------
-    curves : Curves
-        Those that are done, and the last one as far as it came.
-    """
+    """Ctrl-C came while variants were pressed: with curves that are done, and one not whole."""
 
     def __init__(self, curves: Curves) -> None:
         super().__init__(curves.stopped)
@@ -122,12 +116,7 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
     """Press all variants that are needed, in their order, under so many loads.
 
     Progress is told as (loads done, loads in all), over all variants; those that take a part of the
-    time count as that part.
-
-    Raises
-    ------
-    Stopped
-        On Ctrl-C, with the curves that are done.
+    time count as that part. Ctrl-C raises Stopped.
     """
     done: dict[str, Curve] = {}
     points = max(math.prod(each.shape) for each in variants)

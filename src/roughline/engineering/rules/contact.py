@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from roughline.computing.arrays import Real
@@ -10,6 +12,8 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
 from roughline.errors.words import called
 from roughline.units import decimal
+
+_rule = partial(Rule, group="contact")
 
 
 def _least_fraction(pressed: Pressed) -> Real | float:
@@ -71,12 +75,11 @@ def _beyond_elastic(pressed: Pressed) -> str:
 
 
 CONTACT = (
-    Rule(
+    _rule(
         key="contact_area",
         name="real contact area",
         symbol="A",
         unit="m²",
-        group="contact",
         formula="cells in contact, corrected for the outline's steps",
         validity="falls with every finer wave; the shortest wave of the grid is the finest here",
         source="Yastrebov, Anciaux and Molinari 2017",
@@ -84,59 +87,54 @@ CONTACT = (
         limits=_area_limits,
         is_extensive=True,
     ),
-    Rule(
+    _rule(
         key="contact_area_fraction",
         name="contact area fraction",
         symbol="A/A_0",
         unit="1",
-        group="contact",
         formula="A / A_0",
         value=lambda pressed: pressed.area_fraction,
         limits=_area_fraction_limits,
         leads=always,
         in_per_cent=True,
     ),
-    Rule(
+    _rule(
         key="contact_pressure",
         name="mean contact pressure",
         symbol="p_c",
         unit="Pa",
-        group="contact",
         formula="F / A",
         validity="at most the hardness of the softer body",
         value=_pressure,
         limits=_pressure_limits,
     ),
-    Rule(
+    _rule(
         key="contact_pressure_over_hardness",
         name="contact pressure over hardness",
         symbol="p_c/H",
         unit="1",
-        group="contact",
         formula="F / (A H), H of the softer body",
         validity=f"elastic below {ELASTIC_UP_TO:g}, all of the contact yields at 1",
         value=_over_hardness,
         warning=_beyond_elastic,
         limits=lambda pressed: (0.0, np.inf if pressed.hardest is None else 1.0),
     ),
-    Rule(
+    _rule(
         key="plastic_fraction",
         name="yielded share of the contact",
         symbol="A_p/A",
         unit="1",
-        group="contact",
         formula="cells at the hardness over cells in contact",
         validity="elastic, perfectly plastic: no hardening, no pile-up",
         source="Almqvist et al. 2007",
         value=lambda pressed: pressed.curve.plastic_fraction if pressed.may_yield else None,
         limits=lambda _pressed: (0.0, 1.0),
     ),
-    Rule(
+    _rule(
         key="indentation",
         name="largest permanent indentation",
         symbol="w",
         unit="m",
-        group="contact",
         formula="overlap at points at the hardness, which lowers the surface permanently",
         validity="at one point; the finest summits on the grid decide it",
         source="Almqvist et al. 2007",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from roughline.computing.arrays import Real
@@ -9,6 +11,8 @@ from roughline.engineering.formulas import electrical_resistance, holm_resistanc
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
+
+_rule = partial(Rule, group="electrical")
 
 
 def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
@@ -37,12 +41,11 @@ def _of_single_spot(pressed: Pressed) -> Real | None:
 
 
 ELECTRICAL = (
-    Rule(
+    _rule(
         key="constriction_resistance",
         name="constriction resistance",
         symbol="R",
         unit="ohm",
-        group="electrical",
         formula="E* (rho1 + rho2) / (2 k_u)",
         validity="clean metal; films add to it. k_u, as current spreads from the contact spots "
         "like the displacement on unloading, however the spots were formed",
@@ -53,12 +56,11 @@ ELECTRICAL = (
         is_extensive=True,
         may_be_infinite=True,
     ),
-    Rule(
+    _rule(
         key="specific_contact_resistance",
         name="specific contact resistance",
         symbol="rho_c",
         unit="ohm m²",
-        group="electrical",
         formula="R A_0, A_0 the nominal area of the joint",
         validity="of the interface alone; clean metal",
         source="Barber 2003",
@@ -66,12 +68,11 @@ ELECTRICAL = (
         leads=always,
         may_be_infinite=True,
     ),
-    Rule(
+    _rule(
         key="holm_resistance",
         name="Holm's single-spot estimate",
         symbol="R_Holm",
         unit="ohm",
-        group="electrical",
         formula="(rho1 + rho2) / (4 a_H), pi a_H² = F / H",
         validity="for comparison: all of the load on one plastic spot; separate spots have less "
         "resistance, and elastic spots, which are smaller, have more",

@@ -13,6 +13,8 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule
 from roughline.units import decimal, engineering
 
+_rule = partial(Rule, group="mechanics")
+
 _CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
 
 
@@ -106,12 +108,11 @@ _WITHOUT_FRICTION = (
 )
 
 
-CONTACT_STIFFNESS = Rule(
+CONTACT_STIFFNESS = _rule(
     key="contact_stiffness",
     name="contact stiffness",
     symbol="k",
     unit="N/m",
-    group="mechanics",
     formula="dF/dd at frozen contact on further loading, exact",
     validity=_WITHOUT_FRICTION,
     value=_contact_stiffness,
@@ -127,12 +128,11 @@ CONTACT_STIFFNESS = Rule(
     may_be_infinite=True,
 )
 
-UNLOADING_STIFFNESS = Rule(
+UNLOADING_STIFFNESS = _rule(
     key="unloading_stiffness",
     name="unloading stiffness",
     symbol="k_u",
     unit="N/m",
-    group="mechanics",
     formula="dF/dd at frozen contact on unloading, exact",
     validity="all of the contact springs back; this stiffness governs vibration, ultrasound "
     "and currents",
@@ -143,12 +143,11 @@ UNLOADING_STIFFNESS = Rule(
     may_be_infinite=True,
 )
 
-INTERFACE_STIFFNESS = Rule(
+INTERFACE_STIFFNESS = _rule(
     key="interface_stiffness",
     name="interface stiffness",
     symbol="k_i",
     unit="N/m",
-    group="mechanics",
     formula="1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch",
     value=_interface,
     differing=_which_interface,
@@ -160,34 +159,31 @@ INTERFACE_STIFFNESS = Rule(
 )
 
 MECHANICAL = (
-    Rule(
+    _rule(
         key="normal_force",
         name="normal force",
         symbol="F",
         unit="N",
-        group="mechanics",
         formula="given, or F(d)",
         value=lambda pressed: pressed.force,
         is_extensive=True,
         is_given=True,
     ),
-    Rule(
+    _rule(
         key="mean_pressure",
         name="mean pressure",
         symbol="p",
         unit="Pa",
-        group="mechanics",
         formula="F / A_0, A_0 the nominal area",
         value=lambda pressed: pressed.pressure,
         differing=_of_joint(formula="F / A_0, A_0 the nominal area of the joint"),
         is_given=True,
     ),
-    Rule(
+    _rule(
         key="depth",
         name="approach since touch",
         symbol="d",
         unit="m",
-        group="mechanics",
         formula="of remote points",
         value=lambda pressed: pressed.curve.depth,
         differing=_of_joint(
@@ -198,12 +194,11 @@ MECHANICAL = (
     INTERFACE_STIFFNESS,
     CONTACT_STIFFNESS,
     UNLOADING_STIFFNESS,
-    Rule(
+    _rule(
         key="stiffness_per_area",
         name="stiffness per area",
         symbol="k/A_0",
         unit="N/m³",
-        group="mechanics",
         formula="k / A_0",
         value=_per_area,
         differing=_of_joint(symbol="k_i/A_0", formula="k_i / A_0"),
@@ -212,12 +207,11 @@ MECHANICAL = (
         note=partial(_meaning_of_joint, bodies_matter=False),
         may_be_infinite=True,
     ),
-    Rule(
+    _rule(
         key="tangential_stiffness",
         name="tangential stiffness",
         symbol="k_t",
         unit="N/m",
-        group="mechanics",
         is_shown_at_many_loads=True,
         formula="k_u G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
         validity="before any slip; normal and tangential problems uncoupled; k_u, as a small shear "

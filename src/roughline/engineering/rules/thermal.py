@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from roughline.computing.arrays import Real
 from roughline.engineering.formulas import (
     mikic_conductance,
@@ -11,6 +13,8 @@ from roughline.engineering.formulas import (
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
+
+_rule = partial(Rule, group="thermal")
 
 _IN_VACUUM = "solid spots alone, as in vacuum: gas in the gap adds to it"
 
@@ -48,12 +52,11 @@ def _plastic(pressed: Pressed) -> Real | None:
 
 
 THERMAL = (
-    Rule(
+    _rule(
         key="thermal_conductance",
         name="thermal conductance in vacuum",
         symbol="G",
         unit="W/K",
-        group="thermal",
         is_shown_at_many_loads=True,
         formula="kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
         validity=f"{_IN_VACUUM}. k_u, as heat spreads from the contact spots however they were "
@@ -64,12 +67,11 @@ THERMAL = (
         is_extensive=True,
         may_be_infinite=True,
     ),
-    Rule(
+    _rule(
         key="thermal_conductance_per_area",
         name="thermal conductance per area in vacuum",
         symbol="h_c",
         unit="W/(m² K)",
-        group="thermal",
         formula="kappa_s k_i / (E* A_0)",
         validity=f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i",
         source="Barber 2003",
@@ -89,23 +91,21 @@ THERMAL = (
         is_of_interface=True,
         may_be_infinite=True,
     ),
-    Rule(
+    _rule(
         key="mikic_conductance",
         name="Mikic's elastic estimate",
         symbol="h_Mikic",
         unit="W/(m² K)",
-        group="thermal",
         formula="1.55 kappa_s m/sigma (sqrt(2) p/(E* m))^0.94",
         validity=f"{_IN_VACUUM}. Gaussian heights, light loads, no large waves",
         source="Mikic 1974",
         value=_mikic,
     ),
-    Rule(
+    _rule(
         key="plastic_conductance",
         name="plastic estimate",
         symbol="h_CMY",
         unit="W/(m² K)",
-        group="thermal",
         formula="1.25 kappa_s m/sigma (p/H)^0.95",
         validity=f"{_IN_VACUUM}. Gaussian heights, all contact plastic",
         source="Yovanovich 2005",
