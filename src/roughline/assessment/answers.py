@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
-from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import has_spectrum, nominal_area
 from roughline.assessment.larger_surface import stiffness_of_the_piece
+from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
 from roughline.contact.curve import Curve

@@ -109,12 +109,8 @@ def _with_joint_recorded(curve: Curve, joint: float | None) -> Curve:
     """Record the joint that the map of a curve is a part of; forces of the curve are the map's."""
     if joint is None:
         return curve
-    recorded: dict[str, str | float] = {
-        "joint_area": joint,
-        "joint_area_units": "m^2",
-        "curve_of": "map",
-    }
-    return replace(curve, settings={**curve.settings, **recorded})
+    settings = {**curve.settings, "joint_area": joint, "joint_area_units": "m^2"}
+    return replace(curve, settings={**settings, "curve_of": "map"})
 
 
 def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]:

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from roughline.assessment.hardness import Hardness, hardness_of
 from roughline.assessment.kinds import has_spectrum, is_map, nominal_area
 from roughline.assessment.larger_surface import roll_offs_along_a_side
-from roughline.assessment.loads import LoadCase
+from roughline.assessment.loads import Hardness, LoadCase, hardness_of
 from roughline.assessment.question import Question
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.tiles import Beyond

@@ -42,11 +42,6 @@ class LargerSurface:
     tiles: tuple[Tiles, Tiles] | None = None
     """Logarithms of the stiffness, and logits of the contact area fraction."""
 
-    @property
-    def without_interval(self) -> LargerSurface:
-        """The same where the piece alone does not tell of it."""
-        return replace(self, stiffness=self.stiffness.bare, area=None)
-
     def from_many(
         self, area: Real, further: tuple[Ends, Ends], *, with_grid: bool
     ) -> LargerSurface:

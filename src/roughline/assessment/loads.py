@@ -1,4 +1,4 @@
-"""Loads of a question on a body, and the settings with which the body is pressed again."""
+"""Loads of a question on a body, its hardness, and the settings with which it is pressed again."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import is_map, nominal_area
 from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
 from roughline.computing.arrays import Indices, Mask
@@ -25,6 +24,31 @@ LoadProgress = Callable[[int, int], None]
 _LIGHTEST = 1e-3  # of the largest load, where a whole curve begins
 _ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
 _CURVE_LOADS = 16  # of a whole curve
+
+
+@dataclass(frozen=True)
+class Hardness:
+    """Hardness of the softer body: it lies between value / factor and value * factor."""
+
+    value: float  # [Pa]
+    factor: float
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The softest and the hardest that the body may be. [Pa]"""
+        return self.value / self.factor, self.value * self.factor
+
+
+def hardness_of(question: Question) -> Hardness | None:
+    """Return the hardness that a question is answered with; None if the bodies are elastic."""
+    if question.elastic:
+        return None
+    if question.hardness is not None:
+        return Hardness(question.hardness, 1.0) if question.hardness < float("inf") else None
+    pair = question.pair
+    if pair is None or pair.hardness is None:
+        return None
+    return Hardness(pair.hardness, pair.hardness_factor)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,10 +195,8 @@ def _refuse_beyond_hardness(question: Question, area: float) -> None:
             most = engineering(hardness.value * area * question.scale(area), "N")
             on, joint = "the joint", ""
             if question.joint is None:
-                on, joint = (
-                    "the map",
-                    f"the area of the joint that carries them ({called('rl.Joint')}), ",
-                )
+                joint = f"the area of the joint that carries them ({called('rl.Joint')}), "
+                on = "the map"
             raise InputError(
                 f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and "
                 f"{bearer}, of hardness {engineering(hardness.value, 'Pa')}, bears less than "

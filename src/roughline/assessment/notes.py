@@ -9,8 +9,8 @@ import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.given import has_forces, several
-from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
+from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pair import MaterialPair

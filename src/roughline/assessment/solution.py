@@ -76,8 +76,9 @@ def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None
     beyond = case.beyond
     ends = (intervals.unloading, intervals.area) if intervals else (None, None)
     larger = larger_surface(whole, beyond, tiles, *ends)
-    told = beyond.is_told and not broken("larger surface", body)
-    return larger if told else larger.without_interval
+    if beyond.is_told and not broken("larger surface", body):
+        return larger
+    return replace(larger, stiffness=larger.stiffness.bare, area=None)
 
 
 def _with_filling(

@@ -113,15 +113,11 @@ def measured_body(
 
 def topographies(question: Question) -> list[Topography]:
     """Read and prepare the first body and, if it is rough, the second."""
-    given = [
-        (question.body, question.reading),
-        (question.against, replace(question.reading, name=None)),
-    ]
-    return [
-        Topography.of(body, reading, question.preparation)  # type: ignore[arg-type]
-        for body, reading in given
-        if body is not None
-    ]
+    first = Topography.of(question.bodies[0], question.reading, question.preparation)
+    if question.against is None:
+        return [first]
+    reading = replace(question.reading, name=None)
+    return [first, Topography.of(question.against, reading, question.preparation)]
 
 
 def pressed_body(bodies: Sequence[Body]) -> Body:

@@ -25,6 +25,7 @@ from roughline.computing.arrays import Mask
 from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
 from roughline.contact.selection import among_loads, at_loads
+from roughline.engineering.pressed import yields
 from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
@@ -235,11 +236,6 @@ def _as_hard(
     return replace(case.loads.of_hardness(hardness, loads, curve), body=body)
 
 
-def yields(curve: Curve) -> bool:
-    """Whether some of the contact is at the hardness, under any load."""
-    return curve.plastic_fraction is not None and bool(np.nan_to_num(curve.plastic_fraction).any())
-
-
 def _borne_by(case: Case, curve: Curve, hardness: float | None) -> Mask:
     """Which loads of the curve as asked were solved, and are borne by a body of a hardness.
 
@@ -289,36 +285,32 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
     if not case.loads.grid_error or not has_tiles(body):
         return []
     shape = coarse_shape(body.shape)
-    of_larger: Purpose = "larger surface"
 
     @cache
-    def coarse() -> Surface:
-        return coarsened(body.detrended())
+    def pieces(count: int) -> list[Surface]:
+        return tiles_of(pieces(1)[0], count) if count > 1 else [coarsened(body.detrended())]
 
-    @cache
-    def cut(count: int) -> list[Surface]:
-        return tiles_of(coarse(), count)
-
-    def needed(of: Callable[[], Surface], curves: Curves) -> LoadCase | None:
+    def needed(count: int, i: int, curves: Curves) -> LoadCase | None:
         curve = curves.get(whole)
         if curve is None or curve.stiffness_error is None or broken("grid", body):
             return None
         loads = case.loads.under_forces_of(curve)
         if not loads.forces:
             return None
-        tile = of()
-        forces = (np.array(loads.forces) / body.area * tile.area).tolist()
-        loads = replace(loads, body=tile, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
+        piece = pieces(count)[i]
+        forces = (np.array(loads.forces) / body.area * piece.area).tolist()
+        loads = replace(loads, body=piece, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
         return replace(loads, levelled=False, grid_error=False)
 
-    listed = []
-    if shape != body.shape:
-        listed.append(Variant(Way.COARSE, of_larger, partial(needed, coarse), shape, True))
-    for count in (2, 4):
-        for i in range(count**2):
-            of = partial(lambda count, i: cut(count)[i], count, i)
-            part = 1 / count**2
-            listed.append(
-                Variant(tile(count, i), of_larger, partial(needed, of), shape, True, part)
-            )
-    return listed
+    return [
+        Variant(
+            tile(count, i) if count > 1 else Way.COARSE,
+            "larger surface",
+            partial(needed, count, i),
+            shape,
+            is_periodic=True,
+            share=1 / count**2,
+        )
+        for count in ((2, 4) if shape == body.shape else (1, 2, 4))
+        for i in range(count**2)
+    ]

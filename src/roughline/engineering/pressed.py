@@ -158,8 +158,7 @@ class Pressed:
     @property
     def yields(self) -> bool:
         """Whether some of the contact is at the hardness, under any load."""
-        share = self.curve.plastic_fraction
-        return share is not None and bool(np.nan_to_num(share).any())
+        return yields(self.curve)
 
     @property
     def symbols(self) -> dict[str, str]:
@@ -172,3 +171,8 @@ class Pressed:
         if self.joint is not None:
             contact = "k_i"
         return {"k_u": contact, "k_i": contact if self.interface is None else "k_i"}
+
+
+def yields(curve: Curve) -> bool:
+    """Whether some of the contact of a curve is at the hardness, under any load."""
+    return curve.plastic_fraction is not None and bool(np.nan_to_num(curve.plastic_fraction).any())

@@ -23,14 +23,6 @@ def _least_fraction(pressed: Pressed) -> Real | float:
     return pressed.pressure / pressed.hardest
 
 
-def _area_fraction_limits(pressed: Pressed) -> Limits:
-    return _least_fraction(pressed), 1.0
-
-
-def _area_limits(pressed: Pressed) -> Limits:
-    return _least_fraction(pressed) * pressed.nominal_area, pressed.nominal_area
-
-
 def _area(pressed: Pressed) -> Real | None:
     share = pressed.area_fraction
     return None if share is None else share * pressed.nominal_area
@@ -84,7 +76,10 @@ CONTACT = (
         validity="falls with every finer wave; the shortest wave of the grid is the finest here",
         source="Yastrebov, Anciaux and Molinari 2017",
         value=_area,
-        limits=_area_limits,
+        limits=lambda pressed: (
+            _least_fraction(pressed) * pressed.nominal_area,
+            pressed.nominal_area,
+        ),
         is_extensive=True,
     ),
     _rule(
@@ -94,7 +89,7 @@ CONTACT = (
         unit="1",
         formula="A / A_0",
         value=lambda pressed: pressed.area_fraction,
-        limits=_area_fraction_limits,
+        limits=lambda pressed: (_least_fraction(pressed), 1.0),
         leads=always,
         in_per_cent=True,
     ),

@@ -8,15 +8,10 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.engineering.formulas import electrical_resistance, holm_resistance
-from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 
 _rule = partial(Rule, group="electrical")
-
-
-def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
-    return pair.lacks("resistivity", "constriction resistance")
 
 
 def _resistance(pressed: Pressed) -> Real | None:
@@ -51,7 +46,7 @@ ELECTRICAL = (
         "like the displacement on unloading, however the spots were formed",
         source="Barber 2003",
         value=_resistance,
-        lacking=_lacking,
+        lacking=lambda pair, _frequency: pair.lacks("resistivity", "constriction resistance"),
         leads=always,
         is_extensive=True,
         may_be_infinite=True,

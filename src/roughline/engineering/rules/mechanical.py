@@ -40,10 +40,6 @@ def _under_unloading(pressed: Pressed) -> tuple[str, float]:
     return ("unloading_stiffness" if pressed.joint is None else "interface_stiffness"), 1.0
 
 
-def _per_area_under_unloading(pressed: Pressed) -> tuple[str, float]:
-    return _under_unloading(pressed)[0], 1 / pressed.nominal_area
-
-
 def _per_area(pressed: Pressed) -> Real:
     """Of a joint, which is all interface, on unloading."""
     k = pressed.loading if pressed.joint is None else pressed.interface_stiffness
@@ -52,10 +48,6 @@ def _per_area(pressed: Pressed) -> Real:
 
 def _unloading(pressed: Pressed) -> Real | None:
     return pressed.unloading if pressed.tells_unloading and pressed.joint is None else None
-
-
-def _interface(pressed: Pressed) -> Real | None:
-    return None if pressed.interface is None else pressed.interface_stiffness
 
 
 def _which_interface(pressed: Pressed) -> Mapping[str, str]:
@@ -149,7 +141,7 @@ INTERFACE_STIFFNESS = _rule(
     symbol="k_i",
     unit="N/m",
     formula="1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch",
-    value=_interface,
+    value=lambda pressed: None if pressed.interface is None else pressed.interface_stiffness,
     differing=_which_interface,
     warning=_which_surface,
     leads=lambda pressed: pressed.joint is not None,
@@ -202,7 +194,7 @@ MECHANICAL = (
         formula="k / A_0",
         value=_per_area,
         differing=_of_joint(symbol="k_i/A_0", formula="k_i / A_0"),
-        under=_per_area_under_unloading,
+        under=lambda pressed: (_under_unloading(pressed)[0], 1 / pressed.nominal_area),
         warning=partial(_meaning_of_joint, bodies_matter=True),
         note=partial(_meaning_of_joint, bodies_matter=False),
         may_be_infinite=True,

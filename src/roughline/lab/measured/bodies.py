@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from roughline.assessment.hardness import Hardness, hardness_of
+from roughline.assessment.loads import Hardness, hardness_of
 from roughline.assessment.notes import meaning_of_loads, of_unknown_hardness
 from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.assessment.reading import Reading
