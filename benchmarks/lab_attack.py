@@ -248,7 +248,15 @@ def write(told, share, seed):
         f"{counts['requests']} requests to every route, in {told['minutes']:.0f} minutes on the "
         f"machine that serves, seed {seed}; meanwhile a page is used as it is meant to be.\n"
     )
-    _write_holdings(written, told)
+    written.say(
+        f"All is quiet {told['quiet']:.0f} s after the last attacker has gone; it then takes "
+        f"{told['idle']:.1%} of a core.\n"
+    )
+    written.table("what the lab holds", "before", "most meanwhile", "afterwards", "may be more by")
+    for name, (shown, allowed) in HELD.items():
+        most = max(each[name] for each in told["samples"])
+        values = told["before"][name], most, told["after"][name]
+        written.row(shown, *(f"{value:.0f}" for value in values), allowed)
     written.say("\n## Times of the page that is used meanwhile\n")
     written.table("question", "alone, median", "times", "median", "95th percentile", "worst")
     for what, times in told["times"].items():
@@ -261,19 +269,8 @@ def write(told, share, seed):
         written.row(f"socket: {kind}", counts.pop(kind))
     for what in sorted(counts):
         written.row(what, counts[what])
-    written.save()
-
-
-def _write_holdings(written, told):
-    written.say(
-        f"All is quiet {told['quiet']:.0f} s after the last attacker has gone; it then takes "
-        f"{told['idle']:.1%} of a core.\n"
-    )
-    written.table("what the lab holds", "before", "most meanwhile", "afterwards", "may be more by")
-    for name, (shown, allowed) in HELD.items():
-        most = max(each[name] for each in told["samples"])
-        values = told["before"][name], most, told["after"][name]
-        written.row(shown, *(f"{value:.0f}" for value in values), allowed)
+    if share == 1:
+        written.save()
 
 
 def main(share, seed):
@@ -286,13 +283,7 @@ def main(share, seed):
             log = lab.log.read_text(errors="replace")
         if lab.process.returncode or list(Path(folder).glob("roughline-lab-*")):
             faults.append(f"it ended with {lab.process.returncode}, or left its folder")
-    if share == 1:
-        write(told, share, seed)
-    else:
-        print(dict(told["counts"]), told["after"], told["quiet"], told["idle"], sep="\n")
-        for what, times in told["times"].items():
-            alone = statistics.median(told["alone"][what])
-            print(what, f"{alone:.3f} {statistics.median(times):.3f} {max(times):.3f}")
+    write(told, share, seed)
     print(log[:3000], *faults, sep="\n")
     sys.exit(bool(faults))
 

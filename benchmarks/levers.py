@@ -7,7 +7,8 @@ of all rounds; convolutions follow where they change.
 
 import argparse
 import re
-from contextlib import contextmanager
+from contextlib import ExitStack
+from unittest import mock
 
 import numpy as np
 import turns
@@ -45,23 +46,12 @@ LEVERS = {
 }
 
 
-@contextmanager
-def without(parts):
-    """Replace some parts for a while."""
-    sound = [(place, name, getattr(place, name)) for place, name, _ in parts]
-    for place, name, value in parts:
-        setattr(place, name, value)
-    try:
-        yield
-    finally:
-        for place, name, value in sound:
-            setattr(place, name, value)
-
-
 def measured(row, lever):
     """Return time of the core and convolutions of a row without a lever."""
     turns.forget()
-    with without(LEVERS[lever]):
+    with ExitStack() as replaced:
+        for part in LEVERS[lever]:
+            replaced.enter_context(mock.patch.object(*part))
         if row.startswith("warm"):
             turns.press(*turns.rows()[row])
         _, cores, _, convolutions = turns.measured(row)

@@ -39,14 +39,10 @@ class Make:
         """Points along the side of the parent."""
         return self.points * self.maps
 
-    def wavevectors(self):
-        """Wavenumbers along x and y, in units of one wave a map, in the order of an FFT."""
-        qx, qy = np.fft.fftfreq(self.n), np.fft.rfftfreq(self.n)
-        return self.points * qx[:, None], self.points * qy[None, :]
-
     def gaussian(self, power: Callable, rng) -> np.ndarray:
         """A Gaussian field of unit rms with a power for each wavevector."""
-        qx, qy = self.wavevectors()
+        qx = self.points * np.fft.fftfreq(self.n)[:, None]  # in waves a map
+        qy = self.points * np.fft.rfftfreq(self.n)[None, :]
         white = np.fft.rfft2(rng.normal(size=(self.n, self.n)))
         white[0, 0] = 0.0
         q = np.hypot(qx, qy)

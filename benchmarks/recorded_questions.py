@@ -14,15 +14,8 @@ import roughline as rl
 
 _Q = math.tau * np.array([1.0, 2.0, 5.0, 11.0])
 _PRESSURES = np.geomspace(1e-3, 0.3, 5)
-_MEASURED = {
-    # file: how it is read
-    "al3d-1.al3d": {},
-    "di-1.di": {},
-    "opd-1.opd": {},
-    "dektak-1.csv": {},
-    "mitutoyo_mock.xlsx": {},
-    "xy-1.txt": {"unit": "um"},
-}
+_MAPS = ("al3d-1.al3d", "di-1.di", "opd-1.opd")
+_SCANS = ("dektak-1.csv", "mitutoyo_mock.xlsx", "xy-1.txt")
 _PREPARATIONS = {
     "none": None,
     "counted": {},
@@ -69,8 +62,8 @@ def questions(topographies):
     yield from _descriptions()
     yield from _statistics()
     yield from _bodies()
-    for name, options in _MEASURED.items():
-        path = topographies / name
+    for name in (*_MAPS, *_SCANS):
+        path, options = topographies / name, {"unit": "um"} if name == "xy-1.txt" else {}
         yield f"read {name}", lambda path=path, options=options: _read(path, options)
         yield f"press read {name}", lambda path=path, options=options: _pressed(path, options)
     for name in ("sur-3.sur", "xy-1.txt", "di_corrupted.di", "none.x3p"):

@@ -163,11 +163,8 @@ def _digest(data):
 def keep(values, path):
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("wb") as file:
-        np.savez_compressed(file, names=np.array(list(values)), **_numbered(values))
-
-
-def _numbered(values):
-    return {f"v{i}": array for i, array in enumerate(values.values())}
+        numbered = {f"v{i}": array for i, array in enumerate(values.values())}
+        np.savez_compressed(file, names=np.array(list(values)), **numbered)
 
 
 def kept(path):

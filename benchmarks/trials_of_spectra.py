@@ -89,18 +89,14 @@ def piece_rows(kind, option, number):
         spectrum = rl.profile_spectrum(rl.Line(heights, 1.0, kind="profile"))
     fit = rl.fit_self_affine(spectrum)
     q_high = Q_LOW * min(cut, fit.q_last / Q_LOW)  # no fit sees beyond
+    found = fit.q_high or fit.q_last
     is_cut = cut < points / 2 and q_high < fit.q_last
     size = f"{kind}, {points} x {points}" if kind == "map" else f"{kind}, {points} points"
     low, high = HURST_WINDOWS[number % 3]
     for name, truth, value, ends in (
         ("H of a piece", hurst, fit.hurst, fit.hurst_interval),
         ("roll-off" if roll else "no roll-off", parent.q_roll, fit.q_roll, fit.q_roll_interval),
-        (
-            "cutoff" if is_cut else "no cutoff",
-            q_high,
-            fit.q_high or fit.q_last,
-            fit.q_high_interval,
-        ),
+        ("cutoff" if is_cut else "no cutoff", q_high, found, fit.q_high_interval),
         ("rms height", rms_of_piece(parent), fit.rms_height, fit.rms_interval),
     ):
         ends = ends[0] * (1 - 1e-9), ends[1] * (1 + 1e-9)
