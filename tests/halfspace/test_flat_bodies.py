@@ -17,7 +17,7 @@ STIFFNESS = 1e-6
 
 @pytest.mark.parametrize("precision", RTOL)
 @pytest.mark.parametrize("hardness", [None, 1.0, 1e3])
-@pytest.mark.parametrize("shape", [(8, 8), (17, 23), (1, 40), (301, 277), (1, 600)])
+@pytest.mark.parametrize("shape", [(8, 8), (17, 23), (1, 40), (101, 97), (1, 600)])
 def test_a_periodic_punch_bears_evenly_under_any_load(shape, hardness, precision):
     punch = rl.Surface(np.zeros(shape), SIZES)
     forces = 0.9 * punch.area * np.array([1.0, 1e-3, 1e-6, 1e-9, 1.0])

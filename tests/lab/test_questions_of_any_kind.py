@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from mutated_questions import SLOW, STATES, mutated
+from random_cases import cases
 from roughline.lab.server.tasks import Outcome, Place, outcome_of
 from roughline.lab.tasks import TASKS
 
-MUTATIONS = 100  # of each task
+MUTATIONS = cases(100, share=2)  # of each task
 LONGEST = 500  # sentence [characters]
 
 

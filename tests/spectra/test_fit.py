@@ -47,15 +47,16 @@ def found(fit, hurst, roll, cutoff, last, rms=1.0):
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
 def test_whole_surfaces_are_recovered_in_95_of_100(amplitudes):
     n, rng, hits, quiet = 128, np.random.default_rng(7), np.zeros(4), 0
-    for seed in range(TRIALS):
+    trials = cases(200, share=4)
+    for seed in range(trials):
         hurst, roll, cutoff = random_spectrum(rng, n)
         q_high = None if cutoff == n / 2 else cutoff * Q_0
         spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_roll=roll * Q_0, q_high=q_high)
         fit = fit_self_affine(isotropic_spectrum(spectrum.surface(n, seed, amplitudes)))
         hits += found(fit, hurst, roll, cutoff, last=1 + 1 / (n / 2 - 1))
         quiet += not any("off the law" in text for text in fit.objections)
-    assert (hits >= 0.95 * TRIALS).all(), hits
-    assert quiet >= 0.95 * TRIALS
+    assert (hits >= 0.95 * trials).all(), hits
+    assert quiet >= 0.95 * trials
 
 
 PARENT = 4  # sides of a piece in the surface that it is cut from

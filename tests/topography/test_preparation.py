@@ -194,7 +194,7 @@ def test_random_roughness_has_no_spikes(hurst):
 @pytest.mark.parametrize("dimensions", [1, 2])
 @pytest.mark.parametrize("factor", [0.37, 0.99, 1.5, 4])
 def test_the_memory_of_a_preparation_is_known_before_the_work(monkeypatch, dimensions, factor):
-    n = {1: 2**17, 2: 300}[dimensions]
+    n = {1: 2**16, 2: 200}[dimensions]
     heights = np.random.default_rng(3).normal(size=(n,) * dimensions)
     body = as_measured(heights) if dimensions == 2 else rl.Line(heights, 1e-3, "m", kind="profile")
     steps = Preparation(

@@ -393,7 +393,7 @@ def test_large_maps_open_without_further_copies(tmp_path, kind, trend, copies):
     from SurfaceTopography.IO.X3P import write_x3p
 
     path = tmp_path / f"map.{kind}"
-    heights = np.random.default_rng(0).normal(size=(1200, 900)) * 1e-6
+    heights = np.random.default_rng(0).normal(size=(800, 600)) * 1e-6
     if kind == "nc":
         rl.write(rl.Surface(heights, (1e-3, 1e-3), "m"), path)
         asked = {}
