@@ -10,7 +10,7 @@ from typing import Any, TypeVar, get_args
 
 from roughline.assessment.fields import FIELDS, asked_fields
 from roughline.assessment.given import Parsed, quantity, several
-from roughline.errors.checks import number, refuse
+from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.public import public
 
 _MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4
@@ -85,10 +85,10 @@ class Theories:
     names: tuple[str, ...]
 
     def __init__(self, *names: str) -> None:
-        from roughline.theories.theory import refuse_unknown  # here because it loads slowly
+        from roughline.theories.theory import THEORIES  # here because it loads slowly
 
         for name in names:
-            refuse_unknown(name, "theories")
+            one_of("theories", name, THEORIES)
         object.__setattr__(self, "names", names)
 
 

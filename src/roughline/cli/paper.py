@@ -15,7 +15,7 @@ import typer
 
 from roughline.cli.options import Json, Scheduler, Workers, interruptible, kept_in, print_json
 from roughline.errors import InputError
-from roughline.errors.checks import refuse, shown
+from roughline.errors.checks import refuse
 
 if TYPE_CHECKING:
     from roughline.paper.study import Study
@@ -167,10 +167,11 @@ def study_of(
         settings = _settings(given)
         plan_of_paper = paper_plan(given.get("scale", "quick"), given.get("seed", 2012))
         own = with_settings(plan_of_paper, **settings)
+        changed = ", with settings of its own" if settings else ""
         return Study(
             own,
             out / "results.zarr",
-            f"at the {given.get('scale', 'quick')} scale{_changed(given)}",
+            f"at the {given.get('scale', 'quick')} scale{changed}",
             command,
             fitted,
             Gallery.of(own, settings.get("fractal_dimensions")),
@@ -187,11 +188,6 @@ def study_of(
         return Study(read_plan(plan), where, f"from the plan {plan.name}", command, fitted)
     assert store is not None
     return Study(None, store, f"from the results in {store.name}", command, fitted)
-
-
-def _changed(given: Mapping[str, Any]) -> str:
-    """Say that a study has settings of its own."""
-    return ", with settings of its own" if set(given) - {"scale", "seed"} else ""
 
 
 def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -225,10 +221,7 @@ def _numbers(text: str, flag: str, example: str = "2.1, 2.5, 2.9") -> tuple[floa
     try:
         return tuple(float(part) for part in text.split(","))
     except ValueError:
-        raise InputError(
-            f"{flag} is {shown(text)}; numbers with commas between them are needed, such as "
-            f'"{example}"'
-        ) from None
+        refuse(flag, text, f'numbers with commas between them are needed, such as "{example}"')
 
 
 def _forces(text: str, flag: str) -> tuple[float, ...]:
@@ -242,18 +235,16 @@ def _forces(text: str, flag: str) -> tuple[float, ...]:
     low, high = _numbers(f"{found[1]}, {found[2]}", flag, example)
     count = int(found[3])
     if not (0 < low < high < float("inf") and 1 <= count <= 1000):
-        raise InputError(
-            f"{flag} is {shown(text)}; two rising, positive loads and 1 to 1000 per decade "
-            f'are needed, such as "{example}"'
+        needed = (
+            f'two rising, positive loads and 1 to 1000 per decade are needed, such as "{example}"'
         )
+        refuse(flag, text, needed)
     return decades(low, high, count)
 
 
 def _window(text: str, flag: str) -> Window:
     numbers = _numbers(text, flag, "0.01, 0.1")
     if len(numbers) != 2 or not 0 < numbers[0] < numbers[1] < float("inf"):
-        raise InputError(
-            f"{flag} is {shown(text)}; two rising, positive loads F / (E* h L) are needed, such as "
-            '"0.01, 0.1"'
-        )
+        needed = 'two rising, positive loads F / (E* h L) are needed, such as "0.01, 0.1"'
+        refuse(flag, text, needed)
     return numbers[0], numbers[1]

@@ -10,8 +10,7 @@ returns them::
     rl.plot.contact(curve).figure.savefig("contact.pdf")
 """
 
-from roughline.plot.bodies import topography
-from roughline.plot.contacts import contact, pressure
+from roughline.plot.bodies import contact, pressure, topography
 from roughline.plot.curves import area, curve
 from roughline.plot.exponents import exponents
 from roughline.plot.models import comparison, difference, trust_map

@@ -1,16 +1,26 @@
-"""Pictures of topographies: heights over the plane or along a line."""
+"""Pictures of bodies: their heights, and at one load where they touch and with which pressure."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 
 from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
+from roughline.contact.status import Status
+from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.pixels import thinned
-from roughline.plot.style import drawing_on
-from roughline.plot.units import in_unit
+from roughline.plot.style import drawing_on, in_unit, say
 from roughline.topography.body import Body, Surface
+from roughline.units import decimal, digits_known, in_words
+
+_GAP_ELASTIC_PLASTIC = ListedColormap(["white", "black", "tab:red"])
+_TITLE = 8  # font size [pt]
 
 
 @public
@@ -39,7 +49,7 @@ def draw_heights(axes: Axes, body: Body, unit: str | None) -> None:
     deviation = body.heights - body.heights.mean()
     label, factor = in_unit("height", deviation, unit)
     if isinstance(body, Surface):
-        draw_map(axes, body, unit, deviation * factor, label)
+        _draw_map(axes, body, unit, deviation * factor, label)
         return
     along, size = in_unit("x", body.length, unit)
     x = (np.arange(deviation.size) + 0.5) * body.spacing * size
@@ -47,7 +57,7 @@ def draw_heights(axes: Axes, body: Body, unit: str | None) -> None:
     axes.set(xlabel=along, ylabel=label)
 
 
-def draw_map(
+def _draw_map(
     axes: Axes,
     surface: Surface,
     unit: str | None,
@@ -56,14 +66,14 @@ def draw_map(
     cmap: str = "cividis",
 ) -> None:
     """Draw values on the grid of a surface, from above, with a colour bar."""
-    borders = extent(surface, unit)
+    borders = _extent(surface, unit)
     shown = axes.imshow(thinned(values).T, origin="lower", extent=borders, cmap=cmap)
     assert axes.figure is not None
     axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.85)
     label_sides(axes, surface, unit)
 
 
-def extent(surface: Surface, unit: str | None) -> tuple[float, float, float, float]:
+def _extent(surface: Surface, unit: str | None) -> tuple[float, float, float, float]:
     """Return the borders of a surface on the axes: left, right, bottom and top."""
     _, size = in_unit("x", surface.sizes, unit)
     return (0.0, surface.sizes[0] * size, 0.0, surface.sizes[1] * size)
@@ -73,3 +83,123 @@ def label_sides(axes: Axes, surface: Surface, unit: str | None) -> None:
     """Label both axes of a map."""
     labels = [in_unit(name, surface.sizes, unit)[0] for name in ("x", "y")]
     axes.set(xlabel=labels[0], ylabel=labels[1])
+
+
+@public
+def contact(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
+    """Draw the real contact area at one load: black, and red where points are at the hardness.
+
+    Parameters
+    ----------
+    curve : Curve
+        Of a surface, pressed with ``fields=True``.
+    load : int, optional
+        Number of the load, from 0; negative ones count from the last.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on. Of a load that was not solved it says so.
+
+    Raises
+    ------
+    InputError
+        If the curve has no fields, or no such load.
+    """
+    return _drawn(curve, load, axes, draw_contact)
+
+
+@public
+def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
+    """Draw the pressure at one load; white where the bodies do not touch.
+
+    Parameters
+    ----------
+    curve : Curve
+        Of a surface, pressed with ``fields=True``.
+    load : int, optional
+        Number of the load, from 0; negative ones count from the last.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on. Of a load that was not solved it says so.
+
+    Raises
+    ------
+    InputError
+        If the curve has no fields, or no such load.
+    """
+    return _drawn(curve, load, axes, _draw_pressure)
+
+
+def draw_contact(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
+    """Draw where bodies touch, and where they yield, where lengths have a given unit."""
+    axes.imshow(
+        fields.contact.T.astype(int) + fields.plastic.T,
+        origin="lower",
+        extent=_extent(surface, unit),
+        cmap=_GAP_ELASTIC_PLASTIC,
+        vmin=0,
+        vmax=2,
+        interpolation="nearest",
+    )
+    label_sides(axes, surface, unit)
+
+
+def _draw_pressure(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
+    """Draw the pressure where bodies touch."""
+    of_pressure = "Pa" if unit == "m" else None
+    label, factor = in_unit("pressure $p$", fields.pressure, of_pressure)
+    shown = np.where(fields.contact, fields.pressure * factor, np.nan)
+    _draw_map(axes, surface, unit, shown, label, "viridis_r")
+
+
+def _drawn(
+    curve: Curve,
+    load: int,
+    axes: Axes | None,
+    draw: Callable[[Axes, Surface, Fields, str | None], None],
+) -> Axes:
+    """Draw the fields of a load under its title, or say why there are none."""
+    surface, fields = _at_load(curve, load)
+    with drawing_on(axes) as drawn:
+        if fields is None:
+            number = load % curve.status.size
+            say(drawn, f"load {number} was not solved\n{Status(curve.status[load]).reason}")
+        else:
+            draw(drawn, surface, fields, surface.unit)
+            drawn.set_title(_title(curve, load, fields), fontsize=_TITLE)
+    return drawn
+
+
+def yield_key(fields: Fields) -> str:
+    """Return the line of a title that explains red; empty where nothing yields."""
+    return "\nred: at the hardness" if fields.plastic.any() else ""
+
+
+def _title(curve: Curve, load: int, fields: Fields) -> str:
+    assert curve.area_fraction_corrected is not None
+    force = in_words(float(curve.force[load]), "N" if curve.unit == "m" else None)
+    area, errors = float(curve.area_fraction_corrected[load]), curve.area_fraction_error
+    digits = digits_known(area, None if errors is None else float(errors[load]))
+    share = decimal(100 * area, digits)
+    return f"corrected area {share}% at $F$ = {force}{yield_key(fields)}"
+
+
+def _at_load(curve: Curve, load: int) -> tuple[Surface, Fields | None]:
+    """Return the surface of a curve and the fields of a load; None where it was not solved."""
+    if curve.surface is None:
+        raise InputError(
+            "this curve is of a line: the reduced model gives no contact area and no pressure"
+        )
+    if not curve.fields:
+        raise InputError("this curve has no fields: press with fields=True")
+    count = len(curve.fields)
+    if not -count <= load < count:
+        raise InputError(f"load is {load}; the curve has loads 0 to {count - 1}")
+    return curve.surface, curve.fields[load]

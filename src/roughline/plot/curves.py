@@ -12,9 +12,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.plot.contacts import say
-from roughline.plot.style import FORCE_LABEL, OPEN, drawing_on, label_decades
-from roughline.plot.units import in_unit
+from roughline.plot.style import FORCE_LABEL, OPEN, drawing_on, in_unit, label_decades, say
 
 _ELASTIC, _AFTER_A_LARGER = "k", "tab:blue"
 

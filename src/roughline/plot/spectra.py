@@ -8,10 +8,8 @@ from numpy.typing import ArrayLike
 
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.plot.contacts import say
 from roughline.plot.curves import name_of
-from roughline.plot.style import SHADE, drawing_on, label_decades
-from roughline.plot.units import in_unit
+from roughline.plot.style import SHADE, drawing_on, in_unit, label_decades, say
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import ProfileSpectrum
 from roughline.spectra.roughness import Roughness, roughness

@@ -13,10 +13,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+from roughline.units import SI, prefix
 
 COLUMN, PAGE = 3.5, 7.2  # widths of one and two journal columns [inch]
 MARKERS = "osD^vP"
+_DIMENSIONS = {"length", "force", "pressure", "energy"}  # units of no system
 
 FORCE_LABEL = r"force $\bar F = F\,/\,(E^* h L)$"
 OPEN: dict[str, Any] = {"markerfacecolor": "w", "zorder": 3}
@@ -110,3 +113,25 @@ def legend_dimensions(axes: Axes, dimensions: NDArray[np.float64]) -> None:
     wanted = {dimension_label(dimension) for dimension in dimensions}
     kept = [(h, label) for h, label in zip(handles, labels, strict=True) if label in wanted]
     axes.legend(*zip(*kept, strict=True), title="$D_f$", loc="lower right", ncols=2)
+
+
+def say(axes: Axes, text: str) -> None:
+    """Write a text in the middle of axes."""
+    axes.text(0.5, 0.5, text, ha="center", va="center", transform=axes.transAxes, wrap=True)
+
+
+def in_unit(
+    name: str, values: ArrayLike, unit: str | None, scale: float = 1.0
+) -> tuple[str, float]:
+    """Return the label of an axis with its unit, and the factor from the values to that unit.
+
+    The largest value chooses the prefix of an SI unit. A dimension such as "force/length", which
+    stands for any coherent unit, and None are left out of the label.
+    """
+    if unit in (None, "1") or _DIMENSIONS & set(unit.split("/")):
+        return name, scale
+    if unit not in SI:
+        return f"{name} [{unit}]", scale
+    largest = scale * float(np.nanmax(np.abs(values), initial=0.0))
+    factor, prefixed = prefix(largest, unit)
+    return f"{name} [{prefixed}]", factor * scale

@@ -11,13 +11,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughline.plot.bodies import draw_heights, label_sides
-from roughline.plot.contacts import draw_contact, say, yield_key
+from roughline.plot.bodies import draw_contact, draw_heights, label_sides, yield_key
 from roughline.plot.curves import draw_loads, rising
 from roughline.plot.pixels import any_marked
 from roughline.plot.spectra import draw_spectrum
-from roughline.plot.style import PAGE, new_figure, save, styled
-from roughline.plot.units import in_unit
+from roughline.plot.style import PAGE, in_unit, new_figure, save, say, styled
 from roughline.report.contact_tables import area_in_words
 from roughline.report.folder import make_folder
 from roughline.topography.body import Surface

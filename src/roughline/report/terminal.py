@@ -54,11 +54,12 @@ def print_assessment(
     console = Console(markup=False)
     console.print(_described(assessment.body), highlight=False, soft_wrap=True)
     curve, pair = assessment.curve, assessment.question.pair
-    model = "reduced model, exact" if curve.area_fraction is None else "full model"
-    boundary = curve.settings.get("boundary")
-    where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
+    model = "reduced model, exact"
+    if curve.area_fraction is not None:
+        boundary = "periodic" if curve.half_space.periodic else "free"
+        model = f"full model, {boundary} half-space, residuals below {curve.settings['rtol']}"
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
-    console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
+    console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}", highlight=False)
     folded = ""
     if pair is not None:
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)

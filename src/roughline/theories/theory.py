@@ -68,7 +68,7 @@ def theory(
     >>> print(persson.area_fraction.round(4), persson.stiffness.round(3))
     [0.0036 0.0356] [0.19  1.887]
     """
-    refuse_unknown(name)
+    one_of("name", name, THEORIES)
     if not isinstance(roughness, get_args(SurfaceOrSpectrum)):
         refuse("roughness", roughness, "a Surface or a spectrum is needed")
     positive("E_star", E_star, "a positive, finite contact modulus is needed")
@@ -83,8 +83,3 @@ def theory(
         )
         return replace(curve, validity=validity)
     return curve
-
-
-def refuse_unknown(name: str, argument: str = "name") -> None:
-    """Refuse a name, the value of an argument, that no theory has."""
-    one_of(argument, name, THEORIES)
