@@ -67,20 +67,9 @@ def claim_on(
     *,
     each: bool = True,
 ) -> Claim:
-    """Return a claim that the numbers of several cases lie in a range.
+    """Return a claim that the numbers of several cases lie in a range, or each in its own.
 
-    Parameters
-    ----------
-    statement, what : str
-        What is said, and what was found.
-    found : mapping of str to Found
-        The number of each case, by where it is.
-    allowed : tuple of float, or mapping
-        The range, or that of each case.
-    form : str
-        Format of the numbers.
-    each : bool, optional
-        Whether every number is told, or with False the smallest and the largest.
+    The numbers are told by where they are, every one, or else the smallest and the largest.
     """
     numbers = list(found.values())
     cases = [

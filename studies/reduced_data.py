@@ -57,12 +57,8 @@ class Reduced:
 def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
     """Return an ensemble of a store, of the plan's settings, dimensions and realisations.
 
-    A store may hold more than the plan asks for; the rest is left out.
-
-    Raises
-    ------
-    StoreError
-        If the ensemble is not there, has other settings, or is not done.
+    A store may hold more than the plan asks for; the rest is left out. An ensemble that is not
+    there, has other settings, or is not done is refused.
     """
     try:
         data = store.dataset(ensemble.name)
@@ -89,19 +85,7 @@ def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
 def write_groups(path: Path, plan: Plan, store: Store, names: Sequence[str]) -> None:
     """Write variables of all ensembles of a plan, a group for each, in single precision.
 
-    Parameters
-    ----------
-    path : Path
-        The file; it is written whole or not at all.
-    plan, store : Plan, Store
-        What was asked for, and a store that holds it.
-    names : sequence of str
-        Variables that are kept, as far as an ensemble has them.
-
-    Raises
-    ------
-    StoreError
-        As for :func:`finished`.
+    Variables are kept as far as an ensemble has them; the file is written whole or not at all.
     """
     unwritten = path.with_suffix(".part")
     unwritten.unlink(missing_ok=True)
@@ -119,13 +103,7 @@ def write_groups(path: Path, plan: Plan, store: Store, names: Sequence[str]) -> 
 
 
 def read_groups(path: Path, plan: Plan) -> dict[str, xarray.Dataset]:
-    """Read the data of a study, a Dataset in double precision for each ensemble of its plan.
-
-    Raises
-    ------
-    StoreError
-        If the file is missing or damaged, or is not that of the plan; the difference is named.
-    """
+    """Read the data of a study, a Dataset in double precision for each ensemble of its plan."""
     read = {}
     with _readable(path):
         for ensemble in plan.ensembles:
@@ -157,14 +135,7 @@ def write_one(path: Path, plan: dict[str, Any], data: xarray.Dataset) -> None:
 
 
 def read_one(path: Path, plan: dict[str, Any]) -> xarray.Dataset:
-    """Read data that are no ensembles.
-
-    Raises
-    ------
-    StoreError
-        If the file is missing or damaged, or was made from another plan; the first difference is
-        named.
-    """
+    """Read data that are no ensembles; those that were made from another plan are refused."""
     with _readable(path), xarray.open_dataset(path, engine="h5netcdf") as data:
         read = data.load()
     before = json.loads(read.attrs["plan"])
@@ -186,13 +157,7 @@ def _readable(path: Path) -> Iterator[None]:
 
 
 def refuse_other_settings(stored: dict[str, Any], ensemble: Ensemble, place: str) -> None:
-    """Refuse attributes of data that are not the settings of an ensemble of the plan.
-
-    Raises
-    ------
-    StoreError
-        With the first difference.
-    """
+    """Refuse attributes of data that are not the settings of an ensemble of the plan."""
     wanted = json.loads(json.dumps(ensemble.identity()))
     for key, value in wanted.items():
         found = stored.get(key)

@@ -81,16 +81,8 @@ def sample(kind: str, band: int, hurst: float) -> Sample:
 def log_kappa(areas: Real, pressure: Real, level: float, rng: int = 0) -> Resampled:
     """Logarithm of kappa where a share of the area is in contact, from the mean area.
 
-    Parameters
-    ----------
-    areas : ndarray, shape (realisations, loads)
-        A / A_0.
-    pressure : ndarray, shape (loads,)
-        p / (E* g).
-    level : float
-        The share. Between two loads, ln p is linear in ln A.
-    rng : int, optional
-        Seed of the resampling.
+    Areas A / A_0 are over realisations and loads, pressures p / (E* g) over loads. Between two
+    loads, ln p is linear in ln A.
     """
     between = _loads_around(areas.mean(axis=0), level)
     return bootstrap.function_of_means(

@@ -164,16 +164,8 @@ def sample(prefix: str, hardness_bar: float, fractal_dimension: float, *, every:
     """Return the surfaces of an ensemble and a fractal dimension.
 
     Values are read between the loads, linear in the logarithms. The stiffness of free surfaces is
-    that of the interface alone, 1 / k_i = 1 / k - 1 / k_s.
-
-    Parameters
-    ----------
-    prefix : str
-        First part of the name of the ensemble.
-    hardness_bar, fractal_dimension : float
-        Which hardness and surfaces.
-    every : int, optional
-        Read between every other load alone with 2, to compare with an ensemble that has no more.
+    that of the interface alone, 1 / k_i = 1 / k - 1 / k_s. To compare with an ensemble that has no
+    more, with `every` 2 values are read between every other load alone.
     """
     ensemble = plan().ensemble(name_of(prefix, hardness_bar))
     place = ensemble.fractal_dimensions.index(fractal_dimension)

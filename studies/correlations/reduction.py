@@ -49,13 +49,10 @@ def _seconds_of(ensemble: campaign.Ensemble) -> float:
 
 
 def heights_of(ensemble: campaign.Ensemble) -> dict[str, Real]:
-    """Return how Gaussian the heights of an ensemble are, over their rms.
+    """Return how Gaussian the heights of an ensemble are, over dimensions and realisations.
 
-    Returns
-    -------
-    dict of ndarray, shape (dimensions, realisations) or (dimensions, realisations, shares)
-        Skewness, excess kurtosis, and the shares of the area that lie above the heights above which
-        the shares `BEARING` of Gaussian surfaces lie.
+    By skewness, excess kurtosis, and the shares of the area that lie above the heights above which
+    the shares `BEARING` of Gaussian surfaces lie.
     """
     shape = (len(ensemble.fractal_dimensions), ensemble.realisations)
     found = {name: np.empty(shape) for name in ("skewness", "excess_kurtosis")}

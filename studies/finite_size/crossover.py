@@ -55,17 +55,7 @@ def scaling_exponent_of(hurst: float) -> float:
 
 
 def local_exponents(force: Real, stiffness: Real, confidence: float = 0.95) -> LocalExponents:
-    """Return the local exponents of a mean stiffness.
-
-    Parameters
-    ----------
-    force : ndarray, shape (loads,)
-        Rising forces.
-    stiffness : ndarray, shape (realisations, loads)
-        Stiffness under them.
-    confidence : float, optional
-        Of the intervals.
-    """
+    """Return the local exponents of the mean stiffness of realisations under rising forces."""
     found = []
     for i in range(1, force.size - 1):
         three = slice(i - 1, i + 2)

@@ -120,13 +120,7 @@ def publish() -> None:
 
 
 def refuse_another_plan() -> None:
-    """Refuse data of the package that are not those of the plan.
-
-    Raises
-    ------
-    StoreError
-        With the first difference.
-    """
+    """Refuse data of the package that are not those of the plan."""
     plan = campaign.read_plan(PLAN)
     for file_name, ensemble in ENSEMBLES.items():
         path = DATA / f"{file_name}.nc"

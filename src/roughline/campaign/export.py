@@ -22,30 +22,11 @@ if TYPE_CHECKING:
 def export(
     store: Store, folder: str | Path, formats: Sequence[str] = ("netcdf", "csv")
 ) -> list[Path]:
-    """Write every ensemble of a store to files.
+    """Write every ensemble of a store to a folder, and return the files; what is not done is NaN.
 
-    Parameters
-    ----------
-    store : Store
-        The results; what is not done yet is NaN.
-    folder : str or Path
-        Folder for the files; made if it does not exist.
-    formats : sequence of {"netcdf", "csv"}, optional
-        "netcdf": ``NAME.nc``, everything, with units and settings. "csv": ``NAME.csv``, a row for
-        each load of each case, and ``NAME_mean.csv``, a row for each load of each fractal
-        dimension with means, their intervals and the number of realisations.
-
-    Returns
-    -------
-    list of Path
-        The files.
-
-    Raises
-    ------
-    InputError
-        If a format is not known.
-    StoreError
-        If a file cannot be written.
+    "netcdf" is ``NAME.nc``, everything, with units and settings. "csv" is ``NAME.csv``, a row for
+    each load of each case, and ``NAME_mean.csv``, a row for each load of each fractal dimension
+    with means, their intervals and the number of realisations.
     """
     for wanted in formats:
         if wanted not in ("netcdf", "csv"):

@@ -31,24 +31,11 @@ _MULTIPOLES = 5  # beside the first
 def love(
     x: ArrayLike, y: ArrayLike, dx: float, dy: float, factor: float = 1.0, out: Real | None = None
 ) -> Real:
-    """Displacement per unit pressure on one cell, for E* = 1.
+    """Displacement per unit pressure on one cell, for E* = 1, shape (x.size, y.size). [length]
 
-    Parameters
-    ----------
-    x, y : array_like, 1-D
-        Offsets along x and along y from the centre of the loaded cell, in cells; not negative, and
-        those along y ascending.
-    dx, dy : float
-        Sides of the loaded cell. [length]
-    factor : float, optional
-        Factor on the displacements.
-    out : ndarray, optional
-        Where to write the result.
-
-    Returns
-    -------
-    ndarray, shape (x.size, y.size)
-        ``(1 / pi) * integral of 1/r over the cell``, accurate to about 1e-15. [length]
+    It is ``(1 / pi) * integral of 1/r over the cell``, accurate to about 1e-15, times a factor.
+    Offsets from the centre of the loaded cell are in cells; they are not negative, and those along
+    y ascend. The sides of the cell are lengths.
     """
     x, y, unit = np.asarray(x, np.float64), np.asarray(y, np.float64), max(dx, dy)
     out = np.empty((x.size, y.size)) if out is None else out
