@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -247,7 +247,9 @@ def _bounded(answer: PartAnswer, answers: Mapping[str, PartAnswer]) -> PartAnswe
     if not bounds or bounds[0][0] not in answers:
         return answer
     factor = math.exp(np.mean([math.log(factor) for _, factor in bounds]))
-    return answer.at_most(factor * answers[bounds[0][0]].high)
+    most = factor * answers[bounds[0][0]].high
+    high = np.where(np.isnan(answer.high), np.nan, np.fmin(answer.high, most))
+    return replace(answer, high=high)
 
 
 def _refuse_unlike(questions: Sequence[Question]) -> None:

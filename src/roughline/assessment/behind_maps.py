@@ -92,7 +92,11 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     )
     untold = "" if law is None else _longer_waves(same, law)
     if not untold and not beyond.is_told:
-        untold = _without_roll_off(beyond)
+        untold = (
+            f"the maps show no roll-off together, and the joint is {2**beyond.doublings:.3g} times "
+            "as long: the longer waves that they lack leave its stiffness open: map areas at least "
+            f"1/{2**MOST_DOUBLINGS:g} as long as the joint"
+        )
     if not untold and not tiles:
         untold = (
             f"maps without the error of their grid ({called('grid_error', True)}), or with fewer "
@@ -186,14 +190,6 @@ def _longer_waves(surfaces: Sequence[Surface], law: SelfAffineFit) -> str:
         f"the maps {said}, by an rms height of {rms}, and their own waves explain {explained}: "
         f"{cause} part has longer waves, on which its highest places bear more than the maps show: "
         f"{remedy}"
-    )
-
-
-def _without_roll_off(beyond: Beyond) -> str:
-    return (
-        f"the maps show no roll-off together, and the joint is {2**beyond.doublings:.3g} times as "
-        "long: the longer waves that they lack leave its stiffness open: map areas at least "
-        f"1/{2**MOST_DOUBLINGS:g} as long as the joint"
     )
 
 

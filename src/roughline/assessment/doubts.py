@@ -116,26 +116,21 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[st
             f"{text}: bodies that are strained so far are not linear elastic, and no interval "
             "includes that"
         )
-    if (index := _plasticity(result, spectrum)) > 1:
-        broken.append(
-            f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first touch; "
-            "under repeated loads they deform elastically about their flattened shape"
-        )
+    hardness = None if question.pair is None or result.curve.hardness else question.pair.hardness
+    if hardness is not None and spectrum is not None:  # no summit is given it
+        summits = spectrum.summit_deviation, spectrum.summit_radius
+        index = plasticity_index(result.curve.E_star, hardness, summits)
+        if index > 1:
+            broken.append(
+                f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first "
+                "touch; under repeated loads they deform elastically about their flattened shape"
+            )
     if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
         broken.append(
             "theories assume an isotropic surface, and the rms slope depends on direction: the "
             f"least is {alike:.2f} of the largest"
         )
     return broken + [each.warning for each in result.answers.values() if each.warning]
-
-
-def _plasticity(result: Assessment, spectrum: Moments | None) -> float:
-    """Greenwood and Williamson's index, where summits are not given a hardness; else zero."""
-    pair = result.question.pair
-    if pair is None or pair.hardness is None or spectrum is None or result.curve.hardness:
-        return 0.0
-    summits = spectrum.summit_deviation, spectrum.summit_radius
-    return plasticity_index(result.curve.E_star, pair.hardness, summits)
 
 
 def _of_full_contact(result: Assessment) -> list[str]:

@@ -23,7 +23,8 @@ _Value = TypeVar("_Value")
 class Parsed(Generic[_Value]):
     """An attribute of a frozen dataclass that is read, and checked, when it is given.
 
-    The default is what holds where nothing is given; without one, something has to be.
+    The default is what holds where nothing is given; without one, something has to be. A default of
+    None may be given as well.
     """
 
     def __init__(self, read: Callable[[Any], _Value], **default: Any) -> None:
@@ -42,12 +43,8 @@ class Parsed(Generic[_Value]):
         return self._default["default"]
 
     def __set__(self, instance: object, given: Any) -> None:
-        instance.__dict__[self._name] = self.read(given)
-
-
-def optional(read: Callable[[Any], _Value]) -> Callable[[Any], _Value | None]:
-    """A reader that leaves None as it is."""
-    return lambda given: None if given is None else read(given)
+        is_none = given is None and self._default == {"default": None}
+        instance.__dict__[self._name] = None if is_none else self.read(given)
 
 
 def several(given: Any) -> tuple[Any, ...]:
@@ -97,13 +94,13 @@ def body_or_path(given: Any, name: str) -> Body | Path:
     return replace(given, unit="m")
 
 
-def bodies_or_paths(given: Any, name: str) -> Body | Path | tuple[Body | Path, ...]:
+def bodies_or_paths(given: Any) -> Body | Path | tuple[Body | Path, ...]:
     """One body or path, or several of them; a file may not be named twice."""
     if isinstance(given, str | Path | np.ndarray) or not isinstance(given, Iterable):
-        return body_or_path(given, name)
-    found = tuple(body_or_path(each, name) for each in given)
+        return body_or_path(given, "body")
+    found = tuple(body_or_path(each, "body") for each in given)
     if not found:
-        raise InputError("holds no map; give at least one, better five", name)
+        raise InputError("holds no map; give at least one, better five", "body")
     paths = [each.resolve() for each in found if isinstance(each, Path)]
     for i, path in enumerate(paths):
         if path in paths[:i]:

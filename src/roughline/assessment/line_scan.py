@@ -124,7 +124,9 @@ def press_scan(
         whose = f"{('first', 'second')[which]} body: " if len(scans) > 1 else ""
         doubts += [whose + doubt for doubt in found]
     if doubts:
-        curve = replace(curve, warnings=(*map(_without_interval, doubts), *curve.warnings))
+        off = "the stiffness comes without an interval, and may be off by a factor of several"
+        warnings = [f"{doubt}; {off}: press a map" for doubt in doubts]
+        curve = replace(curve, warnings=(*warnings, *curve.warnings))
         low, high = (np.full(curve.stiffness.size, math.nan) for _ in range(2))
     return PressedScan(curve, low, high)
 
@@ -146,13 +148,6 @@ def _pressed(
         line = both.line(springs, np.random.SeedSequence(seed, spawn_key=(i,)))
         curves.append(press(replace(line, unit=scans[0].unit), E_star=E_star, forces=forces))
     return curves
-
-
-def _without_interval(doubt: str) -> str:
-    return (
-        f"{doubt}; the stiffness comes without an interval, and may be off by a factor of several: "
-        "press a map"
-    )
 
 
 def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:

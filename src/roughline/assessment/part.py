@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import reduce
 
 import numpy as np
@@ -76,11 +76,6 @@ class PartAnswer:
         ends = [each.ends or (each.values, each.values) for each in self.of_maps]
         low, high = (np.array([each[load] for each in side]) for side in zip(*ends, strict=True))
         return low, high
-
-    def at_most(self, most: Real) -> PartAnswer:
-        """The same, with upper ends of the interval not above `most`."""
-        high = np.where(np.isnan(self.high), np.nan, np.fmin(self.high, most))
-        return replace(self, high=high)
 
     @property
     def key(self) -> str:

@@ -25,7 +25,6 @@ from roughline.assessment.given import (
     as_si,
     bodies_or_paths,
     body_or_path,
-    optional,
     pair_of,
     quantity,
     several,
@@ -146,23 +145,20 @@ class Question:
     >>> question = rl.Question(surface, pair, loads="10 N", ask=asked)
     """
 
-    body: Parsed[Body | Path | tuple[Body | Path, ...]] = Parsed(
-        functools.partial(bodies_or_paths, name="body")
-    )
-    materials: Parsed[tuple[Material, Material] | None] = Parsed(optional(pair_of), default=None)
+    body: Parsed[Body | Path | tuple[Body | Path, ...]] = Parsed(bodies_or_paths)
+    materials: Parsed[tuple[Material, Material] | None] = Parsed(pair_of, default=None)
     E_star: Parsed[float | None] = Parsed(
-        optional(quantity("Pa", "E_star", "a positive, finite contact modulus is needed")),
-        default=None,
+        quantity("Pa", "E_star", "a positive, finite contact modulus is needed"), default=None
     )
     loads: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
     depths: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
     n_loads: int | None = None
     ask: Parsed[tuple[Asked, ...]] = Parsed(_checked, default=())
     against: Parsed[Body | Path | None] = Parsed(
-        optional(functools.partial(body_or_path, name="against")), default=None
+        functools.partial(body_or_path, name="against"), default=None
     )
     periodic: bool = False
-    hardness: Parsed[float | None] = Parsed(optional(_hardness), default=None)
+    hardness: Parsed[float | None] = Parsed(_hardness, default=None)
     elastic: bool = False
     grid_error: bool | None = None
     reading: Reading = field(default_factory=Reading)
