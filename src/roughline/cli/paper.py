@@ -137,15 +137,8 @@ def study_of(
 ) -> Study:
     """The study that the options describe.
 
-    Parameters
-    ----------
-    of_paper, windows : mapping
-        What was given for the paper's own study and for its windows, None where nothing was, by
-        names of options.
-    plan, store : Path or None
-        A plan of one's own, and its store.
-    out : Path
-        Folder for the report.
+    `of_paper` and `windows` are what was given for the paper's own study and for its windows, by
+    names of options, None where nothing was. `plan` and `store` are one's own.
 
     Raises
     ------

@@ -53,13 +53,7 @@ def refuse_empty(arguments: list[str]) -> None:
 
 
 def in_one_line(mistake: Any) -> str:
-    """Say what is wrong with a command.
-
-    Parameters
-    ----------
-    mistake : typer.exceptions.TyperException
-        What the parser raised; its kinds are known by what they carry.
-    """
+    """Say what is wrong with a command; the parser's mistakes are known by what they carry."""
     context = getattr(mistake, "ctx", None)
     command = getattr(context, "command", None)
     parameter, option = getattr(mistake, "param", None), getattr(mistake, "option_name", None)

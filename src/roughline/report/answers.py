@@ -32,16 +32,9 @@ _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
 
 @dataclass(frozen=True)
 class Group:
-    """Answers about one thing.
+    """Answers about one thing, by their keys, and the one that stands for them all.
 
-    Attributes
-    ----------
-    name : str
-        Such as "mechanics".
-    keys : sequence of str
-        Of its answers.
-    headline : str
-        Key of the answer that stands for it: its first leading one, or else its first.
+    That is the first leading one, or else the first.
     """
 
     name: str

@@ -32,16 +32,9 @@ _STEPS = (
 
 
 def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: str) -> list[Path]:
-    """Write ``report.html``, ``report.pdf``, ``curve.nc`` and the figures.
+    """Write ``report.html``, ``report.pdf``, ``curve.nc`` and the figures, of two materials.
 
-    Parameters
-    ----------
-    assessment : Assessment
-        With answers for two materials.
-    folder : Path
-        Made if it does not exist.
-    how_to_repeat : str
-        The command, or the lines of Python, that give the same report.
+    `how_to_repeat` is the command, or the lines of Python, that give the same report.
 
     Raises
     ------

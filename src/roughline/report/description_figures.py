@@ -33,13 +33,6 @@ _MISSING = "tab:red"
 def write_description(description: Description, out: Path) -> list[Path]:
     """Write figures of the file and of the roughness, and the prepared body.
 
-    Parameters
-    ----------
-    description : Description
-        Of a topography.
-    out : Path
-        Folder; made if it does not exist.
-
     Raises
     ------
     StoreError

@@ -145,10 +145,7 @@ def _rows_of_roughness(
             ("roll-off wavelength", _wavelength(fit.q_roll, fit.q_roll_interval, "none")),
             ("cutoff wavelength", _wavelength(fit.q_high, fit.q_high_interval, "the grid's")),
             ("blur of the instrument", _blur(fit)),
-            (
-                "self-affine",
-                _verdict(fit, departures),
-            ),
+            ("self-affine", _verdict(fit, departures)),
         ]
     return rows
 

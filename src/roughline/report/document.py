@@ -67,18 +67,8 @@ def write_document(
 ) -> list[Path]:
     """Write ``report.html`` and ``report.pdf``, with the date and version that made them.
 
-    Parameters
-    ----------
-    result : Assessment or PartAssessment
-        What is reported on.
-    folder : Path
-        Where to.
-    title : str
-        Heads the page.
-    own : sequence of Section
-        What only such a report has; stands between the notes and the formulas.
-    how_to_repeat : sequence of str
-        Paragraphs on what gives the same numbers again.
+    The sections of its `own`, which only such a report has, stand between the notes and the
+    formulas.
 
     Raises
     ------

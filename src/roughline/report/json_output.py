@@ -165,20 +165,9 @@ def of_description(description: Description, files: Sequence[Path] = ()) -> dict
         else {
             name: getattr(fit, name)
             for name in (
-                "hurst",
-                "hurst_interval",
-                "q_roll",
-                "q_roll_interval",
-                "q_high",
-                "q_high_interval",
-                "corner",
-                "blur",
-                "blur_interval",
-                "q_tail",
-                "C_0",
-                "rms_interval",
-                "scatter",
-                "objections",
+                *("hurst", "hurst_interval", "q_roll", "q_roll_interval"),
+                *("q_high", "q_high_interval", "corner", "blur", "blur_interval"),
+                *("q_tail", "C_0", "rms_interval", "scatter", "objections"),
             )
         },
         "remarks": parameters.remarks if parameters is not None else [],

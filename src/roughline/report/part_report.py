@@ -46,14 +46,8 @@ _MOST_HEIGHTS = 16  # maps whose heights are drawn, so that the figure fits a sh
 def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) -> list[Path]:
     """Write ``report.html``, ``report.pdf``, figures, and each map's report in a folder of its own.
 
-    Parameters
-    ----------
-    part : PartAssessment
-        With the fields of one load of each map.
-    folder : Path
-        Made if it does not exist.
-    how_to_repeat : str
-        The command, or the lines of Python, that give the same report.
+    The maps need the fields of one load. `how_to_repeat` is the command, or the lines of Python,
+    that give the same report.
 
     Raises
     ------

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Protocol
 
 from rich.console import Console
 from rich.progress import (
@@ -37,7 +36,7 @@ def campaign_progress() -> Iterator[Callable[[str, int, int, int], None]]:
     with _bars() as show:
 
         def progress(name: str, done: int, failed: int, total: int) -> None:
-            show(f"{name}, {failed} failed" if failed else name, done, total, key=name)
+            show(name, done, total, f"{name}, {failed} failed" if failed else name)
 
         yield progress
 
@@ -46,7 +45,7 @@ def campaign_progress() -> Iterator[Callable[[str, int, int, int], None]]:
 def load_progress() -> Iterator[Callable[[int, int], None]]:
     """Show a bar over the loads of one body; gives the callback."""
     with _bars() as show:
-        yield lambda done, total: show("loads", done, total, key="loads")
+        yield lambda done, total: show("loads", done, total)
 
 
 @contextmanager
@@ -63,24 +62,20 @@ def part_progress() -> Iterator[tuple[Callable[[int, int], None], Callable[[int,
             nonlocal last
             last = done, total
             if is_pressing:
-                show("maps", done, total, key="maps")
+                show("maps", done, total)
 
         def loads(done: int, total: int) -> None:
             nonlocal is_pressing
             is_pressing = True
             maps(*last)
-            show("loads of this map", done, total, key="loads")
+            show("loads of this map", done, total)
 
         yield maps, loads
 
 
-class _Show(Protocol):
-    def __call__(self, name: str, done: int, total: int, *, key: str) -> None: ...
-
-
 @contextmanager
-def _bars() -> Iterator[_Show]:
-    """Bars by name, on standard error; nothing is drawn before the first call."""
+def _bars() -> Iterator[Callable[..., None]]:
+    """Bars by their keys, on standard error; nothing is drawn before the first call."""
     progress = Progress(
         TextColumn("{task.description:<22}"),
         BarColumn(),
@@ -93,13 +88,13 @@ def _bars() -> Iterator[_Show]:
     )
     tasks: dict[str, TaskID] = {}
 
-    def show(name: str, done: int, total: int, *, key: str) -> None:
+    def show(key: str, done: int, total: int, name: str = "") -> None:
         if not tasks:
             progress.start()
         if key not in tasks:
             # a bar that starts half full tells its time from what is added
-            tasks[key] = progress.add_task(name, total=total, completed=done)
-        progress.update(tasks[key], completed=done, description=name)
+            tasks[key] = progress.add_task(key, total=total, completed=done)
+        progress.update(tasks[key], completed=done, description=name or key)
 
     try:
         yield show
