@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
-from roughline.lab.explore.address import state_of as explore_state
+from roughline.lab.explore.state import state_of as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, question_of, said_of
 from roughline.lab.published import controls as published
@@ -17,10 +17,16 @@ from roughline.lab.published.state import state_of as published_state
 from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
-NUMBERS = (explore.D_F, explore.ROLL_OFF, explore.CUTOFF, explore.HEIGHT, explore.SLOPE)
-NUMBERS += (explore.FORCE, explore.HARDNESS)
+NUMBERS = (
+    explore.NUMBERS["D_f"],
+    explore.NUMBERS["roll_off"],
+    explore.NUMBERS["cutoff"],
+    explore.NUMBERS["h"],
+    explore.NUMBERS["slope"],
+)
+NUMBERS += (explore.NUMBERS["F"], explore.NUMBERS["hardness_bar"])
 DIMENSIONS = [f"{each:g}" for each in published.DIMENSIONS]
-WORDS = (explore.ROUGHNESS, explore.BOUNDARY, explore.SHOWN)
+WORDS = (explore.CHOICES["rms"], explore.CHOICES["boundary"], explore.CHOICES["shown"])
 
 
 def texts(control):
@@ -49,7 +55,9 @@ STATES = some(
         "seed": st.integers(0, 999_999).map(str),
         "L": quantities("m", 1e-12, 1e3),
         "E": quantities("Pa", 1, 1e14),
-        "theories": st.lists(st.sampled_from(list(explore.THEORIES.options))).map(",".join),
+        "theories": st.lists(st.sampled_from(list(explore.CHOICES["theories"].options))).map(
+            ",".join
+        ),
     }
 )
 WITH_UNITS = some(
@@ -76,8 +84,10 @@ def test_an_address_of_explore_gives_its_state_again(said, with_units):
 @given(
     some(
         {
-            **{each.key: texts(each) for each in published.NUMBERS},
-            **{each.key: st.sampled_from(list(each.options)) for each in published.CHOICES},
+            **{each.key: texts(each) for each in published.NUMBERS.values()},
+            **{
+                each.key: st.sampled_from(list(each.options)) for each in published.CHOICES.values()
+            },
             "D_f": st.lists(st.sampled_from(DIMENSIONS), min_size=1).map(",".join),
         }
     )
@@ -137,4 +147,4 @@ def test_a_link_of_my_surface_of_an_older_lab_is_read(link):
 
 
 def test_the_fewest_points_that_a_lab_may_allow_can_be_chosen():
-    assert min(map(int, explore.POINTS.options)) == LEAST_POINTS
+    assert min(map(int, explore.CHOICES["n"].options)) == LEAST_POINTS

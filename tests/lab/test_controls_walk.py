@@ -9,7 +9,13 @@ from roughline.lab.explore import controls as explore
 from roughline.lab.published import controls as published
 
 OPENED = "?view=explore&v=1&D_f=2.4&seed=3&n=128"
-SLIDERS = (explore.D_F, explore.ROLL_OFF, explore.CUTOFF, explore.HEIGHT, explore.FORCE)
+SLIDERS = (
+    explore.NUMBERS["D_f"],
+    explore.NUMBERS["roll_off"],
+    explore.NUMBERS["cutoff"],
+    explore.NUMBERS["h"],
+    explore.NUMBERS["F"],
+)
 
 SAID_AT_EVERY_STEP = """async (view) => {
   const {Controls} = await import("/lab/controls.js");
@@ -71,7 +77,9 @@ def dragged(page, slider, share):
 def test_every_slider_of_explore_reaches_both_ends_and_its_default(page_of_explore, rms):
     page = page_of_explore
     page.check(f'#explore [data-key="rms"][value="{rms}"]')
-    controls = SLIDERS if rms == "height" else (explore.SLOPE, explore.HARDNESS)
+    controls = (
+        SLIDERS if rms == "height" else (explore.NUMBERS["slope"], explore.NUMBERS["hardness_bar"])
+    )
     if rms == "slope":
         page.check("#explore-yields")
     for control in controls:
@@ -146,7 +154,7 @@ def test_sliders_and_texts_of_the_paper(pages):
     page.locator("#published-low_3D-text").press("Tab")
     page.locator('#published [data-error="low_3D"]', has_text="0.01 is used").wait_for()
     point = page.locator("#published [data-point]")
-    for control in (published.TOLERANCE, published.MAP_DIMENSION, published.MAP_FORCE):
+    for control in map(published.NUMBERS.get, ("tolerance", "map_D_f", "map_F")):
         slider = page.locator(f"#published-{control.key}")
         for share, end in ((0, control.low), (1, control.high)):
             before = point.inner_text()

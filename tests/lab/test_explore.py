@@ -15,8 +15,7 @@ from lab.unpacked import unpacked
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
-from roughline.lab.explore.address import state_of
-from roughline.lab.explore.state import ExploreState
+from roughline.lab.explore.state import ExploreState, state_of
 from roughline.lab.frames import frame
 from roughline.report.values import value_and_interval, with_interval
 from roughline.units import supported_digits

@@ -6,8 +6,8 @@ import pytest
 from lab.unpacked import unpacked
 from roughline.lab.controls import usable
 from roughline.lab.explore import controls as explore
-from roughline.lab.explore.address import state_of as explore_state
 from roughline.lab.explore.state import ExploreState
+from roughline.lab.explore.state import state_of as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import PublishedState
@@ -44,12 +44,11 @@ def test_texts_of_explore():
             assert refused or text not in ("abc", "nan", "inf", "٣", "<b>x</b>")
             kept = found.texts()
             assert all(kept[k] == state[k] for k in ("n", "F", "D_f") if k != key)
-    assert explore.D_F.key in state
+    assert explore.NUMBERS["D_f"].key in state
 
 
 def test_texts_of_the_paper():
-    keys = [each.key for each in (*published.NUMBERS, *published.CHOICES)]
-    for key in [*keys, published.DIMENSIONS_KEY]:
+    for key in (*published.NUMBERS, *published.CHOICES, "D_f"):
         for text in TEXTS:
             found, refused = usable({"state": {key: text}}, published_state, PublishedState.address)
             check(key, text, refused)

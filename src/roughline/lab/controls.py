@@ -59,10 +59,10 @@ class Control:
         What the field calls it, and in words.
     low, high, default : float
         Its range.
-    scale : {"linear", "logarithmic", "whole"}
-        How the slider runs; "whole" allows whole numbers alone.
     meaning : str
         One sentence, with its unit.
+    scale : {"linear", "logarithmic", "whole"}
+        How the slider runs; "whole" allows whole numbers alone.
     step : float
         Of the slider, in the number or, on a logarithmic scale, in decades.
     """
@@ -73,9 +73,9 @@ class Control:
     low: float
     high: float
     default: float
-    scale: Literal["linear", "logarithmic", "whole"]
     meaning: str
-    step: float
+    scale: Literal["linear", "logarithmic", "whole"] = "logarithmic"
+    step: float = 0.02
 
     def read(self, text: str) -> float:
         """Return the number in a text.
@@ -111,6 +111,10 @@ class Control:
         if self.scale == "whole" and value != math.floor(value):
             raise ControlError(f"{self.name} is {value:g}; give a whole number", self.key)
         return value
+
+    def read_in(self, texts: Texts) -> float:
+        """Return the number in the text of this control, or its default if there is none."""
+        return self.read(texts.get(self.key, str(self.default)))
 
     @property
     def range(self) -> str:
@@ -152,6 +156,10 @@ class Choice:
             allowed = ", ".join(self.options)
             raise ControlError(f"{self.name} is {shown(text)}; allowed are {allowed}", self.key)
         return str(text)
+
+    def read_in(self, texts: Texts) -> str:
+        """Return the word of this control, or its default if there is no text."""
+        return self.read(texts.get(self.key, self.default))
 
 
 def is_number(text: str) -> bool:

@@ -7,10 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from roughline.assessment.question import UNLOADING
-from roughline.lab.controls import texts_of
-from roughline.lab.explore.address import state_of
-from roughline.lab.explore.bodies import hardness, rms_height
-from roughline.lab.explore.state import ExploreState
+from roughline.lab.explore.state import ExploreState, state_in
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Progress
 
@@ -22,12 +19,12 @@ print("largest indentation over rms height", curve.indentation[0] / surface.rms_
 
 def code(arguments: Mapping[str, Any], progress: Progress) -> bytes:
     """The code of a state: `which` says in what language."""
-    state = state_of(texts_of(arguments), arguments["session"]["max_points"])
-    text = as_python(state) if arguments.get("which") == "python" else as_command(state)
+    state = state_in(arguments)
+    text = _as_python(state) if arguments.get("which") == "python" else _as_command(state)
     return frame({"text": text})
 
 
-def as_python(state: ExploreState) -> str:
+def _as_python(state: ExploreState) -> str:
     """Lines that generate the surface, and press it as the page does."""
     periodic = ", periodic=True" if state.periodic else ""
     hardness_line, forces, of_yield = "", "forces=[force]", ""
@@ -45,7 +42,7 @@ E_star = {_number(state.E_star)}  # Pa
 spectrum = rl.SelfAffine(
     fractal_dimension={_number(state.D_f)},
     length=length,
-    rms_height={_number(rms_height(state))},
+    rms_height={_number(state.rms_height)},
     q_roll=2 * math.pi / ({_number(state.roll_off)} * length),
     q_high=2 * math.pi / ({_number(state.cutoff_used)} * length),
 )
@@ -59,14 +56,13 @@ print("depth over rms height", curve.depth[0] / surface.rms_height)
 {of_yield}"""
 
 
-def as_command(state: ExploreState) -> str:
+def _as_command(state: ExploreState) -> str:
     """Commands that write the surface to a file, and press it."""
-    force = state.F * state.E_star * rms_height(state) * state.length
-    borne = hardness(state)
+    borne = state.hardness
     generate = [
         *("roughline", "generate", "--out", "surface.nc"),
         *("--length", f"{_number(state.length)} m"),
-        *("--rms-height", f"{_number(rms_height(state))} m"),
+        *("--rms-height", f"{_number(state.rms_height)} m"),
         *("--fractal-dimension", _number(state.D_f)),
         *("--roll-off", f"{_number(state.roll_off * state.length)} m"),
         *("--cutoff", f"{_number(state.cutoff_used * state.length)} m"),
@@ -74,7 +70,12 @@ def as_command(state: ExploreState) -> str:
     ]
     press = [
         *("roughline", "press", "surface.nc"),
-        *("--modulus", f"{_number(state.E_star)} Pa", "--load", f"{_number(force)} N"),
+        *(
+            "--modulus",
+            f"{_number(state.E_star)} Pa",
+            "--load",
+            f"{_number(state.force(state.F))} N",
+        ),
         *(["--periodic"] if state.periodic else []),
         *(["--hardness", f"{_number(borne)} Pa", "--unload"] if borne is not None else []),
     ]

@@ -4,141 +4,133 @@ from __future__ import annotations
 
 from roughline.lab.controls import Choice, Control
 
-D_F = Control(
-    "D_f",
-    "D_f",
-    "fractal dimension",
-    2.0,
-    3.0,
-    2.2,
-    "linear",
-    "How rough the surface is on small scales: 2 is smooth, 3 fills space; D_f = 3 - H, with the "
-    "Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
-    0.02,
+_NUMBERS = (
+    Control(
+        "D_f",
+        "D_f",
+        "fractal dimension",
+        2.0,
+        3.0,
+        2.2,
+        "How rough the surface is on small scales: 2 is smooth, 3 fills space; D_f = 3 - H, with "
+        "the Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
+        scale="linear",
+    ),
+    Control(
+        "roll_off",
+        "λ_r/L",
+        "roll-off wavelength",
+        1 / 32,
+        1.0,
+        1.0,
+        "The spectrum is flat for waves longer than this. Relative to the side of the surface, "
+        "or with a unit, such as 0.2 mm; at 1 there is no plateau.",
+    ),
+    Control(
+        "cutoff",
+        "λ_s/L",
+        "cutoff wavelength",
+        1 / 512,
+        0.5,
+        1 / 512,
+        "Length of the shortest wave. Relative to the side of the surface, or with a unit; n "
+        "points along a side carry no waves shorter than 2/n, which is the default of each grid.",
+    ),
+    Control(
+        "h",
+        "h/L",
+        "rms height",
+        1e-6,
+        0.1,
+        1e-3,
+        "Root-mean-square height. Relative to the side of the surface, or with a unit: 0.3 um.",
+    ),
+    Control(
+        "slope",
+        "∇h",
+        "rms slope",
+        1e-4,
+        1.0,
+        0.1,
+        "Root-mean-square slope of the surface on its grid, without unit; the theory assumes "
+        "small slopes.",
+    ),
+    Control(
+        "seed",
+        "seed",
+        "seed",
+        0,
+        999_999,
+        7,
+        "Selects one of all random surfaces: the same seed gives the same surface, with more "
+        "detail on a finer grid.",
+        scale="whole",
+        step=1,
+    ),
+    Control(
+        "F",
+        "F̄",
+        "load",
+        1e-4,
+        10.0,
+        0.1,
+        "Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean "
+        "pressure such as 2 MPa.",
+    ),
+    Control(
+        "hardness_bar",
+        "H/(E*∇h)",
+        "hardness",
+        0.02,
+        5.0,
+        0.5,
+        "Largest pressure that a point bears, over E* times the rms slope on the grid, or with a"
+        " unit, such as 2 GPa. Where it is reached, the surface is permanently indented.",
+    ),
 )
-ROLL_OFF = Control(
-    "roll_off",
-    "λ_r/L",
-    "roll-off wavelength",
-    1 / 32,
-    1.0,
-    1.0,
-    "logarithmic",
-    "The spectrum is flat for waves longer than this. Relative to the side of the surface, or with "
-    "a unit, such as 0.2 mm; at 1 there is no plateau.",
-    0.02,
+_CHOICES = (
+    Choice(
+        "n",
+        "points along a side",
+        {str(n): str(n) for n in (64, 128, 256, 512, 1024)},
+        "512",
+        "Points along a side of the grid: more points give finer waves and take longer.",
+    ),
+    Choice(
+        "rms",
+        "roughness by",
+        {"height": "rms height", "slope": "rms slope"},
+        "height",
+        "Which of the two is kept when the spectrum changes.",
+    ),
+    Choice(
+        "boundary",
+        "around the surface",
+        {"free": "free", "periodic": "periodic"},
+        "free",
+        "Free: the half-space continues, unloaded, around the surface. Periodic: the surface is "
+        "repeated without end; the stiffness is then that of the interface alone.",
+    ),
+    Choice(
+        "shown",
+        "contact as",
+        {"area": "area", "pressure": "pressure", "gap": "gap", "displacement": "displacement"},
+        "area",
+        "Quantity that the second map shows.",
+    ),
+    Choice(
+        "theories",
+        "theory",
+        {
+            "persson": "Persson",
+            "bush-gibson-thomas": "Bush, Gibson, Thomas",
+            "greenwood-williamson": "Greenwood, Williamson",
+        },
+        meaning="Theories for the same waves, drawn with the curves; they hold for periodic "
+        "surfaces.",
+    ),
 )
-CUTOFF = Control(
-    "cutoff",
-    "λ_s/L",
-    "cutoff wavelength",
-    1 / 512,
-    0.5,
-    1 / 512,
-    "logarithmic",
-    "Length of the shortest wave. Relative to the side of the surface, or with a unit; n points "
-    "along a side carry no waves shorter than 2/n, which is the default of each grid.",
-    0.02,
-)
-HEIGHT = Control(
-    "h",
-    "h/L",
-    "rms height",
-    1e-6,
-    0.1,
-    1e-3,
-    "logarithmic",
-    "Root-mean-square height. Relative to the side of the surface, or with a unit: 0.3 um.",
-    0.02,
-)
-SLOPE = Control(
-    "slope",
-    "∇h",
-    "rms slope",
-    1e-4,
-    1.0,
-    0.1,
-    "logarithmic",
-    "Root-mean-square slope of the surface on its grid, without unit; the theory assumes small "
-    "slopes.",
-    0.02,
-)
-SEED = Control(
-    "seed",
-    "seed",
-    "seed",
-    0,
-    999_999,
-    7,
-    "whole",
-    "Selects one of all random surfaces: the same seed gives the same surface, with more detail on "
-    "a finer grid.",
-    1,
-)
-FORCE = Control(
-    "F",
-    "F̄",
-    "load",
-    1e-4,
-    10.0,
-    0.1,
-    "logarithmic",
-    "Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean pressure "
-    "such as 2 MPa.",
-    0.02,
-)
-HARDNESS = Control(
-    "hardness_bar",
-    "H/(E*∇h)",
-    "hardness",
-    0.02,
-    5.0,
-    0.5,
-    "logarithmic",
-    "Largest pressure that a point bears, over E* times the rms slope on the grid, or with a unit, "
-    "such as 2 GPa. Where it is reached, the surface is permanently indented.",
-    0.02,
-)
-YIELDS = (
-    "Points at which the pressure reaches the hardness bear no more and are permanently indented; "
-    "without a hardness both bodies are elastic."
-)
-POINTS = Choice(
-    "n",
-    "points along a side",
-    {str(n): str(n) for n in (64, 128, 256, 512, 1024)},
-    "512",
-    "Points along a side of the grid: more points give finer waves and take longer.",
-)
-ROUGHNESS = Choice(
-    "rms",
-    "roughness by",
-    {"height": "rms height", "slope": "rms slope"},
-    "height",
-    "Which of the two is kept when the spectrum changes.",
-)
-BOUNDARY = Choice(
-    "boundary",
-    "around the surface",
-    {"free": "free", "periodic": "periodic"},
-    "free",
-    "Free: the half-space continues, unloaded, around the surface. Periodic: the surface is "
-    "repeated without end; the stiffness is then that of the interface alone.",
-)
-SHOWN = Choice(
-    "shown",
-    "contact as",
-    {"area": "area", "pressure": "pressure", "gap": "gap", "displacement": "displacement"},
-    "area",
-    "Quantity that the second map shows.",
-)
-THEORIES = Choice(
-    "theories",
-    "theory",
-    {
-        "persson": "Persson",
-        "bush-gibson-thomas": "Bush, Gibson, Thomas",
-        "greenwood-williamson": "Greenwood, Williamson",
-    },
-    meaning="Theories for the same waves, drawn with the curves; they hold for periodic surfaces.",
-)
+NUMBERS = {each.key: each for each in _NUMBERS}
+"""Numbers by their keys."""
+CHOICES = {each.key: each for each in _CHOICES}
+"""Choices by their keys."""

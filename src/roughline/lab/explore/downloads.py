@@ -9,9 +9,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import roughline as rl
-from roughline.lab.controls import ControlError, texts_of
-from roughline.lab.explore.address import state_of
-from roughline.lab.explore.bodies import hardness, rms_height, surface_of
+from roughline.lab.controls import ControlError
+from roughline.lab.explore.state import state_in
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Progress
 from roughline.report.contact_figures import write_contact
@@ -28,20 +27,19 @@ def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
     name = arguments.get("name")
     if name not in FILES:
         raise ControlError(f"there is no such file; there are {', '.join(FILES)}")
-    state = state_of(texts_of(arguments), arguments["session"]["max_points"])
+    state = state_in(arguments)
     folder = Path(arguments["session"]["folder"]) / "results"
     folder.mkdir(parents=True, exist_ok=True)
-    surface = surface_of(state, state.n)
+    surface = state.surface(state.n)
     if name == "surface.nc":
         rl.write(surface, folder / name)
         return frame({"file": name})
-    force = state.F * state.E_star * rms_height(state) * state.length
     result = rl.assess_body(
         rl.Question(
             surface,
             E_star=state.E_star,
-            loads=force,
-            hardness=hardness(state),
+            loads=state.force(state.F),
+            hardness=state.hardness,
             ask=[
                 rl.WholeCurve(),
                 *([rl.Theories(*state.theories)] if state.theories else []),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,18 +14,7 @@ import roughline as rl
 from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import as_text
-from roughline.lab.explore.address import usable_state
-from roughline.lab.explore.bodies import (
-    LINES,
-    hardness,
-    lines_of,
-    most_force_bar,
-    rms_height,
-    spectrum_of,
-    surface_of,
-)
-from roughline.lab.explore.controls import CUTOFF
-from roughline.lab.explore.state import ExploreState
+from roughline.lab.explore.state import ExploreState, usable_state
 from roughline.lab.explore.words import (
     area_rows,
     contact_words,
@@ -39,10 +29,12 @@ from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Progress
 from roughline.report.shading import shaded
 
-COARSE, COARSER = 128, 64
+_COARSE, _COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
-FEWER_LINES = 5
-"""Lines of the reduced model when many ask at once."""
+_LINES, _FEWER_LINES = 20, 5
+"""Lines whose mean stiffness stands for the reduced model, and when many ask at once."""
+_SPRINGS_PER_POINT = 32
+_FEWEST_SPRINGS = 2**13
 _FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
@@ -60,7 +52,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     In a crowd it is that of fewer lines first; the page asks for the others by "refines".
     """
     state, refused = usable_state(arguments)
-    lines = lines_of(state, FEWER_LINES if _is_first_step(arguments) else LINES)
+    lines = _lines_of(state, _FEWER_LINES if _is_first_step(arguments) else _LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
@@ -77,7 +69,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
             "stiffness_bar_1d": float(mean[here]),
             "table": [[*row, "1D"] for row in number_rows(forces, mean)],
             "strip": line_words(state, float(mean[here]), len(lines)),
-            "is_coarse": len(lines) < LINES,
+            "is_coarse": len(lines) < _LINES,
         }
     )
 
@@ -86,7 +78,7 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
     state, refused = usable_state(arguments)
     crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
-    n = min(state.n, COARSER if crowded else COARSE)
+    n = min(state.n, _COARSER if crowded else _COARSE)
     return _contact(state, refused, n, progress)
 
 
@@ -104,8 +96,8 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     """Stiffness and area over force of the surface, and of theories."""
     state, refused = usable_state(arguments)
     n = min(state.n, _CURVE_POINTS)
-    surface = surface_of(state, n)
-    most = _MOST_OF_HARDNESS * most_force_bar(state)
+    surface = state.surface(n)
+    most = _MOST_OF_HARDNESS * state.most_force_bar
     pressed = _pressed(state, surface, _CURVE_FORCES[most > _CURVE_FORCES], progress)
     return frame(
         {
@@ -124,7 +116,7 @@ def unloading(arguments: Arguments, progress: Progress) -> bytes:
     state, refused = usable_state(arguments)
     n = min(state.n, _CURVE_POINTS)
     loads = state.F * np.array([1.0, *UNLOADING])
-    pressed = _pressed(state, surface_of(state, n), loads, progress)
+    pressed = _pressed(state, state.surface(n), loads, progress)
     return frame(
         {
             **_settled(state, refused),
@@ -139,7 +131,7 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
     """The contact on a grid; on the grid of the state, with what finer ones may change."""
     started = time.perf_counter()
     is_coarse = n < state.n
-    surface = surface_of(state, n)
+    surface = state.surface(n)
     loads = np.array([state.F])
     pressed = _pressed(state, surface, loads, progress, fields=True, grid_error=not is_coarse)
     fields = pressed.fields[0]
@@ -175,10 +167,10 @@ def _is_first_step(arguments: Arguments) -> bool:
 
 def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
     """What the page is told of its controls: what counts, and what is not used and why."""
-    if state.cutoff not in (CUTOFF.default, state.cutoff_used):
+    if state.cutoff not in (ExploreState.cutoff, state.cutoff_used):
         finest = f"{as_text(state.shortest)} sides"
         why = f"{state.n} points carry no waves shorter than {finest}; that is used meanwhile"
-        refused = {CUTOFF.key: why, **refused}
+        refused = {"cutoff": why, **refused}
     names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "n", "F", "hardness_bar")
     values = {name: getattr(state, name) for name in names} | {"cutoff": state.cutoff_used}
     return {
@@ -202,8 +194,8 @@ def _pressed(
     return rl.press(
         surface,
         E_star=state.E_star,
-        hardness=hardness(state),
-        forces=_force(state, force_bar),
+        hardness=state.hardness,
+        forces=state.force(force_bar),
         periodic=state.periodic,
         fields=fields,
         grid_error=grid_error,
@@ -212,9 +204,15 @@ def _pressed(
     )
 
 
-def _force(state: ExploreState, force_bar: Any) -> Any:
-    """Forces F = F̄ E* h L. [N]"""
-    return force_bar * (state.E_star * rms_height(state) * state.length)
+def _lines_of(state: ExploreState, count: int) -> tuple[rl.Line, ...]:
+    """Lines of the spectrum of a state, with the waves of its surface. [m]"""
+    springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
+    return _lines(state.spectrum(state.n), springs, state.seed, count)
+
+
+@lru_cache(maxsize=2)
+def _lines(spectrum: rl.SelfAffine, springs: int, seed: int, count: int) -> tuple[rl.Line, ...]:
+    return tuple(spectrum.line(springs, seed + i) for i in range(count))
 
 
 def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> rl.Curve:
@@ -241,7 +239,7 @@ def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d > 0
     q, power = measured.q[known], measured.C_2d[known]
-    law = spectrum_of(state, state.n).lattice(state.n).C_2d(q)
+    law = state.spectrum(state.n).lattice(state.n).C_2d(q)
     waves = q * state.length / (2 * np.pi)
     shown = slice(None, None, -(-waves.size // _MOST_ROWS))
     return {
@@ -257,7 +255,7 @@ def _of_theory(name: str, surface: rl.Surface, state: ExploreState) -> dict[str,
     forces = np.geomspace(1e-3, 3, 31)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", rl.ContinuumWarning)  # its sentence is in the validity
-        found = rl.theory(name, surface, state.E_star, _force(state, forces) / surface.area)
+        found = rl.theory(name, surface, state.E_star, state.force(forces) / surface.area)
     stiffness = None
     if found.stiffness is not None:
         stiffness = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)

@@ -7,16 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from roughline.errors.checks import shown
-from roughline.lab.controls import (
-    VERSION,
-    Choice,
-    Control,
-    ControlError,
-    Texts,
-    as_text,
-    refuse_strange,
-)
-from roughline.lab.published import controls as c
+from roughline.lab.controls import VERSION, ControlError, Texts, as_text, refuse_strange
+from roughline.lab.published.controls import CHOICES, DIMENSIONS, MODELS, NUMBERS, WINDOWS
 
 Window = tuple[float, float]
 
@@ -55,16 +47,14 @@ class PublishedState:
 
     def address(self) -> dict[str, str]:
         """What the address says of this state: the version, and all that is chosen."""
-        said = {
+        return {
             "v": VERSION,
-            c.DIMENSIONS_KEY: ",".join(f"{each:g}" for each in self.dimensions),
-            c.AVERAGING.key: self.mean,
-            c.PUNCH.key: self.punch,
-        }
-        return said | {
+            "D_f": ",".join(f"{each:g}" for each in self.dimensions),
+            "mean": self.mean,
+            "punch": self.punch,
             **{key: as_text(value) for key, value in self.numbers().items()},
-            c.ROLL_OFF.key: f"{self.roll_off:g}",
-            c.CLAIMS.key: self.claims,
+            "roll_off": f"{self.roll_off:g}",
+            "claims": self.claims,
         }
 
     def numbers(self) -> dict[str, float]:
@@ -72,13 +62,9 @@ class PublishedState:
         edges = {
             edge.key: value
             for model, window in self.windows.items()
-            for edge, value in zip(c.WINDOWS[model], window, strict=True)
+            for edge, value in zip(WINDOWS[model], window, strict=True)
         }
-        return edges | {
-            c.TOLERANCE.key: self.tolerance,
-            c.MAP_DIMENSION.key: self.map_D_f,
-            c.MAP_FORCE.key: self.map_F,
-        }
+        return edges | {key: getattr(self, key) for key in ("tolerance", "map_D_f", "map_F")}
 
 
 def state_of(said: Texts) -> PublishedState:
@@ -94,32 +80,23 @@ def state_of(said: Texts) -> PublishedState:
     ControlError
         If the version is another, or a text cannot be used; it says at which control.
     """
-    keys = {each.key for each in (*c.NUMBERS, *c.CHOICES)} | {c.DIMENSIONS_KEY}
-    refuse_strange(said, keys)
+    refuse_strange(said, {*NUMBERS, *CHOICES, "D_f"})
     return PublishedState(
-        dimensions=_dimensions(said.get(c.DIMENSIONS_KEY)),
-        mean=_choice(said, c.AVERAGING),
-        punch=_choice(said, c.PUNCH),
-        windows={model: _window(said, model) for model in c.MODELS},
-        tolerance=_number(said, c.TOLERANCE),
-        roll_off=float(_choice(said, c.ROLL_OFF)),
-        map_D_f=_number(said, c.MAP_DIMENSION),
-        map_F=_number(said, c.MAP_FORCE),
-        claims=_choice(said, c.CLAIMS),
+        dimensions=_dimensions(said.get("D_f")),
+        mean=CHOICES["mean"].read_in(said),
+        punch=CHOICES["punch"].read_in(said),
+        windows={model: _window(said, model) for model in MODELS},
+        tolerance=NUMBERS["tolerance"].read_in(said),
+        roll_off=float(CHOICES["roll_off"].read_in(said)),
+        map_D_f=NUMBERS["map_D_f"].read_in(said),
+        map_F=NUMBERS["map_F"].read_in(said),
+        claims=CHOICES["claims"].read_in(said),
     )
 
 
-def _number(said: Texts, control: Control) -> float:
-    return control.read(said.get(control.key, str(control.default)))
-
-
-def _choice(said: Texts, choice: Choice) -> str:
-    return choice.read(said.get(choice.key, choice.default))
-
-
 def _window(said: Texts, model: str) -> Window:
-    low, high = c.WINDOWS[model]
-    window = _number(said, low), _number(said, high)
+    low, high = WINDOWS[model]
+    window = low.read_in(said), high.read_in(said)
     if not window[0] < window[1]:
         raise ControlError(
             f"the window of the {model} model begins at F̄ = {window[0]:.4g} and ends at "
@@ -131,11 +108,11 @@ def _window(said: Texts, model: str) -> Window:
 
 def _dimensions(text: str | None) -> tuple[float, ...]:
     if text is None:
-        return c.DIMENSIONS
-    known = {f"{each:g}": each for each in c.DIMENSIONS}
+        return DIMENSIONS
+    known = {f"{each:g}": each for each in DIMENSIONS}
     chosen = [word for word in text.split(",") if word]
     strange = [word for word in chosen if word not in known]
     if strange or not chosen:
         said = f"D_f is {shown(strange[0])}" if strange else "no fractal dimension is chosen"
-        raise ControlError(f"{said}; choose one or more of {', '.join(known)}", c.DIMENSIONS_KEY)
+        raise ControlError(f"{said}; choose one or more of {', '.join(known)}", "D_f")
     return tuple(sorted({known[word] for word in chosen}))
