@@ -17,14 +17,7 @@ from roughline.lab.published.state import state_of as published_state
 from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
-NUMBERS = (
-    explore.NUMBERS["D_f"],
-    explore.NUMBERS["roll_off"],
-    explore.NUMBERS["cutoff"],
-    explore.NUMBERS["h"],
-    explore.NUMBERS["slope"],
-)
-NUMBERS += (explore.NUMBERS["F"], explore.NUMBERS["hardness_bar"])
+NUMBERS = [each for key, each in explore.NUMBERS.items() if key != "seed"]
 DIMENSIONS = [f"{each:g}" for each in published.DIMENSIONS]
 WORDS = (explore.CHOICES["rms"], explore.CHOICES["boundary"], explore.CHOICES["shown"])
 
@@ -84,10 +77,8 @@ def test_an_address_of_explore_gives_its_state_again(said, with_units):
 @given(
     some(
         {
-            **{each.key: texts(each) for each in published.NUMBERS.values()},
-            **{
-                each.key: st.sampled_from(list(each.options)) for each in published.CHOICES.values()
-            },
+            **{key: texts(each) for key, each in published.NUMBERS.items()},
+            **{key: st.sampled_from(list(each.options)) for key, each in published.CHOICES.items()},
             "D_f": st.lists(st.sampled_from(DIMENSIONS), min_size=1).map(",".join),
         }
     )

@@ -84,8 +84,8 @@ _NUMBERS = (
         0.02,
         5.0,
         0.5,
-        "Largest pressure that a point bears, over E* times the rms slope on the grid, or with a"
-        " unit, such as 2 GPa. Where it is reached, the surface is permanently indented.",
+        "Largest pressure that a point bears, over E* times the rms slope on the grid, or with a "
+        "unit, such as 2 GPa. Where it is reached, the surface is permanently indented.",
     ),
 )
 _CHOICES = (
