@@ -83,7 +83,7 @@ def press_by_keys(page):
     page.focus('#explore [data-key="n"]:checked')
     page.keyboard.press("ArrowDown")
     settled(page, points=128)
-    page.focus('#explore [data-theory="persson"]')
+    page.focus('#explore [data-key="theories"][value="persson"]')
     page.keyboard.press("Space")
     page.locator('[data-caption="theories"]').filter(has_text="Persson").wait_for()
     page.focus('#explore [data-key="shown"]')

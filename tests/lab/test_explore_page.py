@@ -173,7 +173,7 @@ def test_a_link_shows_the_same(fresh, pages):
     for key, text in (("L", "3 um"), ("E", "2 GPa"), ("roll_off", "0.5"), ("seed", "12")):
         typed(fresh, key, text)
     fresh.check('#explore [data-key="boundary"][value="periodic"]')
-    fresh.check('#explore [data-theory="persson"]')
+    fresh.check('#explore [data-key="theories"][value="persson"]')
     fresh.select_option('#explore [data-key="shown"]', "gap")
     settled(fresh, points=64, seed=12, roll_off=0.5)
     other = pages.open("?" + urlencode(address(fresh)))

@@ -87,9 +87,9 @@ def test_choices_are_followed(paper):
     before = alpha(paper, row=1)
     paper.check('#published [data-key="mean"][value="geometric"]')
     wait_for_other(paper, before, row=2)
-    paper.uncheck('#published [data-dimension="3"]')
+    paper.uncheck('#published [data-key="D_f"][value="3"]')
     paper.wait_for_selector('[data-table="fit-3D"]:not(:has(tbody tr:nth-child(6)))')
-    paper.check('#published [data-dimension="3"]')
+    paper.check('#published [data-key="D_f"][value="3"]')
     paper.check('#published [data-key="mean"][value="arithmetic"]')
     paper.wait_for_selector('[data-table="fit-3D"]:has(tbody tr:nth-child(6))')
 

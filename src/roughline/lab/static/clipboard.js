@@ -1,10 +1,11 @@
+import {element} from "./elements.js";
+
 // Put a text on the clipboard; also where the browser keeps it for pages of this machine alone.
 export async function copy(text, button) {
   try {
     await navigator.clipboard.writeText(text);
   } catch {
-    const field = document.createElement("textarea");
-    field.value = text;
+    const field = element("textarea", {value: text});
     button.after(field);
     field.select();
     document.execCommand("copy");

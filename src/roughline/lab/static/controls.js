@@ -1,6 +1,8 @@
 // Sliders, their text fields and choices of one view, and the texts that they stand for.
 import {letScroll} from "./hands.js";
 
+const CHOICES = ':is(select, input[type="radio"], input[type="checkbox"])[data-key]';
+
 export class Controls {
   #root; #changed; #said = {}; #defaults = {};
   #used = {}; // texts that the server used last
@@ -17,17 +19,14 @@ export class Controls {
         if (event.key === "Enter") { event.preventDefault(); this.#typed(text.dataset.text, text.value); }
       });
     }
-    for (const choice of root.querySelectorAll('select[data-key], input[type="radio"][data-key]')) {
-      choice.addEventListener("change", () => {
-        if (choice.type !== "radio" || choice.checked) this.set(choice.dataset.key, choice.value, true);
-      });
+    for (const choice of root.querySelectorAll(CHOICES)) {
+      const {key} = choice.dataset;
+      choice.addEventListener("change", () => this.set(key, chosen(this.#choices(key), "checked")));
+      this.#defaults[key] ??= chosen(this.#choices(key), "defaultChecked");
     }
     root.addEventListener("submit", (event) => {
       if (event.target.method !== "dialog") event.preventDefault();
     });
-    for (const choice of root.querySelectorAll('select[data-key], input[type="radio"][data-key]')) {
-      if (choice.type !== "radio" || choice.defaultChecked) this.#defaults[choice.dataset.key] = choice.value;
-    }
     for (const text of root.querySelectorAll("input[data-text]")) this.#defaults[text.dataset.text] = text.value;
   }
 
@@ -136,11 +135,10 @@ export class Controls {
   }
 
   #show(key, text) {
-    for (const radio of this.#root.querySelectorAll(`input[type="radio"][data-key="${CSS.escape(key)}"]`)) {
-      radio.checked = radio.value === text;
+    for (const choice of this.#choices(key)) {
+      if (choice.matches("select")) choice.value = text;
+      else choice.checked = text.split(",").includes(choice.value);
     }
-    const select = this.#root.querySelector(`select[data-key="${CSS.escape(key)}"]`);
-    if (select) select.value = text;
     const field = this.#text(key);
     if (field) field.value = text;
     const slider = this.#slider(key);
@@ -157,8 +155,14 @@ export class Controls {
     field.value = Number.isInteger(value) ? String(value) : said(value);
   }
 
+  #choices(key) { return [...this.#root.querySelectorAll(`${CHOICES}[data-key="${CSS.escape(key)}"]`)]; }
   #slider(key) { return this.#root.querySelector(`input[type="range"][data-key="${CSS.escape(key)}"]`); }
   #text(key) { return this.#root.querySelector(`input[data-text="${CSS.escape(key)}"]`); }
+}
+
+// The word that is chosen; of boxes all that are, with commas between.
+function chosen(choices, which) {
+  return choices.filter((each) => each[which] ?? true).map(({value}) => value).join(",");
 }
 
 // A number as it is typed: four digits, no exponent where it is short.

@@ -2,8 +2,9 @@
 import {Controls, said} from "./controls.js";
 import {exploreFigures} from "./explore-figures.js";
 import {onDraw} from "./hands.js";
-import {embedded, fillTable, markKeys} from "./plots.js";
+import {embedded} from "./plots.js";
 import {Strip} from "./strip.js";
+import {fillTable, markKeys} from "./tables.js";
 import {bindTabs} from "./tabs.js";
 import {TakeAlong} from "./take_along.js";
 import {Waiting} from "./waiting.js";
@@ -19,6 +20,7 @@ const MOST_THEORIES = DASHES.length;
 const CONTACT = ["topography", "contact"], CURVES = ["stiffness", "area", "spectrum"]; // panels
 const STRIP = ["stiffness_3d", "unloading", "stiffness_1d", "area", "plastic", "pressure", "depth", "indentation",
   "force", "roughness"];
+const FINER = ["full", "curve", "unloading"]; // what is asked at rest
 const OF_YIELD = ["unloading", "plastic", "indentation"];
 
 export async function open(link, address, said) {
@@ -35,7 +37,7 @@ class Explore {
     this.#link = link;
     this.#address = address;
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
-    this.#waiting = new Waiting(this.#root.querySelector(".status"), (works) => this.#cancel(works));
+    this.#waiting = new Waiting(this.#root.querySelector(".status"), link, (works) => this.#cancelled(works));
     new TakeAlong(this.#root, link, () => ({state: this.#controls.used}), this.#waiting, (...said) => this.#refuse(...said));
     this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#bindButtons();
@@ -61,8 +63,6 @@ class Explore {
     this.#controls.take(H === undefined ? texts : {...texts, D_f: `H = ${H}`});
     this.#showHeightOrSlope();
     this.#showHardness();
-    const theories = (texts.theories ?? "").split(",");
-    for (const box of this.#root.querySelectorAll("[data-theory]")) box.checked = theories.includes(box.dataset.theory);
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
@@ -83,19 +83,14 @@ class Explore {
     this.#dim(key === "F" ? CONTACT : [...CONTACT, ...CURVES]);
     this.#askNow();
     clearTimeout(this.#rest);
-    this.#stop(["full", "curve", "back"]);
+    this.#waiting.stop(FINER);
     this.#rest = setTimeout(() => this.#sharpen(), isFinal ? 0 : REST);
   }
 
-  #stop(works) {
-    for (const work of works) { this.#link.stop(work); this.#waiting.end(work); }
-  }
-
-  #cancel(works) {
-    this.#stop(works);
+  #cancelled(works) {
     this.#stopped = this.#turn;
     const left = {full: "the coarse answer is shown", curve: "the marks of the curves belong to the previous surface",
-      back: "the way back is not shown", download: "nothing was saved"};
+      unloading: "the way back is not shown", download: "nothing was saved"};
     this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
   }
 
@@ -120,30 +115,16 @@ class Explore {
   #sharpen(refines = false) {
     if (!this.#plots) return;
     const turn = this.#turn, args = {...this.#controls.asked, refines};
-    const progress = (message) => this.#waiting.progress(message);
     const error = (sentence, at) => {
-      if (turn === this.#turn) this.#stop(["full", "curve", "back"]);
+      if (turn === this.#turn) this.#waiting.stop(FINER);
       this.#refuse(sentence, at, turn);
     };
-    this.#waiting.begin("full");
-    this.#link.ask("explore.full", "full", args, {
-      answer: (header) => {
-        this.#drawContact(header, args, turn);
-        if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
-        if (this.#stale) {
-          this.#waiting.begin("curve");
-          this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
-            answer: (curve) => { this.#waiting.end("curve"); this.#drawCurve(curve); }, error, progress});
-        }
-        if (header.state.hardness_bar) {
-          this.#waiting.begin("back");
-          this.#link.ask("explore.unloading", "back", args, {
-            answer: (back) => { this.#waiting.end("back"); this.#drawWayBack(back); }, error, progress});
-        }
-        this.#waiting.end("full");
-      },
-      error,
-      progress,
+    const ask = (what, asked, answer) => this.#waiting.ask(`explore.${what}`, what, asked, {answer, error});
+    ask("full", args, (header) => {
+      this.#drawContact(header, args, turn);
+      if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
+      if (this.#stale) ask("curve", {...args, refines: true}, (curve) => this.#drawCurve(curve));
+      if (header.state.hardness_bar) ask("unloading", args, (back) => this.#drawWayBack(back));
     });
   }
 
@@ -232,7 +213,7 @@ class Explore {
     const failed = curve.converged.filter((each) => !each).length;
     const unsure = curve.resolved.some((each) => !each) ? "; hollow, and * in the table: fewer than ten cells touch" : "";
     const note = unsure + (failed ? `; ${failed} loads were not solved` : "");
-    const called = (name) => this.#root.querySelector(`[data-theory="${name}"]`).parentElement.textContent.trim();
+    const called = (name) => this.#root.querySelector(`[data-key="theories"][value="${name}"]`).parentElement.textContent.trim();
     const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${called(name)}: ${validity}`);
     this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
     this.#caption("area", `marks of the curve on ${grid} points${note}`);
@@ -346,12 +327,6 @@ class Explore {
       this.#controls.set("hardness_bar", target.checked ? text : "");
     });
     bindTabs(this.#root);
-    for (const box of this.#root.querySelectorAll("[data-theory]")) {
-      box.addEventListener("change", () => {
-        const chosen = [...this.#root.querySelectorAll("[data-theory]:checked")].map((each) => each.dataset.theory);
-        this.#controls.set("theories", chosen.join(","), true);
-      });
-    }
   }
 }
 

@@ -1,5 +1,6 @@
 // The page: its three views, the address, the theme, and the connection.
 import {copy} from "./clipboard.js";
+import {element} from "./elements.js";
 import {Link} from "./link.js";
 import {recolourAll} from "./plots.js";
 
@@ -35,7 +36,7 @@ function tell(...words) {
 }
 
 function loginLink() {
-  const anchor = Object.assign(document.createElement("a"), {target: "_blank", rel: "noopener", textContent: "Log in again in a new tab"});
+  const anchor = element("a", {target: "_blank", rel: "noopener", textContent: "Log in again in a new tab"});
   const lead = () => { anchor.href = `/login?${new URLSearchParams({next: `/${location.search}`})}`; };
   lead();
   for (const kind of ["focus", "pointerenter", "click"]) anchor.addEventListener(kind, lead);

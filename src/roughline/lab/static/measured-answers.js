@@ -1,9 +1,9 @@
 // Answers of My surface: pressing, both models, the report, and code that repeats it.
 import {copy} from "./clipboard.js";
 import {openDialog} from "./dialogs.js";
-import {fillList} from "./measured-pictures.js";
-import {fillFigures, fillTable, foldRows} from "./plots.js";
+import {element} from "./elements.js";
 import {recall, remember} from "./remember.js";
+import {fillFigures, fillTable, foldRows} from "./tables.js";
 import {Waiting} from "./waiting.js";
 
 const TASKS = ["answers", "compare", "report"];
@@ -20,8 +20,7 @@ export class Answers {
     this.#view = view;
     this.#part = part;
     for (const name of TASKS) {
-      this.#waiting[name] = new Waiting(view.find(`[data-waiting="${name}"]`), () => {
-        link.stop(`measured ${name}`);
+      this.#waiting[name] = new Waiting(view.find(`[data-waiting="${name}"]`), link, () => {
         this.#end(name, "stopped");
         this.#note(name, null);
       });
@@ -66,7 +65,7 @@ export class Answers {
   // What was asked is asked no more, and the session has nothing of it any longer.
   lose() {
     for (const name of TASKS) {
-      this.#link.stop(`measured ${name}`);
+      this.#waiting[name].stop([`measured ${name}`]);
       this.#end(name, "");
       this.#note(name, null);
     }
@@ -96,14 +95,12 @@ export class Answers {
 
   #ask(task, name, asked, done) {
     this.#view.refuse("", name);
-    this.#waiting[name].begin();
     this.#say(name, "");
     this.#note(name, asked);
     const {settings, ...question} = asked;
-    this.#link.ask(task, `measured ${name}`, question, {
+    this.#waiting[name].ask(task, `measured ${name}`, question, {
       answer: (answer) => { this.#end(name, ""); done(answer); },
       error: (sentence, at) => { this.#end(name, ""); this.#note(name, null); this.#view.refuseTask(sentence, at, name); },
-      progress: (message) => this.#waiting[name].progress(message),
     });
   }
 
@@ -135,7 +132,7 @@ export class Answers {
     if (answer.answers) foldRows("measured-answers", answer.groups);
     fillFigures(view.find('[data-figures="answers"]'), answer.lead, answer.figures);
     view.find("[data-star]").textContent = answer.star;
-    fillList(view, "answer-remarks", [...(answer.part ? [] : answer.remarks), ...answer.theories]); // the part has all
+    view.fillList("answer-remarks", [...(answer.part ? [] : answer.remarks), ...answer.theories]); // the part has all
     fillTable("measured-formulas", ...(answer.formulas ?? [["no answers follow from a contact modulus alone"], []]));
     view.find("[data-slip]").hidden = !answer.slip;
     if (answer.slip) fillTable("measured-slip", ["displacement", "tangential force"], answer.slip.rows);
@@ -156,7 +153,7 @@ export class Answers {
       view.find("[data-what]").textContent = found.what;
       view.find("[data-verdict]").textContent = `${found.verdict[0].toUpperCase()}${found.verdict.slice(1)}.`;
       view.find("[data-compare-star]").textContent = found.star;
-      fillList(view, "compare-notes", found.notes);
+      view.fillList("compare-notes", found.notes);
       this.pictures.drawModels(found);
       for (const cell of view.findAll('[data-table="measured-models"] td')) {
         if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
@@ -174,14 +171,10 @@ export class Answers {
 
   #showLinks(files) {
     const links = Object.entries(files).map(([name, place]) => {
-      const item = document.createElement("li"), anchor = document.createElement("a");
-      const isPage = name.endsWith(".html");
-      anchor.href = `/results/${this.#link.session}/${place}${isPage ? "" : "?save=1"}`;
-      anchor.textContent = `${name}${isPage ? ", opens in a new tab" : ", to save"}`;
-      if (isPage) Object.assign(anchor, {target: "_blank", rel: "noopener"});
-      else anchor.download = place;
-      item.append(anchor);
-      return item;
+      const address = `/results/${this.#link.session}/${place}`;
+      return element("li", {}, element("a", name.endsWith(".html")
+        ? {href: address, textContent: `${name}, opens in a new tab`, target: "_blank", rel: "noopener"}
+        : {href: `${address}?save=1`, textContent: `${name}, to save`, download: place}));
     });
     this.#view.find("[data-links]").replaceChildren(...links);
   }
@@ -197,7 +190,6 @@ export class Answers {
   }
 
   #end(name, text) {
-    this.#waiting[name].end();
     this.#say(name, text);
     if (name === "answers") this.changed();
   }

@@ -1,15 +1,14 @@
 // Maps of one part in My surface: each checked, shown one at a time, and what they gave together.
-import {fillList} from "./measured-pictures.js";
-import {fillFigures, fillTable, foldRows} from "./plots.js";
+import {element} from "./elements.js";
+import {fillFigures, fillTable, foldRows} from "./tables.js";
 import {Waiting} from "./waiting.js";
 
 export class Part {
-  #link; #view; #waiting; #maps = []; #shown = null; #drawings = [];
+  #view; #waiting; #maps = []; #shown = null; #drawings = [];
 
   constructor(link, view) {
-    this.#link = link;
     this.#view = view;
-    this.#waiting = new Waiting(view.find('[data-waiting="maps"]'), () => link.stop("measured maps"));
+    this.#waiting = new Waiting(view.find('[data-waiting="maps"]'), link);
     view.find("[data-part-answer]").addEventListener("change", ({target}) => this.#draw(Number(target.value)));
   }
 
@@ -25,10 +24,8 @@ export class Part {
     this.#view.find("[data-part]").hidden = !isPart;
     for (const name of ["add-maps", "forget-file"]) this.#view.find(`[data-${name}]`).hidden = this.#view.files.length === 0;
     if (!isPart) { this.stop(); this.#view.look(); return; }
-    this.#waiting.begin();
-    this.#link.ask("measured.maps", "measured maps", {state: this.#view.state}, {
+    this.#waiting.ask("measured.maps", "measured maps", {state: this.#view.state}, {
       answer: ({maps}) => {
-        this.#waiting.end();
         this.#maps = maps;
         const good = maps.filter(({refused}) => !refused);
         if (!good.some(({file}) => file === this.shown)) this.#shown = (good[0] ?? maps[0]).file;
@@ -36,16 +33,12 @@ export class Part {
         this.showTable();
         this.#view.look();
       },
-      error: (sentence, at) => { this.#waiting.end(); this.#view.refuse(sentence, at || "file"); },
-      progress: (message) => this.#waiting.progress(message),
+      error: (sentence, at) => this.#view.refuse(sentence, at || "file"),
     });
   }
 
   // Stop checking the maps.
-  stop() {
-    this.#link.stop("measured maps");
-    this.#waiting.end();
-  }
+  stop() { this.#waiting.stop(["measured maps"]); }
 
   // Show the table of the maps, whether or not one can be read.
   showTable() { if (this.#files.length) this.#view.showResult("file", true); }
@@ -85,7 +78,7 @@ export class Part {
     fillTable("measured-part-leading", ...part.leading);
     fillTable("measured-part-maps", ...part.maps);
     this.#view.find("[data-part-star]").textContent = part.star;
-    fillList(this.#view, "part-remarks", part.remarks);
+    this.#view.fillList("part-remarks", part.remarks);
     fillChoice(this.#view.find("[data-part-map]"), part.names, part.shown);
     const names = part.drawings.map(({name}) => name);
     fillChoice(this.#view.find("[data-part-answer]"), names, 0);
@@ -98,10 +91,7 @@ export class Part {
 }
 
 function button(text, label, clicked) {
-  const made = document.createElement("button");
-  made.type = "button";
-  made.textContent = text;
-  made.setAttribute("aria-label", label);
+  const made = element("button", {type: "button", textContent: text, ariaLabel: label});
   made.addEventListener("click", clicked);
   return made;
 }

@@ -1,6 +1,6 @@
 // Pictures of My surface: heights, spectrum, contact and curves, and their tables.
 import {onDraw} from "./hands.js";
-import {fillTable, markKeys} from "./plots.js";
+import {fillTable, markKeys} from "./tables.js";
 
 const FIELDS = {
   area: ["marks", ""],
@@ -8,17 +8,6 @@ const FIELDS = {
   gap: ["Cividis256", "gap"],
   displacement: ["Cividis256", "deflection of the half-space"],
 };
-
-// Fill a list of sentences; without any it is not there.
-export function fillList(view, name, sentences) {
-  const list = view.find(`[data-list="${name}"]`);
-  list.replaceChildren(...sentences.map((text) => {
-    const item = document.createElement("li");
-    item.textContent = text;
-    return item;
-  }));
-  list.hidden = sentences.length === 0;
-}
 
 export class Pictures {
   #view; #plots; #before = null; #unsettled = new Map(); #extents = new Map();

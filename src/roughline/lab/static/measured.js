@@ -1,12 +1,14 @@
 // My surface: a file of an instrument, prepared, pressed, and answered for.
 import {Controls} from "./controls.js";
+import {element} from "./elements.js";
 import {Answers} from "./measured-answers.js";
 import {measuredFigures} from "./measured-figures.js";
 import {Source} from "./measured-file.js";
 import {Part} from "./measured-part.js";
-import {Pictures, fillList} from "./measured-pictures.js";
-import {embedded, fillTable} from "./plots.js";
+import {Pictures} from "./measured-pictures.js";
+import {embedded} from "./plots.js";
 import {recall, remember} from "./remember.js";
+import {fillList, fillTable} from "./tables.js";
 import {Waiting} from "./waiting.js";
 
 const VERSION = "1";
@@ -40,8 +42,7 @@ class Measured {
     this.#address = address;
     this.#controls = new Controls(this.#root, (key) => this.#changed(key));
     for (const name of ["file", "preparation"]) {
-      this.#waiting[name] = new Waiting(this.find(`[data-waiting="${name}"]`), () => {
-        link.stop(`measured ${name}`);
+      this.#waiting[name] = new Waiting(this.find(`[data-waiting="${name}"]`), link, () => {
         this.#undim(name);
         if (name !== "file") return;
         this.#isAwaited = false;
@@ -56,6 +57,7 @@ class Measured {
 
   find(selector) { return this.#root.querySelector(selector); }
   findAll(selector) { return [...this.#root.querySelectorAll(selector)]; }
+  fillList(name, sentences) { fillList(this.find(`[data-list="${name}"]`), sentences); }
 
   async open(given) {
     const {file, of, ...said} = await this.#begun(given);
@@ -88,7 +90,7 @@ class Measured {
     this.#wanted = this.#of;
     const {file, ...kept} = this.#controls.said;
     this.#take(kept);
-    for (const name of ["file", "preparation"]) { this.#link.stop(`measured ${name}`); this.#end(name); }
+    for (const name of ["file", "preparation"]) this.#stop(name);
     this.#part.stop();
     this.#answers.ready();
     this.note(isElsewhere
@@ -200,23 +202,16 @@ class Measured {
     this.#ofLink = sentence;
     this.#wanted = [];
     this.note("");
-    for (const name of ["file", "preparation"]) { this.#link.stop(`measured ${name}`); this.#end(name); }
+    for (const name of ["file", "preparation"]) this.#stop(name);
     this.#take({...DEFAULTS});
     this.#askBodies();
   }
 
   #take(said) {
     this.#controls.take(said);
-    for (const key of [...OF_READING, ...OF_PREPARATION, ...OF_BODIES]) {
-      const field = this.find(`input[data-text="${key}"]`);
-      if (field && !(key in said)) field.value = "";
-    }
     const byModulus = said.bodies === "modulus";
     this.find('[data-bodies="materials"]').hidden = byModulus;
     this.find('[data-bodies="modulus"]').hidden = !byModulus;
-    for (const box of this.findAll("[data-theory]")) {
-      box.checked = (said.theories ?? "").split(",").includes(box.dataset.theory);
-    }
   }
 
   #changed(key) {
@@ -252,12 +247,13 @@ class Measured {
   look() {
     const {file, example} = this.#controls.said;
     if (!file && !example) return;
-    this.#wait("file");
+    this.#waiting.file.begin("measured file");
+    this.#dim("file");
     if (!this.#pictures) { this.#isAwaited = true; return; } // it is read when it can be drawn
     const asked = this.#asked(this.stateOfMap);
-    this.#link.ask("measured.look", "measured file", asked, {
+    this.#waiting.file.ask("measured.look", "measured file", asked, {
       answer: (read) => {
-        this.#end("file");
+        this.#undim("file");
         this.#read = read;
         this.#write();
         this.refuse("", "file");
@@ -265,14 +261,14 @@ class Measured {
         this.#settle("file", asked, read.refused, OF_READING);
         for (const name of ["file", "map"]) this.showResult(name, true);
         this.find("[data-name]").textContent = read.name;
-        fillList(this, "obstacles", read.obstacles);
-        fillList(this, "remarks", read.remarks);
+        this.fillList("obstacles", read.obstacles);
+        this.fillList("remarks", read.remarks);
         fillTable("measured-roughness", ["", ""], read.table);
         this.#pictures.drawFile(read);
         this.#prepare();
       },
       error: (sentence, at) => {
-        this.#end("file");
+        this.#undim("file");
         if (!this.#read) { this.#forgetFile(); this.#part.showTable(); }
         this.refuse(sentence, at || "file");
       },
@@ -282,14 +278,10 @@ class Measured {
   // Channel, unit and size are asked where the file leaves them open.
   #showAsked({asks, channel}) {
     const select = this.find("#measured-channel");
-    select.replaceChildren(...asks.channels.map((text) => {
-      const option = document.createElement("option");
-      option.value = text.split(" ", 1)[0];
-      option.textContent = text;
-      option.disabled = text.endsWith("(no heights)");
-      option.selected = (this.#controls.said.channel ?? "") === option.value;
-      return option;
-    }));
+    select.replaceChildren(...asks.channels.map((textContent) => element("option", {
+      textContent, value: textContent.split(" ", 1)[0], disabled: textContent.endsWith("(no heights)"),
+    })));
+    select.value = this.#controls.said.channel ?? "";
     if (!this.#controls.said.channel) {
       const first = [...select.options].find((each) => !each.disabled && each.textContent.endsWith(` ${channel}`));
       if (first) first.selected = true;
@@ -304,15 +296,15 @@ class Measured {
     const isAsked = OF_PREPARATION.some((key) => this.#controls.said[key]);
     const asked = this.#asked(this.stateOfMap);
     const show = (prepared, refused) => {
-      this.#end("preparation");
+      this.#undim("preparation");
       this.#settle("preparation", asked, refused, OF_PREPARATION);
       this.#showPrepared(prepared);
     };
-    if (!isAsked) { this.#link.stop("measured preparation"); show(this.#read, {}); return; }
-    this.#wait("preparation");
-    this.#link.ask("measured.prepare", "measured preparation", asked, {
+    if (!isAsked) { this.#stop("preparation"); show(this.#read, {}); return; }
+    this.#dim("preparation");
+    this.#waiting.preparation.ask("measured.prepare", "measured preparation", asked, {
       answer: (prepared) => show(prepared, prepared.refused),
-      error: (sentence, at) => { this.#end("preparation"); this.refuse(sentence, at || "preparation"); },
+      error: (sentence, at) => { this.#undim("preparation"); this.refuse(sentence, at || "preparation"); },
     });
   }
 
@@ -323,7 +315,7 @@ class Measured {
     if (prepared.body) {
       this.#pictures.drawPrepared(this.#read, prepared, this.#controls.said.crop ?? "");
       this.find("[data-prepared-numbers]").open = prepared !== this.#read;
-      fillList(this, "prepared-remarks", prepared === this.#read ? [] : prepared.remarks);
+      this.fillList("prepared-remarks", prepared === this.#read ? [] : prepared.remarks);
       const after = new Map(prepared.table), before = new Map(this.#read.table);
       const names = [...new Set([...before.keys(), ...after.keys()])].filter((name) => name !== "file");
       fillTable("measured-prepared", ["", "before", "after"], names.map((name) => [name, before.get(name) ?? "-", after.get(name) ?? "-"]));
@@ -346,8 +338,8 @@ class Measured {
       answer: ({rows, loads, notes, refused}) => {
         this.#settle("bodies", asked, refused, keys);
         fillTable("measured-bodies", ["", ""], rows);
-        fillList(this, "loads", loads);
-        fillList(this, "bodies-notes", notes);
+        this.fillList("loads", loads);
+        this.fillList("bodies-notes", notes);
       },
       error: (sentence, at) => { if (at === "v") this.#begin(sentence); else this.refuse(sentence, at); },
     });
@@ -356,12 +348,12 @@ class Measured {
   // All that is set, or that is set of one map, with what counts where a text cannot be used.
   #asked(state) { return {...this.#controls.asked, state}; }
 
-  #wait(name) {
-    this.#waiting[name].begin();
-    this.find(`#measured-step-${name}`).classList.add("dimmed");
+  #stop(name) {
+    this.#waiting[name].stop([`measured ${name}`]);
+    this.#undim(name);
   }
 
-  #end(name) { this.#waiting[name].end(); this.#undim(name); }
+  #dim(name) { this.find(`#measured-step-${name}`).classList.add("dimmed"); }
   #undim(name) { this.find(`#measured-step-${name}`).classList.remove("dimmed"); }
 
   #bind() {
@@ -376,12 +368,6 @@ class Measured {
     load.addEventListener("keydown", (event) => {
       if (event.key === "Enter") { event.preventDefault(); add(); }
     });
-    for (const box of this.findAll("[data-theory]")) {
-      box.addEventListener("change", () => {
-        const chosen = this.findAll("[data-theory]:checked").map((each) => each.dataset.theory);
-        this.set("theories", chosen.join(","));
-      });
-    }
   }
 }
 

@@ -1,11 +1,12 @@
-// Plots of Bokeh: embedding, data, colours of the theme, and the tables below them.
+// Plots of Bokeh: embedding, data and the colours of the theme.
+import {element} from "./elements.js";
 import {takeHands} from "./hands.js";
 
 const documents = [], allPlots = [];
 
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
 const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
-  const script = Object.assign(document.createElement("script"), {src: `/bokeh/${name}`, async: false}); // the second needs the first
+  const script = element("script", {src: `/bokeh/${name}`, async: false}); // the second needs the first
   script.addEventListener("load", resolve);
   document.head.append(script);
 })));
@@ -53,10 +54,10 @@ export class Plots {
     if (!shown?.length) return;
     this.#shown.delete(plot);
     requestAnimationFrame(() => {
-      const element = placeOf(plot);
+      const place = placeOf(plot);
       for (const detail of shown) {
-        element.dataset.shown = JSON.stringify(detail);
-        element.dispatchEvent(new CustomEvent("drawn", {detail, bubbles: true}));
+        place.dataset.shown = JSON.stringify(detail);
+        place.dispatchEvent(new CustomEvent("drawn", {detail, bubbles: true}));
       }
     });
   }
@@ -128,76 +129,6 @@ export class Plots {
   onMove(name, moved) {
     this.model(name).properties.location.change.connect(() => moved(this.model(name).location));
   }
-}
-
-// Say what the colours of a map of marks mean; points at the hardness only where there may be any.
-export function markKeys(place, yields) {
-  const key = (name, text) => {
-    const patch = document.createElement("span");
-    patch.className = `patch ${name}`;
-    return [patch, text];
-  };
-  place.replaceChildren(...key("ink", "in contact"), ...(yields ? key("plastic", "of this at the hardness: permanently indented") : []));
-}
-
-// Put rows below a plot.
-export function fillTable(id, header, rows) {
-  const table = document.createElement("table");
-  const row = (cells, kind) => {
-    const line = document.createElement("tr");
-    for (const text of cells) {
-      const cell = document.createElement(kind);
-      if (kind === "th") cell.scope = "col";
-      cell.textContent = text;
-      line.append(cell);
-    }
-    return line;
-  };
-  table.createTHead().append(row(header, "th"));
-  const body = table.createTBody();
-  for (const cells of rows) body.append(row(cells, "td"));
-  document.querySelector(`[data-table="${id}"]`).replaceChildren(table);
-}
-
-// Fold the rows of a table behind the headlines of their groups, which are given with the number of
-// rows of each; those of the first are shown.
-export function foldRows(id, groups) {
-  const table = document.querySelector(`[data-table="${id}"] table`);
-  const rows = [...table.tBodies[0].rows], columns = table.tHead.rows[0].cells.length;
-  table.tBodies[0].remove();
-  for (const [i, [name, told, count]] of groups.entries()) {
-    const head = table.createTBody(), body = table.createTBody();
-    const cell = document.createElement("th"), button = document.createElement("button");
-    const show = (isShown) => {
-      body.hidden = !isShown;
-      button.setAttribute("aria-expanded", String(isShown));
-      button.textContent = isShown ? name : `${name}: ${told}`;
-    };
-    cell.colSpan = columns;
-    cell.scope = "rowgroup";
-    button.type = "button";
-    button.className = "fold";
-    button.addEventListener("click", () => show(body.hidden));
-    cell.append(button);
-    head.insertRow().append(cell);
-    body.append(...rows.splice(0, count));
-    show(i === 0);
-  }
-}
-
-// What was asked in words, and the answers that lead in large figures.
-export function fillFigures(place, lead, figures) {
-  place.querySelector("[data-lead]").textContent = lead;
-  const list = place.querySelector("dl");
-  list.replaceChildren(...figures.map(({name, value, interval}) => {
-    const figure = document.createElement("div");
-    for (const [kind, text] of [["dt", name], ["dd", value], ["dd", interval]]) {
-      const line = document.createElement(kind);
-      line.textContent = text;
-      figure.append(line);
-    }
-    return figure;
-  }));
 }
 
 // Draw all plots in the colours of the theme.

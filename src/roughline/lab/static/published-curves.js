@@ -1,5 +1,6 @@
 // What the figures of the paper show: curves by fractal dimension, fits, exponents, κ.
-import {colour as colourOf, fillTable} from "./plots.js";
+import {colour as colourOf} from "./plots.js";
+import {fillTable} from "./tables.js";
 
 const MARKERS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "plus"];
 const MOST_MARKS = 24;

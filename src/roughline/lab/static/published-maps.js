@@ -1,7 +1,9 @@
 // The trust map, the claims and the bodies of the view "The paper".
 import {colourVerdicts} from "./published-curves.js";
-import {colour, embedded, fillTable} from "./plots.js";
+import {element} from "./elements.js";
+import {colour, embedded} from "./plots.js";
 import {bodyFigures, studyFigure} from "./published-figures.js";
+import {fillTable} from "./tables.js";
 import {Waiting} from "./waiting.js";
 
 const INDENTED = 1; // row of the bodies that Figure 2 shows
@@ -14,11 +16,10 @@ export function drawTrust(plots, {panels, legend}) {
     const unsure = Object.entries(columns).map(([name, values]) => [name, values.filter((_, i) => !resolved[i])]);
     plots.set(`trust ${panel.roll_off} unsure`, Object.fromEntries(unsure));
   }
-  document.querySelector("#published [data-legend]").replaceChildren(...legend.map(({colour, text}) => {
-    const item = document.createElement("li"), patch = document.createElement("span");
-    patch.style.background = colour;
-    item.append(patch, text);
-    return item;
+  document.querySelector("#published [data-legend]").replaceChildren(...legend.map(({colour: background, text}) => {
+    const patch = element("span");
+    patch.style.background = background;
+    return element("li", {}, patch, text);
   }));
 }
 
@@ -75,14 +76,10 @@ function seen(elements, act) {
 
 // Figures 1 and 2, computed when they come into sight.
 export class Bodies {
-  #link; #plots; #root = document.querySelector("#published-bodies"); #found = new Map(); #waiting;
+  #plots; #root = document.querySelector("#published-bodies"); #found = new Map(); #waiting;
 
   constructor(link) {
-    this.#link = link;
-    this.#waiting = new Waiting(this.#root.querySelector(".status"), () => {
-      for (let row = 0; row < ROWS; row++) link.stop(`body ${row}`);
-      this.#stopped("stopped");
-    });
+    this.#waiting = new Waiting(this.#root.querySelector(".status"), link, () => this.#stopped("stopped"));
     this.#root.querySelector("#published-press").addEventListener("click", () => this.#press());
   }
 
@@ -101,13 +98,9 @@ export class Bodies {
   #press() {
     this.#root.querySelector("#published-press").hidden = true;
     this.#say("Four surfaces and four lines are pressed; this takes some seconds.");
-    this.#waiting.begin();
     for (let row = 0; row < ROWS; row++) {
       if (this.#found.has(row)) continue;
-      this.#link.ask("published.body", `body ${row}`, {row}, {
-        answer: (header) => this.#draw(header),
-        error: (sentence) => { this.#waiting.end(); this.#stopped(sentence); },
-      });
+      this.#waiting.ask("published.body", `body ${row}`, {row}, {answer: (header) => this.#draw(header), error: (sentence) => this.#stopped(sentence)});
     }
   }
 
@@ -132,7 +125,7 @@ export class Bodies {
     document.querySelector('[data-caption="bodies"]').textContent = `Surfaces of ${points} points, F̄ = ${force_bar}; all deflections have one scale.`;
     fillTable("published-bodies", ["D_f", "real contact of the surface", "springs of the line in contact", "largest deflection u / h"],
       [...this.#found].sort().map(([, each]) => [each.D_f, each.contact, each.springs, each.deepest.toPrecision(3)]));
-    if (this.#found.size === ROWS) { this.#waiting.end(); this.#say(""); this.#root.querySelector(".status").hidden = true; }
+    if (this.#found.size === ROWS) { this.#say(""); this.#root.querySelector(".status").hidden = true; }
   }
 
   #drawIndented(x, z, level) {

@@ -30,10 +30,7 @@ class Published {
     this.#controls = new Controls(this.#root, (key) => this.#changed(key));
     this.#bodies = new Bodies(link);
     this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
-    this.#waiting = new Waiting(this.#root.querySelector('[aria-labelledby="claims-title"] .status'), () => {
-      link.stop("claims");
-      this.#status("stopped");
-    });
+    this.#waiting = new Waiting(this.#root.querySelector('[aria-labelledby="claims-title"] .status'), link, () => this.#status("stopped"));
     this.#bindButtons();
   }
 
@@ -41,7 +38,7 @@ class Published {
 
   async open(said) {
     const {view, ...texts} = said;
-    this.#take(texts);
+    this.#controls.take(texts);
     this.#askAll();
     await Promise.race([this.#numbers, new Promise((resolve) => setTimeout(resolve, LATEST))]);
     const rollOffs = [...this.#root.querySelectorAll("[data-trust]")].map((each) => each.dataset.trust);
@@ -98,12 +95,12 @@ class Published {
 
   #askClaims() {
     this.#status("The claims are judged by resampling all realisations; this takes some seconds.");
-    this.#waiting.begin();
+    this.#waiting.begin("claims");
     this.#ask("claims", "claims", {}, (header) => {
-      this.#waiting.end();
+      this.#waiting.end("claims");
       this.#got.claims = header;
       this.#showClaims();
-    }, (sentence) => { this.#waiting.end(); this.#status(sentence); });
+    }, (sentence) => { this.#waiting.end("claims"); this.#status(sentence); });
   }
 
   // Ask; while an answer is awaited, a newer question waits for it, so that a moving window is followed.
@@ -155,16 +152,9 @@ class Published {
     if (at === "v") {
       if (this.#ofLink) return;
       this.#ofLink = sentence;
-      this.#take({});
+      this.#controls.take({});
       this.#askAll();
     } else if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
-  }
-
-  #take(texts) {
-    this.#controls.take(texts);
-    if (!texts.D_f) return;
-    const chosen = texts.D_f.split(",");
-    for (const box of this.#root.querySelectorAll("[data-dimension]")) box.checked = chosen.includes(box.dataset.dimension);
   }
 
   #drawAll() {
@@ -270,12 +260,6 @@ class Published {
   }
 
   #bindButtons() {
-    for (const box of this.#root.querySelectorAll("[data-dimension]")) {
-      box.addEventListener("change", () => {
-        const chosen = [...this.#root.querySelectorAll("[data-dimension]:checked")].map((each) => each.dataset.dimension);
-        this.#controls.set("D_f", chosen.join(",") || ",", true);
-      });
-    }
     this.#root.querySelector("#published-windows").addEventListener("click", () => {
       for (const key of Object.values(EDGES).flat()) {
         const {default: value} = this.#root.querySelector(`input[type="range"][data-key="${key}"]`).dataset;

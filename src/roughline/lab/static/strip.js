@@ -1,4 +1,6 @@
 // The answer strip: what is true now, in large figures.
+import {element} from "./elements.js";
+
 export class Strip {
   #place; #order; #items = new Map();
 
@@ -12,10 +14,10 @@ export class Strip {
   add(items, gone = []) {
     for (const key of gone) this.#items.delete(key);
     for (const item of items) {
-      if (!this.#items.has(item.key)) this.#items.set(item.key, {element: empty(item.key)});
+      if (!this.#items.has(item.key)) this.#items.set(item.key, {place: empty(item.key)});
       write(this.#items.get(item.key), item);
     }
-    const wanted = this.#order.filter((key) => this.#items.has(key)).map((key) => this.#items.get(key).element);
+    const wanted = this.#order.filter((key) => this.#items.has(key)).map((key) => this.#items.get(key).place);
     if (wanted.length !== this.#place.children.length || wanted[0] !== this.#place.children[0]) this.#place.replaceChildren(...wanted);
   }
 
@@ -25,34 +27,23 @@ export class Strip {
   }
 }
 
-// Show numbers in words, and no others.
-export function fillStrip(place, items) {
-  new Strip(place, items.map(({key}) => key)).add(items);
-}
-
 function empty(key) {
-  const element = document.createElement("div");
-  element.dataset.answer = key;
-  element.append(...["dt", "dd", "dd"].map((kind) => document.createElement(kind)));
-  return element;
+  const item = element("div", {}, element("dt"), element("dd"), element("dd"));
+  item.dataset.answer = key;
+  return item;
 }
 
 function write(item, {symbol, value, below, meaning}) {
-  const {element, said} = item;
+  const {place, said} = item;
   item.said = {symbol, value, below, meaning};
-  element.title = meaning;
+  place.title = meaning;
   [symbol, value, below].forEach((text, i) => {
     if (said && text === [said.symbol, said.value, said.below][i]) return;
-    element.children[i].replaceChildren(...withSubscripts(text));
+    place.children[i].replaceChildren(...withSubscripts(text));
   });
 }
 
 // A text whose letter after an underscore is set low.
 function withSubscripts(text) {
-  return text.split(/_(\w)/).map((part, i) => {
-    if (i % 2 === 0) return part;
-    const low = document.createElement("sub");
-    low.textContent = part;
-    return low;
-  });
+  return text.split(/_(\w)/).map((part, i) => (i % 2 ? element("sub", {textContent: part}) : part));
 }

@@ -1,6 +1,7 @@
 // What can be taken along from Explore: code that repeats it, and files.
 import {copy} from "./clipboard.js";
 import {openDialog} from "./dialogs.js";
+import {element} from "./elements.js";
 
 export class TakeAlong {
   #root; #link; #asked; #waiting; #refuse;
@@ -30,17 +31,9 @@ export class TakeAlong {
   }
 
   #save(name) {
-    this.#waiting.begin("download");
-    this.#link.ask("explore.download", "download", {...this.#asked(), name}, {
-      answer: ({file}) => {
-        this.#waiting.end("download");
-        const anchor = document.createElement("a");
-        anchor.href = `/results/${this.#link.session}/${file}?save=1`;
-        anchor.download = name;
-        anchor.click();
-      },
-      error: (sentence, at) => { this.#waiting.end("download"); this.#refuse(sentence, at); },
-      progress: (message) => this.#waiting.progress(message),
+    this.#waiting.ask("explore.download", "download", {...this.#asked(), name}, {
+      answer: ({file}) => element("a", {href: `/results/${this.#link.session}/${file}?save=1`, download: name}).click(),
+      error: (sentence, at) => this.#refuse(sentence, at),
     });
   }
 }

@@ -2,19 +2,34 @@
 const SILENT = 300; // [ms]
 
 export class Waiting {
-  #bar; #cancel; #text; #timer = null; #works = new Set();
+  #link; #bar; #cancel; #text; #timer = null; #works = new Set();
 
-  // cancelled(works) is told the names of what was going on.
-  constructor(root, cancelled) {
+  // cancelled(works) is told the names of what was going on, which was stopped.
+  constructor(root, link, cancelled = () => {}) {
+    this.#link = link;
     this.#bar = root.querySelector("progress");
     this.#bar.setAttribute("aria-label", "progress");
     this.#cancel = root.querySelector(".cancel");
     this.#text = root.querySelector("[data-left]");
     this.#cancel.addEventListener("click", () => {
       const works = [...this.#works];
-      for (const work of works) this.end(work);
+      this.stop(works);
       cancelled(works);
     });
+  }
+
+  // Ask for a task, and wait for its answer.
+  ask(task, slot, args, {answer, error}) {
+    this.begin(slot);
+    this.#link.ask(task, slot, args, {
+      answer: (header) => { this.end(slot); answer(header); },
+      error: (sentence, at) => { this.end(slot); error(sentence, at); },
+      progress: (message) => this.progress(message),
+    });
+  }
+
+  stop(works) {
+    for (const work of works) { this.#link.stop(work); this.end(work); }
   }
 
   // Wait for a work; several may go on, and the last that ends takes the bar away.
@@ -37,8 +52,10 @@ export class Waiting {
     this.#works.delete(work);
     if (this.#works.size) return;
     clearTimeout(this.#timer);
-    this.#bar.hidden = this.#cancel.hidden = true;
-    if (this.#text) this.#text.textContent = "";
+    this.#timer = setTimeout(() => { // unless another begins at once
+      this.#bar.hidden = this.#cancel.hidden = true;
+      if (this.#text) this.#text.textContent = "";
+    });
   }
 }
 
