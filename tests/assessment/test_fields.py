@@ -67,7 +67,7 @@ fields.FIELDS += (
 from roughline.cli.flags import FLAGS
 from roughline.lab.measured.documents import as_command, as_python
 from roughline.lab.measured.state import said_of
-from roughline.lab.measured.words import CONTROLS
+from roughline.lab.measured.state import CONTROLS
 from roughline.lab.page import page
 
 said = {"first": "steel", "second": "copper", "temperature": "300 K"}

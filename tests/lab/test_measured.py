@@ -16,10 +16,8 @@ from roughline.assessment.comparison import compare_models
 from roughline.assessment.description import describe
 from roughline.errors.words import speaking
 from roughline.lab.measured import documents
-from roughline.lab.measured.controls import EXAMPLES
-from roughline.lab.measured.examples import path_of
-from roughline.lab.measured.state import question_of, said_of, source_of
-from roughline.lab.measured.words import CONTROLS
+from roughline.lab.measured.examples import EXAMPLES, path_of
+from roughline.lab.measured.state import CONTROLS, question_of, said_of, source_of
 from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
 from roughline.report.answers import answer_table

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Literal, TypeVar
 
 import roughline as rl
@@ -31,51 +31,28 @@ _Read = TypeVar("_Read")
 
 
 class ControlError(rl.InputError):
-    """The value that a control of the page is set to cannot be used.
-
-    Attributes
-    ----------
-    at : str
-        Key of the control; empty for the whole view.
-    among : tuple of str
-        Keys of all controls that do not go together, that one first.
-    """
+    """The value that a control of the page is set to cannot be used."""
 
     def __init__(self, message: str, at: str = "", *others: str) -> None:
         super().__init__(message)
-        self.at = at
-        self.among = (at, *others)
+        self.at = at  # key of the control; empty for the whole view
+        self.among = (at, *others)  # keys of all controls that do not go together
 
 
 @dataclass(frozen=True)
 class Control:
-    """A number that can be set, by a slider or as text.
+    """A number that can be set, by a slider or as text."""
 
-    Attributes
-    ----------
-    key : str
-        Its name in the address.
-    symbol, name : str
-        What the field calls it, and in words.
-    low, high, default : float
-        Its range.
-    meaning : str
-        One sentence, with its unit.
-    scale : {"linear", "logarithmic", "whole"}
-        How the slider runs; "whole" allows whole numbers alone.
-    step : float
-        Of the slider, in the number or, on a logarithmic scale, in decades.
-    """
-
-    key: str
-    symbol: str
-    name: str
+    key: str  # its name in the address
+    symbol: str  # what the field calls it
+    name: str  # the same in words
     low: float
     high: float
     default: float
-    meaning: str
+    meaning: str  # one sentence, with its unit
+    # how the slider runs; "whole" allows whole numbers alone
     scale: Literal["linear", "logarithmic", "whole"] = "logarithmic"
-    step: float = 0.02
+    step: float = 0.02  # of the slider: in the number or, on a logarithmic scale, in decades
 
     def read(self, text: str) -> float:
         """Return the number in a text.
@@ -124,25 +101,13 @@ class Control:
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several words.
+    """One of several words."""
 
-    Attributes
-    ----------
-    key, name : str
-        Its name in the address, and in words.
-    options : dict of str
-        What may be chosen: the word in the address, and what the page shows.
-    default : str
-        A word in the address.
-    meaning : str
-        One sentence.
-    """
-
-    key: str
-    name: str
-    options: dict[str, str] = field(default_factory=dict)
-    default: str = ""
-    meaning: str = ""
+    key: str  # its name in the address
+    name: str  # the same in words
+    options: dict[str, str]  # by the word in the address, what the page shows
+    default: str  # a word in the address
+    meaning: str  # one sentence
 
     def read(self, text: Any) -> str:
         """Return the word, if it is one of them.
@@ -184,14 +149,7 @@ def as_text(value: float) -> str:
 
 
 def texts_of(arguments: Mapping[str, Any], name: str = "state") -> Texts:
-    """Return the texts of the controls by their keys, as a page sends them.
-
-    Parameters
-    ----------
-    arguments : mapping
-        Of a task.
-    name : str, optional
-        Which of them holds the texts.
+    """Return the texts of the controls by their keys, as a page sends them in an argument.
 
     Raises
     ------
@@ -282,14 +240,7 @@ def _replace(texts: dict[str, str], key: str, *others: Texts) -> None:
 
 
 def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:
-    """Refuse an address of another version, and parameters that a view does not know.
-
-    Parameters
-    ----------
-    said : mapping of str to str
-        Parameters of the address.
-    known : collection of str
-        Keys of the view.
+    """Refuse an address of another version, and parameters that are no keys of a view.
 
     Raises
     ------

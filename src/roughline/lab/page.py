@@ -13,6 +13,7 @@ import roughline as rl
 from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
 from roughline.lab.measured import controls as measured
+from roughline.lab.measured.examples import EXAMPLES
 from roughline.lab.published import controls as published
 from roughline.paper.studies import study_summaries
 
@@ -28,6 +29,7 @@ def page() -> str:
         explore=explore,
         measured=measured,
         published=published,
+        examples=EXAMPLES,
         materials=list(materials()),
         studies=study_summaries(),
     )

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping
-from typing import Any
 
 from roughline.assessment.question import UNLOADING
 from roughline.lab.explore.state import ExploreState, state_in
 from roughline.lab.frames import frame
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 
 _OF_YIELD = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
 print("plastic_fraction", curve.plastic_fraction[0])
@@ -17,7 +15,7 @@ print("largest indentation over rms height", curve.indentation[0] / surface.rms_
 """
 
 
-def code(arguments: Mapping[str, Any], progress: Progress) -> bytes:
+def code(arguments: Arguments, progress: Progress) -> bytes:
     """The code of a state: `which` says in what language."""
     state = state_in(arguments)
     text = _as_python(state) if arguments.get("which") == "python" else _as_command(state)

@@ -126,8 +126,8 @@ _CHOICES = (
             "bush-gibson-thomas": "Bush, Gibson, Thomas",
             "greenwood-williamson": "Greenwood, Williamson",
         },
-        meaning="Theories for the same waves, drawn with the curves; they hold for periodic "
-        "surfaces.",
+        "",
+        "Theories for the same waves, drawn with the curves; they hold for periodic surfaces.",
     ),
 )
 NUMBERS = {each.key: each for each in _NUMBERS}

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import roughline as rl
 from roughline.lab.controls import ControlError
 from roughline.lab.explore.state import state_in
 from roughline.lab.frames import frame
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.contact_figures import write_contact
 
 FILES = (
@@ -22,7 +20,7 @@ FILES = (
 """What can be saved."""
 
 
-def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
+def download(arguments: Arguments, progress: Progress) -> bytes:
     """Write one of the files of a state to the folder of the session."""
     name = arguments.get("name")
     if name not in FILES:

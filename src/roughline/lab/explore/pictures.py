@@ -26,7 +26,7 @@ from roughline.lab.explore.words import (
     unloading_rows,
 )
 from roughline.lab.frames import frame
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
 
 _COARSE, _COARSER = 128, 64
@@ -42,8 +42,6 @@ _CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
 _CURVE_FORCES = np.geomspace(1e-3, 3, 13)
 _MOST_OF_HARDNESS = 0.9  # of the force under which all yields, where curves end
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
-
-Arguments = Mapping[str, Any]
 
 
 def reduced(arguments: Arguments, progress: Progress) -> bytes:

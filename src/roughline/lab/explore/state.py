@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any
@@ -24,6 +23,7 @@ from roughline.lab.controls import (
     usable,
 )
 from roughline.lab.explore.controls import CHOICES, NUMBERS
+from roughline.lab.server.tasks import Arguments
 from roughline.units import engineering, in_si, load_in_newtons
 
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
@@ -163,13 +163,13 @@ def _in_address(value: object) -> str:
     return as_text(value) if isinstance(value, float) else str(value)
 
 
-def usable_state(arguments: Mapping[str, Any]) -> tuple[ExploreState, dict[str, str]]:
+def usable_state(arguments: Arguments) -> tuple[ExploreState, dict[str, str]]:
     """The state that a page asks about, and what of its texts is not used, by control."""
     most_points = arguments["session"]["max_points"]
     return usable(arguments, lambda texts: state_of(texts, most_points), ExploreState.texts)
 
 
-def state_in(arguments: Mapping[str, Any]) -> ExploreState:
+def state_in(arguments: Arguments) -> ExploreState:
     """The state that a page asks about, all of whose texts can be used."""
     return state_of(texts_of(arguments), arguments["session"]["max_points"])
 

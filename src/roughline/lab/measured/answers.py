@@ -20,9 +20,8 @@ from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.part import part_in_words
 from roughline.lab.measured.pictures import contact_drawing, curve_drawing
-from roughline.lab.measured.state import Arguments, at, question_of, said_of, sources_of
-from roughline.lab.measured.words import CONTROLS
-from roughline.lab.server.tasks import Progress
+from roughline.lab.measured.state import CONTROLS, at, question_of, said_of, sources_of
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.answers import (
     IF_ELASTIC,
     UNRESOLVED,

@@ -17,9 +17,8 @@ from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
 from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
-from roughline.lab.measured.state import Arguments, Said, Source, at, question_of, used_in
-from roughline.lab.measured.words import CONTROLS
-from roughline.lab.server.tasks import Progress
+from roughline.lab.measured.state import CONTROLS, Said, Source, at, question_of, used_in
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.contact_tables import material_in_words
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering

@@ -6,9 +6,8 @@ from roughline.assessment.comparison import compare_models
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
-from roughline.lab.measured.state import Arguments, at, reading_of, said_of, source_of
-from roughline.lab.measured.words import CONTROLS
-from roughline.lab.server.tasks import Progress
+from roughline.lab.measured.state import CONTROLS, at, reading_of, said_of, source_of
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.comparison import comparison_table, verdict_in_words
 
 

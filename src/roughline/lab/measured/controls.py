@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from roughline.assessment.fields import ANSWERS, FIELDS, FILE, LOADS, PREPARATION
 from roughline.assessment.fields import BODIES as BODIES_GROUP
 from roughline.lab.controls import Choice
@@ -64,40 +62,3 @@ DEFAULTS = {key: each.default for key, each in CHOICES.items()} | {"most_missing
 """Of controls that mean something without a text."""
 NEEDED = {"first": "steel", "second": "copper", "E": "110 GPa"}
 """Of controls without whose text there is no answer: what is used while there is none."""
-
-
-@dataclass(frozen=True)
-class Example:
-    """A measurement made by ourselves.
-
-    Attributes
-    ----------
-    file : str
-        Name of its file.
-    name, meaning : str
-        What the page calls it, and one sentence.
-    """
-
-    file: str
-    name: str
-    meaning: str
-
-
-EXAMPLES = {
-    "ground": Example(
-        "ground-steel.x3p",
-        "ground steel, optical profiler",
-        "A map of 0.6 mm with a tilt, missing points and spikes of dust.",
-    ),
-    "film": Example(
-        "sputtered-film.x3p",
-        "sputtered film, AFM",
-        "A map of 4 µm that follows a self-affine law with a roll-off.",
-    ),
-    "shaft": Example(
-        "turned-shaft.txt",
-        "turned shaft, stylus",
-        "A line scan of 2 mm along feed marks.",
-    ),
-}
-"""By their keys in the address."""

@@ -21,7 +21,7 @@ from roughline.lab.measured import controls as c
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.kept import digest
 from roughline.lab.measured.state import (
-    Arguments,
+    CONTROLS,
     Said,
     loads_of,
     question_of,
@@ -30,8 +30,7 @@ from roughline.lab.measured.state import (
     sources_of,
     told_in,
 )
-from roughline.lab.measured.words import CONTROLS
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import write_contact_report
 from roughline.report.part_report import write_part_report

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -12,7 +13,6 @@ from typing import Any
 import numpy as np
 
 import roughline as rl
-from roughline.lab.measured.controls import EXAMPLES
 
 
 def path_of(key: str, folder: Path) -> Path:
@@ -23,7 +23,7 @@ def path_of(key: str, folder: Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         with TemporaryDirectory(dir=folder) as begun:
             written = Path(begun) / example.file
-            _WRITERS[key](written)
+            example.write(written)
             written.replace(path)
     return path
 
@@ -93,8 +93,34 @@ def _write_x3p(path: Path, heights: Any, sizes: tuple[float, float]) -> None:
     )
 
 
-_WRITERS: dict[str, Callable[[Path], None]] = {
-    "ground": _ground_steel,
-    "film": _sputtered_film,
-    "shaft": _turned_shaft,
+@dataclass(frozen=True)
+class Example:
+    """A measurement made by ourselves."""
+
+    file: str  # name of its file
+    name: str  # what the page calls it
+    meaning: str  # one sentence
+    write: Callable[[Path], None]
+
+
+EXAMPLES = {
+    "ground": Example(
+        "ground-steel.x3p",
+        "ground steel, optical profiler",
+        "A map of 0.6 mm with a tilt, missing points and spikes of dust.",
+        _ground_steel,
+    ),
+    "film": Example(
+        "sputtered-film.x3p",
+        "sputtered film, AFM",
+        "A map of 4 µm that follows a self-affine law with a roll-off.",
+        _sputtered_film,
+    ),
+    "shaft": Example(
+        "turned-shaft.txt",
+        "turned shaft, stylus",
+        "A line scan of 2 mm along feed marks.",
+        _turned_shaft,
+    ),
 }
+"""By their keys in the address."""

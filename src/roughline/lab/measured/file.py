@@ -19,7 +19,7 @@ from roughline.lab.measured.pictures import (
     spectrum_of,
 )
 from roughline.lab.measured.state import (
-    Arguments,
+    CONTROLS,
     Said,
     Source,
     at,
@@ -29,8 +29,7 @@ from roughline.lab.measured.state import (
     source_of,
     used_in,
 )
-from roughline.lab.measured.words import CONTROLS
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.description_table import description_table
 from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.files.measurement import Measurement

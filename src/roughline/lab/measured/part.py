@@ -13,15 +13,14 @@ from roughline.assessment.source import Topography
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import (
-    Arguments,
+    CONTROLS,
     preparation_of,
     reading_of,
     said_of,
     sources_of,
     used_in,
 )
-from roughline.lab.measured.words import CONTROLS
-from roughline.lab.server.tasks import Progress, without_paths
+from roughline.lab.server.tasks import Arguments, Progress, without_paths
 from roughline.report.answers import (
     UNRESOLVED,
     answer_table,

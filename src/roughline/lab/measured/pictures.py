@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -29,18 +29,10 @@ _MOST = (0.1, 99.9)  # of heights, without spikes [%]
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """Heights as the page draws them.
+    """Heights as the page draws them."""
 
-    Attributes
-    ----------
-    header : dict
-        Sides, units, ranges of all and of most heights, and where spikes are.
-    arrays : dict of ndarray
-        Heights, rows along x; NaN where they are missing.
-    """
-
-    header: dict[str, Any]
-    arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
+    header: dict[str, Any]  # sides, units, ranges of all and of most heights, and where spikes are
+    arrays: dict[str, NDArray[Any]]  # heights, rows along x; NaN where they are missing
 
 
 def drawing_of_file(content: Measurement, body: Body | None) -> Drawing:

@@ -11,12 +11,13 @@ from typing import Any, TypeVar
 
 import roughline as rl
 from roughline.assessment import told
-from roughline.assessment.fields import FILE, PREPARATION
+from roughline.assessment.fields import FILE, PREPARATION, names_by
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.assessment.told import refuse_alone
 from roughline.engineering.materials import Material, material
 from roughline.errors.checks import shown
+from roughline.errors.words import Words
 from roughline.lab.controls import (
     ControlError,
     is_number,
@@ -25,7 +26,8 @@ from roughline.lab.controls import (
     usable,
 )
 from roughline.lab.measured import controls as c
-from roughline.lab.measured.examples import path_of
+from roughline.lab.measured.examples import EXAMPLES, path_of
+from roughline.lab.server.tasks import Arguments
 from roughline.theories.theory import THEORIES
 from roughline.topography.preparation import Preparation
 from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comma
@@ -36,28 +38,22 @@ _NEEDING = ("joint_area", "friction", "frequency")  # controls that need two mat
 _OF_ARGUMENTS = {"E_star": "E"} | {each.name: key for key, each in c.BY_CONTROL.items()}
 """Controls by the names of arguments."""
 
+CONTROLS = Words(
+    names_by(lambda field: field.word or field.label or field.control), lambda text: f'"{text}"'
+)
+"""What the page calls arguments of the library: its controls."""
+
 _Read = TypeVar("_Read")
-Arguments = Mapping[str, Any]
 Said = Mapping[str, str]
 
 
 @dataclass(frozen=True)
 class Source:
-    """The file of a page.
+    """The file of a page."""
 
-    Attributes
-    ----------
-    path : Path
-        Where it lies.
-    name : str
-        What its owner calls it.
-    key : str
-        By which the page knows it.
-    """
-
-    path: Path
-    name: str
-    key: str
+    path: Path  # where it lies
+    name: str  # what its owner calls it
+    key: str  # by which the page knows it
 
 
 def said_of(arguments: Arguments) -> Said:
@@ -110,12 +106,12 @@ def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
         If there is none, or one is gone.
     """
     if key := said.get("example"):
-        if key not in c.EXAMPLES:
+        if key not in EXAMPLES:
             raise ControlError(
-                f'there is no example "{key[:40]}"; there are {", ".join(c.EXAMPLES)}', "file"
+                f'there is no example "{key[:40]}"; there are {", ".join(EXAMPLES)}', "file"
             )
         path = path_of(key, Path(session["folder"]) / "results")
-        return [Source(path, c.EXAMPLES[key].file, key)]
+        return [Source(path, EXAMPLES[key].file, key)]
     keys = said.get("file", "").split(",")
     paths = [session["files"].get(key) for key in keys]
     if None in paths:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +10,7 @@ import roughline as rl
 from roughline.lab.controls import ControlError
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.paper.gallery import Gallery
 from roughline.paper.plan import paper_plan
 from roughline.report.shading import shaded
@@ -20,7 +18,7 @@ from roughline.report.shading import shaded
 _POINTS = 512  # along a side; the paper's own plan has 2048
 
 
-def body(arguments: Mapping[str, Any], progress: Progress) -> bytes:
+def body(arguments: Arguments, progress: Progress) -> bytes:
     """One row of Figure 1; the second row is Figure 2 as well."""
     row = _row(arguments.get("row"))
     n = min(_POINTS, arguments["session"]["max_points"])

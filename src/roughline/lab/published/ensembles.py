@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -15,6 +14,7 @@ from roughline.contact import scaling
 from roughline.lab.controls import ControlError, Texts, usable
 from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
 from roughline.lab.published.state import PublishedState, Window, state_of
+from roughline.lab.server.tasks import Arguments
 from roughline.paper.laws import converged_stiffness
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import published_dataset
@@ -36,7 +36,7 @@ def model_of(said: object) -> ModelLabel:
     return "1D" if said == "1D" else "3D"
 
 
-def usable_state(arguments: Mapping[str, Any]) -> tuple[PublishedState, dict[str, Any]]:
+def usable_state(arguments: Arguments) -> tuple[PublishedState, dict[str, Any]]:
     """The state that a page asks about, and what its controls are told of it."""
 
     def read(texts: Texts) -> PublishedState:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
@@ -12,7 +11,7 @@ from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
 from roughline.lab.published.ensembles import one_dimension, usable_state
 from roughline.lab.published.state import PublishedState
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.contact_area import AreaLaw, area_law, mean_area
 from roughline.paper.results import published_dataset, published_results
@@ -25,8 +24,6 @@ from roughline.theories import bush_gibson_thomas, persson
 from roughline.units import decimal
 
 _DIGITS = 3
-
-Arguments = Mapping[str, Any]
 
 
 def exponents(arguments: Arguments, progress: Progress) -> bytes:

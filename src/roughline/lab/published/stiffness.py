@@ -19,7 +19,7 @@ from roughline.lab.published.ensembles import (
     usable_state,
 )
 from roughline.lab.published.state import PublishedState
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.paper.claim import at
 from roughline.paper.laws import exponent_estimate, prefactor_estimate
 from roughline.paper.stated import (
@@ -34,8 +34,6 @@ from roughline.statistics.verdict import Case, Verdict, in_words, joint_verdict
 from roughline.units import decimal
 
 _DIGITS = 3
-
-Arguments = Mapping[str, Any]
 
 
 def curves(arguments: Arguments, progress: Progress) -> bytes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any
 
@@ -13,13 +12,11 @@ from roughline.contact.comparison.trust import Difference, TrustMap, trust_map
 from roughline.lab.frames import frame
 from roughline.lab.published.ensembles import usable_state
 from roughline.lab.published.state import PublishedState
-from roughline.lab.server.tasks import Progress
+from roughline.lab.server.tasks import Arguments, Progress
 from roughline.paper.tables import trust_cell
 from roughline.units import decimal
 
 _DIGITS = 3
-
-Arguments = Mapping[str, Any]
 
 
 def trust(arguments: Arguments, progress: Progress) -> bytes:

@@ -27,9 +27,9 @@ _UNKNOWN = (
 _PROGRAM = (str(Path(__file__).parents[1]), sys.prefix)
 """Folders of the program, whose names concern nobody who uses a page."""
 
+Arguments = Mapping[str, Any]  # of a task, and the "session" that asks
 Progress = Callable[[int, int], None]  # called with (steps done, steps in all)
-_Task = Callable[[Mapping[str, Any], Progress], bytes]
-"""Arguments and progress in, a message for the page out."""
+_Task = Callable[[Arguments, Progress], bytes]  # gives a message for the page
 
 
 @dataclass(frozen=True)
