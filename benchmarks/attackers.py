@@ -13,7 +13,7 @@ from urllib.parse import urlencode
 import numpy as np
 
 from mutated_questions import SLOW, STATES, mutated
-from roughline.lab.tasks import TASKS
+from roughline.lab.site import TASKS
 
 CROWDS = {"127.0.0.11": 350, "127.0.0.12": 350, "127.0.0.13": 150, "127.0.0.14": 150}
 """How many of 1,000 sockets come from each address."""

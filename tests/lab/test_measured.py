@@ -19,7 +19,7 @@ from roughline.lab.measured import documents
 from roughline.lab.measured.examples import EXAMPLES, path_of
 from roughline.lab.measured.state import CONTROLS, question_of, said_of, source_of
 from roughline.lab.server.tasks import outcome_of
-from roughline.lab.tasks import TASKS
+from roughline.lab.site import TASKS
 from roughline.report.answers import answer_table
 from roughline.report.comparison import comparison_table, verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table

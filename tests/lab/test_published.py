@@ -9,7 +9,7 @@ import pytest
 import roughline as rl
 from roughline.lab.published import controls, state
 from roughline.lab.server.tasks import outcome_of
-from roughline.lab.tasks import TASKS
+from roughline.lab.site import TASKS
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.gallery import Gallery
 from roughline.paper.laws import exponent_estimate

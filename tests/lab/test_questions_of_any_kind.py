@@ -9,7 +9,7 @@ import pytest
 from mutated_questions import SLOW, STATES, mutated
 from random_cases import cases
 from roughline.lab.server.tasks import Outcome, Place, outcome_of
-from roughline.lab.tasks import TASKS
+from roughline.lab.site import TASKS
 
 MUTATIONS = cases(100, share=2)  # of each task
 LONGEST = 500  # sentence [characters]

@@ -13,7 +13,7 @@ from roughline.lab.published import controls as published
 from roughline.lab.published.state import PublishedState
 from roughline.lab.published.state import state_of as published_state
 from roughline.lab.server.tasks import outcome_of
-from roughline.lab.tasks import TASKS
+from roughline.lab.site import TASKS
 
 TEXTS = (
     *("", " ", "abc", "1,5", "1e400", "nan", "inf", "-1", "0", "1e-6", "٣", "x" * 300, "😀"),

@@ -21,7 +21,7 @@ HALF = b"GET / HTTP/1.1\r\nHo"
 SHORT = (
     "from roughline.lab.server import connections",
     "connections.PATIENCE = connections.Patience(request=1, stall=1, speed=10_000)",
-    "from roughline.lab.tasks import TASKS",
+    "from roughline.lab.site import TASKS",
     "from roughline.lab.server.tasks import Place",
     "TASKS['fails'] = Place('json', 'loads', is_quick=True)",
 )

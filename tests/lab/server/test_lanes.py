@@ -13,8 +13,8 @@ import pytest
 from lab.server import doings
 from roughline.lab.server import lanes
 from roughline.lab.server import process as processes
-from roughline.lab.server.lanes import Lane
-from roughline.lab.server.requests import Limits, Request
+from roughline.lab.server.budget import Limits
+from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.tasks import without_paths
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")

@@ -12,7 +12,7 @@ from tornado.netutil import bind_sockets
 
 from lab.server.serving import Lab, becomes, log_in, upload
 from roughline.lab.server import server as server_of_pages
-from roughline.lab.server.serve import application
+from roughline.lab.server.handlers import application
 from roughline.lab.server.server import Server
 from roughline.lab.server.session import _MOST_HELD_BYTES, Visit
 from roughline.lab.server.settings import ServerSettings

@@ -25,8 +25,8 @@ from lab.server.serving import (
     upload,
     wait_until,
 )
+from roughline.lab.server.handlers import application
 from roughline.lab.server.interrupts import noted_interrupts
-from roughline.lab.server.serve import application
 from roughline.lab.server.server import Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.site import site
@@ -177,7 +177,7 @@ def test_ctrl_c_while_modules_are_loaded_is_not_lost():
 
 
 def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
-    monkeypatch.setattr("roughline.lab.server.serve._PING", 0.3)
+    monkeypatch.setattr("roughline.lab.server.handlers._PING", 0.3)
     monkeypatch.setattr("roughline.lab.server.server._WAITS", 0.3)
 
     async def scenario():

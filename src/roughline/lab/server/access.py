@@ -8,39 +8,12 @@ import time
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from ipaddress import IPv4Address, IPv6Address, ip_address
-from urllib.parse import SplitResult, parse_qsl, urlencode, urlsplit
+from urllib.parse import SplitResult, urlsplit
 
 from tornado.httputil import HTTPServerRequest
 
 from roughline.lab.server.settings import ServerSettings
 
-_CONTENT_POLICY = "; ".join(
-    (
-        "default-src 'none'",
-        "script-src 'self'",
-        "style-src 'self' 'unsafe-inline'",  # BokehJS writes its styles into the page
-        "img-src 'self' data:",
-        "connect-src 'self'",
-        "form-action 'self'",
-        "base-uri 'none'",
-        "frame-ancestors 'none'",
-    )
-)
-"""Everything is loaded from this server only, and no text of a page is run as a program."""
-
-HEADERS = {
-    "Content-Security-Policy": _CONTENT_POLICY,
-    "X-Content-Type-Options": "nosniff",
-    "X-Frame-Options": "DENY",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cross-Origin-Resource-Policy": "same-origin",
-}
-
-RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"
-"""Documents that tasks have written run no program, and load nothing."""
-
-_PAGE = re.compile(r"/(\?[!-~]*)?")  # with what is set in it
 _WITH_PORT = re.compile(r"\[(.*)\](?::\d*)?|([0-9.]+):\d*")
 _OWN_NAMES = ("localhost", "127.0.0.1", "::1")
 
@@ -77,17 +50,6 @@ def cookie_name(host: str) -> str:
     """Name of the cookie of a login; it has the port, because cookies are shared by all ports."""
     port = _split(f"//{host}").port
     return "roughline_lab" if port is None else f"roughline_lab_{port}"
-
-
-def address_of_page(query: str) -> str:
-    """Return the address of the page with a query, less the token in it."""
-    rest = [part for part in parse_qsl(query, keep_blank_values=True) if part[0] != "token"]
-    return f"/?{urlencode(rest)}" if rest else "/"
-
-
-def own_page(address: str) -> str:
-    """Return an address to go on to if it is the page's own; that of the bare page otherwise."""
-    return address if _PAGE.fullmatch(address) else "/"
 
 
 def comes_through_proxy(request: HTTPServerRequest, settings: ServerSettings) -> bool:

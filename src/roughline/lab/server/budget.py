@@ -7,12 +7,12 @@ import shutil
 import time
 from collections.abc import Iterable
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from roughline.computing.cores import available_cores
 from roughline.computing.memory import free_memory
 from roughline.errors import InputError
-from roughline.lab.server.requests import Limits
 
 LEAST_MEMORY = 500_000_000  # of a task that is not quick [bytes]
 _USABLE = 0.9  # of the memory that is free when the server starts
@@ -23,6 +23,17 @@ _FOR_QUICK = 1 / 3  # of the memory, where it is scarce
 _MOST_SLOW = 20  # processes for tasks that take long, unless there are more cores
 _MOST_DISK = 20_000_000_000  # [bytes]
 _LOOKS = 1.0  # after which files are counted again [s]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a lane and one task in it may take."""
+
+    count: int  # processes that work side by side; one that takes long lets others start beside it
+    most: int  # processes in all
+    per_session: int  # processes that work for one page
+    seconds: float  # time of a task [s]
+    memory: float  # memory of a task, beside the program [bytes]
 
 
 def memory_for_tasks() -> float:

@@ -1,142 +1,63 @@
-"""The requests of a page other than its websocket: the page, its parts, uploads and downloads."""
+"""What is answered at which address: the page, its parts, uploads and downloads."""
 
 from __future__ import annotations
 
 import mimetypes
+import re
+import secrets
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, BinaryIO
-from urllib.parse import urlencode
+from typing import BinaryIO
+from urllib.parse import parse_qsl, urlencode
 
 from tornado.iostream import StreamClosedError
-from tornado.web import HTTPError, RequestHandler, StaticFileHandler, stream_request_body
+from tornado.web import Application, HTTPError, StaticFileHandler, stream_request_body
 
-from roughline.lab.server.access import (
-    HEADERS,
-    RESULTS_POLICY,
-    address_of_page,
-    comes_through_proxy,
-    cookie_name,
-    host_is_ours,
-    is_encrypted,
-    origin_is_ours,
-    own_page,
-    visitor,
-)
-from roughline.lab.server.connections import Connection, Stage
-from roughline.lab.server.logins import DAYS
+from roughline.lab.server.access import cookie_name
+from roughline.lab.server.connections import Stage
+from roughline.lab.server.guarded import Guarded
+from roughline.lab.server.link import MOST_BYTES, Link
 from roughline.lab.server.server import Server
 from roughline.lab.server.session import Session, Upload
 
+_PING = 20  # a page that does not answer within this time is gone [s]
 _MOST_DIGITS = 15  # of the size of a file that is to come
 _DIGEST = 12  # letters of the digest by which a page knows a file again
 _LATER = 3600  # that a browser keeps the parts of the page [s]
 _NO_ROOM = "The lab has no room for this file now: close other pages of it, or come back later"
 _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
+_PAGE = re.compile(r"/(\?[!-~]*)?")  # with what is set in it
+_RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"
+"""Documents that tasks have written run no program, and load nothing."""
 
 
-class Guarded(RequestHandler):
-    """A request that is answered only to pages that may ask."""
-
-    open_to_all = False
-
-    @property
-    def server(self) -> Server:
-        """The server that is asked."""
-        server: Server = self.application.settings["server"]
-        return server
-
-    @property
-    def address(self) -> str:
-        """Where the request comes from."""
-        return visitor(self.request, self.server.settings)
-
-    @property
-    def login_name(self) -> str:
-        """Name of the browser's login, as its cookie says; empty if it has none."""
-        said = self.get_signed_cookie(cookie_name(self.request.host), max_age_days=DAYS)
-        return (said or b"").decode()
-
-    @property
-    def is_logged_in(self) -> bool:
-        """Whether the browser is, for the name by which the server is called now."""
-        return self.server.logins.know(self.login_name, self.request.host.lower())
-
-    def note(self, stage: Stage) -> None:
-        """Note what the connection of the request does from now on."""
-        connection = getattr(self.request.connection, "stream", None)
-        if isinstance(connection, Connection):
-            connection.enter(stage)
-
-    def set_default_headers(self) -> None:
-        """Say what a browser may do with the answer."""
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
-        self.set_header("Server", "roughline")
-
-    def prepare(self) -> None:
-        """Refuse other ways than ours, pages of other servers, and who has not logged in."""
-        self.note(Stage.IS_SERVED)
-        settings = self.server.settings
-        if settings.proxies and not comes_through_proxy(self.request, settings):
-            raise HTTPError(403, reason="This lab is reached through its proxy only")
-        if not host_is_ours(self.request.host, settings):
-            raise HTTPError(403, reason="This is not a name of this server")
-        origin = self.request.headers.get("Origin")
-        reads = self.request.method in ("GET", "HEAD")
-        if (origin is not None or not reads) and not origin_is_ours(origin, self.request.host):
-            raise HTTPError(403, reason="Requests from pages of other servers are refused")
-        if not self.open_to_all and not self.is_logged_in:
-            raise HTTPError(401, reason="Log in first")
-
-    def write_error(self, status_code: int, **kwargs: Any) -> None:
-        """Answer in one line, without a trace."""
-        self.set_header("Content-Type", "text/plain; charset=utf-8")
-        self.finish(f"{status_code}: {self._reason}\n")
-
-    def session_of(self, token: str) -> Session:
-        """Return the session with a token."""
-        session = self.server.sessions.get(token)
-        if session is None or session.login != self.login_name:
-            raise HTTPError(404, reason="This page is no longer connected: reload it")
-        return session
-
-    def enter(self, given: str, leads_to: str) -> None:
-        """Let in who has given the password or token, and go on; ask again otherwise."""
-        key, visitors = self.server.key, self.server.visitors
-        may_try = visitors.may_try(self.address)
-        # nobody guesses a token, so a stranger's tries need not keep out who has it
-        if (may_try or key.is_token) and key.opens(given):
-            if may_try:
-                visitors.succeeded(self.address)
-            self.set_signed_cookie(
-                cookie_name(self.request.host),
-                self.server.logins.begin(self.request.host.lower()),
-                expires_days=DAYS,
-                httponly=True,
-                samesite="Strict",
-                secure=is_encrypted(self.request, self.server.settings),
-            )
-            self.redirect(leads_to, status=303)
-        elif not may_try:
-            self.set_status(429)
-            self.ask_for_key("Too many tries: wait a minute.", leads_to)
-        else:
-            self.set_status(403)
-            wanted = "token of the lab that runs now" if key.is_token else "password"
-            self.ask_for_key(f"This is not the {wanted}.", leads_to)
-
-    def ask_for_key(self, complaint: str, leads_to: str) -> None:
-        """Send the page that asks for the password or token."""
-        self.set_header("Referrer-Policy", "same-origin")  # "no-referrer" hides a form's origin
-        self.set_header("Cache-Control", "no-store")
-        key = self.server.key
-        self.finish(self.server.site.login_page(key.is_token, complaint, leads_to))
+def application(server: Server) -> Application:
+    """The handlers, by address."""
+    return Application(
+        [
+            (r"/", _Page),
+            (r"/login", _Login),
+            (r"/logout", _Logout),
+            (r"/here", _Here),
+            (r"/link", Link),
+            (r"/upload", _Uploads),
+            (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", _Results),
+            (r"/lab/(.*)", _Parts, {"path": str(server.site.parts)}),
+            (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(_bokeh_folder())}),
+        ],
+        default_handler_class=_Nothing,
+        server=server,
+        cookie_secret=secrets.token_hex(32),
+        websocket_max_message_size=MOST_BYTES,
+        websocket_ping_interval=_PING,
+        websocket_ping_timeout=_PING,
+        log_function=lambda handler: None,
+    )
 
 
-class Nothing(Guarded):
+class _Nothing(Guarded):
     """An address at which there is nothing."""
 
     def prepare(self) -> None:
@@ -146,7 +67,7 @@ class Nothing(Guarded):
             raise HTTPError(404, reason="There is nothing at this address")
 
 
-class Page(Guarded):
+class _Page(Guarded):
     """The page itself."""
 
     open_to_all = True
@@ -155,7 +76,7 @@ class Page(Guarded):
         """Send it, to who is logged in."""
         self.set_header("Cache-Control", "no-store")
         token = self.get_query_argument("token", None)
-        address = address_of_page(self.request.query)
+        address = _address_of_page(self.request.query)
         if not self.is_logged_in and token is not None and self.server.key.is_token:
             self.enter(token, address)
         elif not self.is_logged_in:
@@ -166,14 +87,14 @@ class Page(Guarded):
             self.finish(self.server.site.page())
 
 
-class Login(Guarded):
+class _Login(Guarded):
     """Where the password or token is asked for."""
 
     open_to_all = True
 
     def get(self) -> None:
         """Ask who is not logged in."""
-        leads_to = own_page(self.get_query_argument("next", "/"))
+        leads_to = _own_page(self.get_query_argument("next", "/"))
         if not self.is_logged_in:
             self.ask_for_key("", leads_to)
         else:
@@ -182,11 +103,11 @@ class Login(Guarded):
     def post(self) -> None:
         """Check what was given."""
         given = "token" if self.server.key.is_token else "password"
-        leads_to = own_page(self.get_body_argument("next", "/"))
+        leads_to = _own_page(self.get_body_argument("next", "/"))
         self.enter(self.get_body_argument(given, "", strip=False), leads_to)
 
 
-class Logout(Guarded):
+class _Logout(Guarded):
     """Where a browser logs out."""
 
     def post(self) -> None:
@@ -196,7 +117,7 @@ class Logout(Guarded):
         self.redirect("/login", status=303)
 
 
-class Here(Guarded):
+class _Here(Guarded):
     """Where a page asks whether its browser is still logged in."""
 
     def get(self) -> None:
@@ -205,7 +126,7 @@ class Here(Guarded):
         self.set_status(204)
 
 
-class Parts(Guarded, StaticFileHandler):
+class _Parts(Guarded, StaticFileHandler):
     """Scripts and styles, ours and those of Bokeh."""
 
     open_to_all = True
@@ -223,7 +144,7 @@ class Parts(Guarded, StaticFileHandler):
 
 
 @stream_request_body
-class Uploads(Guarded):
+class _Uploads(Guarded):
     """A file that a page brings, written to disk as it comes."""
 
     _session: Session | None = None
@@ -308,7 +229,7 @@ class Uploads(Guarded):
             self._session = None
 
 
-class Results(Guarded):
+class _Results(Guarded):
     """Files that tasks have written for a page: reports, pictures, data."""
 
     async def get(self, token: str, name: str) -> None:
@@ -322,7 +243,7 @@ class Results(Guarded):
         self.set_header("Content-Length", str(path.stat().st_size))
         self.set_header("Cache-Control", "no-store")
         if kind in _DOCUMENTS:
-            self.set_header("Content-Security-Policy", RESULTS_POLICY)
+            self.set_header("Content-Security-Policy", _RESULTS_POLICY)
         if self.get_query_argument("save", ""):
             self.set_header("Content-Disposition", f'attachment; filename="{path.name}"')
         for piece in StaticFileHandler.get_content(str(path)):
@@ -333,7 +254,18 @@ class Results(Guarded):
                 return
 
 
-def bokeh_folder() -> Path:
+def _address_of_page(query: str) -> str:
+    """The address of the page with a query, less the token in it."""
+    rest = [part for part in parse_qsl(query, keep_blank_values=True) if part[0] != "token"]
+    return f"/?{urlencode(rest)}" if rest else "/"
+
+
+def _own_page(address: str) -> str:
+    """An address to go on to if it is the page's own; that of the bare page otherwise."""
+    return address if _PAGE.fullmatch(address) else "/"
+
+
+def _bokeh_folder() -> Path:
     """Folder of the scripts and styles of Bokeh, in its own package."""
     from importlib.util import find_spec
 

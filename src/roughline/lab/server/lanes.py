@@ -6,15 +6,15 @@ import asyncio
 import logging
 import time
 from collections import Counter
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
+from roughline.lab.server.budget import Limits
 from roughline.lab.server.process import LOST, LOWEST, NOT_BEGUN, Process
-from roughline.lab.server.requests import Limits, Request
 from roughline.lab.server.tasks import Outcome, Place
 
 _log = logging.getLogger(__name__)
@@ -24,6 +24,35 @@ _CROWD = 2  # requests that wait for each process, from which on answers are coa
 _MOST_PARTS = 16  # of a page that may wait for something at once
 _MOST_TRIES = 5  # of processes that may be gone before they have their task
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
+
+
+@dataclass(frozen=True)
+class Request:
+    """One thing that a page asks for."""
+
+    # where the page is, which page asks, and for which of its parts: a newer request for the same
+    # part replaces an older one
+    address: str
+    session: str
+    slot: str
+    place: Place  # where the task is
+    # of the task; with "refines" it refines an existing answer, and lets other requests pass
+    arguments: Mapping[str, Any]
+    # told the outcome, unless the request was replaced or withdrawn
+    answer: Callable[[Outcome], None]
+    progress: Callable[[int, int], None]  # told (steps done, steps in all)
+    # when it, or an older one that it replaced, began to wait, on the monotonic clock [s]
+    since: float = field(default_factory=time.monotonic)
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """What a newer request must share to take its place."""
+        return self.session, self.slot
+
+    @property
+    def refines(self) -> bool:
+        """Whether it makes an answer finer that is there already."""
+        return self.arguments.get("refines") is True
 
 
 @dataclass(eq=False)
@@ -110,9 +139,7 @@ class Lane:
         self._idle = [process for process in self._idle if not process.tasks]
         for process in used:
             self._threads.submit(process.end)
-        task = asyncio.create_task(self.prepare())
-        self._work.add(task)
-        task.add_done_callback(self._work.discard)
+        self._begin(self._fill())
 
     async def close(self) -> None:
         """Stop everything, and wait until it is gone."""

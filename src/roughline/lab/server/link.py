@@ -12,7 +12,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from roughline._version import __version__
 from roughline.lab.server.access import Allowance, origin_is_ours
-from roughline.lab.server.handlers import Guarded
+from roughline.lab.server.guarded import Guarded
 from roughline.lab.server.session import Session, Visit
 
 MOST_BYTES = 2**16  # longest message of a page; files come another way

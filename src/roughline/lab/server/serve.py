@@ -1,11 +1,10 @@
-"""What the server answers at which address, from its start to its end."""
+"""The server from its start to its end."""
 
 from __future__ import annotations
 
 import asyncio
 import logging
 import os
-import secrets
 import signal
 import socket
 from collections.abc import Callable
@@ -13,59 +12,22 @@ from contextlib import ExitStack, suppress
 from ipaddress import ip_address
 
 from tornado.netutil import bind_sockets
-from tornado.web import Application
 
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
 from roughline.lab.server.access import is_proxy
 from roughline.lab.server.connections import Connections, most_connections
-from roughline.lab.server.handlers import (
-    Here,
-    Login,
-    Logout,
-    Nothing,
-    Page,
-    Parts,
-    Results,
-    Uploads,
-    bokeh_folder,
-)
+from roughline.lab.server.handlers import application
 from roughline.lab.server.leftovers import folder_of_files
-from roughline.lab.server.link import MOST_BYTES, Link
 from roughline.lab.server.server import Server
 from roughline.lab.server.settings import ServerSettings
-from roughline.lab.server.site import Site
+from roughline.lab.server.tasks import Site
 
-_PING = 20  # a page that does not answer within this time is gone [s]
 _READY = 1.5  # that the first page waits for what it will need first [s]
 _MOST_BODY = 2**16  # of a request that brings no file [bytes]
 _MOST_HEADERS = 2**14  # [bytes]
 _MOST_KNOCKING = 1024  # connections that wait to be taken
-
-
-def application(server: Server) -> Application:
-    """The handlers, by address."""
-    return Application(
-        [
-            (r"/", Page),
-            (r"/login", Login),
-            (r"/logout", Logout),
-            (r"/here", Here),
-            (r"/link", Link),
-            (r"/upload", Uploads),
-            (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", Results),
-            (r"/lab/(.*)", Parts, {"path": str(server.site.parts)}),
-            (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),
-        ],
-        default_handler_class=Nothing,
-        server=server,
-        cookie_secret=secrets.token_hex(32),
-        websocket_max_message_size=MOST_BYTES,
-        websocket_ping_interval=_PING,
-        websocket_ping_timeout=_PING,
-        log_function=lambda handler: None,
-    )
 
 
 def serve(

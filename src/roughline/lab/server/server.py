@@ -12,7 +12,7 @@ from roughline.lab.server.lanes import Lane
 from roughline.lab.server.logins import Key, Logins
 from roughline.lab.server.session import Line, Session, Visit
 from roughline.lab.server.settings import ServerSettings
-from roughline.lab.server.site import Site
+from roughline.lab.server.tasks import Site
 
 _WAITS = 600.0  # that a session waits for its page [s]
 _RELOADS = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]

@@ -15,12 +15,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from roughline.lab.server.access import Allowance
-from roughline.lab.server.lanes import Lane
+from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.process import Process
-from roughline.lab.server.requests import Request
 from roughline.lab.server.settings import ServerSettings
-from roughline.lab.server.site import Site
-from roughline.lab.server.tasks import Outcome
+from roughline.lab.server.tasks import Outcome, Site
 
 _MOST_FILES = 20  # of one session at once
 _MOST_UPLOADS = 3  # largest files that a session's files may make together

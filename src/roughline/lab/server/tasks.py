@@ -54,6 +54,20 @@ class Outcome:
     at: str = ""  # key of the control that the sentence belongs to; empty if it belongs to none
 
 
+@dataclass(frozen=True)
+class Site:
+    """What a server serves."""
+
+    page: Callable[[], str]  # gives the page, as HTML
+    # gives the page that asks for the token, or else for the password, from that choice, a word on
+    # what was wrong, and the address to go on to
+    login_page: Callable[[bool, str, str], str]
+    parts: Path  # folder of scripts and styles
+    tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
+    # module that is loaded before processes are forked; its function ``up`` loads the rest
+    warm: str
+
+
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
     """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
