@@ -18,8 +18,7 @@ VERSION = "1"
 STRANGE = "this question is not one of the lab: reload the page"
 """What is said of a question that no page of this lab asks."""
 
-MOST_CHARACTERS = 1000
-"""Of the text of a control."""
+_MOST_CHARACTERS = 1000  # of the text of a control
 
 _OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of a view's state
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*", re.IGNORECASE | re.ASCII)
@@ -180,19 +179,15 @@ def usable(
     arguments : mapping
         Of a task: "state" has the texts, those changed last at its end, "before" those that were
         used last, and "red" the keys of those that were refused last, where there are any.
-    read : callable
-        Reads texts, or raises the first ControlError.
-    told : callable
-        Gives all of what was read as texts again.
+    read, told : callable
+        Reads texts, or raises the first ControlError; gives all of what was read as texts again.
     needed : mapping of str to str, optional
         Texts that are used where no other can be, of controls that may not be empty.
 
     Returns
     -------
-    read
-        What was read.
-    refused : dict of str
-        Sentences by the keys of controls whose text is not used.
+    tuple
+        What was read, and sentences by the keys of controls whose text is not used.
 
     Raises
     ------
@@ -204,7 +199,7 @@ def usable(
     texts, refused = dict(said), {}
     changed = _changed(said, before, arguments.get("red"))
     for key in changed:
-        if len(said[key]) > MOST_CHARACTERS:
+        if len(said[key]) > _MOST_CHARACTERS:
             refused[key] = f"this text has {len(said[key])} characters; give a shorter one"
             _replace(texts, key, before, needed)
     while True:

@@ -17,19 +17,9 @@ _ALIGNMENT = 8  # typed arrays of a browser begin at multiples of their items
 def frame(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None = None) -> bytes:
     """Put a header and arrays into one message.
 
-    Parameters
-    ----------
-    header : mapping
-        Plain content; numbers that JSON has not become null.
-    arrays : mapping of str to ndarray, optional
-        Kept as single-precision, 8-bit or 32-bit unsigned numbers; other types become single
-        precision.
-
-    Returns
-    -------
-    bytes
-        The length of the header (4 bytes, least first), the header as JSON with the type, shape
-        and place of each array, padding, and the arrays.
+    It is the length of the header (4 bytes, least first), the header as JSON with the type, shape
+    and place of each array, padding, and the arrays. Numbers that JSON has not become null; arrays
+    other than those of 8-bit or 32-bit unsigned numbers become single precision.
     """
     chunks, places, offset = [], {}, 0
     for name, values in (arrays or {}).items():

@@ -16,18 +16,15 @@ from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import as_text
 from roughline.lab.explore.state import ExploreState, usable_state
 from roughline.lab.explore.words import (
-    area_rows,
     contact_words,
     line_words,
-    number_rows,
     status,
-    stiffness_rows,
     unloading_bar,
-    unloading_rows,
 )
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
+from roughline.units import decimal
 
 _COARSE, _COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
@@ -35,6 +32,7 @@ _LINES, _FEWER_LINES = 20, 5
 """Lines whose mean stiffness stands for the reduced model, and when many ask at once."""
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
+_DIGITS = 3  # of numbers in tables
 _FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
@@ -65,7 +63,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
                 "high": stiffness.max(axis=0),
             },
             "stiffness_bar_1d": float(mean[here]),
-            "table": [[*row, "1D"] for row in number_rows(forces, mean)],
+            "table": [[*row, "1D"] for row in _number_rows(forces, mean)],
             "strip": line_words(state, float(mean[here]), len(lines)),
             "is_coarse": len(lines) < _LINES,
         }
@@ -103,8 +101,8 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
             "curve": _of_curve(pressed),
             "grid": f"{n}²",
             "theories": [_of_theory(name, surface, state) for name in state.theories],
-            "stiffness_table": stiffness_rows(pressed),
-            "area_table": area_rows(pressed),
+            "stiffness_table": _stiffness_rows(pressed),
+            "area_table": _area_rows(pressed),
         }
     )
 
@@ -119,8 +117,8 @@ def unloading(arguments: Arguments, progress: Progress) -> bytes:
         {
             **_settled(state, refused),
             "curve": _of_curve(pressed),
-            "stiffness_table": unloading_rows(pressed),
-            "area_table": area_rows(pressed),
+            "stiffness_table": _unloading_rows(pressed),
+            "area_table": _area_rows(pressed),
         }
     )
 
@@ -242,7 +240,7 @@ def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     shown = slice(None, None, -(-waves.size // _MOST_ROWS))
     return {
         "spectrum": {"waves": waves, "C_2d": power, "law": np.where(law > 0, law, np.nan)},
-        "spectrum_table": number_rows(waves[shown], power[shown], law[shown]),
+        "spectrum_table": _number_rows(waves[shown], power[shown], law[shown]),
     }
 
 
@@ -264,3 +262,38 @@ def _of_theory(name: str, surface: rl.Surface, state: ExploreState) -> dict[str,
         "stiffness_bar": stiffness,
         "validity": found.validity,
     }
+
+
+def _stiffness_rows(pressed: rl.Curve) -> list[list[str]]:
+    """Rows of the table below the curve of the stiffness: F̄, k̄ and the model."""
+    rows = [[*row, "3D"] for row in _rows(pressed, pressed.stiffness_bar)]
+    if pressed.hardness is not None:
+        rows += [[*row, "3D, k_u"] for row in _rows(pressed, unloading_bar(pressed))]
+    return rows
+
+
+def _unloading_rows(pressed: rl.Curve) -> list[list[str]]:
+    """The same of the way back from a load, which is the first."""
+    return [[*row, "3D, way back"] for row in _rows(pressed, unloading_bar(pressed))]
+
+
+def _area_rows(pressed: rl.Curve) -> list[list[str]]:
+    """Rows of the table below the curve of the area: F̄ and A / A_0."""
+    assert pressed.area_fraction_corrected is not None
+    return _rows(pressed, pressed.area_fraction_corrected)
+
+
+def _number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
+    """Rows of a table of numbers."""
+    return [[decimal(float(value), _DIGITS) for value in row] for row in zip(*columns, strict=True)]
+
+
+def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
+    """Rows of a quantity over force; a star marks loads with too few cells in contact."""
+    rows = _number_rows(pressed.force_bar, values)
+    for i, row in enumerate(rows):
+        if not pressed.converged[i]:
+            row[1] = rl.Status(pressed.status[i]).reason
+        elif not pressed.resolved[i] and pressed.force[i] > 0:
+            row[1] += " *"
+    return rows

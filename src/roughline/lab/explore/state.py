@@ -35,16 +35,7 @@ _SIDES, _MODULI = (1e-12, 1e3), (1.0, 1e14)  # that are allowed [m], [Pa]
 class ExploreState:
     """What is generated and pressed, by the keys of the controls, which say what each means.
 
-    Attributes
-    ----------
-    roll_off, cutoff, h : float
-        In sides of the surface. [1]
-    hardness_bar : float or None
-        None if both bodies are elastic. [1]
-    L, E : str
-        Side of the surface and contact modulus, with units: what lengths and forces are told in.
-    theories : tuple of str
-        Drawn beside the curve.
+    Lengths are in sides of the surface.
     """
 
     D_f: float = NUMBERS["D_f"].default
@@ -56,12 +47,12 @@ class ExploreState:
     seed: int = int(NUMBERS["seed"].default)
     n: int = int(CHOICES["n"].default)
     boundary: str = CHOICES["boundary"].default
-    hardness_bar: float | None = None
+    hardness_bar: float | None = None  # None if both bodies are elastic
     F: float = NUMBERS["F"].default
     shown: str = CHOICES["shown"].default
-    L: str = "1 mm"
-    E: str = "110 GPa"
-    theories: tuple[str, ...] = ()
+    L: str = "1 mm"  # side of the surface
+    E: str = "110 GPa"  # contact modulus
+    theories: tuple[str, ...] = ()  # drawn beside the curve
 
     @property
     def length(self) -> float:
@@ -177,12 +168,7 @@ def state_in(arguments: Arguments) -> ExploreState:
 def state_of(said: Texts, most_points: int) -> ExploreState:
     """Read the parameters of an address, or the texts of the controls.
 
-    Parameters
-    ----------
-    said : mapping of str to str
-        Texts by the keys of the controls; those that are missing have their defaults.
-    most_points : int
-        Most points along a side that are allowed here.
+    Those that are missing have their defaults; so many points along a side are allowed here.
 
     Raises
     ------

@@ -18,11 +18,11 @@ from roughline.units import decimal, engineering, supported_digits
 
 _DIGITS = 3
 
-Item = dict[str, str]
+_Item = dict[str, str]
 """One number of the answer strip: its key, symbol, value, unit and meaning."""
 
 
-def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
+def line_words(state: ExploreState, stiffness: float, lines: int) -> list[_Item]:
     """What the reduced model gives at the load."""
     without_yield = "" if state.hardness_bar is None else " Its springs do not yield."
     return [
@@ -36,7 +36,7 @@ def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
     ]
 
 
-def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surface) -> list[Item]:
+def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surface) -> list[_Item]:
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
@@ -51,7 +51,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
     ]
 
 
-def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> Item:
+def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
     unsure = not pressed.resolved[0]
     ends = _first(intervals.stiffness) if intervals else None
     return _item(
@@ -66,7 +66,7 @@ def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> Item:
     )
 
 
-def _area(pressed: rl.Curve, intervals: Intervals | None) -> Item:
+def _area(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
     assert pressed.area_fraction_corrected is not None
     area = float(pressed.area_fraction_corrected[0])
     ends = _first(intervals.area) if intervals else None
@@ -81,7 +81,7 @@ def _area(pressed: rl.Curve, intervals: Intervals | None) -> Item:
     )
 
 
-def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[Item]:
+def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[_Item]:
     assert pressed.area_fraction is not None
     force, depth = float(pressed.force[0]), float(pressed.depth[0])
     in_contact = force / (surface.area * float(pressed.area_fraction[0]))
@@ -113,7 +113,7 @@ def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[Item]:
     ]
 
 
-def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surface) -> list[Item]:
+def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surface) -> list[_Item]:
     """Stiffness on unloading, share of the contact that yields, and indentation."""
     if pressed.hardness is None:
         return []
@@ -154,7 +154,7 @@ def unloading_bar(pressed: rl.Curve) -> NDArray[np.float64]:
     return stiffness_bar(pressed.unloading_stiffness, pressed.E_star, pressed.length, PAPER_PUNCH)
 
 
-def _roughness(surface: rl.Surface) -> Item:
+def _roughness(surface: rl.Surface) -> _Item:
     return _item(
         "roughness",
         "h",
@@ -174,41 +174,6 @@ def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str
     )
 
 
-def stiffness_rows(pressed: rl.Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the stiffness: F̄, k̄ and the model."""
-    rows = [[*row, "3D"] for row in _rows(pressed, pressed.stiffness_bar)]
-    if pressed.hardness is not None:
-        rows += [[*row, "3D, k_u"] for row in _rows(pressed, unloading_bar(pressed))]
-    return rows
-
-
-def unloading_rows(pressed: rl.Curve) -> list[list[str]]:
-    """The same of the way back from a load, which is the first."""
-    return [[*row, "3D, way back"] for row in _rows(pressed, unloading_bar(pressed))]
-
-
-def area_rows(pressed: rl.Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the area: F̄ and A / A_0."""
-    assert pressed.area_fraction_corrected is not None
-    return _rows(pressed, pressed.area_fraction_corrected)
-
-
-def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
-    """Rows of a table of numbers."""
-    return [[decimal(float(value), _DIGITS) for value in row] for row in zip(*columns, strict=True)]
-
-
-def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
-    """Rows of a quantity over force; a star marks loads with too few cells in contact."""
-    rows = number_rows(pressed.force_bar, values)
-    for i, row in enumerate(rows):
-        if not pressed.converged[i]:
-            row[1] = rl.Status(pressed.status[i]).reason
-        elif not pressed.resolved[i] and pressed.force[i] > 0:
-            row[1] += " *"
-    return rows
-
-
 def _digits(stiffness: NDArray[np.float64], ends: tuple[float, float] | None) -> int:
     """Digits that the interval of a stiffness at the first load supports."""
     return supported_digits(float(stiffness[0]), ends, _DIGITS)
@@ -219,5 +184,5 @@ def _first(ends: Any) -> tuple[float, float] | None:
     return None if ends is None else (float(ends[0][0]), float(ends[1][0]))
 
 
-def _item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> Item:
+def _item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> _Item:
     return {"key": key, "symbol": symbol, "value": value, "below": below, "meaning": meaning}

@@ -1,4 +1,4 @@
-"""The answers for a page: its question assessed once and kept, in tables, maps and curves."""
+"""The answers for a page: its question assessed once and kept, and both models compared."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assess_part import assess_part
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.question import Question
 from roughline.errors.words import speaking
@@ -20,7 +21,15 @@ from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.part import part_in_words
 from roughline.lab.measured.pictures import contact_drawing, curve_drawing
-from roughline.lab.measured.state import CONTROLS, at, question_of, said_of, sources_of
+from roughline.lab.measured.state import (
+    CONTROLS,
+    at,
+    question_of,
+    reading_of,
+    said_of,
+    source_of,
+    sources_of,
+)
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.answers import (
     IF_ELASTIC,
@@ -31,6 +40,7 @@ from roughline.report.answers import (
     lead_of,
     star_is_shown,
 )
+from roughline.report.comparison import comparison_table, verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table
 from roughline.topography.body import Surface
 from roughline.units import engineering
@@ -89,7 +99,7 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
     sources = sources_of(said, session)
     questions = [question_of(said, each) for each in sources]
     keys = {each.path: each.key for each in sources}
-    steps = Steps(progress)
+    steps = _Steps(progress)
 
     def solve(question: Question) -> Assessment:
         assert isinstance(question.body, Path)
@@ -106,14 +116,8 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
         return assess_part(questions, names=names, map_progress=steps.of_map, answer=solve)
 
 
-class Steps:
-    """Steps over the loads of all maps.
-
-    Parameters
-    ----------
-    progress : callable
-        Told (steps done, steps in all).
-    """
+class _Steps:
+    """Steps over the loads of all maps."""
 
     def __init__(self, progress: Progress) -> None:
         self._progress, self._map, self._maps = progress, 0, 1
@@ -125,6 +129,41 @@ class Steps:
     def of_map(self, done: int, total: int) -> None:
         """Begin the next of several maps."""
         self._map, self._maps = done, total
+
+
+@speaking(CONTROLS)
+def compare(arguments: Arguments, progress: Progress) -> bytes:
+    """Compare the models on the surface as the file has it, without its tilt."""
+    said = said_of(arguments)
+    source = source_of(said, arguments["session"])
+    reading = reading_of(said, source.name)
+    with at("compare"):
+        found = kept(
+            arguments["session"],
+            "comparison",
+            (source.key, reading),
+            lambda: compare_models(source.path, reading=reading, progress=progress),
+        )
+    result = found.comparison
+    header, rows = comparison_table(found)
+    star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"
+    return frame(
+        {
+            "what": found.what,
+            "verdict": verdict_in_words(found),
+            "verdicts": [str(each) for each in found.verdicts],
+            "table": [header, rows],
+            "star": star,
+            "notes": list(result.warnings),
+            "force_bar": result.force_bar,
+            "full": result.full.mean,
+            "reduced": {
+                "mean": result.reduced.mean,
+                "low": result.reduced.low,
+                "high": result.reduced.high,
+            },
+        }
+    )
 
 
 def _modulus(result: Assessment) -> str:

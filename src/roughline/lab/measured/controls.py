@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from roughline.assessment.fields import ANSWERS, FIELDS, FILE, LOADS, PREPARATION
-from roughline.assessment.fields import BODIES as BODIES_GROUP
+from roughline.assessment.fields import ANSWERS, BODIES, FIELDS, FILE, LOADS, PREPARATION
 from roughline.lab.controls import Choice
 
 MOST_POINTS = 4096
 """Most points along a side that are resampled to."""
-MOST_LOADS = 20
-"""Most loads of one question."""
 MOST_MAPS = 20
 """Most maps of one part; a page may have no more files."""
 
 BY_CONTROL = {each.control: each for each in FIELDS if each.control}
 """Fields of a question by the keys of their controls."""
 
-BODIES = Choice(
+_BODIES = Choice(
     "bodies",
     "bodies given by",
     {"materials": "two materials", "modulus": "contact modulus"},
     "materials",
     "Two materials give all answers; a contact modulus E* alone gives the curve.",
 )
-CHOICES = {"bodies": BODIES} | {
+CHOICES = {"bodies": _BODIES} | {
     key: Choice(
         key,
         field.label or key,
@@ -51,14 +48,9 @@ FOLDED = tuple(
 OF_BODIES = tuple(
     key
     for key, field in BY_CONTROL.items()
-    if field.group in (BODIES_GROUP, LOADS) and key not in ("loads", *FOLDED)
+    if field.group in (BODIES, LOADS) and key not in ("loads", *FOLDED)
 )
 """Other controls of the third step, beside the bodies and the loads."""
 
 KEYS = (*BY_CONTROL, "bodies", "first", "second", "E")
 """Keys of all controls, as in the address."""
-
-DEFAULTS = {key: each.default for key, each in CHOICES.items()} | {"most_missing": "10 %"}
-"""Of controls that mean something without a text."""
-NEEDED = {"first": "steel", "second": "copper", "E": "110 GPa"}
-"""Of controls without whose text there is no answer: what is used while there is none."""

@@ -94,7 +94,7 @@ def _write_x3p(path: Path, heights: Any, sizes: tuple[float, float]) -> None:
 
 
 @dataclass(frozen=True)
-class Example:
+class _Example:
     """A measurement made by ourselves."""
 
     file: str  # name of its file
@@ -104,19 +104,19 @@ class Example:
 
 
 EXAMPLES = {
-    "ground": Example(
+    "ground": _Example(
         "ground-steel.x3p",
         "ground steel, optical profiler",
         "A map of 0.6 mm with a tilt, missing points and spikes of dust.",
         _ground_steel,
     ),
-    "film": Example(
+    "film": _Example(
         "sputtered-film.x3p",
         "sputtered film, AFM",
         "A map of 4 µm that follows a self-affine law with a roll-off.",
         _sputtered_film,
     ),
-    "shaft": Example(
+    "shaft": _Example(
         "turned-shaft.txt",
         "turned shaft, stylus",
         "A line scan of 2 mm along feed marks.",

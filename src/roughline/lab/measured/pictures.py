@@ -18,8 +18,8 @@ from roughline.topography.files.measurement import Measurement
 from roughline.topography.preparation import outliers
 from roughline.units import decimal, engineering, metres_per, prefix
 
-Real = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+_Real = NDArray[np.float64]
+_Mask = NDArray[np.bool_]
 
 _MOST_SPIKES = 2000  # that are marked
 _MOST_SPOTS = 100  # points in contact that are marked
@@ -84,7 +84,7 @@ def spectrum_of(found: Description) -> dict[str, Any] | None:
     }
 
 
-def _spectrum_rows(q: Real, power: Real) -> list[list[str]]:
+def _spectrum_rows(q: _Real, power: _Real) -> list[list[str]]:
     """Some of the spectrum for a table."""
     shown = np.unique(np.geomspace(1, q.size, 40).astype(int)) - 1
     return [[f"{q[i]:.3g}", f"{power[i]:.3g}"] for i in shown]
@@ -92,11 +92,11 @@ def _spectrum_rows(q: Real, power: Real) -> list[list[str]]:
 
 def _drawn(
     name: str,
-    heights: Real,
+    heights: _Real,
     sides: tuple[float, ...],
     along: tuple[float, str],
     up: tuple[float, str],
-    spikes: Mask | None = None,
+    spikes: _Mask | None = None,
 ) -> Drawing:
     """Heights of a map or a line in their units."""
     known = heights[np.isfinite(heights)] * up[0]
@@ -123,7 +123,7 @@ def _drawn(
 
 
 def _spikes(
-    spikes: Mask | None, sides: tuple[float, ...], scale: float, heights: Real
+    spikes: _Mask | None, sides: tuple[float, ...], scale: float, heights: _Real
 ) -> dict[str, Any] | None:
     """Where spikes are, up to a number that can be seen."""
     if spikes is None:
@@ -136,7 +136,7 @@ def _spikes(
     return {"count": len(places), "x": columns[0], "y": y}
 
 
-def _height_rows(known: Real, unit: str) -> list[list[str]]:
+def _height_rows(known: _Real, unit: str) -> list[list[str]]:
     """Heights in numbers, for those who do not see the map."""
     if not known.size:
         return []
@@ -149,7 +149,7 @@ def _height_rows(known: Real, unit: str) -> list[list[str]]:
     return rows
 
 
-def _span(heights: Real) -> float:
+def _span(heights: _Real) -> float:
     known = heights[np.isfinite(heights)]
     return float(np.abs(known).max()) if known.size else 0.0
 
@@ -195,7 +195,7 @@ def contact_drawing(result: Assessment) -> Drawing:
     return Drawing(header, body.arrays | arrays)
 
 
-def _spots(contact: Mask, surface: Surface, metres: float) -> dict[str, Any]:
+def _spots(contact: _Mask, surface: Surface, metres: float) -> dict[str, Any]:
     """Where points touch, if they are so few that a map does not show them."""
     places = np.argwhere(contact)
     if len(places) > _MOST_SPOTS:
@@ -242,9 +242,9 @@ def curve_drawing(result: Assessment) -> dict[str, Any]:
     return drawn
 
 
-def _ends(ends: Ends | None, solved: Mask, factor: float) -> list[Real] | None:
+def _ends(ends: Ends | None, solved: _Mask, factor: float) -> list[_Real] | None:
     return None if ends is None else [end[solved] * factor for end in ends]
 
 
-def _largest(values: Real) -> float:
+def _largest(values: _Real) -> float:
     return float(np.nanmax(values, initial=0.0))

@@ -43,6 +43,12 @@ CONTROLS = Words(
 )
 """What the page calls arguments of the library: its controls."""
 
+_MOST_LOADS = 20  # of one question
+_DEFAULTS = {key: each.default for key, each in c.CHOICES.items()} | {"most_missing": "10 %"}
+"""Of controls that mean something without a text."""
+_NEEDED = {"first": "steel", "second": "copper", "E": "110 GPa"}
+"""Of controls without whose text there is no answer: what is used while there is none."""
+
 _Read = TypeVar("_Read")
 Said = Mapping[str, str]
 
@@ -81,8 +87,8 @@ def used_in(arguments: Arguments, read: Callable[[Said], _Read]) -> tuple[_Read,
     return usable(
         {**arguments, "state": settings},
         lambda texts: read(said_of({"state": texts})),
-        lambda found: c.DEFAULTS,
-        c.NEEDED,
+        lambda found: _DEFAULTS,
+        _NEEDED,
     )
 
 
@@ -138,7 +144,7 @@ def told_in(said: Said, *groups: str) -> dict[str, Any]:
         if groups and field.group not in groups:
             continue
         if field.choices:
-            given[field.name] = field.choices[c.CHOICES[key].read(text or c.DEFAULTS[key])][0]
+            given[field.name] = field.choices[c.CHOICES[key].read(text or _DEFAULTS[key])][0]
         elif text is not None:
             with at(key):
                 read: Callable[[str], Any] = _READ.get(key) or field.value
@@ -172,7 +178,7 @@ def question_of(said: Said, source: Source) -> Question:
 
 def bodies_of(said: Said) -> dict[str, Any]:
     """Two materials, or a contact modulus, as a question takes them."""
-    if c.BODIES.read(said.get("bodies", c.BODIES.default)) == "modulus":
+    if c.CHOICES["bodies"].read_in(said) == "modulus":
         with at("E"):
             if "E" not in said:
                 raise ControlError('give the contact modulus, such as "110 GPa"', "E")
@@ -207,8 +213,8 @@ def _loads(text: str) -> list[str]:
     for load in loads:
         if not 0 < load_in_newtons(load, 1.0) < math.inf:
             raise ControlError(f'load is "{load[:40]}"; give positive ones', "loads")
-    if len(loads) > c.MOST_LOADS:
-        raise ControlError(f"{len(loads)} loads; give up to {c.MOST_LOADS}", "loads")
+    if len(loads) > _MOST_LOADS:
+        raise ControlError(f"{len(loads)} loads; give up to {_MOST_LOADS}", "loads")
     return loads
 
 

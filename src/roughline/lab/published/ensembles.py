@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,7 @@ from roughline.paper.results import published_dataset
 from roughline.statistics.averages import Averaging
 from roughline.statistics.power_law import PowerLaw, fit_power_law
 from roughline.statistics.window import inside_window
+from roughline.units import decimal
 
 if TYPE_CHECKING:
     import xarray
@@ -70,6 +72,22 @@ def curve_of(
 ) -> MeanCurve:
     """The mean stiffness of one fractal dimension over force."""
     return mean_curve(one_dimension(model, fractal_dimension), punch, averaging)
+
+
+def table_of(symbol: str, curves: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Means over force of some fractal dimensions in a table; a star is where the grid decides."""
+    cells = [[decimal(float(force), 3) for force in curves[0]["force_bar"]]]
+    cells += [
+        [
+            decimal(float(value), 3) + ("" if sure else " *")
+            for value, sure in zip(each["mean"], each["resolved"], strict=True)
+        ]
+        for each in curves
+    ]
+    return {
+        "header": ["F̄", *(f"{symbol}, D_f = {each['D_f']}" for each in curves)],
+        "rows": [list(row) for row in zip(*cells, strict=True)],
+    }
 
 
 def law_of(state: PublishedState, model: ModelLabel, fractal_dimension: float) -> PowerLaw:

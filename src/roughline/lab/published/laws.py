@@ -9,8 +9,7 @@ import numpy as np
 
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
-from roughline.lab.published.ensembles import one_dimension, usable_state
-from roughline.lab.published.state import PublishedState
+from roughline.lab.published.ensembles import one_dimension, table_of, usable_state
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.contact_area import AreaLaw, area_law, mean_area
@@ -21,9 +20,6 @@ from roughline.paper.windows import WINDOW_AREA
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 from roughline.statistics.verdict import Verdict
 from roughline.theories import bush_gibson_thomas, persson
-from roughline.units import decimal
-
-_DIGITS = 3
 
 
 def exponents(arguments: Arguments, progress: Progress) -> bytes:
@@ -52,6 +48,7 @@ def exponents(arguments: Arguments, progress: Progress) -> bytes:
 def area(arguments: Arguments, progress: Progress) -> bytes:
     """The real area over force, and κ of eq. 4 with its intervals and two theories."""
     state, settled = usable_state(arguments)
+    curves = [_area_curve(dimension) for dimension in state.dimensions]
     kappas = [_kappas(dimension) for dimension in c.DIMENSIONS]
     header = ["D_f", "κ", "A ~ F^", "κ in cells", "A in cells ~ F^"]
     rows = [
@@ -65,7 +62,7 @@ def area(arguments: Arguments, progress: Progress) -> bytes:
     return frame(
         {
             **settled,
-            "curves": [_area_curve(dimension) for dimension in state.dimensions],
+            "curves": curves,
             "window": WINDOW_AREA,
             "kappas": {name: _kappa_columns(laws) for name, laws in named.items()},
             "theories": [
@@ -77,7 +74,7 @@ def area(arguments: Arguments, progress: Progress) -> bytes:
             ],
             "header": header,
             "rows": rows,
-            "area_table": _area_table(state),
+            "area_table": table_of("A/A_0", curves),
         }
     )
 
@@ -129,20 +126,4 @@ def _area_curve(dimension: float) -> dict[str, Any]:
         "force_bar": one.force_bar.values,
         "mean": mean,
         "resolved": resolved,
-    }
-
-
-def _area_table(state: PublishedState) -> dict[str, Any]:
-    found = [_area_curve(dimension) for dimension in state.dimensions]
-    cells = [[decimal(float(f), _DIGITS) for f in found[0]["force_bar"]]]
-    cells += [
-        [
-            decimal(float(value), _DIGITS) + ("" if sure else " *")
-            for value, sure in zip(each["mean"], each["resolved"], strict=True)
-        ]
-        for each in found
-    ]
-    return {
-        "header": ["F̄", *(f"A/A_0, D_f = {each['D_f']}" for each in found)],
-        "rows": [list(row) for row in zip(*cells, strict=True)],
     }

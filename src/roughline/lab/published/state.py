@@ -15,30 +15,12 @@ Window = tuple[float, float]
 
 @dataclass(frozen=True)
 class PublishedState:
-    """What is chosen.
+    """What is chosen, by the keys of the controls, which say what each means."""
 
-    Attributes
-    ----------
-    dimensions : tuple of float
-        Fractal dimensions that are shown.
-    mean : {"arithmetic", "geometric"}
-        Over realisations, at fixed force.
-    punch : {"paper", "exact", "raw"}
-        What the stiffness of the full model is divided by.
-    windows : dict of tuple of float
-        Smallest and largest F̄ of the fit, by model.
-    tolerance : float
-        On the trust map. [1]
-    roll_off, map_D_f, map_F : float
-        The point on the trust map: roll-off ratio, fractal dimension and F̄. [1]
-    claims : str
-        Which claims are shown.
-    """
-
-    dimensions: tuple[float, ...]
+    dimensions: tuple[float, ...]  # fractal dimensions that are shown
     mean: Any
     punch: str
-    windows: Mapping[str, Window]
+    windows: Mapping[str, Window]  # smallest and largest F̄ of the fit, by model
     tolerance: float
     roll_off: float
     map_D_f: float
@@ -68,12 +50,7 @@ class PublishedState:
 
 
 def state_of(said: Texts) -> PublishedState:
-    """Read the parameters of an address, or the texts of the controls.
-
-    Parameters
-    ----------
-    said : mapping of str to str
-        Texts by the keys of the controls; those that are missing have their defaults.
+    """Read the parameters of an address, or the texts of the controls, or their defaults.
 
     Raises
     ------

@@ -15,6 +15,7 @@ from roughline.lab.published.ensembles import (
     law_of,
     model_of,
     punch_of,
+    table_of,
     unresolved_in_window,
     usable_state,
 )
@@ -71,29 +72,20 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
 def _curves(state: PublishedState, model: c.ModelLabel) -> dict[str, Any]:
     punch = punch_of(state, model)
     found = {d: curve_of(model, d, punch, state.mean) for d in state.dimensions}
-    force = next(iter(found.values())).force_bar
-    cells = [[decimal(float(f), _DIGITS) for f in force]]
-    cells += [
-        [
-            decimal(float(value), _DIGITS) + ("" if sure else " *")
-            for value, sure in zip(curve.mean, curve.resolved, strict=True)
-        ]
-        for curve in found.values()
+    names = ("force_bar", "mean", "low", "high", "resolved")
+    drawn = [
+        {
+            "index": c.DIMENSIONS.index(dimension),
+            "D_f": f"{dimension:.1f}",
+            **{name: getattr(curve, name) for name in names},
+        }
+        for dimension, curve in found.items()
     ]
     return {
-        "curves": [
-            {
-                "index": c.DIMENSIONS.index(dimension),
-                "D_f": f"{dimension:.1f}",
-                **{name: getattr(curve, name) for name in ("force_bar", "mean", "low", "high")},
-                "resolved": curve.resolved,
-            }
-            for dimension, curve in found.items()
-        ],
+        "curves": drawn,
         "saturated": scaling.EXACT_PUNCH / punch if model == "3D" else 1.0,
         "label": f"stiffness k̄ = k / ({'' if punch == 1 else f'{punch:g} '}E* L)",
-        "header": ["F̄", *(f"k̄, D_f = {dimension:.1f}" for dimension in found)],
-        "rows": [list(row) for row in zip(*cells, strict=True)],
+        **table_of("k̄", drawn),
     }
 
 

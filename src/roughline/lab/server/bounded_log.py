@@ -20,13 +20,7 @@ _END = b"\0"
 
 
 class _Limiter:
-    """Passes messages on as long as they are few.
-
-    Parameters
-    ----------
-    write : callable
-        Takes what is passed on.
-    """
+    """Passes messages on as long as they are few."""
 
     def __init__(self, write: Callable[[str], None]) -> None:
         self._write = write
@@ -69,13 +63,7 @@ class _Limiter:
 
 
 class _Messages:
-    """Puts lines together to messages: a traceback is one, any other line is one.
-
-    Parameters
-    ----------
-    take : callable
-        Takes a message.
-    """
+    """Puts lines together to messages: a traceback is one, any other line is one."""
 
     def __init__(self, take: Callable[[str], None]) -> None:
         self._take = take

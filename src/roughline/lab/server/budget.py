@@ -76,14 +76,9 @@ def limits_within(memory: float, max_memory: float, seconds: float) -> tuple[Lim
 
 
 class Disk:
-    """The room for the files of all sessions.
+    """The room for the files of all sessions, in the folder of all of them.
 
-    Parameters
-    ----------
-    root : Path
-        Folder of all sessions.
-    most : float or None
-        Size that all files together may have; None takes half of what is free. [bytes]
+    They may have `most` bytes together; None takes half of what is free.
     """
 
     def __init__(self, root: Path, most: float | None) -> None:

@@ -55,15 +55,7 @@ class Stage(IntEnum):
 
 
 class Connection(IOStream):
-    """One connection, and how it gets on.
-
-    Parameters
-    ----------
-    taken : socket.socket
-        As it was accepted.
-    closed : callable
-        Called when it is closed.
-    """
+    """One connection, and how it gets on; `closed` is told when it is closed."""
 
     def __init__(self, taken: socket.socket, closed: Callable[[Connection], None]) -> None:
         super().__init__(taken)
@@ -114,17 +106,8 @@ class Connection(IOStream):
 class Connections(HTTPServer):
     """Takes connections up to a number, and drops those that keep it waiting.
 
-    Parameters
-    ----------
-    application : tornado.web.Application
-        What answers.
-    most : int
-        Connections in all.
-    proxies : callable
-        Whether an address is that of a proxy, through which many visitors come: all connections
-        may be its own, and none is closed for those who do not come through it.
-    **limits : int
-        Of a request, as those of HTTPServer.
+    `proxies` says whether an address is that of a proxy, through which many visitors come: all
+    connections may be its own, and none is closed for those who do not come through it.
     """
 
     def initialize(  # type: ignore[override]

@@ -69,15 +69,9 @@ class Lane:
     """Some processes and the requests that wait for them: first come, first served.
 
     Requests that refine an answer that a page already has go last. Addresses with fewer running
-    tasks go first, and among the pages of an address those with fewer running tasks.
-
-    Parameters
-    ----------
-    limits : Limits
-        Of the lane, and of one task.
-    lasting : bool
-        Whether a process finishes its task even if it is no longer wanted. If not, the process is
-        stopped when its request is withdrawn or replaced.
+    tasks go first, and among the pages of an address those with fewer running tasks. A process of a
+    lasting lane finishes its task even if it is no longer wanted; in others it is stopped when its
+    request is withdrawn or replaced.
     """
 
     def __init__(self, limits: Limits, *, lasting: bool) -> None:

@@ -42,10 +42,7 @@ class Key:
 class Logins:
     """All logins, by a random name that only the browser's cookie has besides.
 
-    Parameters
-    ----------
-    ended : callable
-        Told the name of a login that has ended, to close its pages.
+    `ended` is told the name of a login that has ended, to close its pages.
     """
 
     def __init__(self, ended: Callable[[str], None]) -> None:

@@ -36,23 +36,13 @@ NOT_BEGUN = Outcome(error="no process could begin this: ask again")
 
 
 class Process:
-    """A process that does one task at a time.
+    """A process that does one task at a time, with so much memory beside the program. [bytes]
 
-    Parameters
-    ----------
-    memory : float
-        What it may take in addition to the program itself. [bytes]
-    gives_way : bool
-        Whether processes that do not give way come first when both want a core.
-
-    Attributes
-    ----------
-    tasks : int
-        Number of tasks that it was asked for.
+    Processes that do not give way come first when both want a core.
     """
 
     def __init__(self, memory: float, *, gives_way: bool = False) -> None:
-        self.tasks = 0
+        self.tasks = 0  # that it was asked for
         self._ending, self._reading = threading.Lock(), threading.Lock()
         self._connection, theirs = _CONTEXT.Pipe()
         with _without_interrupts():

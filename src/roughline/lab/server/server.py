@@ -20,17 +20,7 @@ _MOST_WAITING = 20  # sessions of one address that wait for their pages
 
 
 class Server:
-    """What all requests share.
-
-    Parameters
-    ----------
-    site : Site
-        What is served.
-    settings : ServerSettings
-        Of the server.
-    root : Path
-        Folder for the files of all sessions, which is deleted at the end.
-    """
+    """What all requests share; the files of all sessions are in the folder `root`."""
 
     def __init__(self, site: Site, settings: ServerSettings, root: Path) -> None:
         self.site, self.settings, self.root = site, settings, root

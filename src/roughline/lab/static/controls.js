@@ -58,6 +58,12 @@ export class Controls {
     this.set(key, text, isFinal);
   }
 
+  // A number as the text of a control, within the ends of its slider.
+  within(key, value) {
+    const {low, high} = this.#slider(key).dataset;
+    return said(Math.min(Math.max(value, Number(low)), Number(high)));
+  }
+
   // Take texts from an address, without telling anyone; what it does not say has its default.
   take(said) {
     this.#said = {...said};
@@ -166,7 +172,7 @@ function chosen(choices, which) {
 }
 
 // A number as it is typed: four digits, no exponent where it is short.
-export function said(value) {
+function said(value) {
   const rounded = Number(value.toPrecision(4));
   return rounded !== 0 && Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded);
 }

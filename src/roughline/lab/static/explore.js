@@ -1,8 +1,8 @@
 // Explore: a random surface under both models, as sliders move.
-import {Controls, said} from "./controls.js";
+import {Controls} from "./controls.js";
 import {exploreFigures} from "./explore-figures.js";
 import {onDraw} from "./hands.js";
-import {embedded} from "./plots.js";
+import {embedded, points} from "./plots.js";
 import {Strip} from "./strip.js";
 import {fillTable, markKeys} from "./tables.js";
 import {bindTabs} from "./tabs.js";
@@ -191,10 +191,7 @@ class Explore {
   #drawCurve({curve, grid, theories, stiffness_table, area_table}) {
     this.#stale = false;
     this.#undim(CURVES);
-    const rows = (wanted, values) => {
-      const kept = curve.force_bar.flatMap((x, i) => curve.converged[i] && values[i] !== null && curve.resolved[i] === wanted ? [i] : []);
-      return {x: kept.map((i) => curve.force_bar[i]), y: kept.map((i) => values[i])};
-    };
+    const rows = (wanted, values) => points(curve.force_bar, values, (i) => curve.converged[i] && curve.resolved[i] === wanted);
     this.#setMarks("stiffness unloading", curve.force_bar, curve.unloading_bar ?? []);
     for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
     for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
@@ -238,9 +235,9 @@ class Explore {
 
   // Draw what is positive, as logarithmic axes can, and name it in the legend if there is any.
   #setMarks(name, x, y) {
-    const kept = x.flatMap((_, i) => (x[i] > 0 && y[i] > 0 ? [i] : []));
-    this.#plots.set(name, {x: kept.map((i) => x[i]), y: kept.map((i) => y[i])});
-    this.#plots.model(`${name} label`).visible = kept.length > 0;
+    const marks = points(x, y, (i) => x[i] > 0 && y[i] > 0);
+    this.#plots.set(name, marks);
+    this.#plots.model(`${name} label`).visible = marks.x.length > 0;
   }
 
   #lineTable = []; #curveTables = [[], []]; #backTables = [[], []];
@@ -274,8 +271,7 @@ class Explore {
 
   #cursorMoved(force) {
     if (this.#fromCursor) return;
-    const limited = Math.min(10, Math.max(1e-4, force));
-    this.#controls.put("F", said(limited), false);
+    this.#controls.put("F", this.#controls.within("F", force), false);
   }
 
   #refuse(sentence, at, turn = this.#turn) {

@@ -161,7 +161,7 @@ export class Link {
 const TYPES = {float32: Float32Array, uint8: Uint8Array, uint32: Uint32Array};
 
 // A message of the server: its header, with the arrays in it as {values, shape, dtype}.
-export function unpacked(buffer, start = 0) {
+function unpacked(buffer, start = 0) {
   const length = new DataView(buffer).getUint32(start, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, start + 4, length)));
   const data = start + 4 + length;

@@ -1,5 +1,6 @@
 // Pictures of My surface: heights, spectrum, contact and curves, and their tables.
 import {onDraw} from "./hands.js";
+import {points} from "./plots.js";
 import {fillTable, markKeys} from "./tables.js";
 
 const FIELDS = {
@@ -152,16 +153,13 @@ export class Pictures {
   }
 
   #quantity(name, plot, values, interval, label) {
-    const where = (wanted) => {
-      const kept = plot.force.flatMap((_, i) => (wanted(i) && values[i] !== null ? [i] : []));
-      return {x: kept.map((i) => plot.force[i]), y: kept.map((i) => values[i])};
-    };
+    const where = (wanted) => points(plot.force, values, wanted);
     this.#plots.set(`${name} line`, where(() => true));
     this.#plots.set(`${name} loads`, where((i) => plot.resolved[i]));
     this.#plots.set(`${name} unsure`, where((i) => !plot.resolved[i]));
     this.#plots.set(`${name} asked`, where((i) => plot.asked[i]));
-    const ends = interval ? plot.force.flatMap((_, i) => (interval[0][i] > 0 && interval[1][i] !== null ? [i] : [])) : [];
-    this.#plots.set(`${name} interval`, {x: ends.map((i) => plot.force[i]), low: ends.map((i) => interval[0][i]), high: ends.map((i) => interval[1][i])});
+    const [low, high] = (interval ?? [[], []]).map((ends, _, [lows, highs]) => points(plot.force, ends, (i) => lows[i] > 0 && highs[i] !== null));
+    this.#plots.set(`${name} interval`, {x: low.x, low: low.y, high: high.y});
     const known = plot.theories.filter((each) => each[name]);
     this.#plots.set(`${name} theories`, {xs: known.map((each) => each.force), ys: known.map((each) => each[name]), name: known.map((each) => each.name)});
     this.#plots.label(`measured-${name}`, `force F${plot.is_of_joint ? " on the joint" : ""} [${plot.force_unit}]`, label);

@@ -29,7 +29,7 @@ export async function embedded(declared) {
 
 function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)}`); }
 
-export class Plots {
+class Plots {
   #shown = new Map();
   #palette = {};
 
@@ -136,6 +136,12 @@ export function recolourAll() {
   known.clear();
   documents.forEach(recolour);
   allPlots.forEach((plots) => plots.recolourMaps());
+}
+
+// Points of a curve in columns: those that are known, and wanted.
+export function points(x, y, isWanted = () => true) {
+  const kept = x.flatMap((_, i) => (y[i] !== null && isWanted(i) ? [i] : []));
+  return {x: kept.map((i) => x[i]), y: kept.map((i) => y[i])};
 }
 
 const known = new Map(); // colours: to ask for one makes the browser style the page again

@@ -1,5 +1,5 @@
 // The paper: its figures from the published study, with windows and averages to choose.
-import {Controls, said as asText} from "./controls.js";
+import {Controls} from "./controls.js";
 import {onDraw, onTouch} from "./hands.js";
 import {embedded} from "./plots.js";
 import {publishedFigures} from "./published-figures.js";
@@ -232,12 +232,12 @@ class Published {
 
   #windowMoved(model, left, right) {
     this.#moving = model;
-    const [low, high] = [Math.min(left, right), Math.max(left, right)].map((edge, i) => {
-      const {low: least, high: most} = this.#root.querySelector(`input[type="range"][data-key="${EDGES[model][i]}"]`).dataset;
-      return asText(Math.min(Math.max(edge, Number(least)), Number(most)));
-    });
     const [first, last] = EDGES[model];
-    this.#controls.take({...this.#controls.said, [first]: low, [last]: high});
+    this.#controls.take({
+      ...this.#controls.said,
+      [first]: this.#controls.within(first, Math.min(left, right)),
+      [last]: this.#controls.within(last, Math.max(left, right)),
+    });
     this.#changed(first);
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => {
@@ -249,11 +249,8 @@ class Published {
   #bindMaps() {
     for (const panel of this.#root.querySelectorAll("[data-trust]")) {
       onTouch(this.#plots.root(`published-trust-${panel.dataset.trust}`), ({x, y}) => {
-        const within = (key, value) => {
-          const {low, high} = this.#root.querySelector(`input[type="range"][data-key="${key}"]`).dataset;
-          return asText(Math.min(Math.max(value, Number(low)), Number(high)));
-        };
-        this.#controls.take({...this.#controls.said, roll_off: panel.dataset.trust, map_F: within("map_F", x), map_D_f: within("map_D_f", y)});
+        const [map_F, map_D_f] = [this.#controls.within("map_F", x), this.#controls.within("map_D_f", y)];
+        this.#controls.take({...this.#controls.said, roll_off: panel.dataset.trust, map_F, map_D_f});
         this.#changed("map_F");
       });
     }
@@ -261,10 +258,8 @@ class Published {
 
   #bindButtons() {
     this.#root.querySelector("#published-windows").addEventListener("click", () => {
-      for (const key of Object.values(EDGES).flat()) {
-        const {default: value} = this.#root.querySelector(`input[type="range"][data-key="${key}"]`).dataset;
-        this.#controls.take({...this.#controls.said, [key]: asText(Number(value))});
-      }
+      const kept = Object.entries(this.#controls.said).filter(([key]) => !Object.values(EDGES).flat().includes(key));
+      this.#controls.take(Object.fromEntries(kept));
       for (const model of MODELS) this.#askFits(model);
     });
   }
