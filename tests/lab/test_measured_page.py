@@ -9,13 +9,14 @@ from lab_in_browser import Pages, RunningLab
 FILES = ("al3d-1.al3d", "dektak-1.csv", "di-1.di", "mitutoyo_mock.xlsx", "opd-1.opd", "sur-3.sur")
 EXAMPLE = "[data-example] >> nth=0"
 LINE_SCAN = "[data-example] >> nth=2"  # which is soon prepared
+CONNECTED = '[data-table="measured-bodies"] tr'  # what the server has answered to the view
 
 
 @pytest.fixture(scope="module")
 def measured(pages):
     """Return one page of the view."""
     page = pages.open("?view=measured")
-    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
+    page.wait_for_selector(CONNECTED)
     return page
 
 
@@ -106,7 +107,7 @@ def test_maps_of_a_part_are_brought_checked_pressed_and_left_out(pages, tmp_path
         rl.write(rl.Surface(piece.heights, piece.sizes, "m"), paths[-1])
     (tmp_path / "broken.x3p").write_bytes(b"PK\x03\x04" + bytes(300))
     page = pages.open("?view=measured")
-    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
+    page.wait_for_selector(CONNECTED)
     maps = page.locator('[data-table="measured-maps"] tbody tr')
     with page.expect_file_chooser() as coming:
         page.click("[data-choose]")
@@ -169,8 +170,7 @@ def test_a_file_that_is_too_large_is_refused(browser, tmp_path):
     lab = RunningLab(tmp_path / "log", "--max-upload", "1")
     pages = Pages(browser, lab.address)
     page = pages.open("?view=measured")
-    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
-    page.wait_for_timeout(300)
+    page.wait_for_selector(CONNECTED)
     bring(page, "large.opd", bytes(3_000_000))
     refused(page, "large")
     page.click(LINE_SCAN)
