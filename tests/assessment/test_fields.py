@@ -68,7 +68,7 @@ from roughline.cli.flags import FLAGS
 from roughline.lab.measured.documents import as_command, as_python
 from roughline.lab.measured.state import said_of
 from roughline.lab.measured.state import CONTROLS
-from roughline.lab.page import page
+from roughline.lab.site import page
 
 said = {"first": "steel", "second": "copper", "temperature": "300 K"}
 assert said_of({"state": said}) == said

@@ -62,9 +62,8 @@ def lab(
 
     from roughline.lab.server.bounded_log import bounded_log
     from roughline.lab.server.budget import memory_for_tasks, memory_of_one
-    from roughline.lab.server.interrupts import noted_interrupts
     from roughline.lab.server.opening import open_page
-    from roughline.lab.server.process import start_forking
+    from roughline.lab.server.process import noted_interrupts, start_forking
     from roughline.lab.server.settings import ServerSettings, networks_in, password_in
 
     sizes = (("max_upload", max_upload), ("max_memory", max_memory), ("max_disk", max_disk))

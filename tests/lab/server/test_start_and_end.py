@@ -26,7 +26,7 @@ from lab.server.serving import (
     wait_until,
 )
 from roughline.lab.server.handlers import application
-from roughline.lab.server.interrupts import noted_interrupts
+from roughline.lab.server.process import noted_interrupts
 from roughline.lab.server.server import Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.site import site

@@ -129,22 +129,6 @@ def bounded_log() -> Iterator[None]:
         os.close(terminal)
 
 
-@contextmanager
-def silent_start() -> Iterator[None]:
-    """Start programs that outlive this one, such as browsers, without a place for their errors."""
-    if sys.stderr is None:
-        yield
-        return
-    before, nothing = os.dup(2), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nothing, 2)
-    try:
-        yield
-    finally:
-        os.dup2(before, 2)
-        os.close(before)
-        os.close(nothing)
-
-
 def _relay(source: int, terminal: int, ending: threading.Event) -> None:
     """Pass on what comes, until the end."""
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import html
 import os
+import sys
 import webbrowser
-from contextlib import ExitStack, suppress
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from roughline.lab.server.bounded_log import silent_start
 from roughline.lab.server.leftovers import folder_of_files
 
 _SNAPS = Path("/snap/bin")
@@ -28,8 +29,24 @@ def open_page(address: str, opened: ExitStack) -> None:
         page = opened.enter_context(folder_of_files(_parent())) / "open.html"
         page.touch(mode=0o600)
         page.write_text(content, encoding="utf-8")
-        with silent_start():
+        with _silent_start():
             webbrowser.open(page.as_uri())
+
+
+@contextmanager
+def _silent_start() -> Iterator[None]:
+    """Start programs that outlive this one, such as browsers, without a place for their errors."""
+    if sys.stderr is None:
+        yield
+        return
+    before, nothing = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nothing, 2)
+    try:
+        yield
+    finally:
+        os.dup2(before, 2)
+        os.close(before)
+        os.close(nothing)
 
 
 def _parent() -> Path | None:
