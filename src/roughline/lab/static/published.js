@@ -58,11 +58,8 @@ class Published {
 
   #askAll() {
     for (const model of MODELS) this.#askFits(model);
-    this.#askCurves();
     this.#askPoint();
-    for (const [name, draw] of [["exponents", () => this.#drawExponents()], ["area", () => this.#drawArea()], ["trust", () => this.#drawTrust()]]) {
-      this.#ask(name, name, {}, (header) => { this.#got[name] = header; draw(); });
-    }
+    for (const name of Object.keys(this.#drawn)) this.#askFor(name);
     if (!this.#opening) this.#askClaims(); // else it waits, as it takes all of a core
   }
 
@@ -79,10 +76,10 @@ class Published {
     });
   }
 
-  #askCurves() {
-    this.#ask("curves", "curves", {}, (header) => {
-      this.#got.curves = header;
-      this.#drawCurves();
+  #askFor(name) {
+    this.#ask(name, name, {}, (header) => {
+      this.#got[name] = header;
+      this.#draw(name);
     });
   }
 
@@ -130,9 +127,9 @@ class Published {
     else if (OF_THE_POINT.includes(key)) this.#askPoint();
     else if (key === "claims") this.#showClaims();
     else {
-      this.#askCurves();
+      this.#askFor("curves");
       for (const each of MODELS) this.#askFits(each);
-      if (key === "D_f") this.#ask("area", "area", {}, (header) => { this.#got.area = header; this.#drawArea(); });
+      if (key === "D_f") this.#askFor("area");
     }
   }
 
@@ -157,17 +154,19 @@ class Published {
     } else if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
   }
 
-  #drawAll() {
-    this.#drawCurves();
-    for (const model of MODELS) if (this.#got.fits[model]) this.#drawFits(model);
-    this.#drawExponents();
-    this.#drawArea();
-    this.#drawTrust();
-  }
+  // What is drawn of answers.
+  #drawn = {
+    curves: (plots, {models}) => { for (const model of MODELS) drawStiffness(plots, model, models[model]); },
+    exponents: (plots, header) => { drawExponents(plots, header); tableOfExponents(this.#got.fits, header); },
+    area: drawArea,
+    trust: (plots, header) => { drawTrust(plots, header); this.#drawPoint(); },
+  };
 
-  #drawCurves() {
-    if (!this.#plots || !this.#got.curves) return;
-    for (const model of MODELS) drawStiffness(this.#plots, model, this.#got.curves.models[model]);
+  #draw(name) { if (this.#plots && this.#got[name]) this.#drawn[name](this.#plots, this.#got[name]); }
+
+  #drawAll() {
+    for (const name of Object.keys(this.#drawn)) this.#draw(name);
+    for (const model of MODELS) if (this.#got.fits[model]) this.#drawFits(model);
   }
 
   #drawFits(model) {
@@ -177,19 +176,6 @@ class Published {
     this.#placing = true;
     this.#plots.model(`window ${model}`).setv({left, right});
     this.#placing = false;
-  }
-
-  #drawExponents() {
-    if (!this.#plots || !this.#got.exponents) return;
-    drawExponents(this.#plots, this.#got.exponents);
-    tableOfExponents(this.#got.fits, this.#got.exponents);
-  }
-
-  #drawArea() { if (this.#plots && this.#got.area) drawArea(this.#plots, this.#got.area); }
-
-  #drawTrust() {
-    if (this.#plots && this.#got.trust) drawTrust(this.#plots, this.#got.trust);
-    this.#drawPoint();
   }
 
   #drawPoint() {
