@@ -49,7 +49,7 @@ def complaints(page, view="explore"):
 
 def test_every_text_that_a_slider_writes_is_read(page_of_explore):
     for view, controls in {"explore": explore, "published": published}.items():
-        known = {each.key: each for each in vars(controls).values() if hasattr(each, "scale")}
+        known = controls.NUMBERS
         for key, texts in page_of_explore.evaluate(SAID_AT_EVERY_STEP, f"#{view}").items():
             control = known[key]
             numbers = [control.read(text) for text in texts]
