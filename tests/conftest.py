@@ -21,9 +21,11 @@ _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 _SHARING = ("campaign", "paper")
 _LONGEST = (
     *("campaign", "lab/test_hands", "lab/test_resumed_page", "lab/test_measured_page", "paper"),
-    *("lab/test_measured", "cli/test_real_files", "lab/test_controls_walk", "spectra/test_fit"),
-    *("lab/test_explore_page", "lab/test_published_page", "contact/test_grid_error"),
-    *("contact/test_fuzz", "spectra/test_profile", "cli/test_pressed", "cli/test_cli"),
+    *("lab/test_measured", "lab/test_controls_walk", "halfspace/test_robustness"),
+    *("spectra/test_fit", "cli/test_real_files", "contact/test_grid_error"),
+    *("lab/test_explore_page", "halfspace/test_near_full_contact", "spectra/test_profile"),
+    *("lab/test_published_page", "studies/test_finite_size", "halfspace/test_windows"),
+    *("studies/test_averaging", "contact/test_fuzz", "docs/test_examples"),
 )
 
 
