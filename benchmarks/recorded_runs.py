@@ -33,15 +33,14 @@ def _let_workers_find_the_package():
     sys.path[:] = [str(Path(path).resolve()) if path else path for path in sys.path]
 
 
-def run(arguments, out="out"):
-    """Run a command; exit code, what it printed, and the files in a folder, which is removed."""
+def run(arguments):
+    """Run a command; exit code, what it printed, and the files in "out", which is removed."""
     from roughline.cli import main
 
     printed, errors, kept = io.StringIO(), io.StringIO(), sys.argv
     sys.argv = ["roughline", *arguments]
-    for name in arguments:
-        if out and name.startswith(f"{out}/"):
-            Path(out).mkdir(exist_ok=True)
+    if any(name.startswith("out/") for name in arguments):
+        Path("out").mkdir(exist_ok=True)
     code = "returned"
     try:
         with redirect_stdout(printed), redirect_stderr(errors):
@@ -56,10 +55,9 @@ def run(arguments, out="out"):
         "code": str(code),
         "printed": _parsed(shown) if "--json" in arguments else shown,
         "errors": errors.getvalue(),
-        "files": contents(out) if out and Path(out).is_dir() else "none",
+        "files": contents("out") if Path("out").is_dir() else "none",
     }
-    if out:
-        shutil.rmtree(out, ignore_errors=True)
+    shutil.rmtree("out", ignore_errors=True)
     return found
 
 

@@ -39,10 +39,8 @@ def rows(folder, name, materials, loads):
         row = [f"{name}, {result.body.rms_slope:.2g}", materials.replace(",", ", "), load]
         row.append(f"{share[i]:.0%}")
         for key in SHOWN:
-            row += [
-                quantity(result.elastic[key], i).split(" (")[0],
-                quantity(result.answers[key], i),
-            ]
+            elastic = quantity(result.elastic[key], i).split(" (")[0]
+            row += [elastic, quantity(result.answers[key], i)]
         yield row
 
 
