@@ -63,7 +63,7 @@ def assess_body(
         solution = solution_of(case, curves)
         _refuse_all_at_the_hardness(case, solution.curve)
     answers, left_out = answers_of(case, solution)
-    scatter = scatter_of(case, curves, solution, answers)
+    scatter, answers, intervals = scatter_of(case, curves, solution, answers)
     asked = case.loads.asked_of(solution.curve)
     result = Assessment(
         question,
@@ -71,12 +71,12 @@ def assess_body(
         case.body,
         _with_joint_recorded(solution.curve, question.joint),
         asked,
-        intervals=scatter.intervals,
+        intervals=intervals,
         interrupted=bool(curves.stopped),
-        answers=scatter.answers,
+        answers=answers,
         left_out=left_out,
         elastic=elastic_answers(case, curves),
-        hardness_scatter=scatter.ratios,
+        hardness_scatter=scatter,
         larger=taken(solution.larger, asked),
         theories=_theories(question, case.body, solution.curve),
         partial_slip=slip_at_largest_load(case, curves),

@@ -26,13 +26,9 @@ class _Way:
     answers: Mapping[str, Answer]
 
 
-@dataclass(frozen=True, eq=False)
-class Scatter:
-    """What the hardness leaves open: answers by their keys, and intervals of the curve with it."""
-
-    ratios: Mapping[str, Ends]  # the least and the largest of each answer to its value
-    answers: Mapping[str, Answer]
-    intervals: Intervals | None
+_Widened = tuple[Mapping[str, Ends], Mapping[str, Answer], Intervals | None]
+"""The least and the largest ratio of each answer to its value, and answers by their keys and
+intervals of the curve that include that."""
 
 
 def elastic_answers(case: Case, curves: Curves) -> Mapping[str, Answer]:
@@ -44,7 +40,7 @@ def elastic_answers(case: Case, curves: Curves) -> Mapping[str, Answer]:
 
 def scatter_of(
     case: Case, curves: Curves, solution: Solution, answers: Mapping[str, Answer]
-) -> Scatter:
+) -> _Widened:
     """Widen all intervals by the effect of the scatter of the hardness.
 
     The body is pressed again as soft and as hard as it may be. A large one is pressed on half as
@@ -56,9 +52,9 @@ def scatter_of(
     """
     hardness = case.hardness
     if hardness is None or hardness.factor == 1:
-        return Scatter({}, answers, solution.intervals)
+        return {}, answers, solution.intervals
     if curves.stopped:
-        return Scatter({}, {key: each.bare for key, each in answers.items()}, None)
+        return {}, {key: each.bare for key, each in answers.items()}, None
     (softest, hardest), judged = hardness.ends, case.judged
     moved = [
         _of_way(case, curves, Way.SOFTEST, softest, judged),
@@ -79,7 +75,7 @@ def _of_way(case: Case, curves: Curves, name: str, hardness: float | None, judge
 
 def _widened(
     known: Intervals | None, answers: Mapping[str, Answer], nominal: _Way, moved: Sequence[_Way]
-) -> Scatter:
+) -> _Widened:
     """Widen the intervals of answers by the ratios of others to nominal ones."""
     scatter = {
         key: _ratios(_values(nominal, each), [_values(way, each) for way in moved])
@@ -109,7 +105,7 @@ def _widened(
             unloading,
             None if known.area is None else of_curve(known.area, "area_fraction_corrected", 1.0),
         )
-    return Scatter(scatter, widened, known)
+    return scatter, widened, known
 
 
 def _values(way: _Way, answer: Answer) -> Real:

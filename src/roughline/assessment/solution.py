@@ -13,7 +13,7 @@ from roughline.assessment.larger_surface import LargerSurface, larger_surface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.notes import how_far_a_line_serves
 from roughline.assessment.source import Topography
-from roughline.assessment.tiles import Tiles, coarse_shape, has_tiles, tiles_from
+from roughline.assessment.tiles import Tiles, coarse_shape, tiles_from
 from roughline.assessment.uncertainty import change, intervals_of
 from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
 from roughline.computing.arrays import Indices, Real
@@ -111,8 +111,6 @@ def _most_changed(before: Real | None, after: Real | None, asked: Indices) -> st
 
 def _tiles(curves: Curves, whole: Curve | None, body: Surface) -> tuple[Tiles, Tiles] | None:
     """What the tiles of a map say beside its periodic curve; None if that is not known."""
-    if not has_tiles(body):
-        return None
     shape = coarse_shape(body.shape)
     if shape != body.shape:
         whole = curves.whole(Way.COARSE)

@@ -174,11 +174,6 @@ def logit(share: Real) -> Real:
         return np.log(share) - np.log1p(-share)
 
 
-def has_tiles(piece: Surface) -> bool:
-    """Whether a map has enough points to be cut into tiles."""
-    return min(piece.shape) >= FEWEST
-
-
 def coarse_shape(shape: tuple[int, int]) -> tuple[int, int]:
     """Points along the sides of a map whose tiles are pressed."""
     while shape[0] * shape[1] > _POINTS and min(shape) >= 4 * FEWEST:

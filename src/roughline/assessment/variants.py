@@ -20,7 +20,7 @@ from roughline.assessment.case import Case
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import pressed_body
-from roughline.assessment.tiles import coarse_shape, coarsened, has_tiles, tiles_of
+from roughline.assessment.tiles import FEWEST, coarse_shape, coarsened, tiles_of
 from roughline.computing.arrays import Mask
 from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
@@ -282,7 +282,7 @@ def _repeated(variant: Variant, curves: Curves) -> LoadCase | Curve | None:
 
 def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
     """The map on fewer points, and its tiles, under the mean pressures of its periodic curve."""
-    if not case.loads.grid_error or not has_tiles(body):
+    if not case.loads.grid_error or min(body.shape) < FEWEST:
         return []
     shape = coarse_shape(body.shape)
 
