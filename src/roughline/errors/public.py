@@ -99,11 +99,11 @@ def public(door: _Door) -> _Door:
     Annotations are texts, as ``from __future__ import annotations`` leaves them.
     """
     if not inspect.isclass(door):
-        return _held(door, door.__name__, _refuse_other_kinds)  # type: ignore[return-value]
+        return _held(door, door.__name__)  # type: ignore[return-value]
     for name, method in list(vars(door).items()):
         if inspect.isfunction(method) and (name == "__init__" or not name.startswith("_")):
             called = door.__name__ if name == "__init__" else name
-            setattr(door, name, _held(method, called, _refuse_other_kinds))
+            setattr(door, name, _held(method, called))
     return door
 
 
@@ -112,15 +112,13 @@ def public_names(door: _Door) -> _Door:
 
     It looks at all values itself.
     """
-    return _held(door, door.__name__, None)  # type: ignore[return-value]
+    return _held(door, door.__name__, by_names=True)  # type: ignore[return-value]
 
 
 def _held(
-    function: Callable[..., Any],
-    called: str,
-    refuse_value: Callable[[str, Any, inspect.Parameter], None] | None,
+    function: Callable[..., Any], called: str, *, by_names: bool = False
 ) -> Callable[..., Any]:
-    """Return a function that looks at its arguments first."""
+    """Return a function that looks at its arguments first, or at their names alone."""
 
     @functools.wraps(function)
     def held(*positional: Any, **named: Any) -> Any:
@@ -129,9 +127,8 @@ def _held(
             given = signature.bind(*positional, **named).arguments
         except TypeError:
             raise _misfit(called, signature, positional, named) from None
-        if refuse_value is not None:
-            for name, value in given.items():
-                refuse_value(name, value, signature.parameters[name])
+        for name, value in () if by_names else given.items():
+            _refuse_other_kinds(name, value, signature.parameters[name])
         return function(*positional, **named)
 
     return held
