@@ -150,7 +150,6 @@ def test_few_points_have_no_interval_unasked(tmp_path, invoke):
 @pytest.mark.parametrize(
     ("loads", "shown"),
     [
-        (["--load", "10 N"], ["10 N"]),
         (["--load", "10 N", "--load", "2 N"], ["10 N", "2 N"]),
         (["--loads", "12"], None),
     ],
@@ -183,6 +182,23 @@ def test_the_first_screen_is_what_was_asked_and_a_line_for_each_group(
     assert sum(int(row.split()[-1]) for row in rows) == further
     loads_left = "" if shown else " and 10 further loads"
     assert lines[-1] == f"{further} further answers{loads_left}: --all shows them"
+
+
+def test_under_one_load_the_large_figures_are_not_repeated_in_a_table(rough, invoke, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    for load in ("10 N", "1 mN"):  # the grid decides the lighter one
+        asked = ("press", rough, *PAIR, "--load", load, "--no-grid-error")
+        code, out, errors = invoke(*asked)
+        assert code == 0, errors
+        lines = out.splitlines()
+        assert ("fewer than ten points" in lines[3]) == (load == "1 mN")
+        assert "\n*" not in out
+        figures = lines[4 : lines.index("", 4)]
+        for figure in figures:
+            name, value = re.split("  +", figure.strip())[:2]
+            assert sum(line.strip().startswith(name) and value in line for line in lines) == 1
+        further = len(json.loads(invoke(*asked, "--json")[1])["answers"]) - len(figures)
+        assert lines[-1] == f"{further} further answers: --all shows them"
 
 
 def test_nothing_is_folded_that_is_no_answer(rough, invoke):

@@ -62,8 +62,8 @@ def leading_keys(result: Assessment | PartAssessment) -> list[str]:
     return [key for key, each in result.answers.items() if each.leads]
 
 
-def headline(result: Assessment | PartAssessment) -> Headline:
-    """The leading answers at the largest load, warnings, and what else a page begins with.
+def figure_keys(result: Assessment | PartAssessment) -> list[str]:
+    """Keys of the answers in large figures: the leading ones, of each group at least one.
 
     Of a group without a leading answer one is told only if it was asked for alone, as a reflection.
     """
@@ -71,9 +71,15 @@ def headline(result: Assessment | PartAssessment) -> Headline:
     first = [each.headline for each in found if each.headline in leading or len(each.keys) == 1]
     further = [key for key in leading if key not in first]
     shown = {*first, *further[: _MOST_FIGURES - len(first)]}
+    return [key for group in found for key in group.keys if key in shown]
+
+
+def headline(result: Assessment | PartAssessment) -> Headline:
+    """The large figures at the largest load, warnings, and what else a page begins with."""
+    leading = leading_keys(result)
     figures = [
         KeyFigure.of(each.name, quantity(each, result.largest))
-        for each in (result.answers[key] for group in found for key in group.keys if key in shown)
+        for each in (result.answers[key] for key in figure_keys(result))
     ]
     below = [elastic_in_words(result)]
     if isinstance(result, PartAssessment) and leading and len(result.names) > 1:

@@ -10,12 +10,14 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
+from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.contact.status import Status
 from roughline.report.answers import (
     UNRESOLVED,
     answer_table,
     elastic_in_words,
+    figure_keys,
     groups,
     headline,
     lead_of,
@@ -31,7 +33,6 @@ from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
 if TYPE_CHECKING:
-    from roughline.assessment.assessment import Assessment
     from roughline.theories.theory_curve import TheoryCurve
 
 MOST_SHOWN = 1000
@@ -97,7 +98,8 @@ def _print_answers(
 ) -> str:
     """Print the answers of two materials; returns a line on what is folded, if anything is.
 
-    Folded, a group has one answer, and a curve of which no load was named has its ends.
+    Folded, a group has one answer, a curve of which no load was named has its ends, and a body
+    under one load has the large figures alone.
     """
     _print_headline(console, result)
     headings = starred(result)
@@ -105,16 +107,19 @@ def _print_answers(
     if unfolded_by and not result.question.headings:
         loads = sorted({0, result.largest})
     keys = [each.headline for each in groups(result)] if unfolded_by else list(result.answers)
-    if len(loads) > abreast:
-        table = load_table(result, keys)
+    if unfolded_by and isinstance(result, Assessment) and len(headings) == 1:
+        keys, loads = figure_keys(result), []  # are printed, and a table would repeat them
+    elif len(loads) > abreast:
+        print_table(console, *load_table(result, keys))
     else:
         table = (_folded_table if unfolded_by else _whole_table)(result, loads)
-    print_table(console, *table)
+        print_table(console, *table)
     if elastic := elastic_in_words(result):
         where = " (at the largest load)" if len(headings) > 1 else ""
         console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
     _explain_star(console, [headings[i] for i in loads])
-    further = {"answers": len(result.answers) - len(keys), "loads": len(headings) - len(loads)}
+    loads_left = len(headings) - len(loads) if loads else 0
+    further = {"answers": len(result.answers) - len(keys), "loads": loads_left}
     counts = [f"{count} further {name}" for name, count in further.items() if count]
     counts += ["those of each map"] if unfolded_by and isinstance(result, PartAssessment) else []
     return f"{' and '.join(counts)}: {unfolded_by} shows them" if counts else ""
