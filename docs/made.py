@@ -21,7 +21,7 @@ from roughline.contact.quantities import QUANTITIES
 from roughline.engineering import formulas
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
-from roughline.exact import indenters, mdr, punch, westergaard
+from roughline.exact import flow, indenters, mdr, punch, westergaard
 from roughline.units import decimal
 
 SECTIONS = {
@@ -31,7 +31,7 @@ SECTIONS = {
     ),
     "Contact": (
         *("press", "press_scan", "Curve", "Fields", "Status", "estimate", "Estimate"),
-        *("set_threads", "theory", "compare", "Comparison", "trust_map"),
+        *("set_threads", "theory", "effective_medium", "compare", "Comparison", "trust_map"),
     ),
     "Half-spaces and contact laws": (
         *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding"),
@@ -120,7 +120,7 @@ def page_of_names() -> str:
         _summary("Formulas", "roughline.engineering.formulas", _functions(formulas)),
         *(
             _summary(f"Exact solutions: {_title(module)}", module.__name__, _public(module))
-            for module in (punch, indenters, mdr, westergaard)
+            for module in (punch, indenters, mdr, westergaard, flow)
         ),
     ]
     return "\n".join(parts)

@@ -156,6 +156,8 @@ def test_units_are_neutral(name):
     if one.stiffness is not None:
         assert other.stiffness == pytest.approx(one.stiffness * 1e9 / 1e6, rel=1e-9)
         assert other.mean_gap == pytest.approx(one.mean_gap * 1e6, rel=1e-9)
+    if one.hydraulic_aperture is not None:
+        assert other.hydraulic_aperture == pytest.approx(one.hydraulic_aperture * 1e6, rel=1e-9)
 
 
 def test_bad_questions_get_one_line():

@@ -23,14 +23,14 @@ _ROUNDING = 1e-20  # of the largest C_2d, below which a transform's rounding lie
 
 
 @dataclass(frozen=True, eq=False)
-class _Bands:
+class Bands:
     """A roughness as shares of <h²> over wavenumbers."""
 
     q: Real  # ascending [1 / length]
     power: Real  # <h²> of the waves at each; their sum is that of the roughness [length²]
 
 
-def bands(roughness: SurfaceOrSpectrum) -> _Bands:
+def bands(roughness: SurfaceOrSpectrum) -> Bands:
     """Return the shares of <h²> by wavenumber.
 
     A periodic surface has those of its own waves. A piece of a larger surface has those of its
@@ -55,11 +55,11 @@ def bands(roughness: SurfaceOrSpectrum) -> _Bands:
     return _integrated(continuum)
 
 
-def _averaged(spectrum: IsotropicSpectrum) -> _Bands:
+def _averaged(spectrum: IsotropicSpectrum) -> Bands:
     """Shares of a spectrum that was averaged over directions."""
     q_0 = 2 * math.pi / spectrum.length
     if spectrum.windowed:
-        return _Bands(spectrum.q, 2 * math.pi * spectrum.q * spectrum.C_2d * q_0)
+        return Bands(spectrum.q, 2 * math.pi * spectrum.q * spectrum.C_2d * q_0)
     rings = spectrum.q.size
     within = np.concatenate([q for q, _ in lattice_waves(1.0, 2 * rings + 1)])
     ring = np.rint(within).astype(np.intp)
@@ -74,7 +74,7 @@ def _averaged(spectrum: IsotropicSpectrum) -> _Bands:
     return _gathered([(q_0 * within, 4 * q_0**2 * C_2d)])
 
 
-def _integrated(continuum: ContinuumSpectrum) -> _Bands:
+def _integrated(continuum: ContinuumSpectrum) -> Bands:
     """Shares of the narrow bands of a continuum."""
     band = continuum.band
     if math.isinf(band.q_high):
@@ -86,10 +86,10 @@ def _integrated(continuum: ContinuumSpectrum) -> _Bands:
     count = max(400, math.ceil(_PER_DECADE * (high - low) / math.log(10)))
     edges = np.exp(np.linspace(low, high, count + 1))
     q = np.sqrt(edges[1:] * edges[:-1])
-    return _Bands(q, 2 * math.pi * q * continuum.C_2d(q) * np.diff(edges))
+    return Bands(q, 2 * math.pi * q * continuum.C_2d(q) * np.diff(edges))
 
 
-def _gathered(waves: Iterable[tuple[Real, Real]]) -> _Bands:
+def _gathered(waves: Iterable[tuple[Real, Real]]) -> Bands:
     """Join waves that differ by less than a band; <h²> and <|grad h|²> are kept."""
     sums = np.zeros((2, 0))
     first = None
@@ -103,7 +103,7 @@ def _gathered(waves: Iterable[tuple[Real, Real]]) -> _Bands:
         for row, weight in zip(sums, (power, power * q**2), strict=True):
             row += np.bincount(number, weights=weight, minlength=count)
     heights, slopes = sums[:, sums[0] > 0]
-    return _Bands(np.sqrt(slopes / heights), heights)
+    return Bands(np.sqrt(slopes / heights), heights)
 
 
 @dataclass(frozen=True, eq=False)

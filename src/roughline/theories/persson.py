@@ -17,7 +17,7 @@ import numpy as np
 from scipy import special
 
 from roughline.computing.arrays import Real
-from roughline.spectra.moments import SurfaceOrSpectrum, bands
+from roughline.spectra.moments import Bands, SurfaceOrSpectrum, bands
 from roughline.theories.theory_curve import TheoryCurve
 
 KAPPA = math.sqrt(8 / math.pi)  # contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)
@@ -28,20 +28,11 @@ _SMALLEST, _LARGEST, _STEPS = 1e-4, 6.0, 20_000  # of the table of the energy in
 
 def persson(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:
     """Persson's theory, with Yang and Persson's share of elastic energy, gamma = 0.45."""
-    spectrum = bands(roughness)
-    # With t² = pi int q³ C dq up to q, the integrals over q are sums over bands of one over t:
-    # a band may carry much of the slopes, as the longest waves do.
-    ends = np.sqrt(np.cumsum(spectrum.q**2 * spectrum.power / 2))
-    starts = np.concatenate([[0.0], ends[:-1]])
-    half = (ends - starts)[:, np.newaxis] / 2
-    t = (ends + starts)[:, np.newaxis] / 2 + half * _NODES
-    weight = 2 / math.sqrt(math.pi) / spectrum.q[:, np.newaxis] * half * _WEIGHTS
+    ends, t, weight = stress_nodes(bands(roughness))
     gap, compliance = np.empty((2, pressure.size))
     for i, p in enumerate(pressure / E_star):
-        # int_p^inf dp'/p' [gamma + 3 (1 - gamma) P²] exp(-(p'/t)²), P = erf(p'/t)
-        gap[i] = float((weight * _energy(p / t)).sum())
-        share = _GAMMA + 3 * (1 - _GAMMA) * special.erf(p / t) ** 2
-        compliance[i] = float((weight * share * np.exp(-((p / t) ** 2))).sum()) / p
+        gap[i] = float((weight * energy_beyond(p / t)).sum())
+        compliance[i] = float((weight * energy_density(p / t)).sum()) / p
     with np.errstate(divide="ignore"):
         stiffness = E_star / compliance
     return TheoryCurve(
@@ -57,8 +48,26 @@ def persson(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> Theo
     )
 
 
-def _energy(x: Real) -> Real:
-    """Integrate [gamma + 3 (1 - gamma) erf(t)²] exp(-t²) / t from x to infinity."""
+def stress_nodes(spectrum: Bands, seen: float = 0.0) -> tuple[Real, Real, Real]:
+    """Ends of the bands in t, nodes in t within them, and weights 2 / (sqrt(pi) q) dt.
+
+    With t² = pi int q³ C dq up to q, the integrals over q are sums over bands of one over t: a band
+    may carry much of the slopes, as the longest waves do. The waves up to t² = `seen` are left out.
+    """
+    ends = np.sqrt(np.maximum(np.cumsum(spectrum.q**2 * spectrum.power / 2) - seen, 0.0))
+    starts = np.concatenate([[0.0], ends[:-1]])
+    half = (ends - starts)[:, np.newaxis] / 2
+    t = (ends + starts)[:, np.newaxis] / 2 + half * _NODES
+    return ends, t, 2 / math.sqrt(math.pi) / spectrum.q[:, np.newaxis] * half * _WEIGHTS
+
+
+def energy_density(x: Real) -> Real:
+    """Share of elastic energy [gamma + 3 (1 - gamma) P²] exp(-x²), P = erf(x), x = p / t."""
+    return (_GAMMA + 3 * (1 - _GAMMA) * special.erf(x) ** 2) * np.exp(-(x**2))
+
+
+def energy_beyond(x: Real) -> Real:
+    """Integrate :func:`energy_density` over x, divided by x, from x to infinity."""
     log_x, table = _energy_table()
     return np.interp(np.log(x), log_x, table, right=0.0) + np.where(
         x < math.exp(log_x[0]), _GAMMA * (log_x[0] - np.log(x)), 0.0
@@ -67,10 +76,8 @@ def _energy(x: Real) -> Real:
 
 @functools.cache
 def _energy_table() -> tuple[Real, Real]:
-    """Logarithms of x, and the integral of :func:`_energy` from each."""
+    """Logarithms of x, and the integral of :func:`energy_beyond` from each."""
     log_x = np.linspace(math.log(_SMALLEST), math.log(_LARGEST), _STEPS)
-    integrand = (_GAMMA + 3 * (1 - _GAMMA) * special.erf(np.exp(log_x)) ** 2) * np.exp(
-        -np.exp(2 * log_x)
-    )
+    integrand = energy_density(np.exp(log_x))
     pieces = (integrand[1:] + integrand[:-1]) / 2 * np.diff(log_x)
     return log_x, np.concatenate([np.cumsum(pieces[::-1])[::-1], [0.0]])

@@ -19,15 +19,21 @@ from roughline.errors.checks import one_of, positive, refuse
 from roughline.errors.public import public
 from roughline.spectra.moments import SurfaceOrSpectrum
 from roughline.spectra.self_affine import SelfAffine
+from roughline.theories.bruggeman import bruggeman, check_threshold
 from roughline.theories.bush_gibson_thomas import bush_gibson_thomas
+from roughline.theories.critical_junction import critical_junction
 from roughline.theories.greenwood_williamson import greenwood_williamson
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
+
+OF_FLOW = {"critical-junction": critical_junction, "bruggeman": bruggeman}
+"""Theories of the flow through the gap; each seals at a threshold that may be given."""
 
 THEORIES: dict[str, Callable[[SurfaceOrSpectrum, float, Real], TheoryCurve]] = {
     "persson": persson,
     "bush-gibson-thomas": bush_gibson_thomas,
     "greenwood-williamson": greenwood_williamson,
+    **OF_FLOW,
 }
 """Every theory, by its name."""
 
@@ -38,13 +44,15 @@ def theory(
     roughness: SurfaceOrSpectrum,
     E_star: float,
     pressure: ArrayLike,
+    threshold: float | None = None,
 ) -> TheoryCurve:
     """Evaluate a theory for a surface or a spectrum.
 
     Parameters
     ----------
-    name : {"persson", "bush-gibson-thomas", "greenwood-williamson"}
-        Name of the theory.
+    name : {"persson", "bush-gibson-thomas", "greenwood-williamson", "critical-junction", \
+"bruggeman"}
+        Name of the theory; the last two are of the flow through the gap.
     roughness : Surface, LatticeSpectrum, IsotropicSpectrum, ContinuumSpectrum or SelfAffine
         A surface, for its own waves; ``spectrum.lattice(n)``, for those of generated surfaces;
         ``spectrum.continuum``, or the spectrum itself, for integrals up to ``q_high``. Where the
@@ -53,12 +61,16 @@ def theory(
         Contact modulus. [pressure]
     pressure : array_like, shape (loads,)
         Mean pressures over the nominal area. [pressure]
+    threshold : float, optional
+        Of theories of flow, the share of contact at which no channel is left: 0.42 for
+        "critical-junction" and 0.5, which is d = 2, for "bruggeman" unless given. Bruggeman's d is
+        1 / (1 - threshold). [1]
 
     Raises
     ------
     InputError
-        If there is no theory of that name, a pressure is not positive, or the spectrum has no
-        upper end.
+        If there is no theory of that name, a pressure is not positive, the spectrum has no
+        upper end, or a threshold is not between 0 and 1 or given to a theory that has none.
 
     Examples
     --------
@@ -67,6 +79,9 @@ def theory(
     >>> persson = rl.theory("persson", surface, E_star=1.0, pressure=[1e-3, 1e-2])
     >>> print(persson.area_fraction.round(4), persson.stiffness.round(3))
     [0.0036 0.0356] [0.19  1.887]
+    >>> junction = rl.theory("critical-junction", surface, E_star=1.0, pressure=[1e-2, 1e-1])
+    >>> print(junction.hydraulic_aperture.round(4))
+    [0.014  0.0003]
     """
     one_of("name", name, THEORIES)
     if not isinstance(roughness, get_args(SurfaceOrSpectrum)):
@@ -75,7 +90,15 @@ def theory(
     pressures = np.atleast_1d(np.asarray(pressure, dtype=np.float64))
     if not ((pressures > 0) & np.isfinite(pressures)).all():
         raise InputError(f"pressures must be positive and finite; {pressures.min()} is among them")
-    curve = THEORIES[name](roughness, E_star, pressures)
+    if threshold is None:
+        curve = THEORIES[name](roughness, E_star, pressures)
+    else:
+        if name not in OF_FLOW:
+            refuse(
+                "threshold", threshold, f"theories of flow alone have one: {' and '.join(OF_FLOW)}"
+            )
+        check_threshold(threshold)
+        curve = OF_FLOW[name](roughness, E_star, pressures, threshold)
     if isinstance(roughness, SelfAffine) and (difference := roughness.difference_from_surfaces()):
         validity = (
             f"{curve.validity}; of the continuum, with {difference} of the surfaces that this "

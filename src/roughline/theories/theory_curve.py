@@ -26,6 +26,9 @@ class TheoryCurve:
         Distance of the mean planes; None where the theory has none. [length]
     validity : str
         Where it holds.
+    hydraulic_aperture : ndarray, shape (loads,) or None
+        Gap of two flat plates that let as much fluid through, 0 where the contact seals; None where
+        the theory has none. [length]
     """
 
     name: str
@@ -34,5 +37,6 @@ class TheoryCurve:
     stiffness: Real | None
     mean_gap: Real | None
     validity: str
+    hydraulic_aperture: Real | None = None
 
     __repr__ = summary
