@@ -31,6 +31,7 @@ PLACES = {
     "plot": 1.1,
     "engineering": 1.1,
     "theories": 7.9,
+    "fluid": 6.6,
     "contact": 4.0,
     "halfspace": 3.1,
     "reduction": 4.9,

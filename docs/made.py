@@ -33,6 +33,7 @@ SECTIONS = {
         *("press", "press_scan", "Curve", "Fields", "Status", "estimate", "Estimate"),
         *("set_threads", "theory", "effective_medium", "compare", "Comparison", "trust_map"),
     ),
+    "The fluid in the gap": ("flow", "Flow"),
     "Half-spaces and contact laws": (
         *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding"),
     ),

@@ -43,6 +43,8 @@ from roughline.errors import PreparationWarning as PreparationWarning
 from roughline.errors import RoughlineError as RoughlineError
 from roughline.errors import StoreError as StoreError
 from roughline.errors import UnitError as UnitError
+from roughline.fluid.flow import Flow as Flow
+from roughline.fluid.flow import flow as flow
 from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw

@@ -28,7 +28,9 @@ def test_no_two_pages_differ_in_capitals_alone():
         made.FILES_OF_NAMES.get(f"roughline.{name}", f"roughline.{name}") for name in rl.__all__
     ]
     assert len({page.lower() for page in pages}) == len(pages)
-    assert set(made.FILES_OF_NAMES) == {"roughline.material", "roughline.estimate"}
+    assert set(made.FILES_OF_NAMES) == {
+        *("roughline.estimate", "roughline.flow", "roughline.material"),
+    }
 
 
 def test_a_name_without_a_section_is_refused(monkeypatch):

@@ -1,0 +1,1 @@
+"""The fluid between two bodies: what the gap lets through."""

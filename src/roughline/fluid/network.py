@@ -1,0 +1,367 @@
+"""The pressure in a network of conductances on a grid, by nested dissection.
+
+The plane is cut into small rectangles of cells. Each is condensed into conductances between the
+faces on its border, and two neighbours into those of their union, until nothing is left but inlet
+and outlet; their conductance is the answer. The way back gives the pressures [1].
+
+All conductances are sums of positive terms, and a pivot is the sum of a row, never a difference
+[2]. So the conductance of the whole, and the pressures, are accurate to the last digits however
+small the last channel is, where a residual says nothing.
+
+References
+----------
+.. [1] George, A. Nested dissection of a regular finite element mesh. SIAM J. Numer. Anal. 10,
+   345-363 (1973).
+.. [2] Grassmann, W. K., Taksar, M. I., Heyman, D. P. Regenerative analysis and steady state
+   distributions for Markov chains. Oper. Res. 33, 1107-1116 (1985).
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import chain, pairwise, product
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Real
+from roughline.computing.compiled import compiled
+from roughline.computing.cores import available_cores
+from roughline.computing.linear_algebra import on_one_thread
+
+INLET, OUTLET = 0, 1  # numbers of these two among the faces
+
+_LARGEST = 16  # cells a side of the rectangles that are condensed cell by cell
+
+_AT_ONCE = 256  # faces that are eliminated together
+
+
+@dataclass(frozen=True, eq=False)
+class Network:
+    """Cells of a grid, each joined to its four faces.
+
+    Attributes
+    ----------
+    cells : ndarray, shape (nx, ny)
+        Conductance of a square cell; zero where it is closed. The inlet is before the first row,
+        the outlet behind the last.
+    along, across : float
+        Conductance of a cell over that of a square one, along the flow and across it.
+    periodic : bool
+        Whether the first and the last column are neighbours; if not, both borders are closed.
+    """
+
+    cells: Real
+    along: float
+    across: float
+    periodic: bool
+
+    def conductances(self) -> tuple[Real, Real]:
+        """Conductances between neighbours, (nx + 1, ny) along the flow and (nx, ny + 1) across.
+
+        The first and the last row join cells to the inlet and to the outlet, by half a cell.
+        """
+        k = self.cells
+        along = np.empty((k.shape[0] + 1, k.shape[1]))
+        along[0], along[1:-1], along[-1] = 2 * k[0], _in_series(k[:-1], k[1:]), 2 * k[-1]
+        across = np.zeros((k.shape[0], k.shape[1] + 1))
+        across[:, 1:-1] = _in_series(k[:, :-1], k[:, 1:])
+        if self.periodic:
+            across[:, 0] = across[:, -1] = _in_series(k[:, -1], k[:, 0])
+        return self.along * along, self.across * across
+
+    def pressures(self) -> Real:
+        """Pressures of the cells with 1 at the inlet, and with 1 at the outlet, (2, nx, ny).
+
+        Their sum is 1 in open cells. Each is accurate relative to itself. All cells that are open
+        have to be joined to inlet and outlet.
+        """
+        dissection = _Dissection.of(self)
+        with on_one_thread(), ThreadPoolExecutor(available_cores()) as pool:
+            return dissection.pressures(pool)
+
+
+def _in_series(first: Real, second: Real) -> Real:
+    """Conductance between the middles of two neighbours: the harmonic mean, or zero."""
+    both = first + second
+    return 2 * first * np.divide(second, both, out=np.zeros_like(both), where=both > 0)
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """A rectangle, condensed: the open faces on its border, and the conductances between them."""
+
+    faces: Indices  # (m,), ascending
+    conductances: Real  # (m, m); the diagonal means nothing
+
+
+@dataclass(frozen=True, eq=False)
+class _Step:
+    """How the pressures of faces between two blocks follow from those on the border of both."""
+
+    inner: Indices
+    outer: Indices
+    lower: Real  # inverse of the Cholesky factor of the inner faces
+    upper: Real  # that times the conductances from inner to outer faces
+
+    def descend(self, pressures: Real) -> None:
+        """Set the pressures of the inner faces."""
+        pressures[self.inner] = self.lower.T @ (self.upper @ pressures[self.outer])
+
+
+@dataclass(frozen=True, eq=False)
+class _Dissection:
+    """A network whose cells lie in a tree of rectangles."""
+
+    network: Network
+    rows: Indices  # where the smallest rectangles begin and end
+    columns: Indices
+    along: Indices  # numbers of faces along the flow, (nx + 1, ny); -1 where one is closed
+    across: Indices  # and across it, (nx, ny + 1)
+
+    @classmethod
+    def of(cls, network: Network) -> _Dissection:
+        """Cut a network, and number the faces between two open cells."""
+        nx, ny = network.cells.shape
+        open_cells = network.cells > 0
+        along = np.arange((nx + 1) * ny).reshape(nx + 1, ny) + 2
+        along[0], along[-1] = INLET, OUTLET
+        across = np.arange(nx * (ny + 1)).reshape(nx, ny + 1) + 2 + along.size
+        across[:, -1] = across[:, 0]  # one and the same where the plane is periodic
+        open_along = np.ones(along.shape, bool)
+        open_along[:-1] &= open_cells
+        open_along[1:] &= open_cells
+        open_across = np.empty(across.shape, bool)
+        open_across[:, 1:-1] = open_cells[:, 1:] & open_cells[:, :-1]
+        border = open_cells[:, 0] & open_cells[:, -1] & network.periodic
+        open_across[:, 0] = open_across[:, -1] = border
+        return cls(
+            network,
+            _cuts(nx, 1),
+            _cuts(ny, 2 if network.periodic else 1),  # no rectangle is its own neighbour
+            np.where(open_along, along, -1),
+            np.where(open_across, across, -1),
+        )
+
+    def pressures(self, pool: ThreadPoolExecutor) -> Real:
+        """Pressures of the cells with 1 at the inlet, and with 1 at the outlet, (2, nx, ny)."""
+        corners = list(product(pairwise(self.rows), pairwise(self.columns)))
+        blocks = list(pool.map(self._condensed, corners))
+        shape = self.rows.size - 1, self.columns.size - 1
+        steps: list[_Step] = []
+        while len(blocks) > 1:
+            grid = np.empty(len(blocks), object)
+            grid[:] = blocks
+            grid = grid.reshape(shape)
+            if shape[0] >= shape[1]:
+                pairs = zip(grid[::2].ravel(), grid[1::2].ravel(), strict=True)
+                shape = shape[0] // 2, shape[1]
+            else:
+                pairs = zip(grid[:, ::2].ravel(), grid[:, 1::2].ravel(), strict=True)
+                shape = shape[0], shape[1] // 2
+            blocks, new = map(list, zip(*pool.map(_joined, pairs), strict=True))
+            steps += chain.from_iterable(new)
+        of_faces = np.zeros((2 + self.along.size + self.across.size, 2))
+        of_faces[INLET, 0] = of_faces[OUTLET, 1] = 1
+        for step in reversed(steps):
+            step.descend(of_faces)
+        pressures = np.zeros((2, *self.network.cells.shape))
+        list(pool.map(lambda corner: self._spread(corner, of_faces, pressures), corners))
+        return pressures
+
+    def _border(self, corner: _Corner) -> tuple[Indices, list[Indices]]:
+        """Open faces of a rectangle, and where each of its border lies among them, or -1."""
+        (i, i_end), (j, j_end) = corner
+        faces = (
+            self.along[i, j:j_end],
+            self.along[i_end, j:j_end],
+            self.across[i:i_end, j],
+            self.across[i:i_end, j_end],
+        )
+        numbers, places = np.unique(np.concatenate(faces), return_inverse=True)
+        closed = int(numbers.size > 0 and numbers[0] < 0)
+        ends = np.cumsum([face.size for face in faces])[:-1]
+        return numbers[closed:], np.split(places - closed, ends)
+
+    def _eliminated(self, corner: _Corner) -> tuple[_Block, Real]:
+        """A rectangle, condensed, and how the pressure of each of its cells follows."""
+        (i, i_end), (j, j_end) = corner
+        numbers, places = self._border(corner)
+        cells = self.network.cells[i:i_end, j:j_end]
+        shares = np.zeros((cells.size, numbers.size + cells.shape[1] + 1))
+        before, behind, left, right = places
+        square = self.network.along, self.network.across
+        conductances = _eliminate_cells(cells, square, before, behind, left, right, shares)
+        return _Block(numbers, conductances), shares
+
+    def _condensed(self, corner: _Corner) -> _Block:
+        return self._eliminated(corner)[0]
+
+    def _spread(self, corner: _Corner, of_faces: Real, pressures: Real) -> None:
+        """Set the pressures of the cells of a rectangle from those of its faces."""
+        (i, i_end), (j, j_end) = corner
+        block, shares = self._eliminated(corner)
+        pressures[:, i:i_end, j:j_end] = _follow_cells(
+            shares, of_faces[block.faces], i_end - i, j_end - j
+        )
+
+
+_Corner = tuple[tuple[int, int], tuple[int, int]]
+"""Rows and columns of a rectangle, each from its first to one more than its last."""
+
+
+def _cuts(n: int, least: int) -> Indices:
+    """Cut a side into a power of two of nearly equal pieces, at least so many, none too large."""
+    pieces = least
+    while n > pieces * _LARGEST:
+        pieces *= 2
+    return np.arange(pieces + 1) * n // pieces
+
+
+def _joined(pair: tuple[_Block, _Block]) -> tuple[_Block, list[_Step]]:
+    """Condense two blocks into one."""
+    first, second = pair
+    inner = np.intersect1d(first.faces, second.faces, assume_unique=True)
+    inner = inner[inner > OUTLET]
+    both = np.union1d(first.faces, second.faces)
+    outer = np.setdiff1d(both, inner, assume_unique=True)
+    numbers = np.concatenate([inner, outer])
+    order = np.argsort(numbers)
+    conductances = np.zeros((both.size, both.size))
+    for block in pair:
+        _add(conductances, order[np.searchsorted(both, block.faces)], block.conductances)
+    steps = []
+    for first_inner in range(0, inner.size, _AT_ONCE):
+        n = min(_AT_ONCE, inner.size - first_inner)
+        to_others = conductances[:n, n:]
+        lower = _inverse_factor(conductances[:n, :n].copy(), to_others.sum(axis=1))
+        upper = lower @ to_others
+        between_others = upper.T @ upper
+        between_others += conductances[n:, n:]
+        conductances = between_others
+        steps.append(
+            _Step(numbers[first_inner : first_inner + n], numbers[first_inner + n :], lower, upper)
+        )
+    return _Block(outer, conductances), steps
+
+
+@compiled
+def _add(total: Real, places: Indices, conductances: Real) -> None:
+    """Add conductances of a block to those of all faces, in which its own have these places."""
+    for i, row in enumerate(places):
+        for j, column in enumerate(places):
+            total[row, column] += conductances[i, j]
+
+
+@compiled
+def _eliminate_cells(
+    cells: Real,
+    square: tuple[float, float],
+    before: Indices,
+    behind: Indices,
+    left: Indices,
+    right: Indices,
+    shares: Real,
+) -> Real:
+    """Condense a rectangle, cell by cell; also the share of each neighbour in a cell's pressure.
+
+    A cell has a place in a window of one row and a cell until it is eliminated.
+    """
+    along, across = square
+    nx, ny = cells.shape
+    window = ny + 1
+    size = shares.shape[1]
+    faces = size - window
+    g = np.zeros((size, size))
+    for cell in range(nx * ny):
+        i, j = cell // ny, cell % ny
+        k = cells[i, j]
+        if k == 0:
+            continue
+        here = faces + cell % window
+        if i == 0 and before[j] >= 0:
+            g[here, before[j]] += 2 * along * k
+        if j == 0 and left[i] >= 0:
+            g[here, left[i]] += 2 * across * k
+        if i + 1 == nx:
+            if behind[j] >= 0:
+                g[here, behind[j]] += 2 * along * k
+        elif cells[i + 1, j] > 0:
+            next_row = cells[i + 1, j]
+            g[here, faces + (cell + ny) % window] += 2 * along * k * (next_row / (k + next_row))
+        if j + 1 == ny:
+            if right[i] >= 0:
+                g[here, right[i]] += 2 * across * k
+        elif cells[i, j + 1] > 0:
+            next_one = cells[i, j + 1]
+            g[here, faces + (cell + 1) % window] += 2 * across * k * (next_one / (k + next_one))
+        row = g[here]
+        pivot = row.sum()
+        share = shares[cell]
+        for other in range(size):
+            share[other] = row[other] / pivot
+        for other in range(size):
+            if share[other] > 0:
+                g[other, here] = 0
+                part = share[other]
+                for each in range(size):
+                    g[other, each] += part * row[each]
+                g[other, other] = 0
+        row[:] = 0
+    return g[:faces, :faces].copy()
+
+
+@compiled
+def _follow_cells(shares: Real, of_faces: Real, nx: int, ny: int) -> Real:
+    """Pressures of the cells of a rectangle from those of its faces, (2, nx, ny)."""
+    window = ny + 1
+    faces = of_faces.shape[0]
+    values = np.zeros((faces + window, 2))
+    values[:faces] = of_faces
+    pressures = np.empty((2, nx, ny))
+    for cell in range(nx * ny - 1, -1, -1):
+        first = second = 0.0
+        for each in range(faces + window):
+            share = shares[cell, each]
+            first += share * values[each, 0]
+            second += share * values[each, 1]
+        values[faces + cell % window] = first, second
+        pressures[:, cell // ny, cell % ny] = first, second
+    return pressures
+
+
+@compiled
+def _inverse_factor(g: Real, beyond: Real) -> Real:
+    """Inverse of the Cholesky factor of the nodes of a network.
+
+    `g` are the conductances between them, `beyond` the sums of those to all other nodes; both are
+    overwritten. The diagonal of `g` means nothing.
+    """
+    n = g.shape[0]
+    column = np.empty(n)
+    factor = np.zeros((n, n))
+    for k in range(n):
+        pivot = beyond[k]
+        for i in range(k + 1, n):
+            column[i] = g[i, k]
+            pivot += column[i]
+        root = np.sqrt(pivot)
+        factor[k, k] = root
+        for i in range(k + 1, n):
+            if column[i] > 0:
+                factor[i, k] = column[i] / root
+                part = column[i] / pivot
+                beyond[i] += part * beyond[k]
+                for j in range(k + 1, i):
+                    g[i, j] += part * column[j]
+    inverse = np.zeros((n, n))
+    for i in range(n):
+        for j in range(i):
+            part = factor[i, j]
+            if part > 0:
+                for k in range(j + 1):
+                    inverse[i, k] += part * inverse[j, k]
+        for k in range(i):
+            inverse[i, k] /= factor[i, i]
+        inverse[i, i] = 1 / factor[i, i]
+    return inverse
