@@ -12,7 +12,9 @@ from roughline.assessment.larger_surface import stiffness_of_the_piece
 from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
+from roughline.computing.arrays import Indices
 from roughline.contact.curve import Curve
+from roughline.contact.measures import Measured
 from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pair import MaterialPair
@@ -48,7 +50,7 @@ def answers_of(
         interface = stiffness_of_the_piece(body, curve, ends)
     pressed = _pressed(question, question.pair, body, curve, interface, intervals, case.moments)
     fields = next((each for each in solution.curve.fields if each is not None), None)
-    return rules.answers(replace(pressed, fields=fields))
+    return rules.answers(replace(pressed, measured=_taken(solution.measured, asked), fields=fields))
 
 
 def ends_from_many(
@@ -70,8 +72,18 @@ def ends_from_many(
     spectrum = moments(body) if has_spectrum(body) else None
     interface = larger.stiffness
     pressed = _pressed(result.question, pair, body, curve, interface, intervals, spectrum)
-    given, _ = rules.answers(replace(pressed, fields=result.fields))
+    measured = _taken(result.measured, result.asked)
+    if not with_grid:
+        measured = {
+            key: replace(each, low=each.values, high=each.values) for key, each in measured.items()
+        }
+    given, _ = rules.answers(replace(pressed, measured=measured, fields=result.fields))
     return {key: each.ends for key, each in given.items() if each.ends is not None}
+
+
+def _taken(measured: Mapping[str, Measured], loads: Indices) -> Mapping[str, Measured]:
+    """Measures at some of the loads, by their numbers."""
+    return {key: each.over(lambda values: values[loads]) for key, each in measured.items()}
 
 
 def _pressed(

@@ -78,6 +78,7 @@ def assess_body(
         elastic=elastic_answers(case, curves),
         hardness_scatter=scatter,
         larger=taken(solution.larger, asked),
+        measured=solution.measured,
         theories=_theories(question, case.body, solution.curve),
         partial_slip=slip_at_largest_load(case, curves),
     )

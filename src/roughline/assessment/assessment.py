@@ -18,6 +18,7 @@ from roughline.computing.arrays import Indices
 from roughline.computing.summary import summary
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
+from roughline.contact.measures import Measured
 from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.rule import Answer
@@ -58,6 +59,9 @@ class Assessment:
     hardness_scatter : mapping of str to tuple of ndarray
         By the keys of the answers, the least and the largest ratio of each to its value while the
         hardness is varied; the intervals include it. Empty where the hardness is taken as exact.
+    measured : mapping of str to Measured
+        What answers need from the fields of every load, over the loads of the curve; of the map
+        pressed periodically where answers are about the surface that it was cut out of.
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved, rising, each once.
     partial_slip : PartialSlip or None
@@ -80,6 +84,7 @@ class Assessment:
     elastic: Mapping[str, Answer] = field(default_factory=dict)
     hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
     larger: LargerSurface | None = None
+    measured: Mapping[str, Measured] = field(default_factory=dict)
     theories: Sequence[TheoryCurve] = ()
     partial_slip: PartialSlip | None = None
     warnings: Sequence[str] = ()

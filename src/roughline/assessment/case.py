@@ -12,7 +12,9 @@ from roughline.assessment.loads import Hardness, LoadCase, hardness_of
 from roughline.assessment.question import Question
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.tiles import Beyond
+from roughline.contact.measures import Measure
 from roughline.engineering.pair import MaterialPair
+from roughline.engineering.rules import rules
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Line, Surface
 
@@ -75,6 +77,17 @@ class Case:
         if self.pair is None or not isinstance(body, Surface):
             return None
         return body if self.question.joint is not None or is_map(body) else None
+
+    @property
+    def is_repeated_for_interface(self) -> bool:
+        """Whether the map is pressed periodically too, for the surface that it was cut out of."""
+        return self.map is not None and not self.loads.periodic
+
+    @property
+    def measures(self) -> Sequence[Measure]:
+        """What rules need from the fields of every load, of the map pressed periodically."""
+        is_answered = self.pair is not None and isinstance(self.body, Surface)
+        return rules.measures if is_answered else ()
 
     @cached_property
     def judged(self) -> Body:

@@ -11,6 +11,7 @@ from roughline.assessment.kinds import is_map, nominal_area
 from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve
+from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.contact.selection import among_loads
 from roughline.errors import InputError
@@ -66,6 +67,7 @@ class LoadCase:
     levelled: bool = False  # without its tilt, which a periodic half-space cannot have
     hardness: float | None = None  # None if both bodies are elastic [Pa]
     fields: Sequence[int] = ()
+    measures: Sequence[Measure] = ()
     rtol: float = 1e-6
     among: Mask | None = None  # which loads of a curve that is known these are; None for all
 
@@ -148,6 +150,7 @@ class LoadCase:
             depths=self.depths or None,
             periodic=self.periodic,
             fields=self.fields if isinstance(self.body, Surface) else False,
+            measures=self.measures,
             grid_error=self.grid_error,
             rtol=self.rtol,
             throw=False,

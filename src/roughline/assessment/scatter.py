@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.assessment.answers import answers_of
 from roughline.assessment.case import Case
-from roughline.assessment.solution import Solution, larger_behind
+from roughline.assessment.solution import Solution, larger_behind, measured_of
 from roughline.assessment.variants import Curves, Way, periodic
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
@@ -69,7 +69,8 @@ def scatter_of(
 def _of_way(case: Case, curves: Curves, name: str, hardness: float | None, judged: Body) -> _Way:
     """Answer the same of a body of another hardness, elastic if None; without intervals."""
     curve = curves.by_name[name]
-    solution = Solution(curve, None, larger_behind(case, curves, name))
+    larger, measured = larger_behind(case, curves, name), measured_of(case, curves, name)
+    solution = Solution(curve, None, larger, measured)
     return _Way(curve, answers_of(case, solution, body=judged, hardness=hardness)[0])
 
 
@@ -92,6 +93,10 @@ def _widened(
             if bound is not None:
                 can_be = can_be[0], factor * _times(bound, scatter[upper])[1]
         low, high = (None, None) if ends is None else _times(ends, scatter[key], can_be)
+        if high is not None:  # what is zero is opened by no ratio
+            others = np.stack([high, *(_values(way, each) for way in moved)])
+            opened = np.minimum(np.fmax.reduce(others), can_be[1])
+            high = np.where(_values(nominal, each) == 0, opened, high)
         widened[key] = replace(each, low=low, high=high)
 
     def of_curve(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from roughline.assessment.uncertainty import change, intervals_of
 from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve
+from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Intervals
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Missing
@@ -32,6 +33,7 @@ class Solution:
     curve: Curve
     intervals: Intervals | None  # None where the grid's errors are not known
     larger: LargerSurface | None = None  # None where the answers are not about a larger surface
+    measured: Mapping[str, Measured] = field(default_factory=dict)  # of the larger one, if it is
     note: str = ""  # what another way to fill missing points changes, if that was tried
 
 
@@ -43,7 +45,8 @@ def solution_of(case: Case, curves: Curves) -> Solution:
     if larger is not None and case.question.joint is not None and intervals is not None:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
-    return Solution(curve, intervals, larger, note)
+    measured = measured_of(case, curves, Way.AS_ASKED, are_known=intervals is not None)
+    return Solution(curve, intervals, larger, measured, note)
 
 
 def solution_of_scan(case: Case, body: Line) -> Solution:
@@ -79,6 +82,34 @@ def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None
     if beyond.is_told and not broken("larger surface", body):
         return larger
     return replace(larger, stiffness=larger.stiffness.bare, area=None)
+
+
+def measured_of(
+    case: Case, curves: Curves, name: str, *, are_known: bool = False
+) -> Mapping[str, Measured]:
+    """Measures of a variant, or of the same pressed periodically, with intervals if `are_known`.
+
+    These are what the grid and the other filling of missing points leave open.
+    """
+    if case.is_repeated_for_interface:
+        name = periodic(name)
+    curve, other = curves.get(name), curves.get(filled_otherwise(name))
+    if curve is None:
+        return {}
+    if not are_known:
+        return {key: replace(each, low=None, high=None) for key, each in curve.measured.items()}
+    moved = curve.measured if other is None else other.measured
+    return {key: _beside(each, moved[key].values) for key, each in curve.measured.items()}
+
+
+def _beside(measured: Measured, other: Real) -> Measured:
+    """A measure with both ends so much wider as another choice moves its values, independently."""
+    if measured.low is None or measured.high is None:
+        return measured
+    values, moved = measured.values, change(measured.values, other)
+    least = np.minimum(measured.low, other)
+    low = np.maximum(values - np.hypot(values - measured.low, moved), np.minimum(least, 0.0))
+    return replace(measured, low=low, high=values + np.hypot(measured.high - values, moved))
 
 
 def _with_filling(

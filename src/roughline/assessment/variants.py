@@ -150,6 +150,8 @@ def _tell(progress: LoadProgress, before: int, here: int, total: int, done: int,
 def variants_of(case: Case) -> list[Variant]:
     """All ways in which the body of a case may be pressed, in their order."""
     loads, body = case.loads, case.body
+    if not case.is_repeated_for_interface:
+        loads = replace(loads, measures=case.measures)
     if case.question.fields:  # of the largest load asked for, or of one at three quarters of them
         loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
     shape = body.shape if isinstance(body, Surface) else (1, body.heights.size)
@@ -233,7 +235,9 @@ def _as_hard(
     loads = _borne_by(case, curve, hardness)
     if not loads.any():
         return among_loads(at_loads(curve, np.flatnonzero(loads)), loads)
-    return replace(case.loads.of_hardness(hardness, loads, curve), body=body)
+    measures = () if case.is_repeated_for_interface else case.measures
+    of_hardness = case.loads.of_hardness(hardness, loads, curve)
+    return replace(of_hardness, body=body, measures=measures)
 
 
 def _borne_by(case: Case, curve: Curve, hardness: float | None) -> Mask:
@@ -256,12 +260,12 @@ def _of_the_larger_surface(
         return []
     listed: list[Variant] = []
     repeated = variant
-    if not case.loads.periodic:
+    if case.is_repeated_for_interface:
         repeated = replace(
             variant,
             name=periodic(variant.name),
             purpose="interface" if variant.name == Way.AS_ASKED else variant.purpose,
-            needed=partial(_repeated, variant),
+            needed=partial(_repeated, case, variant),
             is_periodic=True,
         )
         listed.append(repeated)
@@ -270,14 +274,15 @@ def _of_the_larger_surface(
     return listed + (_tiles(case, repeated.name, body) if with_tiles else [])
 
 
-def _repeated(variant: Variant, curves: Curves) -> LoadCase | Curve | None:
+def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve | None:
     """Press the same body periodically, under the forces that it bears."""
     first, curve = variant.needed(curves), curves.get(variant.name)
     if isinstance(first, Curve):  # as asked, or under no load
         return curves.get(periodic(Way.AS_ASKED)) if first.converged.any() else None
     if first is None or curve is None or not first.borne(curve).any():
         return None
-    return replace(first.under_forces_of(curve), fields=(), periodic=True, levelled=True)
+    loads = replace(first.under_forces_of(curve), fields=(), periodic=True, levelled=True)
+    return replace(loads, measures=case.measures)
 
 
 def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:

@@ -17,6 +17,7 @@ from roughline.computing.summary import in_notebook
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
+from roughline.contact.measures import Measured
 from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import Status
 from roughline.errors import InputError, StoreError
@@ -101,6 +102,9 @@ class Curve:
         for a line.
     warnings : sequence of str
         What a user of the numbers must know; empty if there is nothing to say.
+    measured : mapping of str to Measured
+        Measures that were asked for, by their names, each with ``values`` over the loads, and with
+        ``low`` and ``high`` if discretisation errors were asked for.
     fields : sequence of Fields
         One for each load if asked for, else empty; None for a load that did not converge, and for
         one whose fields were not asked for.
@@ -140,6 +144,7 @@ class Curve:
     dissipated_work: Real | None = None
     residual_of: Sequence[str] = field(default=(), repr=False)
     warnings: Sequence[str] = ()
+    measured: Mapping[str, Measured] = field(default_factory=dict, repr=False)
     fields: Sequence[Fields | None] = field(default=(), repr=False)
     surface: Surface | None = field(default=None, repr=False)
     dents: Sequence[Indentation | None] = field(default=(), repr=False)
@@ -247,6 +252,10 @@ class Curve:
                 if dims != OVER_LOADS and self._fields_are_of_some:
                     dims = ("field_load", *dims[1:])
                 variables[quantity.name] = (dims, values, attributes)
+        for name, each in self.measured.items():
+            attributes = each.quantity.attributes(self.unit)
+            for end, values in zip(("", "_low", "_high"), each.rows, strict=False):
+                variables[name + end] = (OVER_LOADS, values, attributes)
         if self._fields_are_of_some:
             meaning = {"long_name": "number, from 0, of a load whose fields were kept"}
             variables["field_load"] = ("field_load", self._with_fields, meaning)

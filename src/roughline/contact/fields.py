@@ -28,6 +28,10 @@ class Fields:
         Where the pressure is at the hardness.
     indentation : ndarray, shape (nx, ny)
         Permanent indentation: how much lower the surface is than before any load. [length]
+    sizes : tuple of float
+        Sides of the surface, (Lx, Ly). [length]
+    is_periodic : bool
+        Whether the half-space is periodic, so that fields go on across the borders.
     """
 
     pressure: Real
@@ -36,6 +40,8 @@ class Fields:
     contact: Mask
     plastic: Mask
     indentation: Real
+    sizes: tuple[float, float]
+    is_periodic: bool
 
     __repr__ = summary
 

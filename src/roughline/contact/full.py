@@ -16,6 +16,7 @@ from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.loads import Loads
+from roughline.contact.measures import Measure, all_measured
 from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
@@ -51,6 +52,7 @@ def press_surface(
     half_space: HalfSpace,
     method: Method,
     kept: frozenset[int] = frozenset(),
+    measures: Sequence[Measure] = (),
     progress: Callable[[int, int], None] | None = None,
 ) -> Curve:
     """Press a surface as :func:`roughline.press` does; keep fields of loads by their numbers."""
@@ -64,7 +66,8 @@ def press_surface(
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with linear_algebra.on_one_thread():
             path, kept_there = replace(loads, values=values), {int(places[i]) for i in kept}
-            for result in _results(surface, half_space, path, method, law, kept_there):
+            solved = _results(surface, half_space, path, method, law, kept_there, measures)
+            for result in solved:
                 results.append(result)
                 if progress is not None:
                     progress(len(results), values.size)
@@ -73,6 +76,10 @@ def press_surface(
     results += [_LoadResult()] * (values.size - len(results))
     results = _in_order(results, places.tolist())
     curve = _curve(surface, half_space, loads, method, results, law)
+    if measures:
+        unknown = [math.nan] * len(measures)
+        taken = [each.measures or unknown for each in results]
+        curve = replace(curve, measured=all_measured(measures, taken))
     if kept:
         fields = [each.fields if i in kept else None for i, each in enumerate(results)]
         curve = replace(curve, fields=tuple(fields))
@@ -98,6 +105,7 @@ def _results(
     method: Method,
     law: ContactLaw,
     with_fields: Set[int],
+    measures: Sequence[Measure],
 ) -> Iterator[_LoadResult]:
     """Solve the contact under each load in turn."""
     scaled = ScaledSurface.of(surface, half_space, loads)
@@ -109,7 +117,10 @@ def _results(
         solved = solve_path(_problem(scaled, law, method), path, method)
         dents: Indentation | None = None
         for i in range(len(path)):  # no contact is held while the next is solved
-            result = _LoadResult.of(*next(solved), scaled, law, with_fields=i in with_fields)
+            with_these = i in with_fields
+            result = _LoadResult.of(
+                *next(solved), scaled, law, with_fields=with_these, measures=measures
+            )
             if dents is not None and result.dents is not None and result.dents.equals(dents):
                 result = replace(result, dents=dents)  # one memory for all loads that add none
             dents = result.dents
@@ -211,6 +222,7 @@ class _LoadResult:
     dissipated_work: float = math.nan
     border_share: float = math.nan  # of the force
     fields: Fields | None = None  # if they are kept
+    measures: Sequence[float] = ()
     dents: Indentation | None = None  # if the surface is indented
 
     @classmethod
@@ -222,6 +234,7 @@ class _LoadResult:
         law: ContactLaw,
         *,
         with_fields: bool,
+        measures: Sequence[Measure],
     ) -> _LoadResult:
         """Return what one load gives, by the contact in the units of a scaled, untouched surface.
 
@@ -241,6 +254,7 @@ class _LoadResult:
         if dents is not None:
             work = law.bounds(dents.nodes)[1] * dents.depth
             dissipated, indented = scaled.cell_area * float(work.sum()), float(dents.depth.max())
+        fields = _fields(contact, scaled, dents) if with_fields or measures else None
         k = scaled.force / scaled.height
         return cls(
             status=Status.CONVERGED,
@@ -260,7 +274,8 @@ class _LoadResult:
             work=_elastic_energy(contact) * scaled.force * scaled.height + dissipated,
             dissipated_work=dissipated,
             border_share=_border_share(contact),
-            fields=_fields(contact, scaled, dents) if with_fields else None,
+            fields=fields if with_fields else None,
+            measures=[] if fields is None else [each.of(fields) for each in measures],
             dents=dents,
         )
 
@@ -328,6 +343,8 @@ def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) 
         contact=touching,
         plastic=plastic,
         indentation=indentation,
+        sizes=scaled.surface.sizes,
+        is_periodic=scaled.half_space.periodic,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -11,6 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.loads import Loads
+from roughline.contact.measures import Measured
 from roughline.contact.selection import among_loads
 from roughline.errors import InputError
 from roughline.halfspace.laws.law import ContactLaw
@@ -36,8 +37,8 @@ _FASTEST_OF_POINTS = 4 / 3
 _NEARLY_ALL = 0.9  # of a softer body at the hardness: as far as it is loaded at most
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
-_Press = Callable[[Surface, Loads, ContactLaw], Curve]
-"""Presses another surface under some loads, by a contact law."""
+_Press = Callable[..., Curve]
+"""Presses another surface under some loads, by a contact law, and measures as the first was."""
 
 _Coarsen = Callable[[Surface], Surface]  # takes a surface to a coarser grid
 
@@ -103,7 +104,8 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
 
     The same waves open the contact area of elastic bodies as Persson's theory tells [1]_, where no
     area is less than the force over the hardness. Besides, an area of N points scatters
-    as a count does, by 1 / sqrt(N).
+    as a count does, by 1 / sqrt(N). The logarithm of a measure is as uncertain as it differs
+    between grids.
 
     The error under a load does not depend on the other loads. The errors cover grids four times
     finer, but no noise that begins at the spacing. A value v with error e lies between
@@ -124,7 +126,7 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
     laws = grids.laws(law)
     coarser = [press(*each) for each in zip(grids.coarser, [loads] * 3, laws, strict=True)]
     steepening = grids.steepening
-    softer = _softer(grids, steepening, coarser[1], laws[1], press)
+    softer = _softer(grids, steepening, coarser[1], laws[1], partial(press, measures=()))
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
         of_k_u = np.hypot(
             steepening * _of_compliance("unloading_stiffness", coarser, curve),
@@ -138,6 +140,7 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
             stiffness_error=_times(k, of_k),
             unloading_stiffness_error=_times(k_u, of_k_u),
             area_fraction_error=_times(area, of_area),
+            measured=_measured(curve, surface, coarser, steepening, press),
         )
 
 
@@ -159,7 +162,7 @@ def _of_compliance(name: str, coarser: Sequence[Curve], curve: Curve) -> Real:
     return np.where(np.isinf(found) | is_apart, np.nan, found)
 
 
-def _between(of_coarser: Real, of_surface: Real | float) -> Real:
+def _between(of_coarser: Sequence[Real] | Real, of_surface: Real | float) -> Real:
     """Root of the weighted squares of differences between grids: thinned, halved and quartered."""
     thinned, half, quarter = of_coarser
     differences = [thinned - of_surface, half - of_surface, quarter - half]
@@ -222,16 +225,18 @@ def _softer(
         return curve, curve
     # pressures and gaps of a surface so many times steeper, in units so many times larger
     steeper = (law.scaled(times, times) for times in (grids.step, grids.step * steepening))
-    alike, softer = (_pressed_softer(curve, grids.half, each, press) for each in steeper)
+    alike, softer = (_pressed_again(curve, grids.half, each, press) for each in steeper)
     return alike, softer
 
 
-def _pressed_softer(curve: Curve, surface: Surface, law: ContactLaw, press: _Press) -> Curve:
-    """Press a surface softer under the forces of its curve, as far as it bears them."""
+def _pressed_again(
+    curve: Curve, surface: Surface, law: ContactLaw, press: _Press, share: float = 1.0
+) -> Curve:
+    """Press a surface softer under a share of the forces of its curve, as far as it bears them."""
     known = np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
     if not known.any():
         return curve
-    forces = np.minimum(curve.force[known], _NEARLY_ALL * law.largest_force(surface.area))
+    forces = np.minimum(share * curve.force[known], _NEARLY_ALL * law.largest_force(surface.area))
     return among_loads(press(surface, Loads("forces", forces), law), known)
 
 
@@ -242,6 +247,50 @@ def _steeper(steepening: float, area: Real) -> Real:
     # Persson: the error function of the pressure over the slope, times a constant
     steeper = erf(erfinv(np.minimum(area, 1.0)) / steepening)
     return np.where(area == 0, 0.0, np.log(np.minimum(area, 1.0) / steeper))
+
+
+def _measured(
+    curve: Curve, surface: Surface, coarser: Sequence[Curve], steepening: float, press: _Press
+) -> Mapping[str, Measured]:
+    """Return the measures of a curve with the ends of their intervals.
+
+    A measure that is zero on one of the grids, as the flow through a gap that is sealed there, is
+    at most that of a surface as steep as a finer grid will be, whose contact is more open.
+    """
+    grids = {
+        name: np.array([each.measured[name].values for each in (curve, *coarser)])
+        for name in curve.measured
+    }
+    steeper: Mapping[str, Measured] = {}
+    if steepening > 1 and any((each == 0).any() for each in grids.values()):
+        # pressures and gaps of the steeper surface, in units so many times larger
+        assert curve.law is not None
+        law = curve.law.scaled(steepening, steepening)
+        steeper = _pressed_again(curve, surface, law, press, 1 / steepening).measured
+    found = {}
+    for name, each in curve.measured.items():
+        low, high = _ends_of_measure(grids[name])
+        if steeper:
+            opened = np.fmax(high, steeper[name].values)
+            high = np.where((grids[name] == 0).any(axis=0), opened, high)
+        found[name] = replace(each, low=low, high=high)
+    return found
+
+
+def _ends_of_measure(on_grids: Real) -> tuple[Real, Real]:
+    """Both ends of a measure's interval, from what it is on the surface and on coarser grids.
+
+    Its logarithm is as uncertain as that differs between grids. Where it is zero on one of them, or
+    changes its sign, it is the value itself; then nothing gets below zero that is not so on any.
+    """
+    value, *coarser = on_grids
+    log, *of_coarser = np.log(np.where(on_grids > 0, on_grids, np.nan))
+    factor, error = np.exp(_between(of_coarser, log)), _between(coarser, value)
+    least = np.where((on_grids >= 0).all(axis=0), 0.0, -np.inf)
+    return (
+        np.where(np.isnan(factor), np.maximum(value - error, least), value / factor),
+        np.where(np.isnan(factor), value + error, value * factor),
+    )
 
 
 def _times(value: Real, error: Real) -> Real:

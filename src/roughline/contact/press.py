@@ -22,6 +22,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.estimates import expected_area_fraction, memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
 from roughline.contact.loads import GivenLoads, Loads, surface_loads
+from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
 from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
@@ -46,6 +47,7 @@ def press(
     n_loads: int | None = None,
     periodic: bool | None = None,
     fields: bool | Sequence[int] = False,
+    measures: Sequence[Measure] = (),
     grid_error: bool = False,
     rtol: float = 1e-6,
     max_iterations: int = 5000,
@@ -87,6 +89,9 @@ def press(
     fields : bool or sequence of int, optional
         Keep pressure, displacement, gap, contact, plastic points and indentation of every load,
         or of loads with these numbers (from 0).
+    measures : sequence of Measure, optional
+        Numbers that are taken from the fields of every load, kept or not, such as
+        :data:`~roughline.MEAN_GAP`; they are in ``measured`` by their names.
     grid_error : bool, optional
         Estimate discretisation errors as well, from grids of n / 2 and n / 4 points, and where
         bodies yield, from a softer body.
@@ -154,6 +159,7 @@ def press(
     rtol = checked_number("rtol", rtol, "a tolerance from 1e-12 to 0.1", 1e-12, 0.1)
     max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = checked_flag("grid_error", grid_error)
+    measures = checked_measures(measures)
     throw = checked_flag("throw", throw)
     one_of("precision", precision, ("mixed", "float64", "float32"))
     if progress is not None and not callable(progress):
@@ -163,6 +169,12 @@ def press(
             raise InputError(
                 "periodic, fields and grid_error belong to the full model; the reduced model of a "
                 "Line has none of these: leave them out, or press a Surface"
+            )
+        if measures:
+            raise InputError(
+                "belong to the full model; the reduced model of a Line has no fields that they are "
+                "taken from: leave them out, or press a Surface",
+                "measures",
             )
         if not isinstance(half_space, Homogeneous):
             raise InputError(
@@ -179,7 +191,7 @@ def press(
     given, single = GivenLoads(depths, forces, n_loads), precision == "float32"
     loads = surface_loads(body, half_space, given, rtol, single=single, law=law)
     kept = kept_loads(fields, loads.values.size)
-    _refuse_beyond_memory(body, half_space, loads, law, len(kept))
+    _refuse_beyond_memory(body, half_space, loads, law, len(kept), measured=bool(measures))
     if grid_error:
         refuse_few_points(body)
     # imported here because compiled loops load slowly
@@ -187,7 +199,7 @@ def press(
     from roughline.halfspace.search.problem import Method
 
     method = Method(rtol, max_iterations, precision)
-    pressed = partial(press_surface, half_space=half_space, method=method)
+    pressed = partial(press_surface, half_space=half_space, method=method, measures=measures)
     curve = pressed(body, loads, law, kept=kept, progress=progress)
     if grid_error:
         try:
@@ -205,13 +217,15 @@ def _refuse_beyond_memory(
     loads: Loads,
     law: ContactLaw,
     kept: int,
+    *,
+    measured: bool,
 ) -> None:
     """Refuse loads that memory cannot hold; full contact is supposed where that fits."""
     memory = partial(
         memory_for,
         surface.shape,
         half_space.periodic,
-        kept,
+        max(kept, measured),  # measures are taken from the fields of one load at a time
         yielding=law.memory == "dents",
         several=loads.values.size > 1,
     )

@@ -17,7 +17,8 @@ RESOLVED_FROM = 10
 OVER_LOADS = ("load",)
 _ON_THE_GRID = ("load", "x", "y")
 
-_SI = {"length": "m", "force": "N", "pressure": "Pa", "energy": "J", "1": "1"}
+DIMENSIONS = {"length": "m", "force": "N", "pressure": "Pa", "energy": "J", "1": "1"}
+"""What a dimension is a quotient of, and its SI units."""
 
 
 @dataclass(frozen=True)
@@ -65,10 +66,10 @@ def unit_of(dimension: str, length_unit: str | None) -> str:
     """
     parts = dimension.split("/")
     for part in parts:
-        if part not in _SI:
-            raise ValueError(f"dimension is {dimension!r}; known are {', '.join(_SI)}")
+        if part not in DIMENSIONS:
+            raise ValueError(f"dimension is {dimension!r}; known are {', '.join(DIMENSIONS)}")
     if length_unit == "m":
-        return "/".join(_SI[part] for part in parts)
+        return "/".join(DIMENSIONS[part] for part in parts)
     lengths = {"length": length_unit or "length"}
     return "/".join(lengths.get(part, part) for part in parts)
 

@@ -17,7 +17,10 @@ _UNSOLVED = {"status": int(Status.INTERRUPTED)}  # of quantities that cannot be 
 def at_loads(curve: Curve, loads: Indices) -> Curve:
     """Return a curve at some of its loads, by their numbers; without its fields."""
     taken = {name: values[loads] for name, values in _over_loads(curve).items()}
-    return replace(curve, **taken, fields=(), dents=(), residual_of=())
+    measured = {
+        name: each.over(lambda values: values[loads]) for name, each in curve.measured.items()
+    }
+    return replace(curve, **taken, measured=measured, fields=(), dents=(), residual_of=())
 
 
 def among_loads(curve: Curve, solved: Mask) -> Curve:
@@ -29,7 +32,11 @@ def among_loads(curve: Curve, solved: Mask) -> Curve:
         else:
             spread[name] = np.full(solved.size, _UNSOLVED.get(name, 0), values.dtype)
             spread[name][solved] = values
-    return replace(curve, **spread, fields=(), dents=(), residual_of=())
+    measured = {
+        name: each.over(lambda values: among(values, solved))
+        for name, each in curve.measured.items()
+    }
+    return replace(curve, **spread, measured=measured, fields=(), dents=(), residual_of=())
 
 
 def among(values: Real, solved: Mask) -> Real:

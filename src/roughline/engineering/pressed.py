@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
+from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 
@@ -63,6 +65,9 @@ class Pressed:
         The hardest that the softer body may be; None where no hardness is taken. [Pa]
     has_depths : bool, optional
         Whether depths were given, so that forces depend on the hardness.
+    measured : mapping of str to Measured
+        What rules need from the fields of every load, with what the grid and filled points leave
+        open: of the map in a periodic half-space where it was cut out of a larger surface.
     fields : Fields, optional
         Of one load: the largest, or one that shows the contact well.
     """
@@ -78,6 +83,7 @@ class Pressed:
     intervals: Intervals | None = None
     hardest: float | None = None
     has_depths: bool = False
+    measured: Mapping[str, Measured] = field(default_factory=dict)
     fields: Fields | None = None
 
     @property
@@ -136,6 +142,11 @@ class Pressed:
             return None
         ends = self.intervals.area if self.intervals else None
         return np.stack([self.curve.area_fraction_corrected, *(ends or ())])
+
+    def measure(self, name: str) -> Real | None:
+        """A measure by its name, in rows; None where it was not taken, as of a line."""
+        found = self.measured.get(name)
+        return None if found is None else found.rows
 
     @property
     def hardness(self) -> float | None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.contact.measures import Measure
 from roughline.engineering.intervals import Ends
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
@@ -17,7 +18,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse
 from roughline.errors.public import public
 
-Group = Literal["mechanics", "contact", "electrical", "thermal", "acoustic"]
+Group = Literal["mechanics", "contact", "sealing", "electrical", "thermal", "acoustic"]
 """What an answer is about."""
 
 _GROUPS: tuple[Group, ...] = get_args(Group)  # in the order in which pages show them
@@ -47,7 +48,7 @@ class Rule:
         Name by which the answer is found, such as "contact_stiffness".
     name, symbol, unit : str
         What it is called in tables and formulas; the unit is SI.
-    group : {"mechanics", "contact", "electrical", "thermal", "acoustic"}
+    group : {"mechanics", "contact", "sealing", "electrical", "thermal", "acoustic"}
         What it is about.
     formula : str
         How it follows, in words and symbols.
@@ -88,6 +89,9 @@ class Rule:
         finite is left out otherwise, with a note that says so.
     needs_fields : bool, optional
         Whether it is worked out from the fields of a load.
+    measures : sequence of Measure, optional
+        What it needs from the fields of every load: ``pressed.measure(name)`` returns them, in
+        rows.
 
     Examples
     --------
@@ -136,6 +140,7 @@ class Rule:
     in_per_cent: bool = False
     may_be_infinite: bool = False
     needs_fields: bool = False
+    measures: Sequence[Measure] = ()
 
     def answer(self, pressed: Pressed) -> Answer | None:
         """Work out the answer; None where there is none."""
@@ -289,6 +294,11 @@ class Rules:
             If there is none of that key.
         """
         del self._by_key[self[key].key]
+
+    @property
+    def measures(self) -> list[Measure]:
+        """What the rules need from the fields of every load, each once."""
+        return list(dict.fromkeys(each for rule in self for each in rule.measures))
 
     def left_out(self, pair: MaterialPair, frequency: float | None) -> list[str]:
         """Say which answers there are not, as a property of a material is missing.

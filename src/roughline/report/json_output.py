@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from roughline.assessment.comparison import ModelComparison
     from roughline.assessment.description import Description
     from roughline.assessment.part import PartAssessment
+    from roughline.contact.measures import Measured
 
 
 def to_json(content: Mapping[str, Any]) -> str:
@@ -59,6 +60,10 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "stiffness_interval": intervals and intervals.stiffness,
         "unloading_stiffness_interval": intervals and intervals.unloading,
         "area_fraction_interval": intervals and intervals.area,
+        "measures": {
+            name: {"unit": each.quantity.unit_in("m"), **_of_measured(each, assessment)}
+            for name, each in assessment.measured.items()
+        },
         "answers_of": "joint" if question.joint is not None else "body",
         "answers": _of_answers(assessment),
         "theories": {
@@ -78,6 +83,15 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
     if question.friction is not None:
         content["partial_slip"] = None if slip is None else vars(slip)
     return content
+
+
+def _of_measured(measured: Measured, assessment: Assessment) -> dict[str, Any]:
+    """A measure over the loads that were asked for."""
+    return {
+        "symbol": measured.quantity.symbol,
+        "meaning": measured.quantity.meaning,
+        **dict(zip(("values", "low", "high"), measured.rows[:, assessment.asked], strict=False)),
+    }
 
 
 def _of_answers(assessment: Assessment) -> dict[str, Any]:

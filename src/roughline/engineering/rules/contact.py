@@ -1,4 +1,4 @@
-"""Real contact area, the pressure on it, and what of it yields."""
+"""Real contact area, the pressure on it, what of it yields, and the gap beside it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.contact.measures import MEAN_GAP
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
@@ -134,6 +135,16 @@ CONTACT = (
         validity="at one point; the finest summits on the grid decide it",
         source="Almqvist et al. 2007",
         value=lambda pressed: pressed.curve.indentation if pressed.may_yield else None,
+    ),
+    _rule(
+        key="mean_gap",
+        name="mean gap",
+        symbol="u_m",
+        unit="m",
+        formula="volume between the bodies over A_0",
+        validity="of the map in a periodic half-space; waves longer than the map open it further",
+        value=lambda pressed: pressed.measure(MEAN_GAP.name),
+        measures=[MEAN_GAP],
     ),
 )
 """Answers about the contact itself, in their order."""
