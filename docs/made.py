@@ -30,9 +30,9 @@ SECTIONS = {
         *("SelfAffine", "isotropic_spectrum", "profile_spectrum", "fit_self_affine", "roughness"),
     ),
     "Contact": (
-        *("press", "press_scan", "Curve", "Fields", "Measure", "MEAN_GAP", "Status"),
-        *("estimate", "Estimate", "set_threads", "theory", "effective_medium", "compare"),
-        *("Comparison", "trust_map"),
+        *("press", "press_scan", "Curve", "Fields", "Distribution", "Patches", "Measure"),
+        *("MEAN_GAP", "Status", "estimate", "Estimate", "set_threads", "theory"),
+        *("effective_medium", "compare", "Comparison", "trust_map"),
     ),
     "The fluid in the gap": ("flow", "Flow"),
     "Half-spaces and contact laws": (

@@ -22,11 +22,13 @@ from roughline.contact.comparison.models import Comparison as Comparison
 from roughline.contact.comparison.models import compare as compare
 from roughline.contact.comparison.trust import trust_map as trust_map
 from roughline.contact.curve import Curve as Curve
+from roughline.contact.distribution import Distribution as Distribution
 from roughline.contact.estimates import Estimate as Estimate
 from roughline.contact.estimates import estimate as estimate
 from roughline.contact.fields import Fields as Fields
 from roughline.contact.measures import MEAN_GAP as MEAN_GAP
 from roughline.contact.measures import Measure as Measure
+from roughline.contact.patches import Patches as Patches
 from roughline.contact.press import press as press
 from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
 from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.computing.summary import summary
+from roughline.contact.distribution import Distribution, distribution_of
+from roughline.contact.patches import Patches, patches_of
+from roughline.errors.checks import one_of
+from roughline.errors.public import public
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class Fields:
     """Fields of one load on the grid.
@@ -44,6 +50,68 @@ class Fields:
     is_periodic: bool
 
     __repr__ = summary
+
+    @property
+    def mean_gap(self) -> float:
+        """Mean gap over the nominal area, zero where the bodies touch. [length]"""
+        return float(self.gap[~self.contact].sum()) / self.gap.size
+
+    def distribution(self, of: Literal["gap", "pressure"]) -> Distribution:
+        """Return how the gap or the pressure is distributed over the nominal area.
+
+        Bins are equally wide, from zero to the largest value; the data choose their number, from 8
+        to 128, by the rule of Freedman and Diaconis [1]_.
+
+        Parameters
+        ----------
+        of : {"gap", "pressure"}
+            What is distributed.
+
+        Returns
+        -------
+        Distribution
+            Its ``at_zero`` is the share of the area in contact for the gap, and that out of contact
+            for the pressure.
+
+        Raises
+        ------
+        InputError
+            For another field.
+
+        References
+        ----------
+        .. [1] D. Freedman and P. Diaconis, "On the histogram as a density estimator", Z.
+           Wahrscheinlichkeitstheorie verw. Gebiete 57, 453-476 (1981).
+
+        Examples
+        --------
+        >>> import roughline as rl
+        >>> surface = rl.SelfAffine(hurst=0.8, length=1.0, rms_height=0.01).surface(64, rng=1)
+        >>> curve = rl.press(surface, E_star=1.0, forces=[0.01], fields=True)
+        >>> gap = curve.fields[0].distribution("gap")
+        >>> print(gap.at_zero == curve.area_fraction[0])
+        True
+        """
+        one_of("of", of, ("gap", "pressure"))
+        touching = int(np.count_nonzero(self.contact))
+        if of == "gap":
+            return distribution_of(self.gap[~self.contact], touching)
+        pressure, yielding = self.pressure[self.contact], int(np.count_nonzero(self.plastic))
+        return distribution_of(pressure, self.contact.size - touching, yielding)
+
+    def patches(self) -> Patches:
+        """Return the connected patches of the contact, the largest first.
+
+        Examples
+        --------
+        >>> import roughline as rl
+        >>> surface = rl.SelfAffine(hurst=0.8, length=1.0, rms_height=0.01).surface(64, rng=1)
+        >>> curve = rl.press(surface, E_star=1.0, forces=[0.01], periodic=True, fields=True)
+        >>> patches = curve.fields[0].patches()
+        >>> print(round(patches.forces.sum(), 6), patches.areas[0] == patches.areas.max())
+        0.01 True
+        """
+        return patches_of(self.contact, self.pressure, self.sizes, is_periodic=self.is_periodic)
 
 
 @dataclass(frozen=True, eq=False)
