@@ -54,7 +54,7 @@ class Fields:
     @property
     def mean_gap(self) -> float:
         """Mean gap over the nominal area, zero where the bodies touch. [length]"""
-        return float(self.gap[~self.contact].sum()) / self.gap.size
+        return float(np.where(self.contact, 0.0, self.gap).mean())
 
     def distribution(self, of: Literal["gap", "pressure"]) -> Distribution:
         """Return how the gap or the pressure is distributed over the nominal area.

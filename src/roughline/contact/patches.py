@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
@@ -66,6 +65,8 @@ def patches_of(
     contact: Mask, pressure: Real, sizes: tuple[float, float], *, is_periodic: bool
 ) -> Patches:
     """Return the patches of a contact on a rectangle with these sides."""
+    from scipy import ndimage  # here because it loads slowly
+
     pieces, count = ndimage.label(contact, _WITH_CORNERS)
     patch, turns, winds = _joined(pieces, count, is_periodic)
     number = len(winds)
