@@ -142,7 +142,9 @@ def test_scaling_turning_and_repeating(sides, closed):
 
 
 @settings(deadline=None, max_examples=60)
-@given(GAPS, arrays.arrays(np.float64, (7, 6), elements=st.floats(0.0, 1.0)), st.sampled_from(SIDES))
+@given(
+    GAPS, arrays.arrays(np.float64, (7, 6), elements=st.floats(0.0, 1.0)), st.sampled_from(SIDES)
+)
 def test_a_smaller_gap_never_lets_more_through(gap, part, sides):
     flow = rl.flow(gap, (1.0, 1.5), sides=sides)
     smaller = rl.flow(gap * np.where(part < 0.2, 0.0, part), (1.0, 1.5), sides=sides)

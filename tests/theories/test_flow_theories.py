@@ -146,3 +146,30 @@ def test_a_threshold_belongs_to_theories_of_flow_and_is_a_share():
 def test_senseless_gaps_get_one_line(gap, said):
     with pytest.raises(rl.InputError, match=said):
         rl.effective_medium(gap)
+
+
+@pytest.mark.slow
+def test_theories_against_the_solved_flow():
+    """The table of the handbook, of half its surfaces: the mean flow both ways."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=16 * math.pi, q_high=32 * math.pi)
+    solved, theories, media = np.zeros((3, 2, 4))
+    for seed in range(4):
+        surface = spectrum.surface(128, seed)
+        p = surface.rms_slope * np.array([0.01, 0.03, 0.06, 0.14])  # 2, 7, 13 and 28 % contact
+        curve = rl.press(surface, E_star=1.0, forces=p, periodic=True, fields=True, rtol=1e-4)
+        flows = [rl.flow(fields, surface.sizes, along="both") for fields in curve.fields]
+        solved += [[flow.permeance for flow in both] for both in zip(*flows, strict=True)]
+        theories += [
+            rl.theory(name, surface, 1.0, p).hydraulic_aperture ** 3 for name in THRESHOLDS
+        ]
+        media += [
+            [rl.effective_medium(flow.gap, threshold) ** 3 for flow, _ in flows]
+            for threshold in THRESHOLDS.values()
+        ]
+    flow = np.cbrt(solved.mean(axis=0))
+    of_junction, of_medium = np.cbrt(theories) / flow
+    assert of_junction == pytest.approx([1.2, 1.31, 1.49, 2.5], rel=0.08)
+    assert of_medium == pytest.approx([1.17, 1.25, 1.41, 2.5], rel=0.08)
+    tighter, wider = np.cbrt(media) / flow
+    assert ((tighter > 0.8) & (tighter < 1) & (wider > 1) & (wider < 1.5)).all()
+    assert (wider[:3] < 1.12).all()

@@ -54,7 +54,8 @@ def bruggeman(
         stiffness=None,
         hydraulic_aperture=aperture,
         validity="Gaussian random surfaces, isotropic, gaps of neighbouring places unrelated; the "
-        f"medium seals at {100 * threshold:.4g} % contact; area and mean gap are those of "
+        f"medium seals at {100 * threshold:.4g} % contact; aperture 15 % too large at 2 % contact, "
+        "20 % at 6 %, 30 to 40 % at 13 % and about twice at 28 %, in the mean over surfaces; area and mean gap are those of "
         "Persson's theory",
     )
 
@@ -69,7 +70,7 @@ def effective_medium(gap: ArrayLike, threshold: float = TWO_DIMENSIONS) -> float
     Parameters
     ----------
     gap : array_like
-        Gap of cells of one size, 0 where there is contact. [length]
+        Gap of cells of one size, 0 where there is contact, such as ``rl.flow(...).gap``. [length]
     threshold : float, optional
         Share of contact at which the medium seals: 0.5 is Bruggeman's medium in two dimensions,
         d = 2, and 0.42 that of isotropic elastic contacts. [1]
