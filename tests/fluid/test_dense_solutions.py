@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from random_cases import cases
 
 import roughline as rl
+from random_cases import cases
 
 N = 12
 ALL = 5000
