@@ -25,7 +25,7 @@ _DECIMAL_COMMA = re.compile(r"\d+,\d+")
 LEAST_CHANGE = 0.05
 """A change below it is written as none. [%]"""
 
-SI = ("m", "N", "N/m", "Pa", "J")
+SI = ("m", "m²", "N", "N/m", "Pa", "J")
 """Units that get a prefix where values are shown."""
 
 _PREFIXES = dict(zip(range(-18, 19, 3), (*"afpnµm", "", *"kMGTPE"), strict=True))

@@ -1,5 +1,6 @@
 """Pictures show what the numbers are, with their units, and say what is missing."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -167,6 +168,48 @@ def test_contact_and_pressure_are_those_of_the_load(curve):
     touching = curve.fields[3].contact.T
     assert (~np.ma.getmaskarray(shown) == touching).all()
     assert np.asarray(shown[touching]) == pytest.approx(curve.fields[3].pressure.T[touching] / 1e9)
+
+
+@pytest.mark.parametrize(("of", "unit"), [("gap", 1e6), ("pressure", 1e-9)])
+def test_a_distribution_is_that_of_the_load_in_the_units_of_its_axes(curve, of, unit):
+    axes = rl.plot.distribution(curve, of, 3)
+    found = curve.fields[3].distribution(of)
+    filled, outline = axes.patches
+    of_all = 1 if of == "gap" else 1 - found.at_zero  # the rest of the pressures is zero
+    for drawn in (filled, outline):
+        values, edges, _ = drawn.get_data()
+        assert edges == pytest.approx(found.edges * unit)
+        assert values * np.diff(edges) * of_all == pytest.approx(found.shares)
+    (of_density,) = re.findall(r"density.* \[1/(.*)\]", axes.get_ylabel())
+    assert axes.get_xlabel().endswith(f"[{of_density}]")
+    assert f"{100 * curve.area_fraction[3]:.3g}% of the cells in contact" in axes.get_title()
+    assert f"at $F$ = {curve.force[3]:.4g} N" in axes.get_title()
+
+
+def test_the_share_at_the_hardness_is_told(surface):
+    pressed = rl.press(surface, E_star=1e11, hardness=1e8, forces=[1.0], fields=True)
+    share = f"{100 * pressed.plastic_fraction[0]:.3g}% of it at the hardness"
+    assert share in rl.plot.distribution(pressed, "pressure").get_title()
+    assert "hardness" not in rl.plot.distribution(pressed, "gap").get_title()
+
+
+def test_patches_are_counted_from_the_largest(curve):
+    axes = rl.plot.patches(curve, 5)
+    found = curve.fields[5].patches()
+    areas, count = points(axes)
+    assert (np.diff(count) < 0).all()
+    for area, at_least in zip(areas, count, strict=True):
+        assert at_least == (found.areas * 1e6 >= area * (1 - 1e-9)).sum()
+    assert axes.get_xlabel() == "area of a patch [mm²]"
+    share = f"{100 * found.forces[0] / found.forces.sum():.3g}%"
+    assert f"bears {share} of the force" in texts(axes)
+
+
+def test_a_load_without_contact_has_no_patches(surface):
+    pressed = rl.press(surface, E_star=1e11, forces=[1.0, 0.0], fields=True)
+    assert "no contact" in texts(rl.plot.patches(pressed))
+    assert "no contact" in texts(rl.plot.distribution(pressed, "pressure"))
+    assert "0% of the cells in contact" in texts(rl.plot.distribution(pressed, "gap"))
 
 
 def test_a_load_that_is_not_there_is_refused(curve, surface):

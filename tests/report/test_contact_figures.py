@@ -9,6 +9,9 @@ from matplotlib.figure import Figure
 import roughline as rl
 from roughline.report.answers import quantity
 from roughline.report.contact_figures import draw_filled, draw_last_contact, draw_stiffness
+from roughline.report.contact_report import write_contact_report
+from roughline.report.fields_of_load import fields_figure, fields_table, write_fields
+from roughline.units import engineering
 
 
 def test_one_area_is_told_everywhere(rough):
@@ -59,3 +62,34 @@ def test_theories_are_drawn_in_the_units_of_the_curve():
     ratio = persson.stiffness * pressed.area / pressed.curve.stiffness
     assert theory.get_xdata() == pytest.approx(curve.get_xdata(), rel=1e-9)
     assert theory.get_ydata() / curve.get_ydata() == pytest.approx(ratio, rel=1e-9)
+
+
+def test_gap_pressure_and_patches_are_those_of_the_load_that_is_shown(rough):
+    pressed = rl.assess(
+        rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], ask=rl.WholeCurve())
+    )
+    fields = pressed.fields
+    _, rows = fields_table(fields)
+    told = dict(rows)
+    assert told["mean gap"] == engineering(fields.mean_gap, "m", 3)
+    touching = fields.pressure[fields.contact]
+    assert told["mean pressure in contact"] == engineering(touching.mean(), "Pa", 3)
+    assert told["highest pressure"] == engineering(touching.max(), "Pa", 3)
+    patches = fields.patches()
+    assert told["contact patches"] == str(patches.count)
+    assert told["largest patch"].startswith(engineering(patches.areas[0], "m²", 3))
+    assert [axes.get_xlabel()[:4] for axes in fields_figure(fields).axes] == [
+        "gap ",
+        "pres",
+        "area",
+    ]
+
+
+def test_the_report_has_them_and_a_line_scan_has_none(rough, tmp_path):
+    pressed = rl.assess(rl.Question(rough, ("steel", "copper"), loads="10 N", fields=True))
+    files = write_contact_report(pressed, tmp_path / "map", "")
+    assert {"distributions.png", "distributions.pdf"} <= {each.name for each in files}
+    page = (tmp_path / "map" / "report.html").read_text(encoding="utf-8")
+    assert "Gap, pressure and contact patches at 10 N" in page
+    without = replace(pressed, curve=replace(pressed.curve, fields=()))
+    assert write_fields(without, tmp_path) == ([], [])

@@ -12,6 +12,7 @@ returns them::
 
 from roughline.plot.bodies import contact, pressure, topography
 from roughline.plot.curves import area, curve
+from roughline.plot.distributions import distribution, patches
 from roughline.plot.exponents import exponents
 from roughline.plot.models import comparison, difference, trust_map
 from roughline.plot.spectra import power_law, spectrum
@@ -22,7 +23,9 @@ __all__ = [
     "contact",
     "curve",
     "difference",
+    "distribution",
     "exponents",
+    "patches",
     "power_law",
     "pressure",
     "spectrum",

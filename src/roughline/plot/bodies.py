@@ -108,7 +108,7 @@ def contact(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     InputError
         If the curve has no fields, or no such load.
     """
-    return _drawn(curve, load, axes, draw_contact)
+    return drawn_at(curve, load, axes, _draw_contact_with_key)
 
 
 @public
@@ -134,7 +134,7 @@ def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     InputError
         If the curve has no fields, or no such load.
     """
-    return _drawn(curve, load, axes, _draw_pressure)
+    return drawn_at(curve, load, axes, _draw_pressure)
 
 
 def draw_contact(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
@@ -151,6 +151,12 @@ def draw_contact(axes: Axes, surface: Surface, fields: Fields, unit: str | None)
     label_sides(axes, surface, unit)
 
 
+def _draw_contact_with_key(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
+    """Draw where bodies touch, and explain red in the title."""
+    draw_contact(axes, surface, fields, unit)
+    axes.set_title(axes.get_title() + yield_key(fields), fontsize=_TITLE)
+
+
 def _draw_pressure(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
     """Draw the pressure where bodies touch."""
     of_pressure = "Pa" if unit == "m" else None
@@ -159,7 +165,7 @@ def _draw_pressure(axes: Axes, surface: Surface, fields: Fields, unit: str | Non
     _draw_map(axes, surface, unit, shown, label, "viridis_r")
 
 
-def _drawn(
+def drawn_at(
     curve: Curve,
     load: int,
     axes: Axes | None,
@@ -172,8 +178,8 @@ def _drawn(
             number = load % curve.status.size
             say(drawn, f"load {number} was not solved\n{Status(curve.status[load]).reason}")
         else:
+            drawn.set_title(_title(curve, load), fontsize=_TITLE)
             draw(drawn, surface, fields, surface.unit)
-            drawn.set_title(_title(curve, load, fields), fontsize=_TITLE)
     return drawn
 
 
@@ -182,13 +188,13 @@ def yield_key(fields: Fields) -> str:
     return "\nred: at the hardness" if fields.plastic.any() else ""
 
 
-def _title(curve: Curve, load: int, fields: Fields) -> str:
+def _title(curve: Curve, load: int) -> str:
     assert curve.area_fraction_corrected is not None
     force = in_words(float(curve.force[load]), "N" if curve.unit == "m" else None)
     area, errors = float(curve.area_fraction_corrected[load]), curve.area_fraction_error
     digits = digits_known(area, None if errors is None else float(errors[load]))
     share = decimal(100 * area, digits)
-    return f"corrected area {share}% at $F$ = {force}{yield_key(fields)}"
+    return f"corrected area {share}% at $F$ = {force}"
 
 
 def _at_load(curve: Curve, load: int) -> tuple[Surface, Fields | None]:

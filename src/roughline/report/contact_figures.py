@@ -216,16 +216,20 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
 def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
     """Real contact area at the last load with stored fields; red where it yields."""
     curve = assessment.curve
-    for i in range(len(curve.fields) - 1, -1, -1):
-        fields = curve.fields[i]
-        if fields is None:
-            continue
-        draw_contact(axes, surface, fields, "m")
-        force = engineering(curve.force[i] * assessment.scale, "N")
-        share = area_in_words(assessment, i)
-        axes.set_title(f"corrected area {share} at {force}{yield_key(fields)}", fontsize=8)
+    load = load_with_fields(curve)
+    fields = None if load is None else curve.fields[load]
+    if load is None or fields is None:
+        label_sides(axes, surface, "m")
         return
-    label_sides(axes, surface, "m")
+    draw_contact(axes, surface, fields, "m")
+    force = engineering(curve.force[load] * assessment.scale, "N")
+    share = area_in_words(assessment, load)
+    axes.set_title(f"corrected area {share} at {force}{yield_key(fields)}", fontsize=8)
+
+
+def load_with_fields(curve: Curve) -> int | None:
+    """Number of the last load whose fields are kept; None without any."""
+    return max((i for i, each in enumerate(curve.fields) if each is not None), default=None)
 
 
 def _has_falling_loads(assessment: Assessment) -> bool:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from roughline.plot.style import save, styled
 from roughline.report.contact_figures import overview, overview_in_words, write_contact
 from roughline.report.document import write_document
+from roughline.report.fields_of_load import write_fields
 from roughline.report.page import Picture, Section, sentence
 from roughline.topography.body import Body, Line, Surface, sides_of
 from roughline.units import engineering
@@ -44,12 +45,13 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
     files = write_contact(assessment, folder)
     with styled():
         drawn = save(overview(assessment), folder, "overview")
+        of_fields, distributions = write_fields(assessment, folder)
     pictures = [Picture(drawn[0], "Overview", overview_in_words(assessment))]
     surface = Section("Surface", [_surface(assessment)], pictures=pictures)
     title = f"Contact of {assessment.question.name}"
     repeat = [how_to_repeat, _settings(assessment)]
-    document = write_document(assessment, folder, title, [surface], repeat)
-    return [*document, *files, *drawn]
+    document = write_document(assessment, folder, title, [surface, *of_fields], repeat)
+    return [*document, *files, *drawn, *distributions]
 
 
 def _settings(assessment: Assessment) -> str:
