@@ -40,13 +40,13 @@ def separation(roughness: SurfaceOrSpectrum, E_star: float, pressure: float, sha
     steps = 1 / spectrum.q - np.append(1 / spectrum.q[1:], 0.0)
     found = np.zeros(share.size)
     for i, A in enumerate(share):
-        t = p / float(special.erfinv(A))
-        P = p / A
+        x = float(special.erfinv(A))  # p / t
+        t, P = p / x, p / A
         with np.errstate(divide="ignore"):  # the bands of the waves that are seen have tau = 0
             ends, tau, weight = stress_nodes(spectrum, seen=t**2)
             u_and_fall = (weight * (energy_beyond(P / tau) + energy_density(P / tau))).sum()
             beyond = ends > 0
             of_waves = (energy_beyond(P / ends) * steps)[beyond] / (2 * ends[beyond])
-        lost = p / t**3 * math.exp(-((p / t) ** 2))  # -sqrt(pi) dA / d(t²)
-        found[i] = u_and_fall + 2 * A / lost * of_waves.sum()
+        for_loss = math.exp(x**2) * t**2 / x  # t² rises by so much over sqrt(pi) as A is lost
+        found[i] = u_and_fall + 2 * A * for_loss * of_waves.sum()
     return found
