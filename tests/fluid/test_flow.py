@@ -154,10 +154,14 @@ def test_the_gap_of_a_load_is_its_fields():
     surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
     loads = [0.01, 0.05]
     curve = rl.press(surface, E_star=1.0, forces=loads, periodic=True, fields=True)
-    low, high = (rl.flow(fields, surface.sizes) for fields in curve.fields)
+    low, high = map(rl.flow, curve.fields)
     assert high.permeance < low.permeance
     assert not high.gap[curve.fields[1].contact].any()
     assert "flow" in repr(high).lower()
+    assert (high.sizes, high.sides) == (surface.sizes, "periodic")
+    free = rl.press(surface, E_star=1.0, forces=[0.05], fields=True)
+    assert rl.flow(free.fields[0]).sides == "closed"
+    assert rl.flow(free.fields[0], sizes=(2.0, 1.0), sides="periodic").sides == "periodic"
 
 
 def test_what_is_too_steep_is_said():

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Literal, overload
+from typing import Any, Literal, get_args, overload
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.computing.summary import summary
 from roughline.contact.fields import Fields
 from roughline.errors import InputError
-from roughline.errors.checks import as_number, one_of, refuse
+from roughline.errors.checks import between, one_of, refuse
 from roughline.errors.public import public_names
 from roughline.fluid.network import Network
 from roughline.topography.body import Line, Surface
@@ -24,6 +25,7 @@ Sides = Literal["periodic", "closed"]
 
 _AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
 _NARROW = 0.25  # of the width: what is wider is no single channel
+_PATH_NEEDED = "a finite number of at least 0 is needed"
 _BYTES = 110  # that an open cell takes for each doubling of a side
 _STEEP = 0.3  # slope of the gap beyond which Reynolds' equation is no longer good
 _HIGH = 0.1  # hydraulic aperture over the shorter side beyond which it is not either
@@ -213,7 +215,7 @@ def flow(
     sizes: tuple[float, float] | None = None,
     *,
     along: Along = "x",
-    sides: Sides = "periodic",
+    sides: Sides | None = None,
     mean_free_path: float = 0.0,
 ) -> Flow: ...
 
@@ -224,7 +226,7 @@ def flow(
     sizes: tuple[float, float] | None = None,
     *,
     along: Literal["both"],
-    sides: Sides = "periodic",
+    sides: Sides | None = None,
     mean_free_path: float = 0.0,
 ) -> tuple[Flow, Flow]: ...
 
@@ -235,7 +237,7 @@ def flow(
     sizes: tuple[float, float] | None = None,
     *,
     along: Along | Literal["both"] = "x",
-    sides: Sides = "periodic",
+    sides: Sides | None = None,
     mean_free_path: float = 0.0,
 ) -> Flow | tuple[Flow, Flow]:
     r"""Let a fluid through the gap between two bodies, from one side to the opposite one.
@@ -251,11 +253,12 @@ def flow(
         Distance of the two bodies, 0 where they touch; or the fields of a load,
         ``curve.fields[i]``. [length]
     sizes : tuple of float
-        Sides of the rectangle, (Lx, Ly). [length]
+        Sides of the rectangle, (Lx, Ly); fields know theirs. [length]
     along : {"x", "y", "both"}, optional
         Side along which the fluid flows.
     sides : {"periodic", "closed"}, optional
         Whether fluid that leaves at one of the other two borders enters at the opposite one.
+        Default: periodic; closed for fields of a body that is not repeated.
     mean_free_path : float, optional
         Of a gas, at its mean pressure. It slips along the walls: u³ becomes u³ + 6 λ u². Default:
         0, a liquid. [length]
@@ -279,9 +282,8 @@ def flow(
 
     Examples
     --------
-    >>> import numpy as np
     >>> import roughline as rl
-    >>> flat = rl.flow(np.full((16, 32), 2e-6), sizes=(1e-3, 2e-3))
+    >>> flat = rl.flow([[2e-6] * 32] * 16, sizes=(1e-3, 2e-3))
     >>> print(f"{flat.hydraulic_aperture:.3g}")
     2e-06
 
@@ -289,22 +291,23 @@ def flow(
 
     >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
     >>> curve = rl.press(surface, E_star=1.0, forces=[0.05], periodic=True, fields=True)
-    >>> flow = rl.flow(curve.fields[0], sizes=surface.sizes)
+    >>> flow = rl.flow(curve.fields[0])
     >>> print(round(flow.hydraulic_aperture, 5), flow.is_sealed, flow.imbalance < 1e-8)
     0.00163 False True
     """
-    one_of("along", along, ("x", "y", "both"))
-    one_of("sides", sides, ("periodic", "closed"))
+    one_of("along", along, (*get_args(Along), "both"))
+    if isinstance(gap, Fields):
+        sizes = gap.sizes if sizes is None else sizes
+        sides = sides or ("periodic" if gap.is_periodic else "closed")
+    across = one_of("sides", sides or "periodic", get_args(Sides))
     gap = _checked_gap(gap)
     if sizes is None:
         raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
     sizes = checked_sides(sizes)
-    path = as_number(mean_free_path)
-    if path is None or not 0 <= path < np.inf:
-        refuse("mean_free_path", mean_free_path, "a finite number of at least 0 is needed")
+    path = between("mean_free_path", mean_free_path, 0.0, sys.float_info.max, _PATH_NEEDED)
     if along == "both":
-        return _solved(gap, sizes, "x", sides, path), _solved(gap, sizes, "y", sides, path)
-    return _solved(gap, sizes, along, sides, path)
+        return _solved(gap, sizes, "x", across, path), _solved(gap, sizes, "y", across, path)
+    return _solved(gap, sizes, along, across, path)
 
 
 def _solved(gap: Real, sizes: tuple[float, float], along: Along, sides: Sides, path: float) -> Flow:
