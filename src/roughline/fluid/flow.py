@@ -272,8 +272,7 @@ def flow(
     Raises
     ------
     InputError
-        If the gap is negative, not finite, or has fewer than 2 cells a side, if sizes are missing
-        or not positive, or if more memory is needed than is free.
+        If the gap or the sizes cannot be used, or more memory is needed than is free.
 
     References
     ----------
@@ -283,7 +282,7 @@ def flow(
     Examples
     --------
     >>> import roughline as rl
-    >>> rl.flow([[2.0, 2.0], [2.0, 2.0]], sizes=(1.0, 1.0)).hydraulic_aperture
+    >>> round(rl.flow([[2.0, 2.0], [2.0, 2.0]], sizes=(1.0, 1.0)).hydraulic_aperture, 12)
     2.0
 
     The gap of a contact:
