@@ -36,6 +36,7 @@ _CLASSES = {
     "Roughness": "what rl.roughness(body) returns",
     "Material": 'a Material, such as rl.material("steel"),',
     "Curve": "a Curve, as rl.press returns it,",
+    "Flow": "a Flow, as rl.flow returns it,",
     "Comparison": "a Comparison, as rl.compare returns it,",
     "PowerLaw": "a PowerLaw, as rl.fit_power_law returns it,",
     "TrustMap": "what rl.trust_map() returns",

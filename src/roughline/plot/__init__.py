@@ -14,6 +14,8 @@ from roughline.plot.bodies import contact, pressure, topography
 from roughline.plot.curves import area, curve
 from roughline.plot.distributions import distribution, patches
 from roughline.plot.exponents import exponents
+from roughline.plot.flows import flow
+from roughline.plot.leaks import hydraulic_aperture
 from roughline.plot.models import comparison, difference, trust_map
 from roughline.plot.spectra import power_law, spectrum
 
@@ -25,6 +27,8 @@ __all__ = [
     "difference",
     "distribution",
     "exponents",
+    "flow",
+    "hydraulic_aperture",
     "patches",
     "power_law",
     "pressure",

@@ -1,0 +1,145 @@
+"""Where the fluid goes through the gap."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, LogNorm
+from matplotlib.patheffects import withStroke
+
+from roughline.errors.public import public
+from roughline.fluid.flow import Flow
+from roughline.plot.pixels import any_marked
+from roughline.plot.style import drawing_on, in_unit
+from roughline.units import in_words
+
+_WEAKEST = 1e-2  # of the mean flux: what is less has the colour of no flow
+_DARKEST = 0.85  # of the colours: darker ones are too near to the black of the contact
+_TITLE = 8  # font size [pt]
+_ONE_CHANNEL = 0.5  # share of the flow from which on a channel is told
+
+
+@public
+def flow(flow: Flow, unit: str | None = None, axes: Axes | None = None) -> Axes:
+    r"""Draw where the fluid goes: the flux in the gap, and in black where the bodies touch.
+
+    The scale of the flux is logarithmic and relative to its mean, the flux of two flat plates that
+    let as much through. So the channels stand out, and those that carry little are still seen. What
+    is below a hundredth of the mean has the palest colour, gaps without any flow are white.
+
+    Parameters
+    ----------
+    flow : Flow
+        As :func:`roughline.flow` returns it.
+    unit : str, optional
+        Unit of its lengths, such as "m"; default: none is written.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        The axes that were drawn on. An arrow leads from inlet to outlet, and a ring marks the cell
+        at which most of the fluid's power is lost. Of a sealed gap the picture shows how far the
+        fluid comes from the inlet.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
+    >>> curve = rl.press(surface, E_star=1.0, forces=[0.05], periodic=True, fields=True)
+    >>> axes = rl.plot.flow(rl.flow(curve.fields[0], surface.sizes))
+    """
+    with drawing_on(axes) as drawn:
+        draw_flow(drawn, flow, unit)
+    return drawn
+
+
+def draw_flow(axes: Axes, flow: Flow, unit: str | None) -> None:
+    """Draw the flux on the gap, where lengths have a given unit."""
+    _, size = in_unit("x", flow.sizes, unit)
+    extent = (0.0, flow.sizes[0] * size, 0.0, flow.sizes[1] * size)
+    look: Any = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
+    is_open = any_marked(flow.gap > 0)
+    axes.imshow(is_open.T, cmap="gray", vmin=0, vmax=1, **look)
+    if flow.is_sealed:
+        reached = any_marked(flow.pressure == 1)
+        shown = np.where(is_open & reached, 1.0, np.nan)
+        axes.imshow(shown.T, cmap=ListedColormap([_scale()(0.6)]), **look)
+    else:
+        width = flow.sizes[1] if flow.along == "x" else flow.sizes[0]
+        flux = any_marked(np.hypot(*flow.flux)) * width / flow.inflow
+        image = axes.imshow(
+            np.where(flux > 0, flux, np.nan).T,
+            cmap=_scale(),
+            norm=LogNorm(_WEAKEST, max(flux.max(), 1.0)),
+            **look,
+        )
+        assert axes.figure is not None
+        axes.figure.colorbar(
+            image, ax=axes, label=r"flux over its mean, $|j|\,/\,\bar j$", shrink=0.85, extend="min"
+        )
+        _mark_constriction(axes, flow, size)
+    axes.set(xlabel=in_unit("x", flow.sizes, unit)[0], ylabel=in_unit("y", flow.sizes, unit)[0])
+    _mark_direction(axes, flow)
+    axes.set_title(_in_words(flow, unit), fontsize=_TITLE, pad=17 if flow.along == "x" else 6)
+
+
+def _scale() -> ListedColormap:
+    """Colours that darken with the flux, and stay apart from black."""
+    return ListedColormap(mpl.colormaps["YlGnBu"](np.linspace(0, _DARKEST, 256)))
+
+
+def _mark_constriction(axes: Axes, flow: Flow, size: float) -> None:
+    """Mark where most power is lost with a ring, and an arrow that comes across the flow."""
+    assert flow.constriction is not None
+    place = (np.array(flow.constriction) + 0.5) / flow.gap.shape  # of the sides
+    seen: Any = [withStroke(linewidth=3.5, foreground="w")]
+    look: Any = {"color": "k", "path_effects": seen, "zorder": 4}
+    at = place * flow.sizes * size
+    axes.plot(*at[:, None], "o", markersize=11, markerfacecolor="none", **look)
+    across = 1 if flow.along == "x" else 0
+    length = 34 if place[across] < 0.5 else -34
+    axes.annotate(
+        "",
+        tuple(at),
+        (0, length) if flow.along == "x" else (length, 0),
+        textcoords="offset points",
+        arrowprops={"arrowstyle": "-|>", "shrinkB": 7, **look},
+    )
+
+
+def _mark_direction(axes: Axes, flow: Flow) -> None:
+    """Draw an arrow from the inlet to the outlet, beside the map."""
+    along_x = flow.along == "x"
+    for text, at, to in (("inlet", 0.0, "left"), ("outlet", 1.0, "right")):
+        axes.annotate(
+            text,
+            (at, 1.03) if along_x else (1.03, at),
+            xycoords="axes fraction",
+            ha=to if along_x else "left",
+            va="bottom" if along_x else {"left": "bottom", "right": "top"}[to],
+            rotation=0 if along_x else 90,
+            fontsize=_TITLE,
+        )
+    first, last = ((0.2, 1.055), (0.78, 1.055)) if along_x else ((1.055, 0.2), (1.055, 0.78))
+    axes.annotate(
+        "",
+        last,
+        first,
+        xycoords="axes fraction",
+        arrowprops={"arrowstyle": "-|>", "color": "k", "linewidth": 1.0},
+    )
+
+
+def _in_words(flow: Flow, unit: str | None) -> str:
+    """Say how much flows, and what the ring is."""
+    if flow.is_sealed:
+        return "sealed: no way from inlet to outlet\nblue: as far as the fluid comes"
+    share = flow.largest_share
+    one = f"; {100 * share:.0f}% in one channel" if share > _ONE_CHANNEL else ""
+    aperture = in_words(flow.hydraulic_aperture, unit, 3)
+    return f"hydraulic aperture $u_h$ = {aperture}{one}\nring: where it is throttled most"

@@ -1,0 +1,207 @@
+"""How much a contact lets through over its load, and where it seals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import cycle, product
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from roughline.computing.arrays import Mask, Real
+from roughline.contact.curve import Curve
+from roughline.errors import InputError
+from roughline.errors.checks import refuse, several
+from roughline.errors.public import public
+from roughline.plot.curves import rising
+from roughline.plot.style import MARKERS, OPEN, colours, drawing_on, in_unit
+
+_NAME = "hydraulic_aperture"  # of the measure
+_ROW = 0.035  # height of a row of marks at the foot of axes, over theirs
+_DASHES = (":", "-.")
+
+
+@public
+def hydraulic_aperture(
+    curves: Curve | Sequence[Curve],
+    theories: Sequence[Any] = (),
+    labels: Sequence[str] = (),
+    axes: Axes | None = None,
+) -> Axes:
+    """Draw how much a contact lets through over its load, and where it seals.
+
+    The left axis is the hydraulic aperture u_h, the gap of two flat plates that let as much
+    through; the right one is u_h³, to which a leak is proportional.
+
+    Parameters
+    ----------
+    curves : Curve or sequence of Curve
+        Of surfaces, pressed with a measure of the name "hydraulic_aperture".
+    theories : sequence of TheoryCurve, optional
+        What :func:`roughline.theory` gives for "critical-junction" and "bruggeman".
+    labels : sequence of str, optional
+        What the curves are called; those of the same name look alike.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        The axes that were drawn on, with logarithmic scales. Lines are dashed, with open
+        marks, after a larger load. Sealed loads, which have no place on such a scale, are marked at
+        the foot of the axes, in a row for each kind of curve; of a theory the first one is. The
+        pressure is over E* where the bodies are not in metres.
+
+    Raises
+    ------
+    InputError
+        If a curve has no such measure, curves are in different units, a theory gives no hydraulic
+        aperture, or there are not as many labels as curves.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> aperture = rl.Measure(
+    ...     "hydraulic_aperture",
+    ...     "u_h",
+    ...     "length",
+    ...     "gap of two flat plates that let as much through",
+    ...     lambda fields: rl.flow(fields, fields.sizes).hydraulic_aperture,
+    ... )
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
+    >>> loads = [0.02, 0.04, 0.08, 0.04, 0.02]
+    >>> curve = rl.press(surface, E_star=1.0, forces=loads, periodic=True, measures=[aperture])
+    >>> theory = rl.theory("critical-junction", surface, 1.0, loads[:3])
+    >>> axes = rl.plot.hydraulic_aperture(curve, theories=[theory])
+    """
+    given = _checked_curves(curves)
+    _refuse_what_does_not_fit(given, theories, labels)
+    unit, E_star = given[0].unit, given[0].E_star
+    pressures = [curve.force / curve.length**2 for curve in given]
+    apertures = [curve.measured[_NAME].values for curve in given]
+    name, of_pressure, scale = ("$p$", "Pa", 1.0) if unit == "m" else ("$p/E^*$", None, 1 / E_star)
+    x_label, x = in_unit(f"mean pressure {name}", np.concatenate(pressures), of_pressure, scale)
+    of_length, y = in_unit("", np.concatenate(apertures), unit)
+    lines = [
+        _Line(pressure * x, aperture * y, rising(curve), look)
+        for curve, pressure, aperture, look in zip(
+            given, pressures, apertures, _looks(labels or range(len(given))), strict=True
+        )
+    ]
+    lines += [_of_theory(each, x, y, dashes) for each, dashes in zip(theories, cycle(_DASHES))]
+    with drawing_on(axes, height=4.4) as drawn:
+        drawn.set(xscale="log", yscale="log", xlabel=x_label)
+        drawn.set_ylabel(f"hydraulic aperture $u_h${of_length}")
+        for line in lines:
+            line.draw(drawn)
+        _mark_sealed(drawn, lines)
+        _explain(drawn, lines)
+        _add_leak(drawn, of_length)
+    return drawn
+
+
+@dataclass(frozen=True)
+class _Line:
+    """Hydraulic apertures over pressures, in the order of the loads."""
+
+    pressure: Real
+    aperture: Real
+    rising: Mask
+    look: dict[str, Any]
+
+    def draw(self, axes: Axes) -> None:
+        """Draw what is not sealed; dashed and open after a larger load."""
+        shown = np.where(self.aperture > 0, self.aperture, np.nan)
+        axes.plot(self.pressure[self.rising], shown[self.rising], **self.look)
+        after = {**self.look, "linestyle": "--", "label": None, **OPEN}
+        edges = np.flatnonzero(np.diff(self.rising, append=True))
+        for last, end in zip(edges[::2], edges[1::2], strict=True):
+            part = slice(last, end + 1)  # from the last rising load on, which has its own mark
+            axes.plot(self.pressure[part], shown[part], markevery=slice(1, None), **after)
+
+    def sealed(self, rising: bool) -> Real:
+        """Pressures under which it is sealed, of rising loads or of those after a larger one."""
+        return self.pressure[(self.aperture == 0) & (self.pressure > 0) & (self.rising == rising)]
+
+
+def _looks(names: Sequence[Any]) -> list[dict[str, Any]]:
+    """Looks of curves: those of the same name look alike; texts stand in the legend."""
+    kinds = list(dict.fromkeys(names))
+    of_kind = {
+        kind: {"color": colour, "marker": mark, "label": kind if isinstance(kind, str) else None}
+        for kind, colour, mark in zip(kinds, colours(len(kinds)), cycle(MARKERS), strict=False)
+    }
+    return [of_kind[name] for name in names]
+
+
+def _of_theory(theory: Any, x: float, y: float, dashes: str) -> _Line:
+    """A theory; of what is sealed the first pressure alone."""
+    until = np.cumsum(theory.hydraulic_aperture == 0) <= 1
+    pressure, aperture = theory.pressure[until] * x, theory.hydraulic_aperture[until] * y
+    look = {"color": "k", "linestyle": dashes, "label": theory.name}
+    return _Line(pressure, aperture, np.full(pressure.size, True), look)
+
+
+def _mark_sealed(axes: Axes, lines: Sequence[_Line]) -> None:
+    """Mark sealed loads at the foot of axes, each kind of line in rows of its own."""
+    rows: dict[Any, tuple[list[Real], dict[str, Any]]] = {}
+    for line, rises in product(lines, (True, False)):
+        if (sealed := line.sealed(rises)).size:
+            open_mark = {} if rises else OPEN
+            look = {"marker": "x", **line.look, "linestyle": "none", "label": None, **open_mark}
+            rows.setdefault((line.look["label"], line.look["color"], rises), ([], look))[0].append(
+                sealed
+            )
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(top * (bottom / top) ** (1 / (1 - _ROW * (len(rows) + 0.5))), top)
+    for place, (pressures, look) in zip(range(len(rows), 0, -1), rows.values(), strict=True):
+        x = np.concatenate(pressures)
+        axes.plot(x, np.full(x.size, _ROW * place), transform=axes.get_xaxis_transform(), **look)
+
+
+def _explain(axes: Axes, lines: Sequence[_Line]) -> None:
+    """Say below the axes which line is which, and what dashes and marks at the foot mean."""
+    if any(not line.rising.all() for line in lines):
+        axes.plot([], [], "o--", color="0.4", label="after a larger load", **OPEN)
+    if any((line.aperture == 0).any() for line in lines):
+        axes.plot([], [], " ", label="marks at the foot: sealed")
+    handles, texts = axes.get_legend_handles_labels()
+    each_once = dict(zip(texts, handles, strict=True))
+    if each_once:
+        below: Any = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.17), "ncols": 2}
+        axes.legend(each_once.values(), each_once.keys(), **below)
+
+
+def _add_leak(axes: Axes, of_length: str) -> None:
+    """Add an axis at the right for the cube of the left one."""
+    axes.tick_params(which="both", right=False)
+    cubed = axes.secondary_yaxis("right", functions=(lambda u: np.power(u, 3), np.cbrt))
+    cubed.set_ylabel(f"leak, in proportion to $u_h^3${of_length.replace(']', '³]')}")
+
+
+def _checked_curves(curves: Any) -> list[Curve]:
+    """Curves with hydraulic apertures."""
+    given = [curves] if isinstance(curves, Curve) else several(curves)
+    if not given or not all(isinstance(curve, Curve) for curve in given):
+        refuse("curves", curves, "one or several curves, as rl.press returns them, are needed")
+    if any(_NAME not in curve.measured for curve in given):
+        raise InputError(
+            f'a curve has no measure "{_NAME}": press with measures=[...], one of this name'
+        )
+    if len({curve.unit for curve in given}) > 1:
+        raise InputError("curves are in different units: press bodies in the same unit")
+    return given
+
+
+def _refuse_what_does_not_fit(curves: Sequence[Curve], theories: Any, labels: Any) -> None:
+    """Refuse theories of something else, and labels that are not those of the curves."""
+    if not isinstance(theories, (list, tuple)) or any(
+        getattr(each, _NAME, None) is None for each in theories
+    ):
+        known = '"critical-junction" and "bruggeman"'
+        refuse("theories", theories, f"a list of what rl.theory gives for {known} is needed")
+    texts = isinstance(labels, (list, tuple)) and all(isinstance(label, str) for label in labels)
+    if not texts or len(labels) not in (0, len(curves)):
+        refuse("labels", labels, f"a list of {len(curves)} texts is needed, one for each curve")
