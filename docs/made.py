@@ -34,7 +34,9 @@ SECTIONS = {
         *("MEAN_GAP", "Status", "estimate", "Estimate", "set_threads", "theory"),
         *("effective_medium", "compare", "Comparison", "trust_map"),
     ),
-    "The fluid in the gap": ("flow", "Flow"),
+    "The fluid in the gap": (
+        *("flow", "Flow", "sealing_pressure", "SealingPressure", "reopening", "Reopening"),
+    ),
     "Half-spaces and contact laws": (
         *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding"),
     ),

@@ -49,6 +49,10 @@ from roughline.errors import StoreError as StoreError
 from roughline.errors import UnitError as UnitError
 from roughline.fluid.flow import Flow as Flow
 from roughline.fluid.flow import flow as flow
+from roughline.fluid.reopening import Reopening as Reopening
+from roughline.fluid.reopening import reopening as reopening
+from roughline.fluid.sealing_pressure import SealingPressure as SealingPressure
+from roughline.fluid.sealing_pressure import sealing_pressure as sealing_pressure
 from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw

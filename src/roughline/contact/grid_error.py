@@ -55,8 +55,8 @@ class _Grids:
     @classmethod
     def of(cls, surface: Surface) -> _Grids:
         """The coarser selves of a surface."""
-        half = _halved(surface)
-        return cls(_halved(half), half, _thinned(surface), surface)
+        half = halved(surface)
+        return cls(halved(half), half, _thinned(surface), surface)
 
     @property
     def coarser(self) -> tuple[Surface, Surface, Surface]:
@@ -65,7 +65,7 @@ class _Grids:
 
     def laws(self, law: ContactLaw) -> list[ContactLaw]:
         """Return a law of the surface on each of them."""
-        coarsened = _thinned, _halved, lambda surface: _halved(_halved(surface))
+        coarsened = _thinned, halved, lambda surface: halved(halved(surface))
         return [law.on(partial(_field_on, self.full, each)) for each in coarsened]
 
     @property
@@ -142,6 +142,11 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
             area_fraction_error=_times(area, of_area),
             measured=_measured(curve, surface, coarser, steepening, press),
         )
+
+
+def steepening_of(surface: Surface) -> float:
+    """How much larger the rms slope of a grid four times finer will be."""
+    return _Grids.of(surface).steepening
 
 
 def refuse_few_points(surface: Surface) -> None:
@@ -303,7 +308,7 @@ def _field_on(surface: Surface, coarsen: _Coarsen, field: Real) -> Real:
     return coarsen(with_heights(surface, field)).heights
 
 
-def _halved(surface: Surface) -> Surface:
+def halved(surface: Surface) -> Surface:
     """Return the surface on half as many points a side, over the same sides."""
     nx, ny = surface.shape
     if nx % 2 == 0 and ny % 2 == 0:

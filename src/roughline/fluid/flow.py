@@ -310,7 +310,7 @@ def flow(
 def _solved(gap: Real, along: Along, sizes: tuple[float, float], sides: Sides, path: float) -> Flow:
     """The flow along one side."""
     turned, length, width = (gap, *sizes) if along == "x" else (gap.T, *sizes[::-1])
-    from_inlet, from_outlet = _components(turned > 0, sides)
+    from_inlet, from_outlet = components(turned > 0, sides)
     through = from_inlet & from_outlet
     points = int(through.sum())
     refuse_beyond_memory(
@@ -365,7 +365,7 @@ def _checked_gap(given: Any) -> Real:
     return gap
 
 
-def _components(open_cells: Mask, sides: Sides) -> tuple[Mask, Mask]:
+def components(open_cells: Mask, sides: Sides) -> tuple[Mask, Mask]:
     """Cells from which a path leads to the inlet, and cells from which one leads to the outlet."""
     # here because it loads slowly
     from scipy.ndimage import label

@@ -1,0 +1,166 @@
+"""How far a load may be taken off a contact until far more leaks through, by bisection."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from roughline.computing.summary import summary
+from roughline.contact.arguments import checked_count, checked_flag, checked_number
+from roughline.contact.curve import Curve
+from roughline.contact.grid_error import halved
+from roughline.contact.press import press
+from roughline.errors import InputError
+from roughline.errors.checks import one_of
+from roughline.errors.public import public_names
+from roughline.fluid.flow import Along
+from roughline.fluid.measures import hydraulic_aperture
+from roughline.topography.body import Surface
+
+_LEAST = 1e-4  # share of the load below which it counts as taken off
+
+
+@dataclass(frozen=True, eq=False)
+class Reopening:
+    """Share of a load down to which it may be taken off until so many times as much leaks.
+
+    Attributes
+    ----------
+    low, high : float
+        Shares of the load at which at least so much leaks, and less; both are zero where it never
+        does. [1]
+    apertures : tuple of float
+        Hydraulic apertures under the load, and at both shares. [length]
+    times : float
+        How much more leaks; of a gap that is sealed under the load, whatever leaks is more. [1]
+    along : {"both", "x", "y"}
+        Direction of the flow; of both, the leakier.
+    interval : tuple of float
+        Ends that the grid leaves open, by how much the logarithm differs from that on half as many
+        points; NaN if not asked for. [1]
+    """
+
+    low: float
+    high: float
+    apertures: tuple[float, float, float]
+    times: float
+    along: Along | Literal["both"]
+    interval: tuple[float, float] = (math.nan, math.nan)
+
+    __repr__ = summary
+
+    @property
+    def value(self) -> float:
+        """The middle of both shares. [1]"""
+        return math.sqrt(self.low * self.high)
+
+
+@public_names
+def reopening(
+    curve: Curve,
+    load: int = -1,
+    *,
+    times: float = 10.0,
+    along: Along | Literal["both"] = "both",
+    rtol: float = 0.01,
+    interval: bool = False,
+) -> Reopening:
+    """Find down to which share a load may be taken off until so many times as much leaks.
+
+    A surface that has yielded is flatter than before, and stays tight while most of the load is
+    taken off; elastic bodies leak as they did when the load rose. Shares of the load are bisected
+    on the surface that it left.
+
+    Parameters
+    ----------
+    curve : Curve
+        Of a surface, by :func:`press`.
+    load : int, optional
+        Number of the load that is taken off, from 0; negative ones count from the last.
+    times : float, optional
+        How many times as much leaks as under the load. [1]
+    along : {"both", "x", "y"}, optional
+        Direction of the flow; of both, the leakier.
+    rtol : float, optional
+        How far apart both shares may be, over the lower one. [1]
+    interval : bool, optional
+        Whether half as many points are pressed too, for what the grid leaves open.
+
+    Raises
+    ------
+    InputError
+        If the curve is that of a line, the load was not solved or is none, or an argument cannot be
+        used.
+    ConvergenceError
+        If a load was not solved.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0, q_high=100.0)
+    >>> given = {"E_star": 1.0, "forces": [0.03], "periodic": True}
+    >>> elastic = rl.press(spectrum.surface(64, rng=7), **given)
+    >>> dented = rl.press(spectrum.surface(64, rng=7), hardness=0.1, **given)
+    >>> print(f"{rl.reopening(elastic).value:.2f} {rl.reopening(dented).value:.2f}")
+    0.32 0.30
+    """
+    load = checked_count("load", load)
+    times = checked_number("times", times, "a factor above 1", math.nextafter(1.0, 2.0))
+    one_of("along", along, ("both", "x", "y"))
+    rtol = checked_number("rtol", rtol, "a tolerance from 1e-6 to 1", 1e-6, 1.0)
+    interval = checked_flag("interval", interval)
+    left = curve.surface_after(load)
+    force = float(curve.force[load])
+    if not force > 0:
+        raise InputError(f"load {load} is none: there is nothing to take off", "load")
+    found = _bisected(curve, left, force, times, along, rtol)
+    if not interval or found.low == 0 or curve.surface is None:
+        return found
+    coarse = halved(curve.surface)
+    on_half = press(coarse, half_space=curve.half_space, law=curve.law, forces=[force])
+    other = _bisected(on_half, on_half.surface_after(0), force, times, along, rtol)
+    factor = math.exp(abs(math.log(other.value / found.value))) if other.low > 0 else math.inf
+    return replace(found, interval=(found.low / factor, min(found.high * factor, 1.0)))
+
+
+def _bisected(
+    curve: Curve,
+    left: Surface,
+    force: float,
+    times: float,
+    along: Along | Literal["both"],
+    rtol: float,
+) -> Reopening:
+    """Bisect the shares of a force on the surface that it left."""
+    measures = [hydraulic_aperture(each) for each in (("x", "y") if along == "both" else (along,))]
+
+    def aperture(share: float) -> float:
+        pressed = press(
+            left,
+            half_space=curve.half_space,
+            law=curve.law,
+            forces=[share * force],
+            measures=measures,
+        )
+        return max(float(each.values[0]) for each in pressed.measured.values())
+
+    full = aperture(1.0)
+    most = full * float(np.cbrt(times))  # from which on it leaks too much, or, sealed, at all
+
+    def leaks(u: float) -> bool:
+        return u >= most and u > 0
+
+    low, high, at_low, at_high = _LEAST, 1.0, aperture(_LEAST), full
+    if not leaks(at_low):
+        return Reopening(0.0, 0.0, (full, at_low, at_low), times, along)
+    while high > low * (1 + rtol):
+        middle = math.sqrt(low * high)
+        found = aperture(middle)
+        if leaks(found):
+            low, at_low = middle, found
+        else:
+            high, at_high = middle, found
+    return Reopening(low, high, (full, at_low, at_high), times, along)

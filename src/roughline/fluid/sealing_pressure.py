@@ -1,0 +1,231 @@
+"""The mean pressure at which the last channel through a contact closes, by bisection."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from roughline.computing.summary import summary
+from roughline.contact.arguments import checked_flag, checked_number
+from roughline.contact.fields import Fields
+from roughline.contact.grid_error import halved, steepening_of
+from roughline.contact.measures import Measure
+from roughline.contact.press import press
+from roughline.errors import InputError
+from roughline.errors.checks import one_of
+from roughline.errors.public import public_names
+from roughline.fluid.flow import Along, Sides, components
+from roughline.topography.body import Surface
+
+_PERCOLATING = 0.277  # mean pressure over E* and the rms slope at which Persson's area is 0.42
+_OF_HARDNESS = 0.4  # about the share of the area that seals, all of which bears the hardness
+_WIDER = 1.5  # step from one trial to the next, until one is open and the other sealed
+_MOST_TRIALS = 60
+_NEARLY_ALL = 0.999  # of the hardness: all of the area bears it
+_FEWEST_POINTS = 32  # along a side that is halved, or cut into quarters
+_STUDENT = 3.182  # of 95 %, with the three degrees of freedom of four quarters
+
+
+@dataclass(frozen=True, eq=False)
+class SealingPressure:
+    """Mean pressure at which the last channel through a contact closes on first loading.
+
+    Attributes
+    ----------
+    low, high : float
+        Mean pressures under which the gap is still open, and sealed. [pressure]
+    area_fractions : tuple of float
+        Contact area fractions under these, cells counted whole. [1]
+    along : {"both", "x", "y"}
+        Direction in which no path leads through; of both, in neither.
+    on_half : float
+        The same on half as many points along each side; NaN if not asked for. [pressure]
+    on_quarters : sequence of float
+        The same of the four quarters of the surface, each of them repeated. [pressure]
+    interval : tuple of float
+        Ends that grid and size leave open; NaN if not asked for. They combine, as independent, by
+        how much the logarithm differs from that on half as many points, and how uncertain the mean
+        of the quarters is by their scatter, at 95 %. Waves that the grid does not have open the gap
+        further: the upper end is at least that of an elastic surface as steep as a grid four times
+        finer will be, as far as the hardness bears it. [pressure]
+    """
+
+    low: float
+    high: float
+    area_fractions: tuple[float, float]
+    along: Along | Literal["both"]
+    on_half: float = math.nan
+    on_quarters: Sequence[float] = ()
+    interval: tuple[float, float] = (math.nan, math.nan)
+
+    __repr__ = summary
+
+    @property
+    def value(self) -> float:
+        """The middle of both ends. [pressure]"""
+        return math.sqrt(self.low * self.high)
+
+
+@public_names
+def sealing_pressure(
+    surface: Surface,
+    *,
+    E_star: float,
+    hardness: float | None = None,
+    periodic: bool = True,
+    along: Along | Literal["both"] = "both",
+    rtol: float = 0.01,
+    interval: bool = True,
+) -> SealingPressure:
+    """Find the mean pressure at which the last channel through a contact closes.
+
+    Loads are bisected; each of them is applied to the untouched surface, as on first loading. The
+    gap is open where a path of cells out of contact, each beside the next, joins two opposite
+    sides.
+
+    Parameters
+    ----------
+    surface : Surface
+        The rough body. [length]
+    E_star : float
+        Contact modulus. [pressure]
+    hardness : float, optional
+        Of the softer body, as for :func:`press`. [pressure]
+    periodic : bool, optional
+        Whether the surface is repeated; free, its borders are closed sides.
+    along : {"both", "x", "y"}, optional
+        Direction in which the last path closes; of both, when none leads either way.
+    rtol : float, optional
+        How far apart both ends may be, over the lower one. [1]
+    interval : bool, optional
+        Whether the coarser grid and the quarters are pressed too, which takes about as long again.
+
+    Raises
+    ------
+    InputError
+        If the surface is flat, or an argument cannot be used.
+    ConvergenceError
+        If a load was not solved.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0, q_high=100.0)
+    >>> found = rl.sealing_pressure(spectrum.surface(64, rng=7), E_star=1.0, along="x")
+    >>> print(f"{found.low:.3g} to {found.high:.3g}: area {found.area_fractions[1]:.2f}")
+    0.0657 to 0.0661: area 0.40
+    """
+    one_of("along", along, ("both", "x", "y"))
+    rtol = checked_number("rtol", rtol, "a tolerance from 1e-6 to 1", 1e-6, 1.0)
+    interval = checked_flag("interval", interval)
+    if not isinstance(surface, Surface):
+        raise InputError("is no Surface; in one dimension any contact stops the flow", "surface")
+    if surface.rms_slope == 0:
+        raise InputError("is flat: it seals under any load; give a rough one", "surface")
+    given = _Given(E_star, hardness, periodic, along, rtol)
+    guess = _PERCOLATING * E_star * surface.rms_slope
+    if hardness is not None:
+        guess = min(guess, _OF_HARDNESS * hardness)
+    (low, open_area), (high, sealed_area) = given.bracket(surface, guess)
+    found = SealingPressure(low, high, (open_area, sealed_area), along)
+    if not interval or min(surface.shape) < _FEWEST_POINTS:
+        return found
+    return given.with_interval(found, surface)
+
+
+@dataclass(frozen=True)
+class _Given:
+    """How surfaces are pressed, and how near both ends of a bracket have to be."""
+
+    E_star: float
+    hardness: float | None
+    periodic: bool
+    along: Along | Literal["both"]
+    rtol: float
+
+    def with_interval(self, found: SealingPressure, surface: Surface) -> SealingPressure:
+        """Press half as many points along each side, and the quarters of the surface."""
+        half = self.middle(halved(surface), found.value)
+        quarters = [self.middle(each, found.value) for each in _quarters(surface)]
+        of_size = _STUDENT * float(np.log(quarters).std(ddof=1)) / math.sqrt(len(quarters))
+        factor = math.exp(math.hypot(math.log(half / found.value), of_size))
+        most = found.high * max(factor, steepening_of(surface))
+        if self.hardness is not None:
+            most = max(found.high, min(most, self.hardness))
+        ends = found.low / factor, most
+        return replace(found, on_half=half, on_quarters=quarters, interval=ends)
+
+    def middle(self, surface: Surface, guess: float) -> float:
+        """The middle of the bracket of a surface."""
+        (low, _), (high, _) = self.bracket(surface, guess)
+        return math.sqrt(low * high)
+
+    def bracket(
+        self, surface: Surface, guess: float
+    ) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Mean pressure and area fraction of the last open gap, and of the first sealed one."""
+        ends: dict[bool, tuple[float, float]] = {}
+        pressure, step = guess, _WIDER
+        for _ in range(_MOST_TRIALS):
+            is_open, area = self._is_open(surface, pressure)
+            ends[is_open] = pressure, area
+            if len(ends) == 2:
+                low, high = ends[True][0], ends[False][0]
+                if high <= low * (1 + self.rtol):
+                    return ends[True], ends[False]
+                pressure = math.sqrt(low * high)
+            else:
+                pressure = pressure * step if is_open else pressure / step
+                step *= step
+            if self.hardness is not None:
+                most = _NEARLY_ALL * self.hardness
+                pressure = pressure if pressure < most else math.sqrt(ends[True][0] * self.hardness)
+        raise InputError("does not seal under any load that was tried", "surface")
+
+    def _is_open(self, surface: Surface, pressure: float) -> tuple[bool, float]:
+        """Whether the gap is open under a mean pressure, and the contact area fraction."""
+        curve = press(
+            surface,
+            E_star=self.E_star,
+            hardness=self.hardness,
+            periodic=self.periodic,
+            forces=[pressure * surface.area],
+            measures=[OPEN[self.along]],
+        )
+        assert curve.area_fraction is not None
+        return bool(curve.measured[OPEN[self.along].name].values[0]), float(curve.area_fraction[0])
+
+
+def _percolates(fields: Fields, along: Along | Literal["both"]) -> float:
+    """One where a path leads through the gap, else zero."""
+    sides: Sides = "periodic" if fields.is_periodic else "closed"
+    is_open = ~fields.contact
+    for each in ("x", "y") if along == "both" else (along,):
+        from_inlet, from_outlet = components(is_open if each == "x" else is_open.T, sides)
+        if (from_inlet & from_outlet).any():
+            return 1.0
+    return 0.0
+
+
+OPEN = {
+    along: Measure(
+        f"is_open_{along}",
+        "",
+        "1",
+        f"one where a path leads through the gap along {along}, else zero",
+        partial(_percolates, along=along),
+    )
+    for along in ("x", "y", "both")
+}
+"""Whether the gap is open, along x, along y, or along one of both."""
+
+
+def _quarters(surface: Surface) -> list[Surface]:
+    """The four quarters of a surface."""
+    sides = [[(0, n // 2), (n // 2, n)] for n in surface.shape]
+    return [surface.cropped(x, y).detrended() for x in sides[0] for y in sides[1]]

@@ -1,0 +1,114 @@
+"""What a fluid finds in the gap under each load, taken without keeping the fields."""
+
+import gc
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from random_cases import cases
+from roughline.fluid import measures
+from roughline.fluid.measures import (
+    flow_factor,
+    hydraulic_aperture,
+    inverse_gap,
+    largest_share,
+    slope_of_flow,
+)
+
+PATH = 1e-3
+FORCES = [0.02, 0.05, 0.4]  # open, and sealed
+
+
+@pytest.fixture(scope="module")
+def surface():
+    return rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0, q_high=100.0).surface(64, rng=7)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_they_are_those_of_the_flow_through_the_fields(surface, periodic, along):
+    taken = [
+        hydraulic_aperture(along),
+        hydraulic_aperture(along, PATH),
+        flow_factor(along),
+        largest_share(along),
+        slope_of_flow(along),
+        rl.MEAN_GAP,
+    ]
+    given = {"E_star": 1.0, "forces": FORCES, "periodic": periodic}
+    found = rl.press(surface, measures=taken, **given).measured
+    kept = rl.press(surface, fields=True, **given).fields
+    flows = [
+        rl.flow(each, each.sizes, along=along, sides="periodic" if periodic else "closed")
+        for each in kept
+    ]
+    aperture = found[f"hydraulic_aperture_{along}"].values
+    assert aperture == pytest.approx([flow.hydraulic_aperture for flow in flows], rel=1e-12)
+    assert (aperture == 0).tolist() == [flow.is_sealed for flow in flows] == [False, False, True]
+    factor = (aperture / found["mean_gap"].values) ** 3
+    assert found[f"pressure_flow_factor_{along}"].values == pytest.approx(factor, rel=1e-9)
+    share = found[f"largest_share_{along}"].values
+    assert share.tolist() == [flow.largest_share for flow in flows]
+    assert found[f"flow_slope_{along}"].values.tolist() == [flow.slope for flow in flows]
+    slipping = found[f"slip_aperture_{along}"].values
+    assert (slipping[:2] > aperture[:2]).all()
+    assert slipping[2] == 0
+
+
+def test_several_measures_of_a_load_are_of_one_flow(surface, monkeypatch):
+    solved = []
+    monkeypatch.setattr(
+        measures, "flow", lambda *given, **named: solved.append(1) or rl.flow(*given, **named)
+    )
+    taken = [each("x") for each in (hydraulic_aperture, flow_factor, largest_share)]
+    rl.press(surface, E_star=1.0, forces=FORCES, periodic=True, measures=taken)
+    assert len(solved) == len(FORCES)
+    gc.collect()
+    assert not measures._FOUND  # nothing is kept once the fields are gone
+
+
+@pytest.mark.parametrize("jump", [0.01, 1.0])
+def test_the_mean_of_the_inverse_gap_between_its_bounds(surface, jump):
+    """Jensen's inequality from below; the temperature jump alone from above."""
+    taken = [inverse_gap(jump), rl.MEAN_GAP]
+    curve = rl.press(surface, E_star=1.0, forces=FORCES, periodic=True, measures=taken)
+    share, gap = 1 - curve.area_fraction, curve.measured["mean_gap"].values
+    found = curve.measured["inverse_gap"].values
+    assert (share / (gap / share + jump) <= found * (1 + 1e-12)).all()
+    assert (found <= share / jump).all()
+
+
+def test_a_gap_between_flat_plates_is_its_own_aperture():
+    """A low plateau beside a high one: the fluid flows over the low one."""
+    heights = np.zeros((32, 32))
+    heights[:, 16:] = -0.01
+    plates = rl.Surface(heights, (1.0, 1.0), is_cut_out=False)
+    taken = [hydraulic_aperture("x"), hydraulic_aperture("y"), largest_share("x")]
+    curve = rl.press(plates, E_star=1e6, forces=[1e-6], periodic=True, measures=taken)
+    aperture = curve.measured["hydraulic_aperture_x"].values[0]
+    assert aperture == pytest.approx(0.01 / np.cbrt(2), rel=1e-6)
+    assert curve.measured["hydraulic_aperture_y"].values[0] == 0
+
+
+@pytest.mark.slow
+def test_intervals_hold_what_grids_four_times_finer_give():
+    """From an open gap to sealing, with and without waves that the grid does not have."""
+    held, opened = [], []
+    for seed in range(3000, 3000 + cases(4, share=2)):
+        for hurst in (0.3, 0.5, 0.8):
+            for hardness in (False, True):
+                for q_high in (None, 2 * np.pi * 16):
+                    spectrum = rl.SelfAffine(hurst=hurst, rms_height=0.01, q_high=q_high)
+                    coarse, fine = spectrum.surface(64, seed), spectrum.surface(256, seed)
+                    slope = fine.rms_slope
+                    given = {"E_star": 1.0, "periodic": True, "measures": [hydraulic_aperture("x")]}
+                    given |= {"forces": slope * np.array([0.02, 0.06, 0.12, 0.18, 0.22])}
+                    given |= {"hardness": 0.4 * slope} if hardness else {}
+                    curve = rl.press(coarse, grid_error=True, **given)
+                    found = curve.measured["hydraulic_aperture_x"]
+                    truth = rl.press(fine, **given).measured["hydraulic_aperture_x"].values
+                    held += ((found.low <= truth) & (truth <= found.high)).tolist()
+                    opened += ((found.values == 0) & (truth > 0)).tolist()
+    assert np.mean(held) >= 0.9
+    assert any(opened)  # sealed on the coarse grid alone, and told so by the interval

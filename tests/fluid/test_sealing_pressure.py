@@ -1,0 +1,169 @@
+"""The mean pressure at which the last channel closes, and down to which load it stays so."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from random_cases import cases
+
+
+@pytest.fixture(scope="module")
+def spectrum():
+    return rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0, q_high=100.0)
+
+
+def sealed(surface, pressure, along, **given):
+    curve = rl.press(surface, forces=[pressure * surface.area], fields=True, **given)
+    sides = "periodic" if curve.half_space.periodic else "closed"
+    return rl.flow(curve.fields[0], surface.sizes, along=along, sides=sides).is_sealed
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("hardness", [None, 0.2])
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_the_gap_is_open_at_the_low_end_and_sealed_at_the_high_one(
+    spectrum, periodic, hardness, along
+):
+    surface = spectrum.surface(64, rng=7)
+    given = {"E_star": 1.0, "hardness": hardness, "periodic": periodic}
+    found = rl.sealing_pressure(surface, along=along, interval=False, **given)
+    assert found.low < found.high <= 1.01 * found.low
+    assert not sealed(surface, found.low, along, **given)
+    assert sealed(surface, found.high, along, **given)
+    assert found.area_fractions[0] <= found.area_fractions[1]
+
+
+def test_of_both_directions_it_is_the_larger_one(spectrum):
+    surface = spectrum.surface(64, rng=7)
+    x, y, both = (
+        rl.sealing_pressure(surface, E_star=1.0, along=along, interval=False).value
+        for along in ("x", "y", "both")
+    )
+    assert both == pytest.approx(max(x, y), rel=0.01)
+
+
+def test_it_scales_with_modulus_and_slope(spectrum):
+    surface = spectrum.surface(64, rng=7)
+    steeper = rl.Surface(3 * surface.heights, surface.sizes, is_cut_out=False)
+    one, six = (
+        rl.sealing_pressure(given, E_star=E_star, rtol=1e-3, interval=False).value
+        for given, E_star in ((surface, 1.0), (steeper, 2.0))
+    )
+    assert six == pytest.approx(6 * one, rel=2e-3)
+
+
+@pytest.mark.parametrize("n", [32, 64, 128])
+def test_grooves_close_where_a_wave_is_in_full_contact(n):
+    """Along a wave d cos(2 pi x / L) only full contact seals, under pi E* d / L (Westergaard)."""
+    wave = 0.01 * np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)
+    surface = rl.Surface(np.repeat(wave[:, np.newaxis], n, axis=1), (1.0, 1.0), is_cut_out=False)
+    found = rl.sealing_pressure(surface, E_star=1.0, along="y", interval=False, rtol=1e-4)
+    # the cells nearest to the trough are half a cell away from it, and close before
+    assert found.value == pytest.approx(np.pi * 0.01, rel=2 / n)
+    assert found.value <= np.pi * 0.01 * 1.0001
+
+
+@pytest.mark.slow
+def test_its_interval_holds_that_of_grids_four_times_finer():
+    held = []
+    for seed in range(5000, 5000 + cases(4, share=2)):
+        for hurst in (0.5, 0.8):
+            for q_high in (None, 2 * np.pi * 16):
+                for hardness in (False, True):
+                    spectrum = rl.SelfAffine(
+                        hurst=hurst, rms_height=0.01, q_roll=8 * np.pi, q_high=q_high
+                    )
+                    coarse, fine = spectrum.surface(64, seed), spectrum.surface(256, seed)
+                    given = {"E_star": 1.0}
+                    given |= {"hardness": 0.4 * fine.rms_slope} if hardness else {}
+                    low, high = rl.sealing_pressure(coarse, **given).interval
+                    truth = rl.sealing_pressure(fine, interval=False, **given).value
+                    held.append(low <= truth <= high)
+    assert np.mean(held) >= 0.9
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"surface": rl.Surface(np.zeros((16, 16)), (1.0, 1.0))}, "is flat"),
+        ({"surface": rl.SelfAffine(hurst=0.8, rms_height=1.0).line(64, 1)}, "is no Surface"),
+        ({"along": "z"}, "along"),
+        ({"rtol": 0}, "rtol"),
+        ({"E_star": -1.0}, "E_star"),
+        ({"hardness": -1.0}, "hardness"),
+    ],
+)
+def test_what_cannot_be_used_is_refused(spectrum, given, said):
+    told = {"surface": spectrum.surface(32, 1), "E_star": 1.0} | given
+    with pytest.raises(rl.InputError, match=said):
+        rl.sealing_pressure(**told)
+
+
+FORCE = 0.06
+
+
+@pytest.fixture(scope="module")
+def pressed(spectrum):
+    """A force that leaves the gap open, on elastic bodies and on soft ones."""
+    surface = spectrum.surface(64, rng=7)
+    return {
+        hardness: rl.press(
+            surface, E_star=1.0, periodic=True, hardness=hardness, forces=[FORCE], fields=True
+        )
+        for hardness in (None, 0.25)
+    }
+
+
+@pytest.mark.parametrize("hardness", [None, 0.25])
+def test_on_the_way_back_ten_times_as_much_leaks_at_the_low_end(pressed, hardness):
+    curve = pressed[hardness]
+    found = rl.reopening(curve, along="x")
+    history = rl.press(
+        curve.surface,
+        E_star=1.0,
+        periodic=True,
+        hardness=hardness,
+        forces=[FORCE, FORCE * found.high, FORCE * found.low],
+        fields=True,
+    )
+    full, high, low = (rl.flow(each, each.sizes, along="x").permeance for each in history.fields)
+    assert high < 10 * full <= low
+    assert found.apertures == pytest.approx(np.cbrt([full, low, high]), rel=1e-5)
+
+
+def test_elastic_bodies_leak_as_when_the_load_rose(pressed):
+    curve = pressed[None]
+    found = rl.reopening(curve, times=5.0, along="y")
+    rising = rl.press(
+        curve.surface,
+        E_star=1.0,
+        periodic=True,
+        forces=[FORCE * found.low, FORCE * found.high, FORCE],
+        fields=True,
+    )
+    low, high, full = (rl.flow(each, each.sizes, along="y").permeance for each in rising.fields)
+    assert high < 5 * full <= low
+
+
+def test_a_surface_that_yielded_stays_tight_longer(spectrum):
+    """Flattened summits, under the force that makes elastic bodies leak as little."""
+    surface = spectrum.surface(64, rng=7)
+    shares = [
+        rl.reopening(
+            rl.press(surface, E_star=1.0, periodic=True, hardness=hardness, forces=[force]),
+            along="both",
+        ).value
+        for hardness, force in ((None, 0.05), (0.1, 0.03))
+    ]
+    assert shares[1] < shares[0]
+
+
+def test_what_cannot_be_taken_off_is_refused(pressed):
+    curve = pressed[None]
+    with pytest.raises(rl.InputError, match="the curve has loads 0 to 0"):
+        rl.reopening(curve, 3)
+    with pytest.raises(rl.InputError, match="a factor above 1"):
+        rl.reopening(curve, times=1.0)
+    line = rl.press(rl.SelfAffine(hurst=0.8, rms_height=1.0).line(64, 1), E_star=1.0, forces=[1.0])
+    with pytest.raises(rl.InputError, match="reduced model of a line"):
+        rl.reopening(line)
