@@ -43,7 +43,15 @@ SECTIONS = {
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
         *("Joint", "Friction", "Ultrasound", "Theories", "History", "Unloading", "WholeCurve"),
-        *("PartAssessment", "material", "Material", "contact_modulus", "Rule", "rules"),
+        *(
+            "export_table",
+            "PartAssessment",
+            "material",
+            "Material",
+            "contact_modulus",
+            "Rule",
+            "rules",
+        ),
     ),
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (

@@ -58,6 +58,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneou
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral as Unilateral
 from roughline.halfspace.laws.yielding import Yielding as Yielding
+from roughline.report.finite_elements import export_table as export_table
 from roughline.spectra.fit import fit_self_affine as fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum as isotropic_spectrum
 from roughline.spectra.profile import profile_spectrum as profile_spectrum

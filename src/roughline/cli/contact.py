@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+import roughline as rl
 from roughline.assessment.fields import ANSWERS, BODIES, FILE, LOADS, PREPARATION
 from roughline.cli import options
 from roughline.cli.options import end_interrupted, interruptible, print_json, writable
@@ -41,6 +42,15 @@ def press_command(
     out: Annotated[
         Path | None,
         typer.Option(help="Folder for the curve (NetCDF) and figures.", rich_help_panel=ANSWERS),
+    ] = None,
+    export_table: Annotated[
+        str | None,
+        typer.Option(
+            help="File for finite elements with pressure over overclosure, stiffness and "
+            "conductance: calculix:FILE, abaqus:FILE, moose:FILE or a FILE that ends in .csv; "
+            "needs --periodic or --joint-area.",
+            rich_help_panel=ANSWERS,
+        ),
     ] = None,
     threads: Annotated[
         int | None, typer.Option(help="Number of threads [default: one for each core].")
@@ -94,6 +104,9 @@ def press_command(
 
     roughline press scan.sur --against other.sur --materials "E=3 GPa nu=0.38, rigid" --load "2 MPa"
 
+    roughline press scan.x3p --materials steel,copper --load "1 MPa" --load "10 MPa" --periodic
+    --export-table abaqus:joint.inp
+
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
@@ -120,12 +133,26 @@ def press_command(
         {**told, "whole_curve": report is not None},
         fields=report is not None or out is not None,
     )
-    press = _press_part if question.is_of_several else _press_body
-    press(question, report, out, json=json, unfolded_by="" if everything else "--all")
+    unfolded_by = "" if everything else "--all"
+    if export_table is not None:
+        from roughline.report.finite_elements import checked_table, refuse_without_interface
+
+        refuse_without_interface(question)
+        checked_table(export_table)
+    if question.is_of_several:
+        _press_part(question, report, out, json=json, unfolded_by=unfolded_by)
+    else:
+        _press_body(question, report, out, export_table, json=json, unfolded_by=unfolded_by)
 
 
 def _press_body(
-    question: Question, report: Path | None, out: Path | None, *, json: bool, unfolded_by: str
+    question: Question,
+    report: Path | None,
+    out: Path | None,
+    table: str | None,
+    *,
+    json: bool,
+    unfolded_by: str,
 ) -> None:
     """Press the body of a question, show what follows, and end with the exit code."""
     from roughline.assessment.assess import assess_body
@@ -146,6 +173,8 @@ def _press_body(
             elif report:
                 files += write_contact_report(result, report, _as_typed())
             files += write_contact(result, out) if out else []
+        if table is not None and not result.interrupted:
+            files.append(rl.export_table(result, table))
     if json:
         print_json(of_assessment(result, files))
     else:

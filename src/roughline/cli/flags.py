@@ -20,6 +20,7 @@ _OTHERS = {
     "n": "--points",
     "rng": "--seed",
     "force_bars": "--force-bar",
+    "table": "--export-table",
 }
 
 FLAGS = Words(

@@ -42,6 +42,7 @@ _CLASSES = {
     "TrustMap": "what rl.trust_map() returns",
     "Axes": "Axes of matplotlib",
     "Question": "a Question",
+    "Assessment": "an Assessment, as rl.assess returns it of one body,",
     "Reading": "a Reading, as rl.Reading(...),",
     "Preparation": "a Preparation, as rl.Preparation(...),",
     "Plan": "a Plan, as campaign.read_plan returns it,",

@@ -49,12 +49,12 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
     pictures = [Picture(drawn[0], "Overview", overview_in_words(assessment))]
     surface = Section("Surface", [_surface(assessment)], pictures=pictures)
     title = f"Contact of {assessment.question.name}"
-    repeat = [how_to_repeat, _settings(assessment)]
+    repeat = [how_to_repeat, settings_in_words(assessment)]
     document = write_document(assessment, folder, title, [surface, *of_fields], repeat)
     return [*document, *files, *drawn, *distributions]
 
 
-def _settings(assessment: Assessment) -> str:
+def settings_in_words(assessment: Assessment) -> str:
     """Settings of the run; those of the preparation are told with the surface."""
     return "; ".join(
         f"{key} = {_shown(value)}"

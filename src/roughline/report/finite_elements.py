@@ -1,0 +1,383 @@
+"""A joint as a table for finite elements: pressure over overclosure, stiffness and conductances."""
+
+from __future__ import annotations
+
+import difflib
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughline._version import __version__
+from roughline.errors import InputError, StoreError
+from roughline.errors.checks import refuse
+from roughline.errors.public import public
+from roughline.errors.words import called
+from roughline.plot.curves import rising
+from roughline.report.contact_report import settings_in_words
+from roughline.report.contact_tables import material_in_words
+from roughline.topography.body import Line, Surface
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
+    from roughline.assessment.question import Question
+    from roughline.computing.arrays import Real
+    from roughline.engineering.intervals import Ends
+
+_BROAD = 96  # letters of a line of comments
+_LEAST_STEP = 1e-10  # of overclosures that CalculiX tells apart, in the unit of its model
+_PROGRAM_OF = {".csv": "csv", ".i": "moose"}  # by the file's ending; .inp is that of two
+_STIFFNESS, _UNLOADING = "stiffness [Pa/m]", "unloading_stiffness [Pa/m]"
+_HEAT = "thermal_conductance [W/(m^2 K)]"
+_CURRENT = "electrical_conductance [S/m^2]"
+_MEAN_GAP = "mean_gap [m]"
+
+
+@dataclass(frozen=True, eq=False)
+class _JointTable:
+    """What a joint does under rising pressures, the first of them zero."""
+
+    pressure: Real  # mean over the nominal area [Pa]
+    overclosure: Real  # approach since first touch [m]
+    columns: Mapping[str, Real]  # other quantities by their headings, in rows: (1 or 3, pressures)
+    remarks: Sequence[str]
+
+    def of_pressure(self, heading: str) -> tuple[Real, Real] | None:
+        """Pressures and values of a quantity as far as they are finite; None where it is not."""
+        if heading not in self.columns:
+            return None
+        values = self.columns[heading][0]
+        known = np.isfinite(values)  # full contact has no end
+        return (self.pressure[known], values[known]) if known.sum() > 1 else None
+
+    def of_overclosure(self, least: float = 0.0) -> tuple[Real, Real]:
+        """Overclosures that are further than this from the one before, and their pressures."""
+        rising = [0]
+        for i in range(1, self.overclosure.size):
+            if self.overclosure[i] - self.overclosure[rising[-1]] > least:
+                rising.append(i)
+        return self.overclosure[rising], self.pressure[rising]
+
+
+@public
+def export_table(assessment: Assessment, table: str | Path) -> Path:
+    """Write a joint as a table for a program of finite elements.
+
+    It has, over the mean pressure, the overclosure, the stiffness per area and, where materials are
+    known, the thermal and electrical conductances per area; all of them of the interface alone, so
+    the body has to be pressed periodically or for a joint.
+
+    Parameters
+    ----------
+    assessment : Assessment
+        Of one map, under two loads or more, as :func:`roughline.assess` returns it.
+    table : str or Path
+        A file, after the name of the program that reads it: "calculix:joint.inp",
+        "abaqus:joint.inp", "moose:joint.i" or "csv:joint.csv". The name may be left out before
+        ".csv" and ".i". An existing file is replaced.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        For an unknown program, a folder that does not exist, a body that is a line or was pressed
+        on a free half-space, or fewer than two loads on the loading branch.
+    StoreError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, rng=7)
+    >>> loads = ["1 MPa", "3 MPa", "10 MPa"]
+    >>> question = rl.Question(surface, materials="steel,copper", loads=loads, periodic=True)
+    >>> folder = tempfile.mkdtemp()
+    >>> file = rl.export_table(rl.assess(question), f"abaqus:{folder}/joint.inp")
+    >>> print([line for line in file.read_text().splitlines() if line[1] != "*"][0])
+    *Surface Interaction, name=ROUGH_JOINT
+    """
+    program, file = checked_table(table)
+    refuse_without_interface(assessment.question)
+    text = _PROGRAMS[program](_table_of(assessment))
+    try:
+        file.write_text(text, encoding="ascii")
+    except OSError as error:
+        raise StoreError(f"cannot write {file} ({error}): choose another place") from error
+    return file
+
+
+def checked_table(table: str | Path) -> tuple[str, Path]:
+    """Return the program and the file of a table.
+
+    Raises
+    ------
+    InputError
+        If the program is not known, or the folder does not exist.
+    """
+    text = str(table)
+    program, colon, name = text.partition(":")
+    if not colon or len(program) < 2 or "/" in program:  # a letter is that of a disk
+        program, name = _PROGRAM_OF.get(Path(text).suffix.lower(), ""), text
+    if not program:
+        refuse(
+            "table",
+            text,
+            "which program is to read it? Give calculix:FILE, abaqus:FILE or moose:FILE; a name "
+            "that ends in .csv is a plain table",
+        )
+    if program.lower() not in _PROGRAMS:
+        near = difflib.get_close_matches(program.lower(), _PROGRAMS, 1)
+        meant = f": did you mean {near[0]}:{name}?" if near else ""
+        refuse("table", text, f"known programs are {', '.join(_PROGRAMS)}{meant}")
+    file = Path(name)
+    if not file.name or file.is_dir() or not file.parent.is_dir():
+        refuse("table", text, "a file in a folder that exists is needed")
+    return program.lower(), file
+
+
+def refuse_without_interface(question: Question) -> None:
+    """Refuse a question whose answers are not of an interface alone, or are of one load.
+
+    Raises
+    ------
+    InputError
+        In terms of the question.
+    """
+    if question.is_of_several:
+        raise InputError(f"{called('table')} is of one map; give one")
+    if any(isinstance(body, Line) for body in question.bodies):
+        raise InputError(
+            f"{called('table')} needs a map: of a line scan the interface is not known apart from "
+            "the bodies"
+        )
+    if not question.is_repeated:
+        raise InputError(
+            f"{called('table')} is of the interface alone, as the bodies themselves are in the "
+            f"mesh: press the map periodically ({called('periodic', True)}), or for a joint "
+            f"({called('rl.Joint')})"
+        )
+    if len({*question.loads, *question.depths}) == 1:
+        raise InputError(f"{called('table')} needs two loads or more; give {called('loads')} again")
+
+
+def _table_of(assessment: Assessment) -> _JointTable:
+    """The loads on the loading branch of an assessment, as they rise, after that of no load."""
+    curve, body, known = assessment.curve_as_asked, assessment.body, assessment.intervals_as_asked
+    if not isinstance(body, Surface):
+        raise InputError("is of a line scan; a map is needed", "table")
+    loading = rising(assessment.curve)[assessment.asked] & curve.converged & (curve.force > 0)
+    pressure, first = np.unique(curve.force[loading] / assessment.area, return_index=True)
+    chosen = np.flatnonzero(loading)[first]
+    if chosen.size < 2:
+        raise InputError(
+            f"needs two loads or more that were solved on the loading branch; {chosen.size} of "
+            f"{curve.status.size} is one: give more {called('loads')}",
+            "table",
+        )
+    loading_ends, unloading_ends = (known.stiffness, known.unloading) if known else (None, None)
+    columns = {_STIFFNESS: _rows(curve.stiffness, loading_ends) / assessment.area}
+    if curve.hardness is not None and curve.unloading_stiffness is not None:
+        columns[_UNLOADING] = _rows(curve.unloading_stiffness, unloading_ends) / assessment.area
+    columns |= _of_answers(assessment)
+    touching = float(body.heights.max() - body.heights.mean())
+    at_touch = {_MEAN_GAP: touching}
+    columns = {
+        heading: np.insert(each[:, chosen], 0, at_touch.get(heading, 0.0), axis=1)
+        for heading, each in columns.items()
+    }
+    return _JointTable(
+        np.insert(pressure, 0, 0.0),
+        np.insert(curve.depth[chosen], 0, 0.0),
+        columns,
+        _remarks(assessment, touching, columns, chosen.size),
+    )
+
+
+def _of_answers(assessment: Assessment) -> dict[str, Real]:
+    """Conductances per area and the mean gap over the loads that were asked for, in rows."""
+    found = {}
+    for heading, key in (
+        (_HEAT, "thermal_conductance_per_area"),
+        (_CURRENT, "constriction_resistance"),
+        (_MEAN_GAP, "mean_gap"),
+    ):
+        if (answer := assessment.answers.get(key)) is not None:
+            ends = None if answer.low is None or answer.high is None else (answer.low, answer.high)
+            found[heading] = _rows(answer.values, ends)
+    if _CURRENT in found:  # the reciprocal of its resistance, whose ends change places
+        resistance = found[_CURRENT] * assessment.area * assessment.scale
+        with np.errstate(divide="ignore"):
+            found[_CURRENT] = 1 / np.concatenate([resistance[:1], resistance[:0:-1]])
+    return found
+
+
+def _rows(values: Real, ends: Ends | None) -> Real:
+    """Values and, where they are known, both ends of their interval."""
+    return np.stack([values, *(ends or ())])
+
+
+def _remarks(
+    assessment: Assessment, touching: float, columns: Mapping[str, Real], chosen: int
+) -> list[str]:
+    """What a user of the table must know."""
+    question, curve = assessment.question, assessment.curve_as_asked
+    remarks = [
+        f"Contact of {question.name}, by roughline {__version__}.",
+        "SI units: pressures in Pa, overclosures in m, stiffnesses in Pa/m, thermal conductances "
+        "in W/(m^2 K), electrical ones in S/m^2. In mm, N and MPa: m times 1e3, Pa times 1e-6, "
+        "Pa/m times 1e-9.",
+        "Pressure is the mean over the nominal area, compression positive. Overclosure is the "
+        "approach of the bodies, positive, from 0 where the highest points of the map touch; the "
+        f"mean planes are {touching:.4e} m apart there.",
+        "All is of the interface alone, of the map in a periodic half-space: the give of the "
+        "bodies themselves is that of the mesh.",
+    ]
+    if curve.hardness is None:
+        remarks.append("Elastic bodies: unloading goes back the same way.")
+    else:
+        remarks.append(
+            "The loading branch: points at the hardness yield and stay indented. On unloading the "
+            "interface is stiffer, and conducts more at the same pressure."
+        )
+    pair = question.pair
+    if pair is None:
+        remarks.append(
+            f"No materials are given, so conductances are not known; E* = {curve.E_star:.6g} Pa."
+        )
+    else:
+        remarks.append(f"{material_in_words(pair.first)}; {material_in_words(pair.second)}.")
+        if _HEAT in columns:
+            remarks.append("Conductances are those of the solid spots alone, as in vacuum.")
+        missing = [
+            key
+            for heading, key in ((_HEAT, "thermal"), (_CURRENT, "electrical"))
+            if heading not in columns
+        ]
+        if missing:
+            remarks.append(f"Not known of these materials: {' and '.join(missing)} conductance.")
+    unsolved = [
+        name
+        for name, solved in zip(assessment.headings, curve.converged, strict=True)
+        if not solved
+    ]
+    others = int(curve.converged.sum()) - chosen
+    if unsolved:
+        remarks.append(f"Left out, as they were not solved: {', '.join(unsolved)}.")
+    if others:
+        remarks.append(
+            f"Left out, as they come after larger loads, or again: {others} of the loads."
+        )
+    return [*remarks, f"Settings: {settings_in_words(assessment)}."]
+
+
+def _csv(table: _JointTable) -> str:
+    """A plain table; lines of comments begin with #."""
+    headings, columns = ["pressure [Pa]", "overclosure [m]"], [table.pressure, table.overclosure]
+    for heading, rows in table.columns.items():
+        name, bracket, unit = heading.partition(" ")
+        for end, values in zip(("", "_low", "_high"), rows, strict=False):
+            headings.append(f"{name}{end}{bracket}{unit}")
+            columns.append(values)
+    lines = [",".join(map(_number, row)) for row in zip(*columns, strict=True)]
+    return _lines([*_comments("# ", table.remarks), ",".join(headings), *lines])
+
+
+def _calculix(table: _JointTable) -> str:
+    """A surface interaction for CalculiX: conductance over pressure, and none for current."""
+    overclosure, pressure = table.of_overclosure(_LEAST_STEP)
+    own = [
+        "For CalculiX. Beyond the last line it keeps pressure and conductance constant: press the "
+        "map further than the model will be."
+    ]
+    if (near := table.overclosure.size - overclosure.size) > 0:
+        own.append(
+            f"{near} of the overclosures are left out, which are within "
+            f"{_LEAST_STEP:g} of the one before: CalculiX does not tell such apart."
+        )
+    if _CURRENT in table.columns:
+        own.append("It has no electrical contact, so that conductance is left out.")
+    lines = [
+        *_comments("** ", [*table.remarks, *own]),
+        "*SURFACE INTERACTION,NAME=ROUGH_JOINT",
+        "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TABULAR",
+        *_pairs(pressure, overclosure),
+    ]
+    if (heat := table.of_pressure(_HEAT)) is not None:
+        lines += ["*GAP CONDUCTANCE", *_pairs(heat[1], heat[0])]
+    return _lines(lines)
+
+
+def _abaqus(table: _JointTable) -> str:
+    """A surface interaction for Abaqus."""
+    own = "For Abaqus. Beyond the last line it goes on with the last slope of the pressure."
+    lines = [
+        *_comments("** ", [*table.remarks, own]),
+        "*Surface Interaction, name=ROUGH_JOINT",
+        "*Surface Behavior, pressure-overclosure=TABULAR",
+        *_pairs(*reversed(table.of_overclosure())),
+    ]
+    for heading, keyword in (
+        (_HEAT, "*Gap Conductance"),
+        (_CURRENT, "*Gap Electrical Conductance"),
+    ):
+        if (found := table.of_pressure(heading)) is not None:
+            lines += [f"{keyword}, pressure", *_pairs(found[1], found[0])]
+    return _lines(lines)
+
+
+def _moose(table: _JointTable) -> str:
+    """Functions for MOOSE; what they are over stands in the place of x."""
+    own = (
+        "For MOOSE, to be included in an input file. Beyond the ends a function keeps its last "
+        "value. A material takes one over the contact pressure: type = "
+        "CoupledValueFunctionMaterial, function = thermal_contact_conductance, v = "
+        "contact_pressure, prop_name = gap_conductance."
+    )
+    lines = [*_comments("# ", [*table.remarks, own]), "[Functions]"]
+    named = {
+        "contact_pressure_over_overclosure": table.of_overclosure(),
+        "contact_stiffness": table.of_pressure(_STIFFNESS),
+        "thermal_contact_conductance": table.of_pressure(_HEAT),
+        "electrical_contact_conductance": table.of_pressure(_CURRENT),
+    }
+    for name, pair in named.items():
+        if pair is not None:
+            x, y = (" ".join(map(_number, each)) for each in pair)
+            own_lines = [f"[{name}]", "  type = PiecewiseLinear", "  axis = x"]
+            lines += [f"  {each}" for each in (*own_lines, f"  x = '{x}'", f"  y = '{y}'", "[]")]
+    return _lines([*lines, "[]"])
+
+
+_PROGRAMS: dict[str, Callable[[_JointTable], str]] = {
+    "csv": _csv,
+    "calculix": _calculix,
+    "abaqus": _abaqus,
+    "moose": _moose,
+}
+
+
+def _pairs(first: Real, second: Real) -> list[str]:
+    return [f"{_number(one)}, {_number(other)}" for one, other in zip(first, second, strict=True)]
+
+
+def _number(value: float) -> str:
+    """A number in at most 20 letters, of which CalculiX reads no more."""
+    return f"{value:.9e}"
+
+
+def _comments(mark: str, remarks: Sequence[str]) -> list[str]:
+    return [mark + line for remark in remarks for line in textwrap.wrap(remark, _BROAD - len(mark))]
+
+
+def _lines(lines: Sequence[str]) -> str:
+    """A file of lines, without letters that programs may not know."""
+    text = "\n".join([*lines, ""])
+    return text.replace("²", "^2").replace("µ", "u").encode("ascii", "replace").decode("ascii")
