@@ -76,6 +76,8 @@ GALLERY = (
     "two_rough_bodies",
     "conductance",
     "loading_and_unloading",
+    "where_the_fluid_goes",
+    "leak_over_load",
     "ultrasound",
     "partial_slip",
     "theories",

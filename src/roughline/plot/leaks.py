@@ -18,7 +18,7 @@ from roughline.errors.public import public
 from roughline.plot.curves import rising
 from roughline.plot.style import MARKERS, OPEN, colours, drawing_on, in_unit
 
-_NAME = "hydraulic_aperture"  # of the measure
+_NAME = "hydraulic_aperture"
 _ROW = 0.035  # height of a row of marks at the foot of axes, over theirs
 _DASHES = (":", "-.")
 
@@ -28,6 +28,7 @@ def hydraulic_aperture(
     curves: Curve | Sequence[Curve],
     theories: Sequence[Any] = (),
     labels: Sequence[str] = (),
+    measure: str = _NAME,
     axes: Axes | None = None,
 ) -> Axes:
     """Draw how much a contact lets through over its load, and where it seals.
@@ -38,11 +39,13 @@ def hydraulic_aperture(
     Parameters
     ----------
     curves : Curve or sequence of Curve
-        Of surfaces, pressed with a measure of the name "hydraulic_aperture".
+        Of surfaces, pressed with a measure of the hydraulic aperture.
     theories : sequence of TheoryCurve, optional
         What :func:`roughline.theory` gives for "critical-junction" and "bruggeman".
     labels : sequence of str, optional
         What the curves are called; those of the same name look alike.
+    measure : str, optional
+        Name of the measure.
     axes : Axes, optional
         Where to draw; default: those of a new figure.
 
@@ -51,7 +54,8 @@ def hydraulic_aperture(
     Axes
         The axes that were drawn on, with logarithmic scales. Lines are dashed, with open
         marks, after a larger load. Sealed loads, which have no place on such a scale, are marked at
-        the foot of the axes, in a row for each kind of curve; of a theory the first one is. The
+        the foot of the axes, in a row for each kind of curve. A theory is drawn as far down as the
+        curves, and its first sealed load is marked. The
         pressure is over E* where the bodies are not in metres.
 
     Raises
@@ -76,11 +80,11 @@ def hydraulic_aperture(
     >>> theory = rl.theory("critical-junction", surface, 1.0, loads[:3])
     >>> axes = rl.plot.hydraulic_aperture(curve, theories=[theory])
     """
-    given = _checked_curves(curves)
+    given = _checked_curves(curves, measure)
     _refuse_what_does_not_fit(given, theories, labels)
     unit, E_star = given[0].unit, given[0].E_star
     pressures = [curve.force / curve.length**2 for curve in given]
-    apertures = [curve.measured[_NAME].values for curve in given]
+    apertures = [curve.measured[measure].values for curve in given]
     name, of_pressure, scale = ("$p$", "Pa", 1.0) if unit == "m" else ("$p/E^*$", None, 1 / E_star)
     x_label, x = in_unit(f"mean pressure {name}", np.concatenate(pressures), of_pressure, scale)
     of_length, y = in_unit("", np.concatenate(apertures), unit)
@@ -90,12 +94,15 @@ def hydraulic_aperture(
             given, pressures, apertures, _looks(labels or range(len(given))), strict=True
         )
     ]
-    lines += [_of_theory(each, x, y, dashes) for each, dashes in zip(theories, cycle(_DASHES))]
     with drawing_on(axes, height=4.4) as drawn:
         drawn.set(xscale="log", yscale="log", xlabel=x_label)
         drawn.set_ylabel(f"hydraulic aperture $u_h${of_length}")
         for line in lines:
             line.draw(drawn)
+        least = drawn.get_ylim()[0] if np.nanmax(np.concatenate(apertures)) > 0 else 0.0
+        for theory, dashes in zip(theories, cycle(_DASHES)):
+            lines.append(_of_theory(theory, x, y, dashes, least))
+            lines[-1].draw(drawn)
         _mark_sealed(drawn, lines)
         _explain(drawn, lines)
         _add_leak(drawn, of_length)
@@ -136,12 +143,12 @@ def _looks(names: Sequence[Any]) -> list[dict[str, Any]]:
     return [of_kind[name] for name in names]
 
 
-def _of_theory(theory: Any, x: float, y: float, dashes: str) -> _Line:
-    """A theory; of what is sealed the first pressure alone."""
-    until = np.cumsum(theory.hydraulic_aperture == 0) <= 1
-    pressure, aperture = theory.pressure[until] * x, theory.hydraulic_aperture[until] * y
+def _of_theory(theory: Any, x: float, y: float, dashes: str, least: float) -> _Line:
+    """A theory, down to a least aperture; of what is sealed the first pressure alone."""
+    pressure, aperture = theory.pressure * x, theory.hydraulic_aperture * y
+    kept = (aperture > least) | ((aperture == 0) & (np.cumsum(aperture == 0) == 1))
     look = {"color": "k", "linestyle": dashes, "label": theory.name}
-    return _Line(pressure, aperture, np.full(pressure.size, True), look)
+    return _Line(pressure[kept], aperture[kept], np.full(kept.sum(), True), look)
 
 
 def _mark_sealed(axes: Axes, lines: Sequence[_Line]) -> None:
@@ -181,14 +188,14 @@ def _add_leak(axes: Axes, of_length: str) -> None:
     cubed.set_ylabel(f"leak, in proportion to $u_h^3${of_length.replace(']', '³]')}")
 
 
-def _checked_curves(curves: Any) -> list[Curve]:
-    """Curves with hydraulic apertures."""
+def _checked_curves(curves: Any, measure: str) -> list[Curve]:
+    """Curves that have a measure."""
     given = [curves] if isinstance(curves, Curve) else several(curves)
     if not given or not all(isinstance(curve, Curve) for curve in given):
         refuse("curves", curves, "one or several curves, as rl.press returns them, are needed")
-    if any(_NAME not in curve.measured for curve in given):
+    if any(measure not in curve.measured for curve in given):
         raise InputError(
-            f'a curve has no measure "{_NAME}": press with measures=[...], one of this name'
+            f'a curve has no measure "{measure}": press with measures=[...], one of this name'
         )
     if len({curve.unit for curve in given}) > 1:
         raise InputError("curves are in different units: press bodies in the same unit")
