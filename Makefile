@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
+.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark permeance lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -94,6 +94,9 @@ yield-of-maps: $(VENV)/installed
 
 flow-benchmark: $(VENV)/installed
 	$(BIN)/python benchmarks/flow.py
+
+permeance: $(VENV)/installed
+	$(BIN)/python benchmarks/permeance.py
 
 start-up: $(VENV)/installed
 	$(BIN)/python benchmarks/start_up.py
