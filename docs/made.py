@@ -35,7 +35,8 @@ SECTIONS = {
         *("effective_medium", "compare", "Comparison", "trust_map"),
     ),
     "The fluid in the gap": (
-        *("flow", "Flow", "sealing_pressure", "SealingPressure", "reopening", "Reopening"),
+        *("flow", "Flow", "hydraulic_aperture", "sealing_pressure", "SealingPressure"),
+        *("reopening", "Reopening"),
     ),
     "Half-spaces and contact laws": (
         *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding"),

@@ -11,16 +11,10 @@ import numpy as np
 import roughline as rl
 
 spectrum = rl.SelfAffine(hurst=0.8, length=1e-4, rms_height=0.2e-6, q_roll=2.5e5, q_high=2e6)
-aperture = rl.Measure(
-    name="hydraulic_aperture",
-    symbol="u_h",
-    dimension="length",
-    meaning="gap of two flat plates that let as much through",
-    value=lambda fields: rl.flow(fields, fields.sizes).hydraulic_aperture,
-)
 pressures = np.geomspace(0.1e9, 2.8e9, 20)  # mean over the nominal area [Pa]
 there_and_back = [*pressures, *pressures[-2::-1]]
 
+aperture = rl.hydraulic_aperture("x")
 curves, kinds = [], []
 for kind, hardness in (("elastic", None), ("yielding at 5 GPa", 5e9)):
     for seed in (1, 2, 3):

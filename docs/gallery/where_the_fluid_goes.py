@@ -18,7 +18,7 @@ forces = [pressure * 1e-8 for pressure in pressures]
 curve = rl.press(surface, E_star=110e9, forces=forces, periodic=True, fields=True)
 
 figure, axes = pyplot.subplots(1, 2, figsize=(9.4, 4), layout="constrained")
-flows = [rl.flow(fields, sizes=surface.sizes) for fields in curve.fields]
+flows = [rl.flow(fields) for fields in curve.fields]
 for flow, panel in zip(flows, axes, strict=True):
     rl.plot.flow(flow, unit="m", axes=panel)
 

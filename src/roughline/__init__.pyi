@@ -49,6 +49,7 @@ from roughline.errors import StoreError as StoreError
 from roughline.errors import UnitError as UnitError
 from roughline.fluid.flow import Flow as Flow
 from roughline.fluid.flow import flow as flow
+from roughline.fluid.measures import hydraulic_aperture as hydraulic_aperture
 from roughline.fluid.reopening import Reopening as Reopening
 from roughline.fluid.reopening import reopening as reopening
 from roughline.fluid.sealing_pressure import SealingPressure as SealingPressure

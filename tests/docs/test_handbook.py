@@ -29,7 +29,7 @@ def test_no_two_pages_differ_in_capitals_alone():
     ]
     assert len({page.lower() for page in pages}) == len(pages)
     assert set(made.FILES_OF_NAMES) == {
-        *("roughline.estimate", "roughline.flow", "roughline.material"),
+        *("roughline.estimate", "roughline.flow", "roughline.material", "roughline.reopening"),
     }
 
 

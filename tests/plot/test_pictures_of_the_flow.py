@@ -7,10 +7,7 @@ from matplotlib import pyplot
 import roughline as rl
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0)
-APERTURE = rl.Measure(
-    *("hydraulic_aperture", "u_h", "length", "gap of plates that let as much through"),
-    lambda fields: rl.flow(fields, fields.sizes).hydraulic_aperture,
-)
+APERTURE = rl.hydraulic_aperture("x")
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -122,7 +119,7 @@ def test_apertures_are_drawn_over_the_pressure_in_their_units():
     forces = np.array([0.02, 0.04, 0.06])
     curve = pressed(forces * 1e9, unit="m", E_star=1e9)
     axes = rl.plot.hydraulic_aperture(curve)
-    values = curve.measured["hydraulic_aperture"].values
+    values = curve.measured["hydraulic_aperture_x"].values
     assert (values > 0).all()
     assert (axes.get_xlabel(), axes.get_ylabel()) == (
         *("mean pressure $p$ [MPa]", "hydraulic aperture $u_h$ [mm]"),
@@ -139,7 +136,7 @@ def test_apertures_are_drawn_over_the_pressure_in_their_units():
 
 
 def test_sealed_loads_are_marked_at_the_foot(there_and_back):
-    values = there_and_back.measured["hydraulic_aperture"].values
+    values = there_and_back.measured["hydraulic_aperture_x"].values
     assert (values[[2, 3, 4]] == 0).all()
     assert (values[[0, 1, 6]] > 0).all()
     axes = rl.plot.hydraulic_aperture(there_and_back)
@@ -163,11 +160,14 @@ def test_theories_stand_beside_and_end_where_they_seal(there_and_back):
     axes = rl.plot.hydraulic_aperture(there_and_back, theories)
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert legend[:2] == ["critical-junction", "bruggeman"]
+    values = there_and_back.measured["hydraulic_aperture_x"].values
+    least = 0.9 * values[values > 0].min()  # as far down as the curves
     for theory, look in zip(theories, (":", "-."), strict=True):
         open_ones = theory.hydraulic_aperture > 0
         assert not open_ones.all()
-        drawn = marks(axes, look)
-        assert drawn[: open_ones.sum(), 1] == pytest.approx(theory.hydraulic_aperture[open_ones])
+        drawn = marks(axes, look)[:-1, 1]  # the last one is sealed
+        assert drawn == pytest.approx(theory.hydraulic_aperture[: drawn.size])
+        assert drawn[-1] > least > theory.hydraulic_aperture[drawn.size]
         assert ([loads[~open_ones][0]], False) in at_the_foot(axes)
 
 
@@ -186,7 +186,9 @@ def test_curves_of_one_label_look_alike(there_and_back):
 
 def test_what_has_no_aperture_is_refused(there_and_back):
     curve = rl.press(SPECTRUM.surface(32, 1), E_star=1.0, forces=[0.1])
-    with pytest.raises(rl.InputError, match=r'no measure "hydraulic_aperture": press with measure'):
+    with pytest.raises(
+        rl.InputError, match=r'no measure "hydraulic_aperture_x": press with measure'
+    ):
         rl.plot.hydraulic_aperture([there_and_back, curve])
     metres = pressed([1e7], unit="m", E_star=1e9)
     with pytest.raises(rl.InputError, match="different units"):

@@ -300,11 +300,16 @@ def flow(
     gap = _checked_gap(gap)
     if sizes is None:
         raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
-    path = between("mean_free_path", mean_free_path, 0.0, sys.float_info.max, _PATH_NEEDED)
+    path = checked_free_path(mean_free_path)
     given = checked_sides(sizes), across, path
     if along == "both":
         return _solved(gap, "x", *given), _solved(gap, "y", *given)
     return _solved(gap, along, *given)
+
+
+def checked_free_path(given: Any) -> float:
+    """A mean free path; refused where it is negative or not finite."""
+    return between("mean_free_path", given, 0.0, sys.float_info.max, _PATH_NEEDED)
 
 
 def _solved(gap: Real, along: Along, sizes: tuple[float, float], sides: Sides, path: float) -> Flow:

@@ -11,7 +11,9 @@ import numpy as np
 
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
-from roughline.fluid.flow import Along, Sides, flow
+from roughline.errors.checks import one_of
+from roughline.errors.public import public
+from roughline.fluid.flow import Along, Sides, checked_free_path, flow
 
 
 @dataclass(frozen=True)
@@ -43,9 +45,47 @@ def _found(fields: Fields, along: Along, path: float) -> _Found:
     return known[along, path]
 
 
+@public
+def hydraulic_aperture(along: Along = "x", mean_free_path: float = 0.0) -> Measure:
+    """Measure how much a gap lets through, under each load that is pressed.
+
+    A periodic half-space has periodic sides, a free one closed sides.
+
+    Parameters
+    ----------
+    along : {"x", "y"}, optional
+        Side along which the fluid flows.
+    mean_free_path : float, optional
+        Of a gas, at its mean pressure; it slips. Default: 0, a liquid. [length]
+
+    Returns
+    -------
+    Measure
+        The hydraulic aperture, with the name "hydraulic_aperture_x" or "hydraulic_aperture_y", of a
+        gas that slips "slip_aperture_x" or "slip_aperture_y"; 0 where the gap is sealed.
+
+    Raises
+    ------
+    InputError
+        If there is no such side, or the mean free path is negative or not finite.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
+    >>> aperture = rl.hydraulic_aperture("x")
+    >>> curve = rl.press(
+    ...     surface, E_star=1.0, forces=[0.02, 0.05, 0.1], periodic=True, measures=[aperture]
+    ... )
+    >>> print(curve.measured["hydraulic_aperture_x"].values.round(5))
+    [0.00561 0.00163 0.     ]
+    """
+    one_of("along", along, ("x", "y"))
+    return _hydraulic_aperture(along, checked_free_path(mean_free_path))
+
+
 @functools.cache
-def hydraulic_aperture(along: Along, path: float = 0.0) -> Measure:
-    """Gap of two flat plates that let as much through; of a gas that slips, by its free path."""
+def _hydraulic_aperture(along: Along, path: float) -> Measure:
     slips = path > 0
     return Measure(
         f"{'slip_aperture' if slips else 'hydraulic_aperture'}_{along}",

@@ -51,7 +51,7 @@ def flow(flow: Flow, unit: str | None = None, axes: Axes | None = None) -> Axes:
     >>> import roughline as rl
     >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
     >>> curve = rl.press(surface, E_star=1.0, forces=[0.05], periodic=True, fields=True)
-    >>> axes = rl.plot.flow(rl.flow(curve.fields[0], surface.sizes))
+    >>> axes = rl.plot.flow(rl.flow(curve.fields[0]))
     """
     with drawing_on(axes) as drawn:
         draw_flow(drawn, flow, unit)

@@ -28,7 +28,7 @@ def hydraulic_aperture(
     curves: Curve | Sequence[Curve],
     theories: Sequence[Any] = (),
     labels: Sequence[str] = (),
-    measure: str = _NAME,
+    measure: str = "hydraulic_aperture_x",
     axes: Axes | None = None,
 ) -> Axes:
     """Draw how much a contact lets through over its load, and where it seals.
@@ -39,13 +39,13 @@ def hydraulic_aperture(
     Parameters
     ----------
     curves : Curve or sequence of Curve
-        Of surfaces, pressed with a measure of the hydraulic aperture.
+        Of surfaces, pressed with ``measures=[rl.hydraulic_aperture("x")]``.
     theories : sequence of TheoryCurve, optional
         What :func:`roughline.theory` gives for "critical-junction" and "bruggeman".
     labels : sequence of str, optional
         What the curves are called; those of the same name look alike.
     measure : str, optional
-        Name of the measure.
+        Name of the measure, such as "hydraulic_aperture_y".
     axes : Axes, optional
         Where to draw; default: those of a new figure.
 
@@ -67,13 +67,7 @@ def hydraulic_aperture(
     Examples
     --------
     >>> import roughline as rl
-    >>> aperture = rl.Measure(
-    ...     "hydraulic_aperture",
-    ...     "u_h",
-    ...     "length",
-    ...     "gap of two flat plates that let as much through",
-    ...     lambda fields: rl.flow(fields, fields.sizes).hydraulic_aperture,
-    ... )
+    >>> aperture = rl.hydraulic_aperture("x")
     >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
     >>> loads = [0.02, 0.04, 0.08, 0.04, 0.02]
     >>> curve = rl.press(surface, E_star=1.0, forces=loads, periodic=True, measures=[aperture])
@@ -195,7 +189,7 @@ def _checked_curves(curves: Any, measure: str) -> list[Curve]:
         refuse("curves", curves, "one or several curves, as rl.press returns them, are needed")
     if any(measure not in curve.measured for curve in given):
         raise InputError(
-            f'a curve has no measure "{measure}": press with measures=[...], one of this name'
+            f'a curve has no measure "{measure}": press with measures=[rl.hydraulic_aperture("x")]'
         )
     if len({curve.unit for curve in given}) > 1:
         raise InputError("curves are in different units: press bodies in the same unit")
