@@ -76,31 +76,43 @@ def hydraulic_aperture(
     """
     given = _checked_curves(curves, measure)
     _refuse_what_does_not_fit(given, theories, labels)
-    unit, E_star = given[0].unit, given[0].E_star
-    pressures = [curve.force / curve.length**2 for curve in given]
-    apertures = [curve.measured[measure].values for curve in given]
-    name, of_pressure, scale = ("$p$", "Pa", 1.0) if unit == "m" else ("$p/E^*$", None, 1 / E_star)
-    x_label, x = in_unit(f"mean pressure {name}", np.concatenate(pressures), of_pressure, scale)
-    of_length, y = in_unit("", np.concatenate(apertures), unit)
-    lines = [
-        _Line(pressure * x, aperture * y, rising(curve), look)
-        for curve, pressure, aperture, look in zip(
-            given, pressures, apertures, _looks(labels or range(len(given))), strict=True
-        )
-    ]
+    scales = _Scales.of(given, measure)
+    lines = _lines_of(given, measure, labels, scales)
     with drawing_on(axes, height=4.4) as drawn:
-        drawn.set(xscale="log", yscale="log", xlabel=x_label)
-        drawn.set_ylabel(f"hydraulic aperture $u_h${of_length}")
+        drawn.set(xscale="log", yscale="log", xlabel=scales.pressure)
+        drawn.set_ylabel(f"hydraulic aperture $u_h${scales.length}")
         for line in lines:
             line.draw(drawn)
-        least = drawn.get_ylim()[0] if np.nanmax(np.concatenate(apertures)) > 0 else 0.0
-        for theory, dashes in zip(theories, cycle(_DASHES)):
-            lines.append(_of_theory(theory, x, y, dashes, least))
-            lines[-1].draw(drawn)
+        lines += _lines_of_theories(theories, scales, _lowest(drawn, lines))
+        for line in lines[len(given) :]:
+            line.draw(drawn)
         _mark_sealed(drawn, lines)
         _explain(drawn, lines)
-        _add_leak(drawn, of_length)
+        _add_leak(drawn, scales.length)
     return drawn
+
+
+@dataclass(frozen=True)
+class _Scales:
+    """Labels of pressure and length, and the factors to the units in them."""
+
+    pressure: str
+    x: float
+    length: str
+    y: float
+
+    @classmethod
+    def of(cls, curves: Sequence[Curve], measure: str) -> _Scales:
+        pressures = np.concatenate([_pressure(curve) for curve in curves])
+        apertures = np.concatenate([curve.measured[measure].values for curve in curves])
+        unit, E_star = curves[0].unit, curves[0].E_star
+        name, of_pressure, over = ("$p$", "Pa", 1.0) if unit == "m" else ("$p/E^*$", None, E_star)
+        pressure, x = in_unit(f"mean pressure {name}", pressures, of_pressure, 1 / over)
+        return cls(pressure, x, *in_unit("", apertures, unit))
+
+
+def _pressure(curve: Curve) -> Real:
+    return curve.force / curve.length**2
 
 
 @dataclass(frozen=True)
@@ -137,12 +149,35 @@ def _looks(names: Sequence[Any]) -> list[dict[str, Any]]:
     return [of_kind[name] for name in names]
 
 
-def _of_theory(theory: Any, x: float, y: float, dashes: str, least: float) -> _Line:
-    """A theory, down to a least aperture; of what is sealed the first pressure alone."""
-    pressure, aperture = theory.pressure * x, theory.hydraulic_aperture * y
-    kept = (aperture > least) | ((aperture == 0) & (np.cumsum(aperture == 0) == 1))
-    look = {"color": "k", "linestyle": dashes, "label": theory.name}
-    return _Line(pressure[kept], aperture[kept], np.full(kept.sum(), True), look)
+def _lines_of(
+    curves: Sequence[Curve], measure: str, labels: Sequence[str], scales: _Scales
+) -> list[_Line]:
+    """Curves with their looks."""
+    return [
+        _Line(
+            _pressure(curve) * scales.x,
+            curve.measured[measure].values * scales.y,
+            rising(curve),
+            look,
+        )
+        for curve, look in zip(curves, _looks(labels or range(len(curves))), strict=True)
+    ]
+
+
+def _lowest(axes: Axes, lines: Sequence[_Line]) -> float:
+    """Lower end of axes on which lines are drawn; zero if all of them are sealed."""
+    return axes.get_ylim()[0] if any((line.aperture > 0).any() for line in lines) else 0.0
+
+
+def _lines_of_theories(theories: Sequence[Any], scales: _Scales, least: float) -> list[_Line]:
+    """Theories, down to a least aperture; of what is sealed the first pressure alone."""
+    lines = []
+    for theory, dashes in zip(theories, cycle(_DASHES), strict=False):
+        pressure, aperture = theory.pressure * scales.x, theory.hydraulic_aperture * scales.y
+        kept = (aperture > least) | ((aperture == 0) & (np.cumsum(aperture == 0) == 1))
+        look = {"color": "k", "linestyle": dashes, "label": theory.name}
+        lines.append(_Line(pressure[kept], aperture[kept], np.full(kept.sum(), True), look))
+    return lines
 
 
 def _mark_sealed(axes: Axes, lines: Sequence[_Line]) -> None:
