@@ -188,7 +188,7 @@ def test_a_distribution_is_that_of_the_load_in_the_units_of_its_axes(curve, of, 
 
 def test_the_share_at_the_hardness_is_told(surface):
     pressed = rl.press(surface, E_star=1e11, hardness=1e8, forces=[1.0], fields=True)
-    share = f"{100 * pressed.plastic_fraction[0]:.3g}% of it at the hardness"
+    share = f"{100 * pressed.plastic_fraction[0]:.3g}% of them at the hardness"
     assert share in rl.plot.distribution(pressed, "pressure").get_title()
     assert "hardness" not in rl.plot.distribution(pressed, "gap").get_title()
 

@@ -231,6 +231,20 @@ def test_overclosures_that_calculix_does_not_tell_apart_are_left_out(surface, tm
     assert read_keywords(whole)[1][2].shape == (4, 2)
 
 
+def test_full_contact_is_said_and_has_no_lines_of_infinity(surface, tmp_path):
+    smooth = rl.Surface(1e-3 * surface.heights, surface.sizes, "m")
+    loads = ["1 MPa", "10 GPa", "20 GPa"]
+    question = rl.Question(smooth, PAIR, loads=loads, periodic=True, elastic=True)
+    text = rl.export_table(rl.assess(question), f"abaqus:{tmp_path / 'joint.inp'}").read_text()
+    assert "In full contact from 1.0000e+10 Pa on" in text
+    tables = [each[2] for each in read_keywords(text)[1:]]
+    assert all(np.isfinite(each).all() for each in tables)
+    assert (np.diff(tables[0][:, 1]) > 0).all()
+    assert [len(each) for each in tables[1:]] == [2, 2]
+    plain = read_csv(rl.export_table(rl.assess(question), tmp_path / "joint.csv").read_text())
+    assert np.isinf(plain["stiffness [Pa/m]"]).tolist() == [False, False, True, True]
+
+
 @pytest.mark.parametrize(
     ("table", "message"),
     [

@@ -102,7 +102,7 @@ def draw_distribution(
     mean = in_words(found.mean / whole, own if "[" in label else None, _DIGITS)
     told = [f"dashed: mean {mean}", f"{_percent(in_contact)} of the cells in contact"]
     if found.at_hardness:
-        told.append(f"{_percent(found.at_hardness / in_contact)} of it at the hardness")
+        told.append(f"{_percent(found.at_hardness / in_contact)} of them at the hardness")
     _tell(axes, told)
     where = "" if of == "gap" else " in contact"
     axes.set(xlabel=label, ylabel=f"density{where}{_per(label)}")

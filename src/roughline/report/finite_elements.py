@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _BROAD = 96  # letters of a line of comments
 _LEAST_STEP = 1e-10  # of overclosures that CalculiX tells apart, in the unit of its model
+_WRITTEN = 1e-8  # of the largest overclosure: nearer ones may be written alike
 _PROGRAM_OF = {".csv": "csv", ".i": "moose"}  # by the file's ending; .inp is that of two
 _STIFFNESS, _UNLOADING = "stiffness [Pa/m]", "unloading_stiffness [Pa/m]"
 _HEAT = "thermal_conductance [W/(m^2 K)]"
@@ -55,6 +56,7 @@ class _JointTable:
 
     def of_overclosure(self, least: float = 0.0) -> tuple[Real, Real]:
         """Overclosures that are further than this from the one before, and their pressures."""
+        least = max(least, _WRITTEN * float(self.overclosure[-1]))
         rising = [0]
         for i in range(1, self.overclosure.size):
             if self.overclosure[i] - self.overclosure[rising[-1]] > least:
@@ -197,8 +199,19 @@ def _table_of(assessment: Assessment) -> _JointTable:
         np.insert(pressure, 0, 0.0),
         np.insert(curve.depth[chosen], 0, 0.0),
         columns,
-        _remarks(assessment, touching, columns, chosen.size),
+        [*_remarks(assessment, touching, columns, chosen.size), *_full_contact(pressure, columns)],
     )
+
+
+def _full_contact(pressure: Real, columns: Mapping[str, Real]) -> list[str]:
+    """Say from where on all of the interface touches, so that its stiffness has no end."""
+    closed = np.isinf(columns[_STIFFNESS][0][1:])
+    if not closed.any():
+        return []
+    return [
+        f"In full contact from {pressure[closed][0]:.4e} Pa on: the overclosure stays, and "
+        "stiffness and conductances are infinite and left out."
+    ]
 
 
 def _of_answers(assessment: Assessment) -> dict[str, Real]:
