@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark permeance lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
+.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark permeance lab-benchmark fuzz study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -133,6 +133,12 @@ area: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/area/plan.toml --store out/area.zarr
 	$(BIN)/python -m studies reduce area out/area.zarr
 	$(BIN)/python -m studies publish area
+
+# In six hours of one core; resumable.
+sealing: $(VENV)/installed
+	OMP_NUM_THREADS=1 $(BIN)/python -m studies.sealing.run out/sealing.jsonl
+	$(BIN)/python -m studies reduce sealing out/sealing.jsonl
+	$(BIN)/python -m studies publish sealing
 
 # Of the data of the paper's study, which come with the package.
 averaging: $(VENV)/installed

@@ -1,0 +1,116 @@
+"""The study's figure, and the panels that the lab shows."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from roughline.computing.arrays import Real
+from roughline.paper.studies import StudyCurve, StudyPanel
+from roughline.plot.style import MARKERS, PAGE, colours, new_figure
+from roughline.statistics.averages import average
+from studies.sealing.body import ELASTIC, Case
+from studies.sealing.claims import KINDS, SEALING, THEORIES
+from studies.sealing.measure import LARGEST, Data, mean, theory_of
+from studies.sealing.run import COUNTS, HARDNESSES, HURSTS
+
+SHOWN = 0.8
+"""Hurst exponent of the leaks that are drawn."""
+_DASHES = ("dashed", "dotted", "dashdot")
+_AREA_LABEL, _AREAS = "A / A_0 at sealing", (0.35, 0.6)
+
+
+def sealing_figure(data: Data) -> Figure:
+    """Draw the area at sealing over the size, and the hydraulic aperture over the pressure."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    _draw_areas(left, data)
+    _draw_leaks(right, data)
+    return figure
+
+
+def _draw_areas(axes: Axes, data: Data) -> None:
+    for hardness, colour in zip(HARDNESSES, colours(len(HARDNESSES)), strict=True):
+        for hurst, marker in zip(HURSTS, MARKERS, strict=False):
+            found = [mean(data.sample(n, hurst, hardness).of_both("area")) for n in COUNTS]
+            value, low, high = np.array([(one.value, one.low, one.high) for one in found]).T
+            axes.errorbar(
+                list(COUNTS),
+                value,
+                (value - low, high - value),
+                color=colour,
+                marker=marker,
+                capsize=2,
+                linewidth=0.8,
+                label=KINDS[hardness] if hurst == SHOWN else None,
+            )
+    for area in (SEALING, 0.5):
+        axes.axhline(area, color="0.5", linewidth=0.7, zorder=0)
+    axes.set(xscale="log", xlabel="roll-off waves along a side", ylabel=r"$A/A_0$ at sealing")
+    axes.set(xticks=list(COUNTS), xticklabels=list(map(str, COUNTS)), ylim=_AREAS)
+    axes.minorticks_off()
+    axes.legend(loc="upper right")
+
+
+def _draw_leaks(axes: Axes, data: Data) -> None:
+    for hardness, colour in zip(HARDNESSES, colours(len(HARDNESSES)), strict=True):
+        load, value, low, high = apertures(data, hardness)
+        axes.semilogx(load, value, color=colour, label=KINDS[hardness])
+        axes.fill_between(load, low, high, color=colour, alpha=0.2, linewidth=0)
+    for name, style in zip(THEORIES, _DASHES, strict=True):
+        axes.semilogx(*theory_apertures(name), color="0.3", linestyle=style, label=name)
+    axes.set(xlabel=r"$p\,/\,(E^*\nabla h)$", ylabel=r"$u_h\,/\,h$", ylim=(0, 2.2))
+    axes.legend(loc="lower left", fontsize=6)
+
+
+def apertures(data: Data, hardness: float) -> tuple[Real, Real, Real, Real]:
+    """Loads, and the hydraulic aperture of the mean leak with the ends of its interval."""
+    one = data.sample(LARGEST, SHOWN, hardness)
+    found = average(one.of_both("permeance"))
+    ends = (np.cbrt(np.maximum(each, 0)) for each in (found.mean, found.low, found.high))
+    value, low, high = ends
+    return np.array(one.case.loads), value, low, high
+
+
+def theory_apertures(name: str) -> tuple[Real, Real]:
+    """Loads, and the hydraulic aperture of a theory."""
+    case = Case(LARGEST, SHOWN, ELASTIC)
+    leaks = [theory_of(*THEORIES[name], case, load) for load in case.loads]
+    return np.array(case.loads), np.cbrt(leaks)
+
+
+def panels(data: Data) -> list[StudyPanel]:
+    """Return what the lab shows."""
+    return [_areas(data), _leaks(data)]
+
+
+def _areas(data: Data) -> StudyPanel:
+    sizes = list(COUNTS)
+    curves = []
+    for i, hardness in enumerate(HARDNESSES):
+        found = [mean(data.sample(n, SHOWN, hardness).of_both("area")) for n in sizes]
+        value, low, high = ([getattr(one, end) for one in found] for end in _ENDS)
+        curves.append(StudyCurve(KINDS[hardness], sizes, value, low, high, 2 * i, marks=True))
+    ends = (3.0, 20.0)
+    curves += [
+        StudyCurve(f"{area:g}", ends, (area, area), dash=dash)
+        for area, dash in ((SEALING, "dashed"), (0.5, "dotted"))
+    ]
+    title = f"Area in contact where the last channel closes, Hurst {SHOWN:g}"
+    return StudyPanel(title, "roll-off waves along a side", _AREA_LABEL, ends, _AREAS, curves)
+
+
+_ENDS = ("value", "low", "high")
+
+
+def _leaks(data: Data) -> StudyPanel:
+    curves = []
+    for i, hardness in enumerate(HARDNESSES):
+        load, value, low, high = (each.tolist() for each in apertures(data, hardness))
+        curves.append(StudyCurve(KINDS[hardness], load, value, low, high, 2 * i))
+    for name, dash in zip(THEORIES, _DASHES, strict=True):
+        load, value = (each.tolist() for each in theory_apertures(name))
+        curves.append(StudyCurve(name, load, value, dash=dash))
+    title = f"Hydraulic aperture over the pressure, Hurst {SHOWN:g}"
+    return StudyPanel(title, "p / (E* ∇h)", "u_h / h", (0.004, 0.2), (0.0, 2.2), curves)

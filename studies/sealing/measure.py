@@ -1,0 +1,216 @@
+"""The study's numbers: areas at sealing, leaks beside theories and beside one another, intervals.
+
+A leak is the mean permeance along x and along y, in rms heights³. The leak of an ensemble is the
+mean of its bodies, and is told where no body is sealed in both directions.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+import roughline as rl
+from roughline.computing.arrays import Real
+from roughline.statistics import bootstrap
+from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate, Resampled
+from studies.judged import Found
+from studies.sealing.body import DIRECTIONS, PEAKS, Case
+from studies.sealing.run import COUNTS, FINE_CELLS, FINE_WAVES, Body, body_of
+
+LARGEST, SMALLEST = max(COUNTS), min(COUNTS)
+"""Roll-off waves along a side of the bodies that are judged, and of those beside them."""
+_HALVES = 2.0  # an error that halves with the spacing is twice the difference of two grids
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """The bodies of one case that were solved."""
+
+    case: Case
+    bodies: Mapping[int, Mapping[str, Any]]  # what was measured of each, by their numbers
+
+    @property
+    def count(self) -> int:
+        """Number of bodies."""
+        return len(self.bodies)
+
+    def values(self, name: str) -> Real:
+        """Return what was measured of each body, shape (bodies, ...)."""
+        return np.array([body[name] for body in self.bodies.values()], dtype=np.float64)
+
+    def of_both(self, name: str) -> Real:
+        """Return the mean of what was measured along x and along y of each body."""
+        x, y = (self.values(f"{name}_{along}") for along in DIRECTIONS)
+        return (x + y) / 2
+
+    def leak(self, load: float) -> Real:
+        """Return the leak of each body under a load; NaN if it is above the hardness."""
+        if load not in self.case.loads:
+            return np.full(self.count, np.nan)
+        return self.of_both("permeance")[:, self.case.loads.index(load)]
+
+    def beside(self, other: Sample) -> tuple[Sample, Sample]:
+        """Return the bodies of both that have the same seeds."""
+        common = [number for number in self.bodies if number in other.bodies]
+        first, second = (
+            Sample(one.case, {number: one.bodies[number] for number in common})
+            for one in (self, other)
+        )
+        return first, second
+
+
+@dataclass(frozen=True, eq=False)
+class Data:
+    """All bodies that were pressed, by their cases and numbers."""
+
+    bodies: Mapping[Body, Mapping[str, Any]]
+
+    @classmethod
+    def of(cls, lines: Iterable[str]) -> Data:
+        """Read the lines of a run."""
+        return cls({body_of(line): json.loads(line) for line in lines})
+
+    @property
+    def unsolved(self) -> int:
+        """How many bodies had a load that was not solved; they are left out."""
+        return sum("sealing_x" not in each for each in self.bodies.values())
+
+    @property
+    def version(self) -> str:
+        """Version of roughline that pressed them; "a and b" if they were several."""
+        return " and ".join(sorted({each["version"] for each in self.bodies.values()}))
+
+    def sample(self, waves: int, hurst: float, hardness: float, cells: int = 8) -> Sample:
+        """Return the bodies of a case."""
+        case = Case(waves, hurst, hardness, cells)
+        return Sample(
+            case,
+            {
+                number: each
+                for (of, number), each in self.bodies.items()
+                if of == case and "sealing_x" in each
+            },
+        )
+
+    def grids(self, hurst: float, hardness: float) -> tuple[Sample, Sample]:
+        """Return the same small bodies on a grid twice as fine, and on that of the study."""
+        fine = self.sample(FINE_WAVES, hurst, hardness, FINE_CELLS)
+        return fine.beside(self.sample(FINE_WAVES, hurst, hardness))
+
+
+def mean(values: Real, confidence: float = 0.95) -> IntervalEstimate:
+    """Return a mean over bodies with its interval."""
+    return bootstrap.means(values).interval_estimate(confidence)
+
+
+def at_sealing(data: Data, waves: int, hurst: float, hardness: float, confidence: float) -> Found:
+    """Return the contact area where the last channel closes, widened by the error of the grid."""
+    one = data.sample(waves, hurst, hardness)
+    area = mean(one.of_both("area"), confidence)
+    shift = _HALVES * area_shift(data, hurst, hardness).value
+    down, up = min(shift, 0), max(shift, 0)
+    return Found(area.low + down, area.value + down, area.value + up, area.high + up, one.count)
+
+
+def area_shift(data: Data, hurst: float, hardness: float, name: str = "area") -> IntervalEstimate:
+    """Return by how much the area at sealing is larger on a grid twice as fine. [1]"""
+    fine, coarse = data.grids(hurst, hardness)
+    return mean(fine.of_both(name) - coarse.of_both(name))
+
+
+def size_change(data: Data, hurst: float, hardness: float, confidence: float) -> IntervalEstimate:
+    """Return by how much more is in contact at sealing on the largest than on the smallest."""
+    large, small = (
+        bootstrap.means(data.sample(waves, hurst, hardness).of_both("area"), rng)
+        for rng, waves in enumerate((LARGEST, SMALLEST))
+    )
+    return (large - small).interval_estimate(confidence)
+
+
+def leak(one: Sample, load: float) -> Resampled | None:
+    """Return the logarithm of the mean leak under a load; None where a body is sealed."""
+    values = one.leak(load)
+    return bootstrap.means(values).log() if (values > 0).all() else None
+
+
+def ratio(first: Real, second: Real, confidence: float = 0.95) -> IntervalEstimate:
+    """Return the ratio of mean leaks of the same bodies in two states, if no body is sealed."""
+    if not (np.stack([first, second]) > 0).all():
+        return NO_ESTIMATE
+    pairs = np.column_stack([first, second])
+    logarithm = bootstrap.sum_of_log_means(pairs, np.array([1.0, -1.0]))
+    return logarithm.interval_estimate(confidence).exp()
+
+
+@cache
+def theory_of(name: str, threshold: float, case: Case, load: float) -> float:
+    """Leak of a theory under a load, in rms heights³."""
+    spectrum = case.spectrum.lattice(case.points)
+    curve = rl.theory(name, spectrum, 1.0, [load * case.slope], threshold)
+    assert curve.hydraulic_aperture is not None
+    return float(curve.hydraulic_aperture[0] ** 3)
+
+
+def over_theory(
+    data: Data,
+    theory: tuple[str, float],
+    case: Case,
+    load: float,
+    confidence: float = 0.95,
+) -> Found | None:
+    """Return the leak over that of a theory, by its name and threshold, widened by the grid.
+
+    None where a body is sealed, or nothing leaks by the theory.
+    """
+    one = data.sample(case.waves, case.hurst, case.hardness)
+    logarithm, expected = leak(one, load), theory_of(*theory, case, load)
+    fine, coarse = (each.leak(load) for each in data.grids(case.hurst, case.hardness))
+    shift = ratio(fine, coarse).value
+    if logarithm is None or not expected or math.isnan(shift):
+        return None
+    found = logarithm.interval_estimate(confidence).exp().over(expected)
+    return _widened(found, shift, one.count)
+
+
+def plastic_factor(
+    data: Data, waves: int, hurst: float, hardness: float, load: float, confidence: float = 0.95
+) -> Found | None:
+    """Return the leak of elastic bodies over that of the same bodies that yield, under a load."""
+    hard = math.inf
+    elastic, yielding = data.sample(waves, hurst, hard).beside(data.sample(waves, hurst, hardness))
+    found = ratio(elastic.leak(load), yielding.leak(load), confidence)
+    shift = 1.0
+    for of, power in ((hard, 1), (hardness, -1)):
+        fine, coarse = data.grids(hurst, of)
+        shift *= ratio(fine.leak(load), coarse.leak(load)).value ** power
+    if math.isnan(found.value) or math.isnan(shift):
+        return None
+    return _widened(found, shift, elastic.count)
+
+
+def _widened(found: IntervalEstimate, shift: float, count: int) -> Found:
+    """Widen a ratio to one side by the error of the grid, from its factor on a finer one."""
+    factor = shift**_HALVES
+    down, up = min(factor, 1), max(factor, 1)
+    return Found(found.low * down, found.value * down, found.value * up, found.high * up, count)
+
+
+def taken_off(one: Sample, peak: float, confidence: float = 0.95) -> IntervalEstimate:
+    """Return the share of the largest load that may be taken off before ten times as much leaks."""
+    return mean(1 - one.values(f"tenfold_{peak:g}"), confidence)
+
+
+def tightening(one: Sample, peak: float, confidence: float = 0.95) -> IntervalEstimate:
+    """Return the leak on loading over that on unloading, under half of the largest load."""
+    return ratio(one.values(f"loading_{peak:g}"), one.values(f"unloading_{peak:g}"), confidence)
+
+
+def until_open(one: Sample, confidence: float = 0.95) -> IntervalEstimate:
+    """Return the share of a load beyond sealing that may be taken off until a channel opens."""
+    return mean(1 - one.values(f"opens_{PEAKS[-1]:g}"), confidence)

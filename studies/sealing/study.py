@@ -1,0 +1,216 @@
+"""The page on sealing: the numbers and tables that its text names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+from roughline.errors import StoreError
+from roughline.report.page import Table
+from roughline.statistics.bootstrap import IntervalEstimate
+from studies.judged import Found, cell, change, spread
+from studies.sealing.body import (
+    BAND,
+    COMPARED,
+    ELASTIC,
+    FULL,
+    LOADS,
+    PARTLY,
+    TENFOLD,
+    WEAK,
+    Case,
+)
+from studies.sealing.claims import BELOW, BEYOND, KINDS, THEORIES, claims
+from studies.sealing.figures import SHOWN, panels, sealing_figure
+from studies.sealing.measure import (
+    LARGEST,
+    Data,
+    Sample,
+    area_shift,
+    mean,
+    over_theory,
+    plastic_factor,
+    ratio,
+    taken_off,
+    tightening,
+    until_open,
+)
+from studies.sealing.run import (
+    COUNTS,
+    FINE_COUNT,
+    FINE_WAVES,
+    HARDNESSES,
+    HURSTS,
+    MIDDLE,
+    body_of,
+    planned,
+)
+from studies.study import Study, claims_table
+
+DATA = Path(__file__).parent / "data.jsonl"
+_OF_EACH = ((ELASTIC, LARGEST), (WEAK, LARGEST), (PARTLY, MIDDLE), (FULL, LARGEST))
+
+
+@cache
+def data() -> Data:
+    """Read the data of the study, all of them; a part is refused."""
+    found = Data.of(DATA.read_text(encoding="utf-8").splitlines())
+    bodies = planned()
+    if missing := sum(body not in found.bodies for body in bodies):
+        raise StoreError(
+            f"{DATA.name}: {missing} of {len(bodies)} bodies of the study of sealing are not "
+            "pressed yet; go on with make sealing"
+        )
+    return found
+
+
+def reduce(file: Path) -> None:
+    """Keep what a run has of the plan, in its order; it need not have ended."""
+    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+    found = {body_of(line): line for line in lines if line.endswith("\n")}
+    kept = "".join(found[body] for body in planned() if body in found)
+    DATA.write_text(kept, encoding="utf-8")
+    data.cache_clear()
+
+
+def told(found: Data) -> dict[str, object]:
+    """Return what the text names."""
+    return {
+        "hursts": ", ".join(f"{hurst:g}" for hurst in HURSTS),
+        "shown": SHOWN,
+        "band": BAND,
+        "sizes": ", ".join(map(str, COUNTS)),
+        "counts": ", ".join(map(str, COUNTS.values())),
+        "largest": LARGEST,
+        "middle": MIDDLE,
+        "fine_waves": FINE_WAVES,
+        "fine_count": FINE_COUNT,
+        "hardness": {"weak": WEAK, "partly": PARTLY, "full": FULL},
+        "plastic": _by_kind(found, lambda one: mean(one.of_both("plastic")), ".0%"),
+        "area": _by_kind(found, lambda one: mean(one.of_both("area")), ".3f"),
+        "taken_off": _by_kind(found, lambda one: taken_off(one, BELOW[-1]), ".0%"),
+        "tenfold": TENFOLD,
+        "compared": COMPARED,
+        "peaks": " and ".join(f"{peak:g}" for peak in BELOW),
+        "nearest": BELOW[-1],
+        "beyond": BEYOND,
+        "areas": _area_table(found),
+        "leaks": _theory_table(found),
+        "factors": _factor_table(found),
+        "unloading": _unloading_table(found),
+        "grid": _grid_table(found),
+        "bodies": len(found.bodies),
+        "unsolved": found.unsolved,
+        "version": found.version,
+    }
+
+
+def _by_kind(
+    found: Data, number: Callable[[Sample], IntervalEstimate], form: str
+) -> dict[str, str]:
+    """Return a number of the largest bodies by the first word of their kind, of all spectra."""
+    return {
+        KINDS[hardness].split()[0]: spread(
+            (number(found.sample(LARGEST, hurst, hardness)).value for hurst in HURSTS), form
+        )
+        for hardness in HARDNESSES
+    }
+
+
+def _area_table(found: Data) -> Table:
+    header = ("Hurst", "contact", *(f"{waves} waves" for waves in COUNTS), "in cells", "p/(E*∇h)")
+    rows = []
+    for hurst in HURSTS:
+        for hardness in HARDNESSES:
+            samples = [found.sample(waves, hurst, hardness) for waves in COUNTS]
+            areas = [cell(mean(one.of_both("area")), ".3f", " to ") for one in samples]
+            cells = f"{samples[-1].of_both('cells').mean():.3f}"
+            load = cell(mean(samples[-1].of_both("sealing")), ".3f", " to ")
+            rows.append((f"{hurst:g}", KINDS[hardness], *areas, cells, load))
+    return Table(header, rows, range(len(header)))
+
+
+def _theory_table(found: Data) -> Table:
+    header = ("Hurst", "theory", *(f"{load:g}" for load in LOADS))
+    rows = [
+        (
+            f"{hurst:g}",
+            name,
+            *(_told(over_theory(found, of, Case(LARGEST, hurst, ELASTIC), load)) for load in LOADS),
+        )
+        for hurst in HURSTS
+        for name, of in THEORIES.items()
+    ]
+    return Table(header, rows, range(2, len(header)))
+
+
+def _factor_table(found: Data) -> Table:
+    header = ("Hurst", "contact", "waves", *(f"{load:g}" for load in LOADS))
+    rows = [
+        (
+            f"{hurst:g}",
+            KINDS[hardness],
+            f"{waves}",
+            *(_told(plastic_factor(found, waves, hurst, hardness, load)) for load in LOADS),
+        )
+        for hurst in HURSTS
+        for hardness, waves in _OF_EACH[1:]
+    ]
+    return Table(header, rows, range(2, len(header)))
+
+
+def _percent(shift: float) -> str:
+    return "-" if math.isnan(shift) else f"{shift:+.1%}"
+
+
+def _told(one: Found | None) -> str:
+    return "-" if one is None else f"{one.value:.3g} ({one.low:.3g}-{one.high:.3g})"
+
+
+def _unloading_table(found: Data) -> Table:
+    header = (
+        "Hurst",
+        "contact",
+        "waves",
+        *(f"taken off from {peak:g}" for peak in BELOW),
+        *(f"leak on loading over unloading, {peak:g}" for peak in BELOW),
+        f"until open, from {BEYOND:g}",
+    )
+    rows = []
+    for hurst in HURSTS:
+        for hardness, waves in _OF_EACH:
+            one = found.sample(waves, hurst, hardness)
+            numbers = (
+                *(cell(taken_off(one, peak), ".3f", " to ") for peak in BELOW),
+                *(cell(tightening(one, peak), ".3g", " to ") for peak in BELOW),
+                cell(until_open(one), ".2f", " to "),
+            )
+            rows.append((f"{hurst:g}", KINDS[hardness], f"{waves}", *numbers))
+    return Table(header, rows, range(2, len(header)))
+
+
+def _grid_table(found: Data) -> Table:
+    header = ("Hurst", "contact", "A/A_0", "A/A_0 in cells", *(f"{load:g}" for load in LOADS))
+    rows = []
+    for hurst in HURSTS:
+        for hardness in HARDNESSES:
+            fine, coarse = found.grids(hurst, hardness)
+            shifts = [
+                change(area_shift(found, hurst, hardness, name), "+.4f")
+                for name in ("area", "cells")
+            ]
+            leaks = [ratio(fine.leak(load), coarse.leak(load)).value - 1 for load in LOADS]
+            rows.append((f"{hurst:g}", KINDS[hardness], *shifts, *map(_percent, leaks)))
+    return Table(header, rows, range(2, len(header)))
+
+
+STUDY = Study(
+    DATA.parent,
+    verdicts=lambda: claims_table({"Verdict": claims(data())}),
+    told=lambda: told(data()),
+    figures={"sealing": lambda: sealing_figure(data())},
+    panels=lambda: panels(data()),
+)
+publish = STUDY.publish

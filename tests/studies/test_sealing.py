@@ -1,0 +1,190 @@
+"""The study of sealing: what is measured of a body, and verdicts from data that are made up."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.statistics.verdict import Verdict
+from studies.sealing import study
+from studies.sealing.body import ELASTIC, FULL, LOADS, PARTLY, PEAKS, WEAK, Case, measured
+from studies.sealing.claims import claims
+from studies.sealing.measure import Data, plastic_factor, theory_of
+from studies.sealing.run import COUNTS, HARDNESSES, HURSTS, planned, run
+from studies.sealing.study import STUDY, claims_table, told
+from studies.study import DOCS, filled
+
+SMALL = Case(waves=2, hurst=0.8, hardness=ELASTIC, cells=4)
+FACTOR = {ELASTIC: 1.0, WEAK: 1.5, PARTLY: 2.0, FULL: 8.0}
+"""By which the leak of made-up bodies is lower than that of elastic ones."""
+AREA = {ELASTIC: 0.42, WEAK: 0.42, PARTLY: 0.46, FULL: 0.5}
+TENFOLD = {ELASTIC: 0.9, WEAK: 0.8, PARTLY: 0.4, FULL: 0.1}
+
+
+def made_up(scatter=0.02, factor=FACTOR, area=AREA):
+    """Bodies as the claims say, with a scatter that both directions and all loads share."""
+    bodies = {}
+    for case, number in planned():
+        hard = case.hardness
+        one = scatter * np.random.default_rng([case.waves, number]).uniform(-1, 1)
+        theory = [
+            theory_of("critical-junction", 0.42, replace(case, hardness=ELASTIC, cells=8), p)
+            for p in case.loads
+        ]
+        found = {"waves": case.waves, "version": "0"}
+        for along in ("x", "y"):
+            found[f"permeance_{along}"] = [each / factor[hard] * (1 + one) for each in theory]
+            found[f"area_{along}"] = area[hard] * (1 + one / 10)
+            found[f"cells_{along}"] = area[hard] + 0.02
+            found[f"plastic_{along}"] = 1 - min(hard, 1)
+            found[f"sealing_{along}"] = 0.2
+        for peak in PEAKS[:-1]:
+            found[f"tenfold_{peak:g}"] = TENFOLD[hard] * (1 + one)
+            found[f"loading_{peak:g}"] = 1 + one
+            found[f"unloading_{peak:g}"] = (1 + one) / (1.0 if hard == ELASTIC else 20)
+        found[f"opens_{PEAKS[-1]:g}"] = TENFOLD[hard] / PEAKS[-1] * (1 + one)
+        bodies[case, number] = found
+    return Data(bodies)
+
+
+@pytest.fixture(scope="module")
+def as_said():
+    return made_up()
+
+
+@pytest.mark.parametrize("hardness", [ELASTIC, FULL])
+def test_a_body_seals_where_the_library_says_and_leaks_less_under_more_load(hardness):
+    case = replace(SMALL, hardness=hardness)
+    found = measured(case, 3)
+    for along in ("x", "y"):
+        known = rl.sealing_pressure(
+            case.surface(3),
+            E_star=1.0,
+            hardness=hardness * case.slope,
+            along=along,
+            rtol=0.002,
+            interval=False,
+        )
+        assert found[f"sealing_{along}"] * case.slope == pytest.approx(known.value, rel=0.004)
+        assert np.diff(found[f"permeance_{along}"]).max() <= 0
+    for peak in PEAKS[:-1]:
+        loading, unloading = found[f"loading_{peak:g}"], found[f"unloading_{peak:g}"]
+        if hardness == ELASTIC:
+            assert unloading == pytest.approx(loading, rel=1e-4)
+        else:
+            assert unloading < loading
+    if hardness == ELASTIC:  # what closed last opens first
+        assert found["opens_1.2"] == pytest.approx(1 / 1.2, abs=0.02)
+
+
+@pytest.mark.slow
+def test_a_run_goes_on_where_it_was_cut_off_whatever_the_processes(tmp_path):
+    bodies = [(replace(SMALL, hardness=hardness), i) for i in (0, 1) for hardness in (FULL, WEAK)]
+    whole, cut = tmp_path / "out" / "whole.jsonl", tmp_path / "cut.jsonl"
+    run(bodies, whole)
+    lines = whole.read_text("utf-8").splitlines(keepends=True)
+    assert list(Data.of(lines).bodies) == bodies
+    cut.write_text(lines[0] + lines[1][:200], encoding="utf-8")
+    run(bodies, cut, processes=2)
+    assert cut.read_bytes() == whole.read_bytes()
+
+
+def test_a_body_that_is_not_solved_is_written_down_and_left_out(tmp_path, monkeypatch):
+    def unsolved(*_):
+        raise rl.ConvergenceError("a load was not solved", None)
+
+    monkeypatch.setattr("studies.sealing.run.measured", unsolved)
+    run([(SMALL, 0)], tmp_path / "run.jsonl")
+    data = Data.of((tmp_path / "run.jsonl").read_text("utf-8").splitlines())
+    assert (data.unsolved, data.sample(2, 0.8, ELASTIC, 4).count) == (1, 0)
+
+
+def test_the_plan_has_as_many_surfaces_as_the_study_promises():
+    bodies = planned()
+    assert len(set(bodies)) == len(bodies)
+    for waves in COUNTS:
+        for hurst in HURSTS:
+            for hardness in HARDNESSES:
+                assert sum(case == Case(waves, hurst, hardness) for case, _ in bodies) >= 30
+
+
+def test_the_page_is_that_of_the_whole_data_or_there_is_none():
+    page = DOCS / "sealing.md"
+    try:
+        expected = STUDY.page()
+    except rl.StoreError:
+        assert not page.exists()
+    else:
+        assert page.read_text("utf-8") == expected, "run make published"
+
+
+def test_a_part_of_the_data_is_kept_and_makes_no_page(tmp_path, monkeypatch):
+    monkeypatch.setattr(study, "DATA", tmp_path / "data.jsonl")
+    (case, number), other = planned()[:2]
+    lines = [
+        json.dumps(
+            {
+                "waves": one.waves,
+                "hurst": one.hurst,
+                "hardness": str(one.hardness),
+                "cells": one.cells,
+                "number": i,
+            }
+        )
+        + "\n"
+        for one, i in (other, (case, number))
+    ]
+    (tmp_path / "run.jsonl").write_text("".join(lines) + lines[0][:20], encoding="utf-8")
+    study.reduce(tmp_path / "run.jsonl")
+    kept = (tmp_path / "data.jsonl").read_text("utf-8")
+    assert kept == lines[1] + lines[0]
+    study.data.cache_clear()
+    with pytest.raises(rl.StoreError, match=rf"{len(planned()) - 2} of {len(planned())} bodies"):
+        STUDY.page()
+    study.data.cache_clear()
+
+
+def test_data_that_are_as_is_said_confirm_it(as_said):
+    judged = claims(as_said)
+    by_words = {claim.statement: claim.verdict for claim in judged}
+    for words in (
+        "Elastic contacts seal",
+        "Fully plastic contacts seal",
+        "The area at sealing",
+        "Elastic contacts leak as the critical junction",
+        "Unloaded elastic",
+    ):
+        (found,) = [of for each, of in by_words.items() if each.startswith(words)]
+        assert found is Verdict.CONFIRMED, words
+    said = {words.rpartition(": ")[2]: of for words, of in by_words.items() if "taken" in words}
+    assert said["elastic"] is said["weakly plastic"] is Verdict.REFUTED
+    assert said["fully plastic"] is Verdict.CONFIRMED
+
+
+def test_data_that_are_not_as_is_said_refute_it():
+    other = made_up(factor={**FACTOR, FULL: 40.0}, area={**AREA, ELASTIC: 0.45})
+    refuted = [claim.statement for claim in claims(other) if claim.verdict is Verdict.REFUTED]
+    for words in ("Elastic contacts seal", "Plastic flow lowers the leak"):
+        assert any(each.startswith(words) for each in refuted), refuted
+
+
+def test_a_factor_of_leaks_comes_back_with_its_interval(as_said):
+    for load in (each for each in LOADS if each < FULL):
+        found = plastic_factor(as_said, 16, 0.5, FULL, load)
+        assert found.low <= found.value <= found.high
+        assert found.value == pytest.approx(FACTOR[FULL])
+    assert plastic_factor(as_said, 16, 0.5, FULL, LOADS[-1]) is None
+
+
+def test_the_text_and_the_figures_are_those_of_data(as_said):
+    table = claims_table({"Verdict": claims(as_said)})
+    text = (STUDY.folder / "text.md").read_text("utf-8")
+    page = filled(text, {"verdicts": table, **told(as_said)})
+    assert "closes where 0.420 to 0.42" in page
+    assert "nan" not in page
+    figure, panels = study.sealing_figure(as_said), study.panels(as_said)
+    assert len(figure.axes) == len(panels) == 2
+    assert all(math.isfinite(y) for panel in panels for curve in panel.curves for y in curve.y)
