@@ -24,7 +24,7 @@ HARDNESSES = (ELASTIC, WEAK, FULL)
 COUNTS = {4: 60, 8: 40, 16: 30}
 """Surfaces of each case, by the roll-off waves along a side."""
 MIDDLE = 8
-"""Waves along a side of the bodies with one more hardness."""
+"""Waves along a side of the bodies with one more hardness, PARTLY."""
 FINE_CELLS, FINE_WAVES, FINE_COUNT = 16, 4, 12
 """Cells for the shortest wave of the bodies that show the error of the grid, and how many."""
 
@@ -40,10 +40,13 @@ def planned() -> list[Body]:
         Case(waves, hurst, hardness): count
         for waves, count in COUNTS.items()
         for hurst in HURSTS
-        for hardness in (*HARDNESSES, *((PARTLY,) if waves == MIDDLE else ()))
+        for hardness in HARDNESSES
     }
     for hurst in HURSTS:
-        for hardness in HARDNESSES:
+        counts[Case(FINE_WAVES, hurst, PARTLY)] = FINE_COUNT
+        counts[Case(MIDDLE, hurst, PARTLY)] = COUNTS[MIDDLE]
+    for hurst in HURSTS:
+        for hardness in (*HARDNESSES, PARTLY):
             counts[Case(FINE_WAVES, hurst, hardness, FINE_CELLS)] = FINE_COUNT
     return [
         (case, number)
