@@ -35,7 +35,16 @@ SECTIONS = {
         *("effective_medium", "compare", "Comparison", "trust_map"),
     ),
     "The fluid in the gap": (
-        *("flow", "Flow", "hydraulic_aperture", "sealing_pressure", "SealingPressure"),
+        *(
+            "flow",
+            "Flow",
+            "Liquid",
+            "Gas",
+            "fluid_of",
+            "hydraulic_aperture",
+            "sealing_pressure",
+            "SealingPressure",
+        ),
         *("reopening", "Reopening"),
     ),
     "Half-spaces and contact laws": (

@@ -33,6 +33,9 @@ from roughline.contact.press import press as press
 from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
 from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
 from roughline.contact.status import Status as Status
+from roughline.engineering.fluids import Gas as Gas
+from roughline.engineering.fluids import Liquid as Liquid
+from roughline.engineering.fluids import fluid_of as fluid_of
 from roughline.engineering.materials import Material as Material
 from roughline.engineering.materials import material as material
 from roughline.engineering.pair import contact_modulus as contact_modulus

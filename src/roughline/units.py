@@ -50,6 +50,9 @@ _EXAMPLES = {
     "ohm*m": "1.7e-8 ohm m",
     "W/m/K": "400 W/m/K",
     "kg/m**3": "7860 kg/m^3",
+    "Pa*s": "40 mPa s",
+    "kg/mol": "29 g/mol",
+    "K": "300 K",
 }
 
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import csv
-import difflib
 import functools
 import math
-import re
 from dataclasses import dataclass, fields, replace
 from importlib import resources
 
-from roughline.errors import InputError, UnitError
+from roughline.engineering.described import described
+from roughline.errors import InputError
 from roughline.errors.checks import shown
 from roughline.errors.public import public
-from roughline.units import in_si, refuse_decimal_comma
 
 _UNITS = {
+    "nu": "",
     "E": "Pa",
     "hardness": "Pa",
     "resistivity": "ohm*m",
@@ -24,8 +23,6 @@ _UNITS = {
 }
 _TABLE_FACTOR = 1.5
 """Uncertainty of hardnesses of the table, a factor; published ones scatter by two in all."""
-
-_SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
 
 
 @public
@@ -142,52 +139,17 @@ def material(description: str) -> Material:
     2000000000.0
     """
     known = _table()
-    start = re.search(r"\w+\s*=", description)
-    name = (description[: start.start()] if start else description).strip(" ;").lower()
-    name = re.sub(r"[\s_]+", "-", name)
-    text = description[start.start() :] if start else ""
-    given = _settings(text, description)
+    name, given = described(description, "material", known, _UNITS, "E=70 GPa nu=0.33")
     if not name:
         if not {"E", "nu"} <= given.keys():
             raise InputError(
                 f'the material {shown(description)} needs both E and nu, such as "E=70 GPa nu=0.33"'
             )
         return Material("given", **given)  # type: ignore[arg-type]
-    if name not in known:
-        near = difflib.get_close_matches(name, known, 1)
-        hint = f'; did you mean "{near[0]}"?' if near else "."
-        raise InputError(
-            f"no material is called {shown(name)}{hint} Known are {', '.join(known)}; others are "
-            'given as "E=70 GPa nu=0.33"'
-        )
     changed = ", ".join(given)
     source = f"{known[name].source}; {changed} given" if given else known[name].source
     factor = 1.0 if "hardness" in given else known[name].hardness_factor
     return replace(known[name], **given, source=source, hardness_factor=factor)  # type: ignore[arg-type]
-
-
-def _settings(text: str, description: str) -> dict[str, float]:
-    """Read "name=value" pairs."""
-    given: dict[str, float] = {}
-    rest = _SETTING.sub("", text).replace(";", "").strip()
-    if rest:
-        raise InputError(
-            f'{shown(rest)} in the material {shown(description)} is not of the form "name=value"'
-        )
-    for name, value in _SETTING.findall(text):
-        if name in given:
-            raise InputError(f"the material {shown(description)} gives {name} twice")
-        if name == "nu":
-            refuse_decimal_comma(value, name)
-            try:
-                given[name] = float(value)
-            except ValueError:
-                raise UnitError(f"nu is {shown(value)}; a number such as 0.3 is needed") from None
-        elif name in _UNITS:
-            given[name] = in_si(value, _UNITS[name], name)
-        else:
-            raise InputError(f"a material has no {shown(name)}; it has nu, {', '.join(_UNITS)}")
-    return given
 
 
 @functools.cache

@@ -1,0 +1,61 @@
+"""Texts that describe a material or a fluid: a name of a table, values, or a name and values."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Collection, Mapping
+
+from roughline.errors import InputError, UnitError
+from roughline.errors.checks import shown
+from roughline.units import in_si, refuse_decimal_comma
+
+_SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
+
+
+def described(
+    description: str, what: str, known: Collection[str], units: Mapping[str, str], example: str
+) -> tuple[str, dict[str, float]]:
+    """Return the name in a text such as "steel hardness=2 GPa", and its values in SI units.
+
+    `units` are those of the values that such a thing has, empty of a plain number. The name is
+    empty where values alone are given. An unknown name, an unknown or a senseless value raise an
+    InputError or a UnitError.
+    """
+    start = re.search(r"\w+\s*=", description)
+    name = (description[: start.start()] if start else description).strip(" ;").lower()
+    name = re.sub(r"[\s_]+", "-", name)
+    given = _settings(description[start.start() :] if start else "", description, what, units)
+    if name and name not in known:
+        near = difflib.get_close_matches(name, known, 1)
+        hint = f'; did you mean "{near[0]}"?' if near else "."
+        raise InputError(
+            f"no {what} is called {shown(name)}{hint} Known are {', '.join(known)}; others are "
+            f'given as "{example}"'
+        )
+    return name, given
+
+
+def _settings(text: str, description: str, what: str, units: Mapping[str, str]) -> dict[str, float]:
+    """Read "name=value" pairs."""
+    given: dict[str, float] = {}
+    rest = _SETTING.sub("", text).replace(";", "").strip()
+    if rest:
+        raise InputError(
+            f'{shown(rest)} in the {what} {shown(description)} is not of the form "name=value"'
+        )
+    for name, value in _SETTING.findall(text):
+        if name in given:
+            raise InputError(f"the {what} {shown(description)} gives {name} twice")
+        if name not in units:
+            raise InputError(f"a {what} has no {shown(name)}; it has {', '.join(units)}")
+        given[name] = in_si(value, units[name], name) if units[name] else _number(value, name)
+    return given
+
+
+def _number(value: str, name: str) -> float:
+    refuse_decimal_comma(value, name)
+    try:
+        return float(value)
+    except ValueError:
+        raise UnitError(f"{name} is {shown(value)}; a number such as 0.3 is needed") from None

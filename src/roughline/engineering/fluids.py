@@ -1,0 +1,269 @@
+"""Fluids in the gap: liquids and gases, and their table."""
+
+from __future__ import annotations
+
+import csv
+import functools
+import math
+import re
+from dataclasses import asdict, dataclass
+from importlib import resources
+
+from roughline.engineering.described import described
+from roughline.errors import InputError
+from roughline.errors.checks import refuse, shown
+from roughline.errors.public import public
+
+R = 8.31446261815324
+"""Molar gas constant. [J / (mol K)]"""
+
+ROOM = 293.15
+"""20 °C. [K]"""
+
+_UNITS = {
+    "viscosity": "Pa*s",
+    "molar_mass": "kg/mol",
+    "conductivity": "W/m/K",
+    "heat_capacity_ratio": "",
+    "accommodation": "",
+    "temperature": "K",
+}
+_EXAMPLE = "viscosity=40 mPa s, or viscosity=18 uPa s molar_mass=29 g/mol of a gas"
+
+_SYNONYMS = {
+    "h2o": "water",
+    "glycol": "ethylene-glycol",
+    "glycerine": "glycerol",
+    "n2": "nitrogen",
+    "o2": "oxygen",
+    "ar": "argon",
+    "he": "helium",
+    "h2": "hydrogen",
+    "ch4": "methane",
+    "natural-gas": "methane",
+    "co2": "carbon-dioxide",
+}
+_GRADE = re.compile(r"^\W*(?:(?:iso|oil)\W*)*vg\W*(\d+)\W*(?:oil)?", re.IGNORECASE)
+
+
+@public
+@dataclass(frozen=True)
+class Liquid:
+    """A liquid of constant viscosity.
+
+    Parameters
+    ----------
+    viscosity : float
+        Dynamic viscosity. [Pa s]
+    name : str, optional
+        What it is called.
+    source : str, optional
+        Where the values come from.
+
+    Raises
+    ------
+    InputError
+        If the viscosity is not positive and finite.
+    """
+
+    viscosity: float
+    name: str = "given liquid"
+    source: str = "given by the user"
+
+    def __post_init__(self) -> None:
+        _refuse_senseless(self)
+
+
+@public
+@dataclass(frozen=True)
+class Gas:
+    """An ideal gas.
+
+    Parameters
+    ----------
+    viscosity : float
+        Dynamic viscosity, which does not depend on the pressure. [Pa s]
+    molar_mass : float
+        Mass of a mole. [kg / mol]
+    conductivity : float, optional
+        Thermal conductivity of the gas where it is not rarefied. [W / (m K)]
+    heat_capacity_ratio : float, optional
+        c_p / c_v, 5/3 of a monatomic gas. [1]
+    accommodation : float, optional
+        Thermal accommodation coefficient of both surfaces. Default: that of engineering metals
+        [1]_. [1]
+    temperature : float, optional
+        Default: 20 °C. [K]
+    name : str, optional
+        What it is called.
+    source : str, optional
+        Where the values come from.
+
+    Raises
+    ------
+    InputError
+        If there is no molar mass, or a value is outside its range.
+
+    References
+    ----------
+    .. [1] Song, S., Yovanovich, M. M. Correlation of thermal accommodation coefficient for
+       engineering surfaces. ASME HTD 69, 107-116 (1987); to about 25 %.
+    """
+
+    viscosity: float
+    molar_mass: float | None = None
+    conductivity: float | None = None
+    heat_capacity_ratio: float = 1.4
+    accommodation: float | None = None
+    temperature: float = ROOM
+    name: str = "given gas"
+    source: str = "given by the user"
+
+    def __post_init__(self) -> None:
+        if self.molar_mass is None:
+            raise InputError(
+                f"of {self.name} is not given, and the leak of a gas depends on it; give one in "
+                "kg/mol, or a Liquid",
+                "molar_mass",
+            )
+        _refuse_senseless(self)
+        if not 1 < self.heat_capacity_ratio <= 5 / 3 + 0.05:
+            refuse("heat_capacity_ratio", self.heat_capacity_ratio, "1 to 5/3 is allowed")
+        if self.accommodation is not None and not 0 < self.accommodation <= 1:
+            refuse("accommodation", self.accommodation, "above 0, and at most 1, is allowed")
+
+    @property
+    def gas_constant(self) -> float:
+        """Specific gas constant R_s. [J / (kg K)]"""
+        assert self.molar_mass is not None
+        return R / self.molar_mass
+
+    def mean_free_path(self, pressure: float) -> float:
+        """Mean free path, as viscosity tells it: (η / p) sqrt(π R_s T / 2). [m]
+
+        The pressure is absolute [Pa]; in vacuum the path is infinite.
+        """
+        if pressure == 0:
+            return math.inf
+        speed = math.sqrt(math.pi * self.gas_constant * self.temperature / 2)
+        return self.viscosity / pressure * speed
+
+    def temperature_jump(self, pressure: float) -> float:
+        """Length M that the jumps of temperature at both walls add to a gap [1]_. [m]
+
+        M = 2 (2 - a) / a · 2 γ / (γ + 1) · λ / Pr, with the accommodation coefficient a, the ratio
+        of heat capacities γ and the Prandtl number Pr.
+
+        References
+        ----------
+        .. [1] Yovanovich, M. M. Four decades of research on thermal contact, gap and joint
+           resistance in microelectronics. IEEE Trans. Compon. Packag. Technol. 28, 182-206 (2005).
+        """
+        a, gamma = self.accommodated, self.heat_capacity_ratio
+        jump = 2 * (2 - a) / a * 2 * gamma / (gamma + 1) / self.prandtl
+        return jump * self.mean_free_path(pressure)
+
+    @property
+    def prandtl(self) -> float:
+        """Prandtl number η c_p / k; by Eucken's relation where no conductivity is given. [1]"""
+        gamma = self.heat_capacity_ratio
+        if self.conductivity is None:
+            return 4 * gamma / (9 * gamma - 5)
+        return self.viscosity * gamma / (gamma - 1) * self.gas_constant / self.conductivity
+
+    @property
+    def accommodated(self) -> float:
+        """Accommodation coefficient: the one given, or that of engineering metals. [1]"""
+        if self.accommodation is not None:
+            return self.accommodation
+        assert self.molar_mass is not None
+        is_monatomic = self.heat_capacity_ratio > 1.6
+        mass = 1e3 * self.molar_mass * (1.0 if is_monatomic else 1.4)
+        ratio = 1e3 * self.molar_mass / _OF_IRON
+        cold = math.exp(-0.57 * (self.temperature / 273.15 - 1))
+        return cold * mass / (6.8 + mass) + (1 - cold) * 2.4 * ratio / (1 + ratio) ** 2
+
+
+_OF_IRON = 55.85  # molar mass of the wall [g / mol]
+
+
+@public
+def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
+    """Return a fluid from its name, its values, or a name with other values.
+
+    Parameters
+    ----------
+    description : str, Liquid or Gas
+        Such as "water", "ISO VG 46", "helium", "viscosity=40 mPa s" or
+        "viscosity=18 uPa s molar_mass=29 g/mol". A fluid is returned as it is.
+
+    Raises
+    ------
+    InputError
+        If the name or a value is unknown, or outside its range.
+    UnitError
+        If a value has no unit, or a wrong one.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> helium = rl.fluid_of("He")
+    >>> print(helium.name, helium.viscosity, round(1e9 * helium.mean_free_path(101325.0)))
+    helium 1.96e-05 189
+    """
+    if isinstance(description, Liquid | Gas):
+        return description
+    if not isinstance(description, str):
+        refuse("fluid", description, 'a name such as "water", a Liquid or a Gas is needed')
+    known = _table()
+    name, given = described(_known_name(description), "fluid", known, _UNITS, _EXAMPLE)
+    if not name and "viscosity" not in given:
+        raise InputError(
+            f"the fluid {shown(description)} needs a name or a viscosity, such as "
+            f'"water" or "{_EXAMPLE}"'
+        )
+    start = asdict(known[name]) if name else {}
+    source = f"{start['source']}; {', '.join(given)} given" if name and given else ""
+    values = {**start, **given} | ({"source": source} if source else {})
+    is_gas = isinstance(known[name], Gas) if name else given.keys() != {"viscosity"}
+    if is_gas:
+        return Gas(**values)
+    for other in given.keys() - {"viscosity"}:
+        raise InputError(f"{name} is a liquid, of which the viscosity alone is used, not {other}")
+    return Liquid(**values)
+
+
+def _known_name(description: str) -> str:
+    """Replace a synonym or a viscosity grade at the start of a text by its name in the table."""
+    graded = _GRADE.sub(r"oil-vg-\1", description.strip())
+    first, *rest = re.split(r"\s+(?=\w+\s*=)", graded, maxsplit=1)
+    name = re.sub(r"[\s_]+", "-", first.strip().lower())
+    return " ".join([_SYNONYMS.get(name, first), *rest])
+
+
+def fluids() -> dict[str, Liquid | Gas]:
+    """Return the table of common fluids by name."""
+    return dict(_table())
+
+
+@functools.cache
+def _table() -> dict[str, Liquid | Gas]:
+    path = resources.files("roughline.engineering").joinpath("fluids.csv")
+    lines = path.read_text(encoding="utf-8").splitlines()
+    found: dict[str, Liquid | Gas] = {}
+    for row in csv.DictReader(line for line in lines if not line.startswith("#")):
+        texts = {key: row.pop(key) for key in ("name", "source")}
+        numbers = {key: float(value) for key, value in row.items() if value}
+        kind = Gas if "molar_mass" in numbers else Liquid
+        found[texts["name"]] = kind(**numbers, **texts)  # type: ignore[arg-type]
+    return found
+
+
+def _refuse_senseless(fluid: Liquid | Gas) -> None:
+    """Refuse values that are not positive and finite."""
+    for key in _UNITS:
+        value = getattr(fluid, key, None)
+        if value is not None and not (0 < value < math.inf):
+            raise InputError(
+                f"of {fluid.name} is {value}; a positive, finite number is needed", key
+            )
