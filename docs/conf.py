@@ -57,6 +57,7 @@ WIDE = (
         "lab-table",
         "sessions-table",
         "memory-table",
+        "permeance-table",
         "yielding-table",
         "yield-of-maps-table",
         "made/validation",

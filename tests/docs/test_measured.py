@@ -201,3 +201,41 @@ def test_the_page_of_speed_quotes_its_tables():
     assert f"at {sum(ratio > 1 for ratio in ratios)} of the 24 cold loads" in page
     ours, theirs = re.match(r".*: (roughline [\d.]+), (ASPHER [\w.]+),", lines[2]).groups()
     assert f"These rows are of {ours} and {theirs};" in page
+
+
+def test_permeances_are_those_of_the_table(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    import permeance
+
+    rows = rows_of("permeance", "Beside exact values")
+    for radius, row in zip(permeance.RADII, rows, strict=False):
+        found = [permeance.disc(n, radius) for n in (32, 64, 128)]
+        told = [float(row[f"{n}²"]) for n in (32, 64, 128)]
+        assert found == pytest.approx(told, rel=0.06)
+    for throat, row in zip(permeance.THROATS, rows_of("permeance", "Near sealing"), strict=True):
+        gap = permeance.throttled(throat)
+        exact = float(permeance.in_fractions(gap))
+        assert rl.flow(gap, (9.0, 8.0)).inflow == pytest.approx(exact, rel=2e-15)
+        assert float(row["roughline"]) < 2e-15
+
+
+def test_the_page_of_the_flow_quotes_its_table():
+    page = " ".join((ROOT / "docs" / "flow.md").read_text("utf-8").split())
+    exact = {row["gap"]: row["128²"] for row in rows_of("permeance", "Beside exact values")}
+    wedge, dual = float(exact["wedge"]), float(exact["dual of a rough gap"])
+    disc = abs(float(exact["disc of contact, R = 0.2 of the cell"]))
+    assert f"a wedge is off by {wedge:.0e} on 128²".replace("e-05", "e-5") in page
+    assert f"by {abs(dual):.0e}".replace("e-03", "e-3") in page
+    assert f"off by {100 * disc:.1f} % on 128²" in page
+    grid = rows_of("permeance", "The grid")
+    short = [100 * (1 - number(row["4 cells"])) for row in grid[:3]]
+    assert f"aperture {min(short):.0f} to {max(short):.0f} % too small" in page
+    cubed = [100 * (1 - number(row["4 cells"]) ** 3) for row in grid[:3]]
+    assert f"its cube, {min(cubed):.0f} to {max(cubed):.0f} %" in page
+    places = rows_of("permeance", "One map is one place")
+    quarter = [row for row in places if row["p/(E*∇h)"] == "0.12"]
+    factors = [float(row["factor of the flow"]) for row in quarter]
+    assert f"a factor of {factors[0]:.0f} of their middle" in page
+    assert f"of {factors[1]:.1f} with four, and of {factors[2]:.0f} with eight" in page
+    closed = [100 * (1 - number(row["closed sides over periodic"])) for row in quarter]
+    assert f"by {min(closed):.0f} to {max(closed):.0f} % at a quarter in contact" in page
