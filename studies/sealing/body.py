@@ -17,14 +17,15 @@ import numpy as np
 
 import roughline as rl
 from roughline.contact.curve import Curve
+from roughline.errors import ConvergenceError
 from roughline.fluid.flow import Along
 from roughline.fluid.sealing_pressure import OPEN
 
 SEED = 2012
 BAND = 4
 """q_high / q_roll."""
-ELASTIC, WEAK, PARTLY, FULL = math.inf, 1.0, 0.3, 0.1
-"""Hardnesses H / (E* g): at sealing none, a tenth, half and nearly all of the contact yields."""
+ELASTIC, WEAK, MOSTLY, FULL = math.inf, 1.0, 0.3, 0.1
+"""Hardnesses H / (E* g): at sealing none, an eighth, four fifths, nearly all of the contact yields."""
 LOADS = (0.005, 0.01, 0.02, 0.03, 0.04, 0.06, 0.09, 0.13, 0.18)
 """Loads under which the flow is computed, as far as they are below the hardness."""
 PEAKS = (0.8, 0.95, 1.2)
@@ -39,7 +40,7 @@ TENFOLD = 10.0
 COMPARED = 0.5
 """Load, over the largest, under which the leaks on unloading and on loading are compared."""
 
-_SEARCHED = {ELASTIC: (0.1, 0.8), WEAK: (0.1, 0.8), PARTLY: (0.06, 0.28), FULL: (0.02, 0.095)}
+_SEARCHED = {ELASTIC: (0.1, 0.8), WEAK: (0.1, 0.8), MOSTLY: (0.06, 0.28), FULL: (0.02, 0.095)}
 _SEARCHES = 10  # loads from and to these, between two of which the last channel closes
 _ROUNDS, _PARTS = 3, 4  # so often what lies between these two is cut into so many parts
 
@@ -122,7 +123,9 @@ class _Pressed:
     def permeance(self, i: int, along: Along) -> float:
         """Permeance under a load, in rms heights³."""
         flow = rl.flow(self.curve.fields[i], along=along)
-        return flow.permeance if flow.converged else math.nan
+        if not flow.converged:
+            raise ConvergenceError("the flow did not converge", self.curve)
+        return flow.permeance
 
     def looks(self) -> dict[float, _Look]:
         """Return what is seen under each load."""

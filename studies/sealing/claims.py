@@ -8,7 +8,7 @@ from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Case as Judged
 from roughline.statistics.verdict import Claim, Range, around
 from studies.judged import Found, claim_on, confidence_of_each, spread
-from studies.sealing.body import ELASTIC, FULL, LOADS, PARTLY, PEAKS, WEAK, Case
+from studies.sealing.body import ELASTIC, FULL, LOADS, MOSTLY, PEAKS, WEAK, Case
 from studies.sealing.measure import (
     LARGEST,
     SMALLEST,
@@ -44,7 +44,7 @@ THEORIES = {
 KINDS = {
     ELASTIC: "elastic",
     WEAK: "weakly plastic",
-    PARTLY: "partly plastic",
+    MOSTLY: "mostly plastic",
     FULL: "fully plastic",
 }
 

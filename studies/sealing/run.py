@@ -17,14 +17,14 @@ from pathlib import Path
 
 from roughline._version import __version__
 from roughline.errors import ConvergenceError
-from studies.sealing.body import ELASTIC, FULL, PARTLY, WEAK, Case, measured
+from studies.sealing.body import ELASTIC, FULL, MOSTLY, WEAK, Case, measured
 
 HURSTS = (0.3, 0.5, 0.8)
 HARDNESSES = (ELASTIC, WEAK, FULL)
 COUNTS = {4: 60, 8: 40, 16: 30}
 """Surfaces of each case, by the roll-off waves along a side."""
 MIDDLE = 8
-"""Waves along a side of the bodies with one more hardness, PARTLY."""
+"""Waves along a side of the bodies with one more hardness, MOSTLY."""
 FINE_CELLS, FINE_WAVES, FINE_COUNT = 16, 4, 12
 """Cells for the shortest wave of the bodies that show the error of the grid, and how many."""
 
@@ -43,10 +43,10 @@ def planned() -> list[Body]:
         for hardness in HARDNESSES
     }
     for hurst in HURSTS:
-        counts[Case(FINE_WAVES, hurst, PARTLY)] = FINE_COUNT
-        counts[Case(MIDDLE, hurst, PARTLY)] = COUNTS[MIDDLE]
+        counts[Case(FINE_WAVES, hurst, MOSTLY)] = FINE_COUNT
+        counts[Case(MIDDLE, hurst, MOSTLY)] = COUNTS[MIDDLE]
     for hurst in HURSTS:
-        for hardness in (*HARDNESSES, PARTLY):
+        for hardness in (*HARDNESSES, MOSTLY):
             counts[Case(FINE_WAVES, hurst, hardness, FINE_CELLS)] = FINE_COUNT
     return [
         (case, number)

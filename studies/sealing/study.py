@@ -17,7 +17,7 @@ from studies.sealing.body import (
     ELASTIC,
     FULL,
     LOADS,
-    PARTLY,
+    MOSTLY,
     TENFOLD,
     WEAK,
     Case,
@@ -50,7 +50,7 @@ from studies.sealing.run import (
 from studies.study import Study, claims_table
 
 DATA = Path(__file__).parent / "data.jsonl"
-_OF_EACH = ((ELASTIC, LARGEST), (WEAK, LARGEST), (PARTLY, MIDDLE), (FULL, LARGEST))
+_OF_EACH = ((ELASTIC, LARGEST), (WEAK, LARGEST), (MOSTLY, MIDDLE), (FULL, LARGEST))
 
 
 @cache
@@ -87,7 +87,7 @@ def told(found: Data) -> dict[str, object]:
         "middle": MIDDLE,
         "fine_waves": FINE_WAVES,
         "fine_count": FINE_COUNT,
-        "hardness": {"weak": WEAK, "partly": PARTLY, "full": FULL},
+        "hardness": {"weak": WEAK, "mostly": MOSTLY, "full": FULL},
         "plastic": _by_kind(found, lambda one: mean(one.of_both("plastic")), ".0%"),
         "area": _by_kind(found, lambda one: mean(one.of_both("area")), ".3f"),
         "taken_off": _by_kind(found, lambda one: taken_off(one, BELOW[-1]), ".0%"),
