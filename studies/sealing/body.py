@@ -25,7 +25,7 @@ SEED = 2012
 BAND = 4
 """q_high / q_roll."""
 ELASTIC, WEAK, MOSTLY, FULL = math.inf, 1.0, 0.3, 0.1
-"""Hardnesses H / (E* g): at sealing none, an eighth, four fifths, nearly all of the contact yields."""
+"""Hardnesses H / (E* g): at sealing none, an eighth, most and nearly all of the contact yields."""
 LOADS = (0.005, 0.01, 0.02, 0.03, 0.04, 0.06, 0.09, 0.13, 0.18)
 """Loads under which the flow is computed, as far as they are below the hardness."""
 PEAKS = (0.8, 0.95, 1.2)
