@@ -62,6 +62,7 @@ WIDE = (
         "yield-of-maps-table",
         "made/validation",
         "made/materials",
+        "made/fluids",
     ),
     *("architecture", "conventions", "other_programs", "science"),
     *("how-to/coverage", "how-to/grid_error", "how-to/interface_stiffness", "how-to/several_maps"),

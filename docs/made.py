@@ -18,7 +18,8 @@ from roughline import campaign, plot
 from roughline.cli import app
 from roughline.cli.help import PanelsFirst
 from roughline.contact.quantities import QUANTITIES
-from roughline.engineering import formulas
+from roughline.engineering import formulas, leak
+from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
 from roughline.exact import flow, indenters, mdr, punch, westergaard
@@ -115,6 +116,7 @@ def write_pages(source: str | Path) -> None:
         "names.rst": page_of_names(),
         "commands.md": page_of_commands(),
         "materials.md": page_of_materials(),
+        "fluids.md": page_of_fluids(),
         "quantities.md": page_of_quantities(),
         "answers.md": page_of_answers(),
         "validation.md": page_of_validation(Path(source) / "validation.json"),
@@ -142,6 +144,7 @@ def page_of_names() -> str:
         _summary("Pictures", "roughline.plot", plot.__all__),
         _summary("Campaigns", "roughline.campaign", campaign.__all__),
         _summary("Formulas", "roughline.engineering.formulas", _functions(formulas)),
+        _summary("Formulas of a leak", "roughline.engineering.leak", _functions(leak)),
         *(
             _summary(f"Exact solutions: {_title(module)}", module.__name__, _public(module))
             for module in (punch, indenters, mdr, westergaard, flow)
@@ -184,19 +187,35 @@ def page_of_materials() -> str:
         *("name", "E [GPa]", "ν", "hardness [GPa]", "resistivity [Ω m]"),
         *("conductivity [W/(m K)]", "density [kg/m³]", "source"),
     )
-    comments = [
-        line.lstrip("# ").strip()
-        for line in (Path(rl.__file__).parent / "engineering" / "materials.csv")
-        .read_text("utf-8")
-        .splitlines()
-        if line.startswith("#")
-    ]
     own = (
         'Other values are given as `--materials "E=210 GPa nu=0.31 hardness=12 GPa, steel"`, or as '
         "`rl.Material(...)`. [A new line of this table](../tutorials/extend.md#add-a-material) "
         "changes the package.\n"
     )
-    return f"# Materials\n\n{' '.join(comments)}\n\n{own}\n{table(header, rows)}"
+    return f"# Materials\n\n{_comments('materials')}\n\n{own}\n{table(header, rows)}"
+
+
+def page_of_fluids() -> str:
+    """The table of fluids with its sources."""
+    rows = [
+        (
+            each.name,
+            _value(each.viscosity * 1e3),
+            *(_value(value) for value in _of_gas(each)),
+            each.source,
+        )
+        for each in sorted(fluids().values(), key=lambda each: each.name)
+    ]
+    header = (
+        *("name", "viscosity [mPa s]", "molar mass [g/mol]", "conductivity [W/(m K)]"),
+        *("mean free path at 1 bar [nm]", "source"),
+    )
+    own = (
+        "`rl.fluid_of` reads a name, with values of one's own behind it, such as "
+        '`"air viscosity=23 uPa s temperature=400 K"`; `rl.Liquid(...)` and `rl.Gas(...)` are '
+        "fluids of one's own.\n"
+    )
+    return f"# Fluids\n\n{_comments('fluids')}\n\n{own}\n{table(header, rows)}"
 
 
 def page_of_quantities() -> str:
@@ -316,6 +335,20 @@ def _option(param: Any) -> tuple[str, str]:
     text = re.sub(r"(--[a-z-]+)", r"`\1`", re.sub(r"\s+", " ", param.help or ""))
     shown = param.default not in (None, False, (), []) and "default" not in text
     return names, f"{text} [default: {param.default}]" if shown else text
+
+
+def _comments(table_of: str) -> str:
+    """What stands above a table of the package."""
+    path = Path(rl.__file__).parent / "engineering" / f"{table_of}.csv"
+    lines = path.read_text("utf-8").splitlines()
+    return " ".join(line.lstrip("# ").strip() for line in lines if line.startswith("#"))
+
+
+def _of_gas(fluid: rl.Liquid | rl.Gas) -> tuple[float | None, ...]:
+    """Molar mass [g/mol], conductivity [W/(m K)] and mean free path at 1 bar [nm] of a gas."""
+    if isinstance(fluid, rl.Liquid):
+        return None, None, None
+    return 1e3 * fluid.molar_mass, fluid.conductivity, 1e9 * fluid.mean_free_path(1e5)
 
 
 def _value(value: float | None) -> str:

@@ -12,6 +12,7 @@ import versions
 import roughline as rl
 from roughline.cli import app
 from roughline.contact.quantities import QUANTITIES
+from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
@@ -53,6 +54,14 @@ def test_every_material_is_listed_with_its_source():
     for each in materials().values():
         (row,) = (line for line in page.splitlines() if line.startswith(f"| {each.name} |"))
         assert each.source in row
+
+
+def test_every_fluid_is_listed_with_its_source():
+    page = made.page_of_fluids()
+    for each in fluids().values():
+        (row,) = (line for line in page.splitlines() if line.startswith(f"| {each.name} |"))
+        assert each.source in row
+    assert "| helium | 0.0196 | 4.003 |" in page
 
 
 def test_every_quantity_is_listed_with_its_meaning():
