@@ -1,6 +1,7 @@
 """Limits of size and of coupling, which keep the code readable; `make architecture` prints them."""
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,16 @@ def test_the_solver_has_few_constants_and_few_arrows_between_its_files(graph):
 
 def test_no_function_is_too_large():
     assert large_functions() == []
+
+
+def test_every_file_that_the_code_reads_is_in_the_package():
+    """Beside modules, of which all are."""
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    patterns = declared["tool"]["setuptools"]["package-data"]["roughline"]
+    packed = {path for pattern in patterns for path in SOURCE.glob(pattern)}
+    found = {path for path in SOURCE.rglob("*") if path.is_file() and path.suffix != ".pyc"}
+    left_out = {path for path in found - packed if path.suffix != ".py"}
+    assert sorted(path.relative_to(SOURCE).as_posix() for path in left_out) == []
 
 
 def test_every_target_of_make_is_declared_once_and_its_programs_are_there():
