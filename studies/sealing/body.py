@@ -28,6 +28,8 @@ ELASTIC, WEAK, MOSTLY, FULL = math.inf, 1.0, 0.3, 0.1
 """Hardnesses H / (E* g): at sealing none, an eighth, most and nearly all of the contact yields."""
 LOADS = (0.005, 0.01, 0.02, 0.03, 0.04, 0.06, 0.09, 0.13, 0.18)
 """Loads under which the flow is computed, as far as they are below the hardness."""
+MEDIA = (0.5, 0.42)
+"""Areas at which effective media of the gaps of a body seal."""
 PEAKS = (0.8, 0.95, 1.2)
 """Largest loads before unloading, over the sealing pressure along x."""
 FRACTIONS = (
@@ -127,6 +129,13 @@ class _Pressed:
             raise ConvergenceError("the flow did not converge", self.curve)
         return flow.permeance
 
+    def of_medium(self, i: int, threshold: float) -> float:
+        """Permeance of the effective medium of the gaps under a load, in rms heights³."""
+        fields = self.curve.fields[i]
+        assert fields is not None  # those of all loads are kept
+        gap = np.where(fields.contact, 0.0, np.maximum(fields.gap, 0.0))
+        return rl.effective_medium(gap, threshold) ** 3
+
     def looks(self) -> dict[float, _Look]:
         """Return what is seen under each load."""
         curve = self.curve
@@ -150,10 +159,12 @@ def measured(case: Case, number: int) -> Measured:
     low, high = _SEARCHED[case.hardness]
     searched = np.geomspace(low, high, _SEARCHES).tolist()
     first = _Pressed.of(case, surface, sorted({*case.loads, *searched}))
+    places = list(map(first.loads.index, case.loads))
     found: Measured = {
-        f"permeance_{along}": [first.permeance(first.loads.index(p), along) for p in case.loads]
-        for along in DIRECTIONS
+        f"permeance_{along}": [first.permeance(i, along) for i in places] for along in DIRECTIONS
     }
+    for threshold in MEDIA:
+        found[f"medium_{threshold:g}"] = [first.of_medium(i, threshold) for i in places]
     seen = first.looks()
     del first  # its fields are large
     for _ in range(_ROUNDS):

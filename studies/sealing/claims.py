@@ -11,6 +11,7 @@ from studies.judged import Found, claim_on, confidence_of_each, spread
 from studies.sealing.body import ELASTIC, FULL, LOADS, MOSTLY, PEAKS, WEAK, Case
 from studies.sealing.measure import (
     LARGEST,
+    OF_GAPS,
     SMALLEST,
     Data,
     Sample,
@@ -39,8 +40,10 @@ THEORIES = {
     "the critical junction": ("critical-junction", SEALING),
     "Bruggeman's medium, d = 2": ("bruggeman", 0.5),
     f"Bruggeman's medium that seals at {SEALING:g}": ("bruggeman", SEALING),
+    "Bruggeman's medium of the gaps found here, d = 2": (OF_GAPS, 0.5),
+    f"Bruggeman's medium of these gaps that seals at {SEALING:g}": (OF_GAPS, SEALING),
 }
-"""Theories by name, with the area at which they seal."""
+"""Theories by name, with the area at which they seal; the first ones are of Persson's gaps."""
 KINDS = {
     ELASTIC: "elastic",
     WEAK: "weakly plastic",

@@ -12,11 +12,12 @@ from roughline.plot.style import MARKERS, PAGE, colours, new_figure
 from roughline.statistics.averages import average
 from studies.sealing.body import ELASTIC, Case
 from studies.sealing.claims import KINDS, SEALING, THEORIES
-from studies.sealing.measure import LARGEST, Data, mean, theory_of
+from studies.sealing.measure import LARGEST, OF_GAPS, Data, mean, theory_of
 from studies.sealing.run import COUNTS, HARDNESSES, HURSTS
 
 SHOWN = 0.8
 """Hurst exponent of the leaks that are drawn."""
+_OF_PERSSON = [name for name, (kind, _) in THEORIES.items() if kind != OF_GAPS]
 _DASHES = ("dashed", "dotted", "dashdot")
 _AREA_LABEL, _AREAS = "A / A_0 at sealing", (0.35, 0.6)
 
@@ -58,7 +59,7 @@ def _draw_leaks(axes: Axes, data: Data) -> None:
         load, value, low, high = apertures(data, hardness)
         axes.semilogx(load, value, color=colour, label=KINDS[hardness])
         axes.fill_between(load, low, high, color=colour, alpha=0.2, linewidth=0)
-    for name, style in zip(THEORIES, _DASHES, strict=True):
+    for name, style in zip(_OF_PERSSON, _DASHES, strict=True):
         axes.semilogx(*theory_apertures(name), color="0.3", linestyle=style, label=name)
     axes.set(xlabel=r"$p\,/\,(E^*\nabla h)$", ylabel=r"$u_h\,/\,h$", ylim=(0, 2.2))
     axes.legend(loc="lower left", fontsize=6)
@@ -109,7 +110,7 @@ def _leaks(data: Data) -> StudyPanel:
     for i, hardness in enumerate(HARDNESSES):
         load, value, low, high = (each.tolist() for each in apertures(data, hardness))
         curves.append(StudyCurve(KINDS[hardness], load, value, low, high, 2 * i))
-    for name, dash in zip(THEORIES, _DASHES, strict=True):
+    for name, dash in zip(_OF_PERSSON, _DASHES, strict=True):
         load, value = (each.tolist() for each in theory_apertures(name))
         curves.append(StudyCurve(name, load, value, dash=dash))
     title = f"Hydraulic aperture over the pressure, Hurst {SHOWN:g}"

@@ -18,11 +18,13 @@ import numpy as np
 import roughline as rl
 from roughline.computing.arrays import Real
 from roughline.statistics import bootstrap
-from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate, Resampled
+from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
 from studies.judged import Found
 from studies.sealing.body import DIRECTIONS, PEAKS, Case
 from studies.sealing.run import COUNTS, FINE_CELLS, FINE_WAVES, Body, body_of
 
+OF_GAPS = "of gaps"
+"""Name of the effective medium of the gaps that a body has, not of those of Persson's theory."""
 LARGEST, SMALLEST = max(COUNTS), min(COUNTS)
 """Roll-off waves along a side of the bodies that are judged, and of those beside them."""
 _HALVES = 2.0  # an error that halves with the spacing is twice the difference of two grids
@@ -133,14 +135,8 @@ def size_change(data: Data, hurst: float, hardness: float, confidence: float) ->
     return (large - small).interval_estimate(confidence)
 
 
-def leak(one: Sample, load: float) -> Resampled | None:
-    """Return the logarithm of the mean leak under a load; None where a body is sealed."""
-    values = one.leak(load)
-    return bootstrap.means(values).log() if (values > 0).all() else None
-
-
 def ratio(first: Real, second: Real, confidence: float = 0.95) -> IntervalEstimate:
-    """Return the ratio of mean leaks of the same bodies in two states, if no body is sealed."""
+    """Return the ratio of mean leaks of the same bodies, NaN where one of them is sealed."""
     if not (np.stack([first, second]) > 0).all():
         return NO_ESTIMATE
     pairs = np.column_stack([first, second])
@@ -158,23 +154,23 @@ def theory_of(name: str, threshold: float, case: Case, load: float) -> float:
 
 
 def over_theory(
-    data: Data,
-    theory: tuple[str, float],
-    case: Case,
-    load: float,
-    confidence: float = 0.95,
+    data: Data, theory: tuple[str, float], case: Case, load: float, confidence: float = 0.95
 ) -> Found | None:
     """Return the leak over that of a theory, by its name and threshold, widened by the grid.
 
     None where a body is sealed, or nothing leaks by the theory.
     """
+    name, threshold = theory
     one = data.sample(case.waves, case.hurst, case.hardness)
-    logarithm, expected = leak(one, load), theory_of(*theory, case, load)
+    values = one.leak(load)
+    if name == OF_GAPS:
+        expected = one.values(f"medium_{threshold:g}")[:, case.loads.index(load)]
+    else:
+        expected = np.full(one.count, theory_of(name, threshold, case, load))
     fine, coarse = (each.leak(load) for each in data.grids(case.hurst, case.hardness))
-    shift = ratio(fine, coarse).value
-    if logarithm is None or not expected or math.isnan(shift):
+    found, shift = ratio(values, expected, confidence), ratio(fine, coarse).value
+    if math.isnan(found.value) or math.isnan(shift):
         return None
-    found = logarithm.interval_estimate(confidence).exp().over(expected)
     return _widened(found, shift, one.count)
 
 

@@ -10,7 +10,7 @@ import pytest
 import roughline as rl
 from roughline.statistics.verdict import Verdict
 from studies.sealing import study
-from studies.sealing.body import ELASTIC, FULL, LOADS, MOSTLY, PEAKS, WEAK, Case, measured
+from studies.sealing.body import ELASTIC, FULL, LOADS, MEDIA, MOSTLY, PEAKS, WEAK, Case, measured
 from studies.sealing.claims import claims
 from studies.sealing.measure import Data, plastic_factor, theory_of
 from studies.sealing.run import COUNTS, HARDNESSES, HURSTS, planned, run
@@ -35,6 +35,8 @@ def made_up(scatter=0.02, factor=FACTOR, area=AREA):
             for p in case.loads
         ]
         found = {"waves": case.waves, "version": "0"}
+        for threshold in MEDIA:
+            found[f"medium_{threshold:g}"] = [each * (1 + one) for each in theory]
         for along in ("x", "y"):
             found[f"permeance_{along}"] = [each / factor[hard] * (1 + one) for each in theory]
             found[f"area_{along}"] = area[hard] * (1 + one / 10)
