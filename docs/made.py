@@ -54,15 +54,9 @@ SECTIONS = {
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
         *("Joint", "Friction", "Ultrasound", "Theories", "History", "Unloading", "WholeCurve"),
-        *(
-            "export_table",
-            "PartAssessment",
-            "material",
-            "Material",
-            "contact_modulus",
-            "Rule",
-            "rules",
-        ),
+        *("Fluid", "Inlet", "Outlet", "Seal", "FlowAlong", "Closure", "Liquid", "Gas"),
+        *("export_table", "PartAssessment", "material", "Material", "contact_modulus", "Rule"),
+        "rules",
     ),
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (

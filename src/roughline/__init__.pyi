@@ -2,9 +2,15 @@
 
 from roughline import plot as plot
 from roughline._version import __version__ as __version__
+from roughline.assessment.asked import Closure as Closure
+from roughline.assessment.asked import FlowAlong as FlowAlong
+from roughline.assessment.asked import Fluid as Fluid
 from roughline.assessment.asked import Friction as Friction
 from roughline.assessment.asked import History as History
+from roughline.assessment.asked import Inlet as Inlet
 from roughline.assessment.asked import Joint as Joint
+from roughline.assessment.asked import Outlet as Outlet
+from roughline.assessment.asked import Seal as Seal
 from roughline.assessment.asked import Theories as Theories
 from roughline.assessment.asked import Ultrasound as Ultrasound
 from roughline.assessment.asked import Unloading as Unloading

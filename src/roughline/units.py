@@ -32,6 +32,8 @@ _PREFIXES = dict(zip(range(-18, 19, 3), (*"afpnµm", "", *"kMGTPE"), strict=True
 _POWERS = {prefix: power for power, prefix in _PREFIXES.items()}
 _PREFIXED = re.compile(r"(?P<prefix>[afpnuµμmkMGTPE]?)(?P<unit>m|N|Pa|Hz)")
 _SIGNS = {"ohm": "Ω", "ohm m²": "Ω m²"}
+_BARE = ("mbar l/s",)  # units that people write without a prefix
+_DIMENSIONS = {"m²": 2, "m³/s": 3}  # of lengths that get a prefix
 MOST_DIGITS = 4
 """Significant digits of values that are shown."""
 
@@ -159,10 +161,13 @@ def prefix(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, s
     next.
     """
     sign = _SIGNS.get(unit, unit)
-    if value == 0 or not math.isfinite(value):
+    if value == 0 or not math.isfinite(value) or unit in _BARE:
         return 1.0, sign
+    if unit.startswith("kg"):  # which has a prefix of its own
+        factor, prefixed = prefix(1e3 * value, unit.removeprefix("k"), digits)
+        return 1e3 * factor, prefixed
     exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
-    power = 2 if unit == "m²" else 1  # that the prefix has; areas run from 0.01 to 10000
+    power = _DIMENSIONS.get(unit, 1)  # that the prefix has; areas run from 0.01 to 10000
     thousands = 3 * ((exponent + 2 * (power - 1)) // (3 * power))
     thousands = min(max(thousands, min(_PREFIXES)), max(_PREFIXES))
     return 10.0 ** (-power * thousands), f"{_PREFIXES[thousands]}{sign}"

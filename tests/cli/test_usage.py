@@ -18,6 +18,10 @@ PAGE = Path(__file__).parents[2] / "docs" / "not_offered.md"
         (("press", "x", "--modulus"), "--modulus needs a value"),
         (("press", "x", "--json=3"), "--json takes no value: leave it out"),
         (("press", "x", "--modulos", "3"), "there is no option --modulos; did you mean --modulus?"),
+        (
+            ("press", "x", "--leak-rate", "1"),
+            "there is no option --leak-rate; did you mean --fluid",
+        ),
         (("press", "x", "--xyzzy"), "there is no option --xyzzy; --help lists the options"),
         (("press", "x", "--loads", "abc"), '--loads is "abc"; a whole number is needed'),
         (("press", "x", "--friction", "1,5"), '--friction is "1,5"; a number is needed'),
@@ -38,7 +42,7 @@ def test_a_mistake_in_a_command_is_one_line(invoke, arguments, told):
 
 
 @pytest.mark.parametrize(
-    "option", ["--adhesion", "--leak-rate", "--coating", "--viscoelastic", "--wear", "--lubricant"]
+    "option", ["--adhesion", "--creep", "--coating", "--viscoelastic", "--wear", "--lubricant"]
 )
 def test_what_is_not_offered_is_said_to_be_so(invoke, option):
     code, _, errors = invoke("press", "x", option, "1")

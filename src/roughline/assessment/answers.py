@@ -49,8 +49,13 @@ def answers_of(
         ends = intervals.unloading if intervals else None
         interface = stiffness_of_the_piece(body, curve, ends)
     pressed = _pressed(question, question.pair, body, curve, interface, intervals, case.moments)
-    fields = next((each for each in solution.curve.fields if each is not None), None)
-    return rules.answers(replace(pressed, measured=_taken(solution.measured, asked), fields=fields))
+    found = replace(
+        pressed,
+        measured=_taken(solution.measured, asked),
+        closing=solution.closing,
+        fields=next((each for each in solution.curve.fields if each is not None), None),
+    )
+    return rules.answers(found)
 
 
 def ends_from_many(
@@ -77,7 +82,9 @@ def ends_from_many(
         measured = {
             key: replace(each, low=each.values, high=each.values) for key, each in measured.items()
         }
-    given, _ = rules.answers(replace(pressed, measured=measured, fields=result.fields))
+    given, _ = rules.answers(
+        replace(pressed, measured=measured, closing=result.closing, fields=result.fields)
+    )
     return {key: each.ends for key, each in given.items() if each.ends is not None}
 
 
@@ -109,4 +116,5 @@ def _pressed(
         intervals=intervals,
         hardest=hardness.ends[1] if hardness and isinstance(body, Surface) else None,
         has_depths=bool(question.depths),
+        sealing=question.sealing,
     )

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import functools
+import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar, get_args
+from typing import Any, Literal, TypeVar, get_args
 
 from roughline.assessment.fields import FIELDS, asked_fields
-from roughline.assessment.given import Parsed, quantity, several
+from roughline.assessment.given import Parsed, as_si, quantity, several
+from roughline.engineering.fluids import Gas, Liquid, fluid_of
+from roughline.engineering.seal import SealShape
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.public import public
 
@@ -23,6 +26,24 @@ def _coefficient_of_friction(given: Any) -> float:
     if not 0 < number("friction", given, needed) <= _MOST_FRICTION:
         refuse("friction", given, needed)
     return float(given)
+
+
+def _absolute(name: str) -> Callable[[Any], float]:
+    """A reader of an absolute pressure; that of vacuum is zero. [Pa]"""
+
+    def read(given: Any) -> float:
+        pressure = as_si(given, "Pa", name)
+        if not 0 <= pressure < math.inf:
+            refuse(name, given, "an absolute pressure is needed, which is zero in vacuum")
+        return pressure
+
+    return read
+
+
+def _direction(given: Any) -> Literal["x", "y", "both"]:
+    """A direction over the map."""
+    directions: tuple[Literal["x", "y", "both"], ...] = ("both", "x", "y")
+    return one_of("flow_along", given, directions)
 
 
 @public
@@ -110,7 +131,102 @@ class WholeCurve:
     """Further loads, from a thousandth of the largest one up, solved too for figures."""
 
 
-Asked = Friction | Ultrasound | Joint | Theories | History | Unloading | WholeCurve
+@public
+@dataclass(frozen=True)
+class Fluid:
+    """A fluid in the gap, asked for what flows through, and for what a gas conducts.
+
+    Parameters
+    ----------
+    fluid : str, Liquid or Gas
+        Such as "water" or "helium", of the table of fluids.
+    """
+
+    fluid: Parsed[Liquid | Gas] = Parsed(fluid_of)
+
+
+@public
+@dataclass(frozen=True)
+class Inlet:
+    """Absolute pressure of the fluid where it enters the seal.
+
+    Parameters
+    ----------
+    pressure : float or str
+        Such as "6 bar". [Pa]
+    """
+
+    pressure: Parsed[float] = Parsed(_absolute("inlet"))
+
+
+@public
+@dataclass(frozen=True)
+class Outlet:
+    """Absolute pressure of the fluid where it leaves the seal; without it, that outside.
+
+    Parameters
+    ----------
+    pressure : float or str
+        Such as "1 bar", or zero for vacuum. [Pa]
+    """
+
+    pressure: Parsed[float] = Parsed(_absolute("outlet"))
+
+
+@public
+@dataclass(frozen=True)
+class Seal:
+    """The face that the fluid crosses, asked for its leak rate.
+
+    Parameters
+    ----------
+    shape : str
+        Length across the flow and width along it, such as "100 mm x 2 mm", or the inner and the
+        outer radius of a ring, such as "20 mm .. 24 mm".
+    """
+
+    shape: Parsed[SealShape] = Parsed(SealShape.of)
+
+
+@public
+@dataclass(frozen=True)
+class FlowAlong:
+    """Direction over the map in which the fluid flows; without it, the leakier one of both.
+
+    Parameters
+    ----------
+    direction : {"both", "x", "y"}
+        Along x or y of the map.
+    """
+
+    direction: Parsed[Literal["x", "y", "both"]] = Parsed(_direction)
+
+
+@public
+@dataclass(frozen=True)
+class Closure:
+    """The mean pressure at which the last channel closes, and how far the load may be taken off."""
+
+
+Asked = (
+    Friction
+    | Ultrasound
+    | Joint
+    | Theories
+    | History
+    | Unloading
+    | WholeCurve
+    | Fluid
+    | Inlet
+    | Outlet
+    | Seal
+    | FlowAlong
+    | Closure
+)
+_EARLIER = (
+    *("friction", "frequency", "joint_area", "theories", "history", "unload", "whole_curve"),
+)
+"""What version 0.2 was told by keywords of its own."""
 _KINDS = {each.__name__: each for each in get_args(Asked)}
 
 
@@ -136,7 +252,7 @@ def with_earlier_keywords(question: _Class) -> _Class:
 
     @functools.wraps(made)
     def make(self: Any, *given: Any, **named: Any) -> None:
-        earlier = [each for each in FIELDS if each.is_asked and each.name in named]
+        earlier = [each for each in FIELDS if each.name in _EARLIER and each.name in named]
         if earlier:
             told = {each.name: named.pop(each.name) for each in earlier}
             named["ask"] = (*several(named.get("ask")), *asked_for(told))

@@ -9,6 +9,7 @@ import numpy as np
 from roughline.assessment.answers import answers_of
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
+from roughline.assessment.closing import closings_of
 from roughline.assessment.cost import Announce, tell_cost
 from roughline.assessment.doubts import warnings_of
 from roughline.assessment.loads import LoadProgress
@@ -79,6 +80,7 @@ def assess_body(
         hardness_scatter=scatter,
         larger=taken(solution.larger, asked),
         measured=solution.measured,
+        closing=solution.closing,
         theories=_theories(question, case.body, solution.curve),
         partial_slip=slip_at_largest_load(case, curves),
     )
@@ -91,9 +93,11 @@ def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | Non
     variants = variants_of(case)
     tell_cost(case, variants, announce)
     try:
-        return press_all(variants, case.loads.count, progress)
+        curves = press_all(variants, case.loads.count, progress)
     except Stopped as stop:
         return stop.curves
+    closings, is_stopped = closings_of(case, curves)
+    return replace(curves, closings=closings, stopped="closings" if is_stopped else "")
 
 
 def _refuse_all_at_the_hardness(case: Case, curve: Curve) -> None:

@@ -22,6 +22,7 @@ from roughline.contact.measures import Measured
 from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.rule import Answer
+from roughline.engineering.sealing import Closing
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
@@ -62,6 +63,9 @@ class Assessment:
     measured : mapping of str to Measured
         What answers need from the fields of every load, over the loads of the curve; of the map
         pressed periodically where answers are about the surface that it was cut out of.
+    closing : Closing or None
+        At which mean pressure the gap of the map seals, and how far the load may be taken off, if
+        that was asked for.
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved, rising, each once.
     partial_slip : PartialSlip or None
@@ -85,6 +89,7 @@ class Assessment:
     hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
     larger: LargerSurface | None = None
     measured: Mapping[str, Measured] = field(default_factory=dict)
+    closing: Closing | None = None
     theories: Sequence[TheoryCurve] = ()
     partial_slip: PartialSlip | None = None
     warnings: Sequence[str] = ()

@@ -87,7 +87,7 @@ class Case:
     def measures(self) -> Sequence[Measure]:
         """What rules need from the fields of every load, of the map pressed periodically."""
         is_answered = self.pair is not None and isinstance(self.body, Surface)
-        return rules.measures if is_answered else ()
+        return rules.measures(self.question.sealing) if is_answered else ()
 
     @cached_property
     def judged(self) -> Body:

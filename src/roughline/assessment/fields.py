@@ -209,6 +209,51 @@ FIELDS: tuple[Field, ...] = (
         otherwise="none",
     ),
     _of_answers(
+        name="fluid",
+        of="Fluid",
+        help='Fluid in the gap, such as "water", "oil VG 46", "air" or "helium": adds what flows '
+        "through, and of a gas what it conducts.",
+        otherwise="none",
+    ),
+    _of_answers(
+        name="inlet",
+        of="Inlet",
+        label="inlet pressure",
+        help='Absolute pressure of the fluid where it enters, such as "6 bar".',
+    ),
+    _of_answers(
+        name="outlet",
+        of="Outlet",
+        label="outlet pressure",
+        help='Absolute pressure of the fluid where it leaves, such as "1 bar"; "0 bar" is vacuum.',
+        otherwise="1 atm",
+    ),
+    _of_answers(
+        name="seal",
+        of="Seal",
+        help="The face that the fluid crosses: length across the flow and width along it, such as "
+        '"100 mm x 2 mm", or both radii of a ring, such as "20 mm .. 24 mm".',
+    ),
+    _of_answers(
+        name="flow_along",
+        of="FlowAlong",
+        label="flow along",
+        help="Direction over the map in which the fluid flows.",
+        choices={
+            "both": (None, "the leakier of both"),
+            "x": ("x", "x"),
+            "y": ("y", "y"),
+        },
+    ),
+    _of_answers(
+        name="sealing_pressure",
+        of="Closure",
+        label="sealing",
+        help="Find the mean pressure at which the last channel closes, and down to which load the "
+        "leak stays below ten times that under the largest; it takes as long as some 30 loads.",
+        choices={"no": (False, "as loaded"), "yes": (True, "where it seals")},
+    ),
+    _of_answers(
         name="theories",
         of="Theories",
         flag="--theory",

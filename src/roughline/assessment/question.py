@@ -7,13 +7,19 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, TypeVar, get_args
+from typing import Any, Literal, TypeVar, get_args
 
 from roughline.assessment.asked import (
     Asked,
+    Closure,
+    FlowAlong,
+    Fluid,
     Friction,
     History,
+    Inlet,
     Joint,
+    Outlet,
+    Seal,
     Theories,
     Ultrasound,
     Unloading,
@@ -33,6 +39,7 @@ from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.reading import Reading
 from roughline.engineering.materials import Material
 from roughline.engineering.pair import MaterialPair, contact_modulus
+from roughline.engineering.sealing import ATMOSPHERE, Sealing
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole
 from roughline.errors.public import public
@@ -184,6 +191,7 @@ class Question:
         self._check_joint()
         self._check_loads()
         self._check_materials()
+        self._check_sealing()
         if self.is_of_several:
             self._check_maps()
         for body in (*self.bodies, self.against):
@@ -203,6 +211,31 @@ class Question:
     def frequency_in_hertz(self) -> float | None:
         """Frequency that a reflection is asked for. [Hz]"""
         return self._asked(Ultrasound, lambda asked: asked.frequency)
+
+    @property
+    def sealing(self) -> Sealing | None:
+        """What is asked of a fluid in the gap; None if there is none."""
+        fluid = self._asked(Fluid, lambda asked: asked.fluid)
+        if fluid is None:
+            return None
+        outlet = self._asked(Outlet, lambda asked: asked.pressure)
+        return Sealing(
+            fluid,
+            self._asked(Inlet, lambda asked: asked.pressure),
+            ATMOSPHERE if outlet is None else outlet,
+            self._asked(Seal, lambda asked: asked.shape),
+            self.flow_along,
+        )
+
+    @property
+    def flow_along(self) -> Literal["x", "y", "both"]:
+        """Direction over the map in which a fluid flows."""
+        return self._asked(FlowAlong, lambda asked: asked.direction) or "both"
+
+    @property
+    def finds_closing(self) -> bool:
+        """Whether the pressure that seals is asked for."""
+        return self._asked(Closure, bool) is not None
 
     @property
     def joint(self) -> float | None:
@@ -365,6 +398,12 @@ class Question:
                 "hardness, history and unload belong to a surface; the reduced model of a line "
                 f"{WITHOUT_YIELD} (rms slopes below 0.8 H / E*): leave {came} out, or press a map"
             )
+        if self.sealing is not None or self.finds_closing:
+            asked = called("rl.Closure" if self.sealing is None else "rl.Fluid")
+            raise InputError(
+                f"{asked} belongs to a surface: along a line, in one dimension, any contact stops "
+                "the flow; leave it out, or press a map"
+            )
         if self.joint is not None:
             joint = called("rl.Joint")
             raise InputError(
@@ -415,6 +454,32 @@ class Question:
         if (self.E_star is None) == (self.materials is None):
             raise InputError(
                 f"give either a contact modulus ({called('E_star')}) or two materials ({materials})"
+            )
+
+    def _check_sealing(self) -> None:
+        """Refuse what belongs to a fluid without one, and pressures that drive none."""
+        sealing = self.sealing
+        if self.materials is None and (sealing is not None or self.finds_closing):
+            asked = called("rl.Closure" if sealing is None else "rl.Fluid")
+            raise InputError(f"{asked} needs two materials ({called('materials')})")
+        for each, name in ((Inlet, "inlet"), (Outlet, "outlet"), (Seal, "seal")):
+            if sealing is None and self._asked(each, bool):
+                text = f"{called(f'rl.{each.__name__}')} belongs to a fluid ({called('rl.Fluid')})"
+                raise InputError(f"{text}: give that too", None, name, "fluid")
+        if sealing is None:
+            return
+        inlet, seal = called("rl.Inlet"), called("rl.Seal")
+        if (sealing.inlet is None) != (sealing.seal is None):
+            have, need = (inlet, seal) if sealing.seal is None else (seal, inlet)
+            raise InputError(f"a leak needs {need} beside {have}: give it", None, "inlet", "seal")
+        if sealing.inlet is not None and not sealing.inlet > sealing.outlet:
+            outside = engineering(sealing.outlet, "Pa")
+            raise InputError(
+                f"the inlet ({inlet}) is at {engineering(sealing.inlet, 'Pa')}, and the outlet "
+                f"({called('rl.Outlet')}) at {outside}, both absolute: a fluid enters where its "
+                "pressure is higher",
+                None,
+                *("inlet", "outlet"),
             )
 
     def _check_maps(self) -> None:

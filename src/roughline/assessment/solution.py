@@ -20,6 +20,7 @@ from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve
 from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Intervals
+from roughline.engineering.sealing import Closing
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Missing
 
@@ -34,6 +35,7 @@ class Solution:
     intervals: Intervals | None  # None where the grid's errors are not known
     larger: LargerSurface | None = None  # None where the answers are not about a larger surface
     measured: Mapping[str, Measured] = field(default_factory=dict)  # of the larger one, if it is
+    closing: Closing | None = None
     note: str = ""  # what another way to fill missing points changes, if that was tried
 
 
@@ -46,7 +48,8 @@ def solution_of(case: Case, curves: Curves) -> Solution:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
     measured = measured_of(case, curves, Way.AS_ASKED, are_known=intervals is not None)
-    return Solution(curve, intervals, larger, measured, note)
+    closing = curves.closings.get(Way.AS_ASKED)
+    return Solution(curve, intervals, larger, measured, closing, note)
 
 
 def solution_of_scan(case: Case, body: Line) -> Solution:

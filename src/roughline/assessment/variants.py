@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cache, partial
 from typing import Literal
@@ -26,6 +26,7 @@ from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
 from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.pressed import yields
+from roughline.engineering.sealing import Closing
 from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
@@ -59,6 +60,7 @@ class Curves:
     """Curves of the variants that were pressed, by their names, over the loads of the case."""
 
     by_name: Mapping[str, Curve]  # without the variants that proved needless
+    closings: Mapping[str, Closing] = field(default_factory=dict)  # of variants, if asked for
     stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
 
     @property
@@ -132,7 +134,7 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
                 curve = case.spread(case.press(tell))
             except Interrupted as stop:
                 curves = {**done, variant.name: case.spread(stop.curve)}
-                raise Stopped(Curves(curves, variant.name)) from stop
+                raise Stopped(Curves(curves, stopped=variant.name)) from stop
         if curve is not None:
             # fields and dents are large, and only those of the first are looked at
             done[variant.name] = replace(curve, fields=(), dents=()) if done else curve

@@ -15,7 +15,6 @@ NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered
 _NOT_DONE = {
     "adhesion": "adhesion adhesive adhesion-energy work-of-adhesion surface-energy jkr dmt "
     "pull-off",
-    "the leak through a gap": "leak leaks leakage leak-rate seal gasket flow percolation permeance",
     "a layer or coating": "coating coatings coat layer layers layered film thickness substrate",
     "viscoelasticity": "viscoelastic viscoelasticity viscous creep relaxation rubber loss-modulus",
     "sliding and coupled friction": "sliding slip stick-slip shear fretting coupled-friction "
@@ -23,13 +22,15 @@ _NOT_DONE = {
     "lubrication": "lubrication lubricant oil ehl viscosity film-thickness",
     "wear": "wear abrasion archard running-in",
     "heat": "temperature heat heating thermal-expansion flash-temperature",
-    "gas in the gap": "gas air helium gap-conductance vacuum",
     "time and dynamics": "impact damping velocity speed time vibration",
     "finite deformation": "finite-deformation large-strain finite-strain large-deformation",
     "plastic flow inside the body": "hardening pile-up residual-stress plasticity",
     "an anisotropic body": "anisotropic anisotropy orthotropic single-crystal",
 }
 """What is not done, and words that options would be named by."""
+
+_CALLED = {"--fluid": "leak leaks leakage leak-rate gasket flow permeance gas air gap-conductance"}
+"""Options, and other words for what they ask."""
 
 _KINDS = {"int": "a whole number is needed", "float": "a number is needed"}
 """What is needed where the parser's name of a mistake begins so."""
@@ -83,6 +84,9 @@ def _unknown(option: str, command: Any) -> str:
             return (
                 f"there is no option {option}: {topic} is not offered; what to use: {NOT_OFFERED}"
             )
+    for name, words in _CALLED.items():
+        if name in options and word in words.split():
+            return f"there is no option {option}; did you mean {name}?"
     return f"there is no option {shown(option)[1:-1]}; {_meant(option, options, 'options')}"
 
 

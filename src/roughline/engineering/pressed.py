@@ -13,6 +13,7 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
+from roughline.engineering.sealing import Closing, Sealing
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +69,10 @@ class Pressed:
     measured : mapping of str to Measured
         What rules need from the fields of every load, with what the grid and filled points leave
         open: of the map in a periodic half-space where it was cut out of a larger surface.
+    sealing : Sealing, optional
+        What is asked of a fluid in the gap.
+    closing : Closing, optional
+        At which pressure the gap seals, and down to which load it stays tight, if that is asked.
     fields : Fields, optional
         Of one load: the largest, or one that shows the contact well.
     """
@@ -84,6 +89,8 @@ class Pressed:
     hardest: float | None = None
     has_depths: bool = False
     measured: Mapping[str, Measured] = field(default_factory=dict)
+    sealing: Sealing | None = None
+    closing: Closing | None = None
     fields: Fields | None = None
 
     @property

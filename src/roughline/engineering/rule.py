@@ -14,6 +14,7 @@ from roughline.contact.measures import Measure
 from roughline.engineering.intervals import Ends
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
+from roughline.engineering.sealing import Sealing
 from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse
 from roughline.errors.public import public
@@ -92,6 +93,8 @@ class Rule:
     measures : sequence of Measure, optional
         What it needs from the fields of every load: ``pressed.measure(name)`` returns them, in
         rows.
+    measured_with : callable, optional
+        The same, needed where a fluid in the gap is asked for, from what is asked.
 
     Examples
     --------
@@ -141,6 +144,7 @@ class Rule:
     may_be_infinite: bool = False
     needs_fields: bool = False
     measures: Sequence[Measure] = ()
+    measured_with: Callable[[Sealing], Sequence[Measure]] = lambda _sealing: ()
 
     def answer(self, pressed: Pressed) -> Answer | None:
         """Work out the answer; None where there is none."""
@@ -295,10 +299,15 @@ class Rules:
         """
         del self._by_key[self[key].key]
 
-    @property
-    def measures(self) -> list[Measure]:
-        """What the rules need from the fields of every load, each once."""
-        return list(dict.fromkeys(each for rule in self for each in rule.measures))
+    def measures(self, sealing: Sealing | None) -> list[Measure]:
+        """What the rules need from the fields of every load, each once.
+
+        Some of it only where a fluid in the gap is asked for.
+        """
+        found = [each for rule in self for each in rule.measures]
+        if sealing is not None:
+            found += [each for rule in self for each in rule.measured_with(sealing)]
+        return list(dict.fromkeys(found))
 
     def left_out(self, pair: MaterialPair, frequency: float | None) -> list[str]:
         """Say which answers there are not, as a property of a material is missing.

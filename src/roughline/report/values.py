@@ -22,9 +22,11 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     digits = supported_digits(value, ends)
     factor, sign = scale_of(value, unit, digits)
     shown = f"{decimal(value * factor, digits)}{sign}"
-    if ends is None or np.isnan(ends).any() or not value:
+    if ends is None or np.isnan(ends).any():
         return shown
     low, high = ends
+    if not value:
+        return f"{shown} (up to {with_interval(high, None, unit)})" if high > 0 else shown
     shorter, half_width = sorted(((value - low) / value, (high - value) / value))
     one_sided = shorter < _ONE_SIDED * half_width and half_width > _LEAST
     if half_width < _NARROW and not one_sided:

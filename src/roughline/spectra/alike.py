@@ -159,7 +159,7 @@ def _lay_of(ratio: float) -> float:
 
 def _ratio(lay: float) -> float:
     """Least over largest slope."""
-    return math.sqrt((1 - lay) / (1 + lay))
+    return math.sqrt(max(1 - lay, 0.0) / (1 + lay))  # lay may round above one
 
 
 def _means(values: Real, cells: int) -> Real:

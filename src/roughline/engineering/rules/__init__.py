@@ -7,9 +7,10 @@ from roughline.engineering.rules.acoustic import ACOUSTIC
 from roughline.engineering.rules.contact import CONTACT
 from roughline.engineering.rules.electrical import ELECTRICAL
 from roughline.engineering.rules.mechanical import MECHANICAL
+from roughline.engineering.rules.sealing import SEALING
 from roughline.engineering.rules.thermal import THERMAL
 
-rules = Rules([*MECHANICAL, *CONTACT, *ELECTRICAL, *THERMAL, *ACOUSTIC])
+rules = Rules([*MECHANICAL, *CONTACT, *ELECTRICAL, *THERMAL, *SEALING, *ACOUSTIC])
 """By which all answers are worked out; more can be added."""
 
 

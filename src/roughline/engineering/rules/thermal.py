@@ -30,6 +30,11 @@ def _conductance_of(stiffness: Real, pressed: Pressed) -> Real | None:
     return thermal_conductance(stiffness, pressed.pair.E_star, conductivities)
 
 
+def conductance_of_interface(pressed: Pressed) -> Real | None:
+    """Conductance per area of the solid spots, in rows. [W / (m² K)]"""
+    return _conductance_of(pressed.interface_stiffness / pressed.nominal_area, pressed)
+
+
 def _shape(pressed: Pressed) -> tuple[float, float, tuple[float, float]] | None:
     """Rms height, rms slope and conductivities, where estimates of the literature have all."""
     conductivities = pressed.pair.both("conductivity")
@@ -75,9 +80,7 @@ THERMAL = (
         formula="kappa_s k_i / (E* A_0)",
         validity=f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i",
         source="Barber 2003",
-        value=lambda pressed: _conductance_of(
-            pressed.interface_stiffness / pressed.nominal_area, pressed
-        ),
+        value=conductance_of_interface,
         differing=lambda pressed: {
             "validity": f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i"
             f"{pressed.of_interface}"

@@ -34,7 +34,13 @@ from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comm
 
 _FILES = ("file", "example")
 _KNOWN = (*_FILES, *c.KEYS)
-_NEEDING = ("joint_area", "friction", "frequency")  # controls that need two materials
+_NEEDING = (
+    "joint_area",
+    "friction",
+    "frequency",
+    "fluid",
+    "sealing_pressure",
+)  # controls that need two materials
 _OF_ARGUMENTS = {"E_star": "E"} | {each.name: key for key, each in c.BY_CONTROL.items()}
 """Controls by the names of arguments."""
 

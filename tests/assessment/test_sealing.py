@@ -1,0 +1,219 @@
+"""Answers about a fluid in the gap: from the map to the leak of the seal."""
+
+import json
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.fluid import measures
+from roughline.report.json_output import of_assessment, to_json
+from roughline.report.terminal import print_assessment
+
+LOADS = ["20 MPa", "60 MPa"]
+ASKED = [rl.Inlet("6 bar"), rl.Outlet("1 bar"), rl.Seal("100 mm x 2 mm")]
+WATER, HELIUM = [rl.Fluid("water"), *ASKED], [rl.Fluid("helium"), *ASKED]
+GAS_CONSTANT = 8.314462618
+
+
+@pytest.fixture(scope="module")
+def surface():
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=5e4, q_high=4e5)
+    return spectrum.surface(64, rng=7)
+
+
+def asked(surface, ask, **more):
+    given = {"loads": LOADS, "periodic": True, "elastic": True, "grid_error": False, **more}
+    return rl.assess(rl.Question(surface, "steel,steel", ask=ask, **given))
+
+
+@pytest.fixture(scope="module")
+def kept(surface):
+    """Fields of the same loads."""
+    E_star = rl.contact_modulus(rl.material("steel"), rl.material("steel"))
+    forces = [20e6 * surface.area, 60e6 * surface.area]
+    return rl.press(surface, E_star=E_star, forces=forces, periodic=True, fields=True).fields
+
+
+def flows(kept, along, path=0.0):
+    return [rl.flow(each, each.sizes, along=along, mean_free_path=path) for each in kept]
+
+
+def test_a_liquid_leaks_as_reynolds_says(surface, kept):
+    answers = asked(surface, WATER).answers
+    apertures = [[flow.hydraulic_aperture for flow in flows(kept, along)] for along in "xy"]
+    u_h = np.max(apertures, axis=0)
+    assert answers["hydraulic_aperture"].values == pytest.approx(u_h, rel=1e-9)
+    assert answers["hydraulic_aperture_x"].values == pytest.approx(apertures[0], rel=1e-9)
+    assert answers["hydraulic_aperture_y"].values == pytest.approx(apertures[1], rel=1e-9)
+    eta = rl.Fluid("water").fluid.viscosity
+    leak = 50 * u_h**3 * 5e5 / (12 * eta)
+    assert answers["leak_rate"].values == pytest.approx(leak, rel=1e-9)
+    assert answers["leak_rate"].unit == "m³/s"
+    assert "water" in answers["leak_rate"].validity
+    assert not {"leak_mass", "leak_throughput", "gas_conductance"} & {*answers}
+
+
+def test_a_gas_expands_and_slips(surface, kept):
+    """Its mass follows from the squares of pressures, and from its free path at the mean one."""
+    answers = asked(surface, HELIUM).answers
+    gas = rl.Fluid("helium").fluid
+    path = gas.mean_free_path(3.5e5)
+    u = np.max(
+        [[flow.hydraulic_aperture for flow in flows(kept, along, path)] for along in "xy"], axis=0
+    )
+    assert (u > answers["hydraulic_aperture"].values).all()
+    throughput = 50 * u**3 * (6e5**2 - 1e5**2) / (24 * gas.viscosity)
+    assert answers["leak_throughput"].values == pytest.approx(10 * throughput, rel=1e-9)
+    mass = throughput * gas.molar_mass / (GAS_CONSTANT * 293.15)
+    assert answers["leak_mass"].values == pytest.approx(mass, rel=1e-9)
+    assert "leak_rate" not in answers
+
+
+def test_the_flow_factor_is_that_of_patir_and_cheng(surface, kept):
+    answers = asked(surface, [rl.Fluid("water"), rl.FlowAlong("x")]).answers
+    factor = (answers["hydraulic_aperture"].values / answers["mean_gap"].values) ** 3
+    assert answers["pressure_flow_factor"].values == pytest.approx(factor, rel=1e-9)
+    assert (factor < 1).all()
+    assert "along x" in answers["hydraulic_aperture"].name
+    assert "hydraulic_aperture_x" not in answers
+    assert "leak_rate" not in answers  # no pressures and no seal
+
+
+def test_gas_conducts_beside_the_spots(surface, kept):
+    answers = asked(surface, [rl.Fluid("air")]).answers
+    gas = rl.Fluid("air").fluid
+    jump = gas.temperature_jump(101325.0)
+    expected = [
+        gas.conductivity * np.where(each.contact, 0.0, 1 / (each.gap + jump)).mean()
+        for each in kept
+    ]
+    found = answers["gas_conductance"].values
+    assert found == pytest.approx(expected, rel=1e-5)
+    h_c = answers["thermal_conductance_per_area"].values
+    assert answers["joint_conductance"].values == pytest.approx(h_c + found, rel=1e-12)
+
+
+def test_without_a_fluid_no_flow_is_solved(surface, monkeypatch):
+    def refuse(*_given, **_named):
+        raise AssertionError("a flow is solved")
+
+    monkeypatch.setattr(measures, "flow", refuse)
+    answers = asked(surface, []).answers
+    assert "mean_gap" in answers
+    assert not [each for each in answers.values() if each.rule.group == "sealing"]
+
+
+def test_grid_and_hardness_are_in_the_interval_of_the_leak(surface):
+    result = asked(surface, WATER, elastic=False, grid_error=True)
+    leak, u_h = result.answers["leak_rate"], result.answers["hydraulic_aperture"]
+    assert (leak.low < leak.values).all()
+    assert (leak.values < leak.high).all()
+    least, most = result.hardness_scatter["leak_rate"]
+    assert (least < 1).all()
+    assert (most > 1).all()
+    ratio = leak.high / leak.values
+    assert ratio == pytest.approx((u_h.high / u_h.values) ** 3, rel=1e-9)
+
+
+def test_sealed_is_exactly_zero_and_says_what_the_grid_leaves_open(surface, capsys):
+    """Under so large a load that no path is left on this grid, but one may be on a finer one."""
+    rough = rl.SelfAffine(hurst=0.5, length=1e-3, rms_height=1e-6, q_roll=5e4).surface(64, rng=3)
+    E_star = rl.contact_modulus(rl.material("steel"), rl.material("steel"))
+    load = f"{0.3 * E_star * rough.rms_slope / 1e6} MPa"
+    result = asked(rough, WATER, loads=[load], grid_error=True)
+    leak = result.answers["leak_rate"]
+    assert leak.values[0] == 0
+    assert leak.low[0] == 0
+    assert leak.high[0] > 0
+    print_assessment(result)
+    said = capsys.readouterr().out
+    assert "0 m³/s (up to " in said or "0 m³/s  (up to " in said
+    assert "no path leads through the map" in said
+    assert json.loads(to_json(of_assessment(result)))["answers"]["Q"]["values"] == [0.0]
+
+
+def test_one_channel_that_carries_half_of_the_flow_is_told(surface):
+    heights = np.zeros((64, 64))
+    heights[:, 20:24] = -1e-5  # a groove along x through a flat plateau
+    grooved = rl.Surface(heights, (1e-3, 1e-3), unit="m", is_cut_out=False)
+    result = asked(grooved, [rl.Fluid("water"), rl.FlowAlong("x")], loads=["10 MPa"])
+    assert result.answers["largest_channel"].values == pytest.approx([1.0])
+    (told,) = [each for each in result.warnings if "single channel" in each]
+    assert "100% of the flow" in told
+
+
+def test_of_a_map_it_is_that_of_the_map_that_goes_on(surface):
+    """A joint's load on a map that was cut out: the gap is that of the periodic half-space."""
+    piece = surface.cropped((0, 32), (0, 32))
+    alone = asked(piece, WATER, periodic=False)
+    joint = asked(piece, [*WATER, rl.Joint("4 mm^2")], periodic=False)
+    assert alone.answers["leak_rate"].values == pytest.approx(joint.answers["leak_rate"].values)
+    assert not alone.curve.measured
+
+
+def test_several_maps_have_one_leak(surface):
+    maps = [surface.cropped((x, x + 32), (0, 32)) for x in (0, 32)]
+    part = asked(maps, WATER)
+    assert part.answers["leak_rate"].count.tolist() == [2, 2]
+
+
+def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface):
+    result = asked(surface, rl.Closure(), elastic=False, grid_error=True)
+    seals = result.answers["sealing_pressure"]
+    assert (seals.values == seals.values[0]).all()
+    found = result.closing.pressure
+    assert found.low < seals.values[0] < found.high
+    assert seals.low[0] < found.low
+    assert found.high < seals.high[0]
+    curve = result.curve
+    assert found.value == pytest.approx(
+        rl.sealing_pressure(
+            surface, E_star=curve.E_star, hardness=curve.hardness, rtol=0.02, interval=False
+        ).value
+    )
+    least, most = result.hardness_scatter["sealing_pressure"]
+    assert least[0] < 1 < most[0]
+    assert 0 <= result.answers["reopening"].values[0] < 1
+    assert "leak_rate" not in result.answers
+
+
+def test_ctrl_c_while_it_is_sought_keeps_the_curve(surface, monkeypatch):
+    def stop(*_given, **_named):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("roughline.assessment.closing.sealing_pressure", stop)
+    result = asked(surface, rl.Closure())
+    assert result.interrupted
+    assert "sealing_pressure" not in result.answers
+    assert np.isfinite(result.answers["contact_stiffness"].values).all()
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda: rl.Fluid("watr"), "water"),
+        (lambda: rl.Inlet("-1 bar"), "inlet is .*zero in vacuum"),
+        (lambda: rl.Inlet("6 m"), "inlet is .*no quantity in Pa"),
+        (lambda: rl.FlowAlong("z"), 'flow_along is "z"; allowed are "both", "x" and "y"'),
+        (lambda: [rl.Inlet("6 bar")], "belongs to a fluid"),
+        (lambda: [rl.Seal("1 mm x 1 mm")], "belongs to a fluid"),
+        (lambda: [rl.Fluid("water"), rl.Inlet("6 bar")], "a leak needs .*[sS]eal"),
+        (lambda: [rl.Fluid("water"), rl.Seal("1 mm x 1 mm")], "a leak needs .*[iI]nlet"),
+        (lambda: [rl.Fluid("water"), ASKED[2], rl.Inlet("1 bar")], "pressure is higher"),
+        (lambda: [rl.Fluid("water"), rl.Fluid("air")], "several"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused_in_one_line(surface, ask, said):
+    with pytest.raises(rl.InputError, match=said) as refused:
+        rl.Question(surface, "steel,steel", loads=LOADS, ask=ask())
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("ask", [rl.Fluid("water"), rl.Closure()])
+def test_it_needs_materials_and_a_surface(surface, ask):
+    with pytest.raises(rl.InputError, match="needs two materials"):
+        rl.Question(surface, E_star="100 GPa", loads=LOADS, ask=ask)
+    line = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).line(256, rng=7)
+    with pytest.raises(rl.InputError, match="in one dimension, any contact stops"):
+        rl.Question(line, "steel,steel", loads=["1 N"], ask=ask)
