@@ -217,7 +217,7 @@ def test_named_loads_have_a_row_each(rough, invoke, monkeypatch):
     rows = [line for line in out.splitlines() if re.match(r"\d N ", line)]
     assert [" ".join(row.split()[:2]) for row in rows] == typed
     assert all(len(re.split("  +", row)) == 1 + 4 for row in rows)  # a column for each group
-    assert out.splitlines()[-1] == "16 further answers: --all shows them"
+    assert out.splitlines()[-1] == "17 further answers: --all shows them"
 
 
 def test_a_star_stands_at_the_load_that_the_grid_decides(rough, invoke):
@@ -260,15 +260,15 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     assert code == 0, errors
     lines = table_lines(out)
     assert max(map(len, lines)) <= 80
-    assert len(lines) - 1 <= 2 * 20  # two lines a quantity at most
+    assert len(lines) - 1 <= 2 * 21  # two lines a quantity at most
     code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--all")
-    assert len(table_lines(out)) == 1 + 20 + 3  # one load: one line a quantity, and names of groups
+    assert len(table_lines(out)) == 1 + 21 + 3  # one load: one line a quantity, and names of groups
     assert (
         sum(line.startswith("for comparison, if nothing yielded: ") for line in out.splitlines())
         == 1
     )
     code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--elastic", "--all")
-    assert len(table_lines(out)) == 1 + 17 + 3
+    assert len(table_lines(out)) == 1 + 18 + 3
     assert "if nothing yielded" not in out
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Literal, get_args, overload
+from typing import TYPE_CHECKING, Any, Literal, get_args, overload
 
 import numpy as np
 
@@ -16,9 +16,11 @@ from roughline.contact.fields import Fields
 from roughline.errors import InputError
 from roughline.errors.checks import between, one_of, refuse
 from roughline.errors.public import public_names
-from roughline.fluid.network import Network
 from roughline.topography.body import Line, Surface
 from roughline.topography.heights import checked_sides
+
+if TYPE_CHECKING:
+    from roughline.fluid.network import Network
 
 Along = Literal["x", "y"]
 Sides = Literal["periodic", "closed"]
@@ -314,6 +316,8 @@ def checked_free_path(given: Any) -> float:
 
 def _solved(gap: Real, along: Along, sizes: tuple[float, float], sides: Sides, path: float) -> Flow:
     """The flow along one side."""
+    from roughline.fluid.network import Network  # here because compiled loops load slowly
+
     turned, length, width = (gap, *sizes) if along == "x" else (gap.T, *sizes[::-1])
     from_inlet, from_outlet = components(turned > 0, sides)
     through = from_inlet & from_outlet
