@@ -54,7 +54,7 @@ SECTIONS = {
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
         *("Joint", "Friction", "Ultrasound", "Theories", "History", "Unloading", "WholeCurve"),
-        *("Fluid", "Inlet", "Outlet", "Seal", "FlowAlong", "Closure", "Liquid", "Gas"),
+        *("Fluid", "Inlet", "Outlet", "Seal", "FlowAlong", "Closure"),
         *("export_table", "PartAssessment", "material", "Material", "contact_modulus", "Rule"),
         "rules",
     ),

@@ -109,7 +109,7 @@ OF_MY_SURFACE = some(
         "elastic": st.just("no"),
         "friction": st.floats(1e-9, 5).map(repr),
         "frequency": quantities("Hz", 1, 1e9),
-        "fluid": st.sampled_from(["water", "oil VG 46", "helium", "20 mPa s"]),
+        "fluid": st.sampled_from(["water", "oil VG 46", "helium", "viscosity=20 mPa s"]),
         "theories": st.lists(st.sampled_from(["persson", "greenwood-williamson"])).map(",".join),
     }
 )
