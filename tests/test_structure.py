@@ -60,7 +60,8 @@ def test_every_file_that_the_code_reads_is_in_the_package():
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
     patterns = declared["tool"]["setuptools"]["package-data"]["roughline"]
     packed = {path for pattern in patterns for path in SOURCE.glob(pattern)}
-    found = {path for path in SOURCE.rglob("*") if path.is_file() and path.suffix != ".pyc"}
+    found = {path for path in SOURCE.rglob("*") if path.is_file()}
+    found = {path for path in found if "__pycache__" not in path.parts}
     left_out = {path for path in found - packed if path.suffix != ".py"}
     assert sorted(path.relative_to(SOURCE).as_posix() for path in left_out) == []
 
