@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _NUMBER_AND_UNIT = re.compile(
     r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|[-+]?(inf|nan))\s*"
-    r"(?P<unit>[^\W\d][\w*/^ .()·-]{0,30}|1/[\w*/^ .()·-]{1,30}|)\s*",
+    r"(?P<unit>°?[^\W\d][\w*/^ .()·-]{0,30}|1/[\w*/^ .()·-]{1,30}|)\s*",
     re.IGNORECASE,
 )
 _EXPONENT = re.compile(r"(?<=[^\W\d_])(-?\d+)\b")  # of "mm2", "m-3"

@@ -20,6 +20,16 @@ SUTHERLAND = {  # viscosity [Pa s], temperature [K] and constant [K] of Sutherla
 }
 """F. M. White, Viscous Fluid Flow, 2nd ed. (1991), table 1-2; to 2 to 4 %."""
 
+CONDUCTIVITIES = {  # [W/(m K)], and the same two
+    "air": (0.0241, 273.0, 194.0),
+    "nitrogen": (0.0242, 273.0, 150.0),
+    "oxygen": (0.0244, 273.0, 240.0),
+    "argon": (0.0163, 273.0, 170.0),
+    "carbon-dioxide": (0.0146, 273.0, 1800.0),
+    "hydrogen": (0.168, 273.0, 120.0),
+}
+"""The same, table 1-3."""
+
 PATHS = {"air": 65.4e-9, "nitrogen": 64e-9, "helium": 190e-9, "hydrogen": 119e-9, "argon": 68e-9}
 """Mean free paths at 20 °C and 1 atm; air: S. G. Jennings, J. Aerosol Sci. 19, 159 (1988). [m]"""
 
@@ -78,6 +88,48 @@ def test_oils_are_their_grade_at_40_degrees_taken_to_20(grade):
     expected = kinematic * density * 1e-3
     assert LIQUIDS[f"oil-vg-{grade}"].viscosity == pytest.approx(expected, rel=0.01)
 
+    for degrees in (0, 10, 30, 40, 60, 80, 100):
+        cold = math.log10(313.15 / (degrees + 273.15))
+        kinematic = 10**10 ** (twice(grade) + fall * cold) - 0.7
+        expected = kinematic * (density - 0.65e-3 * (degrees - 20)) * 1e-3
+        found = rl.fluid_of(f"ISO VG {grade} at {degrees} °C").viscosity
+        assert found == pytest.approx(expected, rel=0.011 if degrees == 40 else 0.04)
+
+
+@pytest.mark.parametrize("degrees", [0, 20, 40, 60, 80, 100])
+def test_water_follows_the_release_on_liquid_water(degrees):
+    """IAPWS SR6-08: viscosity at 0.1 MPa, sum of a (T / 300 K)^b."""
+    warmth = (degrees + 273.15) / 300
+    terms = ((280.68, -1.9), (511.45, -7.7), (61.131, -19.6), (0.45903, -40.0))
+    expected = 1e-6 * sum(a * warmth**b for a, b in terms)
+    found = rl.fluid_of(f"water at {degrees} °C").viscosity
+    assert found == pytest.approx(expected, rel=0.015)
+
+
+@pytest.mark.parametrize("degrees", [0, 20, 50, 100])
+@pytest.mark.parametrize("name", SUTHERLAND)
+def test_warm_gases_follow_sutherlands_law(name, degrees):
+    gas = rl.fluid_of(f"{name} at {degrees} °C")
+    for found, law in ((gas.viscosity, SUTHERLAND), (gas.conductivity, CONDUCTIVITIES)):
+        at, temperature, constant = law[name]
+        warm = gas.temperature / temperature
+        expected = at * warm**1.5 * (temperature + constant) / (gas.temperature + constant)
+        assert found == pytest.approx(expected, rel=0.04)
+
+
+def test_a_temperature_is_written_as_people_do():
+    first = rl.fluid_of("helium at 60 °C")
+    assert (first.name, first.temperature) == ("helium at 60 °C", 333.15)
+    for text in ("He at 60C", "he at 333.15 K", "helium temperature=60 °C", "N2 at 60 °C"):
+        assert rl.fluid_of(text).temperature == first.temperature
+    assert rl.fluid_of("He at 60C") == first
+    oil = rl.fluid_of("ISO VG 46 at 60 °C")
+    assert oil == rl.fluid_of("oil vg46 temperature=60 degC")
+    assert oil.name == "oil-vg-46 at 60 °C"
+    assert rl.fluid_of("water at 20 °C").viscosity == rl.fluid_of("water").viscosity
+    own = rl.fluid_of("air at 400 K viscosity=23 uPa s conductivity=33 mW/m/K")
+    assert (own.viscosity, own.temperature, own.name) == (23e-6, 400.0, "air")
+
 
 def test_every_fluid_says_where_it_is_from():
     assert {"water", "air", "nitrogen", "hydrogen", "helium", "oil-vg-46"} <= set(fluids())
@@ -124,6 +176,10 @@ def test_values_of_ones_own():
         ("water molar_mass=18 g/mol", "is a liquid"),
         ("water viscosity=-1 Pa s", "positive"),
         ("N2 accommodation=2", "accommodation"),
+        ("air at 400 K", "temperature is 400 K, where the table does not know air; give its visc"),
+        ("water at -5 °C", "temperature is 268.15 K, where the table does not know water"),
+        ("ethanol at 40 °C", "where the table does not know ethanol"),
+        ("water at noon", 'did you mean "water"|no fluid is called'),
         ("N2 colour=2", 'a fluid has no "colour"'),
     ],
 )
@@ -139,6 +195,7 @@ def test_bad_fluids_get_one_line(text, words):
         {"viscosity": 1.8e-5},
         {"viscosity": math.nan, "molar_mass": 0.03},
         {"viscosity": 1.8e-5, "molar_mass": 0.0},
+        {"viscosity": 1.8e-5, "molar_mass": 28.0},  # g/mol
         {"viscosity": 1.8e-5, "molar_mass": 0.03, "temperature": -3.0},
         {"viscosity": 1.8e-5, "molar_mass": 0.03, "heat_capacity_ratio": 1.0},
         {"viscosity": 1.8e-5, "molar_mass": 0.03, "heat_capacity_ratio": 3.0},
@@ -150,3 +207,11 @@ def test_senseless_gases_are_refused(given):
         rl.Gas(**given)
     if len(given) == 1:
         assert rl.Liquid(**given).viscosity == 1.8e-5
+
+
+@pytest.mark.parametrize("pressure", [-1.0, math.nan])
+def test_a_pressure_below_vacuum_is_refused(pressure):
+    for length in (GASES["helium"].mean_free_path, GASES["helium"].temperature_jump):
+        with pytest.raises(rl.InputError, match=r"pressure is .*, 0 \(vacuum\) or more"):
+            length(pressure)
+    assert GASES["helium"].mean_free_path(0.0) == math.inf

@@ -11,7 +11,7 @@ from importlib import resources
 
 from roughline.engineering.described import described
 from roughline.errors import InputError
-from roughline.errors.checks import refuse, shown
+from roughline.errors.checks import between, refuse, shown
 from roughline.errors.public import public
 
 R = 8.31446261815324
@@ -43,7 +43,12 @@ _SYNONYMS = {
     "natural-gas": "methane",
     "co2": "carbon-dioxide",
 }
-_GRADE = re.compile(r"^\W*(?:(?:iso|oil)\W*)*vg\W*(\d+)\W*(?:oil)?", re.IGNORECASE)
+_OF_LAWS = (
+    *("viscosity", "conductivity", "viscosity_power", "conductivity_power", "vogel_B", "vogel_C"),
+)
+_AT = re.compile(r"\s+at\s+(-?[\d.]+)\s*(?:°|deg)?\s*([CK])\b", re.IGNORECASE)
+_COLDEST, _HOTTEST = 273.15, 373.15  # between which the table knows how fluids change [K]
+_GRADE = re.compile(r"^\W*(?:(?:iso|oil)\W*)*vg\W*(\d+)(?:\W*oil\b)?", re.IGNORECASE)
 
 
 @public
@@ -127,6 +132,9 @@ class Gas:
                 "molar_mass",
             )
         _refuse_senseless(self)
+        if self.molar_mass > 1:
+            needed = "it is in kg/mol, such as 0.0040026 of helium"
+            refuse("molar_mass", self.molar_mass, needed)
         if not 1 < self.heat_capacity_ratio <= 5 / 3 + 0.05:
             refuse("heat_capacity_ratio", self.heat_capacity_ratio, "1 to 5/3 is allowed")
         if self.accommodation is not None and not 0 < self.accommodation <= 1:
@@ -143,6 +151,7 @@ class Gas:
 
         The pressure is absolute [Pa]; in vacuum the path is infinite.
         """
+        between("pressure", pressure, 0, math.inf, "an absolute one, 0 (vacuum) or more, is needed")
         if pressure == 0:
             return math.inf
         speed = math.sqrt(math.pi * self.gas_constant * self.temperature / 2)
@@ -194,8 +203,9 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
     Parameters
     ----------
     description : str, Liquid or Gas
-        Such as "water", "ISO VG 46", "helium", "viscosity=40 mPa s" or
-        "viscosity=18 uPa s molar_mass=29 g/mol". A fluid is returned as it is.
+        Such as "water", "ISO VG 46 at 60 °C", "helium", "viscosity=40 mPa s" or
+        "viscosity=18 uPa s molar_mass=29 g/mol". A fluid is returned as it is. Fluids of the table
+        are at 20 °C unless a temperature from 0 to 100 °C is given.
 
     Raises
     ------
@@ -210,6 +220,8 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
     >>> helium = rl.fluid_of("He")
     >>> print(helium.name, helium.viscosity, round(1e9 * helium.mean_free_path(101325.0)))
     helium 1.96e-05 189
+    >>> print(round(rl.fluid_of("ISO VG 46 at 60 °C").viscosity, 4))
+    0.0175
     """
     if isinstance(description, Liquid | Gas):
         return description
@@ -223,19 +235,47 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
             f'"water" or "{_EXAMPLE}"'
         )
     start = asdict(known[name]) if name else {}
+    if name and "temperature" in given and "viscosity" not in given:
+        start |= _at(name, given["temperature"])
     source = f"{start['source']}; {', '.join(given)} given" if name and given else ""
     values = {**start, **given} | ({"source": source} if source else {})
     is_gas = isinstance(known[name], Gas) if name else given.keys() != {"viscosity"}
     if is_gas:
         return Gas(**values)
-    for other in given.keys() - {"viscosity"}:
+    for other in given.keys() - {"viscosity", "temperature"}:
         raise InputError(f"{name} is a liquid, of which the viscosity alone is used, not {other}")
+    values.pop("temperature", None)
     return Liquid(**values)
+
+
+def _at(name: str, temperature: float) -> dict[str, float | str]:
+    """What differs at a temperature [K]: by Vogel's law in liquids, by powers of it in gases."""
+    row = {key: float(value) for key, value in _rows()[name].items() if key in _OF_LAWS and value}
+    if not _COLDEST <= temperature <= _HOTTEST or not {"vogel_B", "viscosity_power"} & row.keys():
+        raise InputError(
+            f"is {temperature:g} K, where the table does not know {name}; give its viscosity "
+            'there, such as "viscosity=40 mPa s"',
+            "temperature",
+        )
+    called, viscosity = f"{name} at {temperature - 273.15:.4g} °C", row["viscosity"]
+    if "vogel_B" in row:
+        B, C = row["vogel_B"], row["vogel_C"]
+        viscosity *= math.exp(B / (temperature - C) - B / (ROOM - C))
+        return {"name": called, "viscosity": viscosity}
+    warmth = temperature / ROOM
+    return {
+        "name": called,
+        "viscosity": viscosity * warmth ** row["viscosity_power"],
+        "conductivity": row["conductivity"] * warmth ** row["conductivity_power"],
+    }
 
 
 def _known_name(description: str) -> str:
     """Replace a synonym or a viscosity grade at the start of a text by its name in the table."""
-    graded = _GRADE.sub(r"oil-vg-\1", description.strip())
+    warm = _AT.sub(
+        lambda at: f" temperature={at[1]} {'K' if at[2] in 'kK' else '°C'}", description.strip()
+    )
+    graded = _GRADE.sub(r"oil-vg-\1", warm)
     first, *rest = re.split(r"\s+(?=\w+\s*=)", graded, maxsplit=1)
     name = re.sub(r"[\s_]+", "-", first.strip().lower())
     return " ".join([_SYNONYMS.get(name, first), *rest])
@@ -248,15 +288,21 @@ def fluids() -> dict[str, Liquid | Gas]:
 
 @functools.cache
 def _table() -> dict[str, Liquid | Gas]:
+    found: dict[str, Liquid | Gas] = {}
+    for name, row in _rows().items():
+        numbers = {key: float(row[key]) for key in _UNITS if row.get(key)}
+        kind = Gas if "molar_mass" in numbers else Liquid
+        found[name] = kind(**numbers, name=name, source=row["source"])
+    return found
+
+
+@functools.cache
+def _rows() -> dict[str, dict[str, str]]:
+    """The lines of the table by name."""
     path = resources.files("roughline.engineering").joinpath("fluids.csv")
     lines = path.read_text(encoding="utf-8").splitlines()
-    found: dict[str, Liquid | Gas] = {}
-    for row in csv.DictReader(line for line in lines if not line.startswith("#")):
-        texts = {key: row.pop(key) for key in ("name", "source")}
-        numbers = {key: float(value) for key, value in row.items() if value}
-        kind = Gas if "molar_mass" in numbers else Liquid
-        found[texts["name"]] = kind(**numbers, **texts)  # type: ignore[arg-type]
-    return found
+    rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+    return {row["name"]: row for row in rows}
 
 
 def _refuse_senseless(fluid: Liquid | Gas) -> None:

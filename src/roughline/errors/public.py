@@ -35,6 +35,8 @@ _CLASSES = {
     "LatticeSpectrum": "what spectrum.lattice(n) returns",
     "Roughness": "what rl.roughness(body) returns",
     "Material": 'a Material, such as rl.material("steel"),',
+    "Liquid": 'a Liquid, such as rl.fluid_of("water"),',
+    "Gas": 'a Gas, such as rl.fluid_of("helium"),',
     "Curve": "a Curve, as rl.press returns it,",
     "Flow": "a Flow, as rl.flow returns it,",
     "Comparison": "a Comparison, as rl.compare returns it,",
