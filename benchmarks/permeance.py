@@ -1,4 +1,4 @@
-"""Judge the flow through the gap: exact values, near sealing, the grid, luck: ``make permeance``.
+"""Judge the flow: exact values, near sealing, the grid, luck, a rare gas: ``make permeance``.
 
 Writes ``docs/permeance-table.md``. Nothing in it is a time: it depends on the code alone.
 """
@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 from page import Page
-from scipy import sparse
+from scipy import integrate, sparse
 from scipy.sparse import linalg
 
 import roughline as rl
@@ -22,6 +22,7 @@ CELLS = (2, 4, 8, 16)  # for the shortest wave
 SHORTEST = 32  # waves along a side, of the shortest
 PRESSURES = (0.02, 0.06, 0.12, 0.18, 0.21, 0.24)  # over E* and the rms slope
 SURFACES = 8  # of each grid
+FREE_PATHS = (0.1, 0.25, 0.5, 1, 2, 5, 20)  # over the gap
 MORE_SURFACES, ROLL_OFFS = 40, (2, 4, 8)
 
 
@@ -247,12 +248,48 @@ def luck(page):
             )
 
 
+def kinetic(path, cells=200):
+    """Flow of a gas between flat plates a gap of 1 apart, over that without slip.
+
+    The BGK equation with diffuse reflection, for the velocity over the gap; its kernel is the
+    integral of exp(-c² - |x - w| / c) / c, here over each cell (Cercignani and Daneri 1963).
+    """
+    width = math.sqrt(math.pi) / 2 / path  # gap over the thermal speed and the rate of collisions
+    ends = np.arange(2 * cells + 1) * width / cells / 2
+    tails = [
+        integrate.quad(lambda c, end=end: math.exp(-c * c - end / c) if c else 0.0, 0, 8)[0]
+        for end in ends
+    ]
+    distance = np.abs(np.subtract.outer(np.arange(cells), np.arange(cells)))
+    kernel = np.array(
+        [2 * (tails[0] - tails[1])] + [tails[2 * k - 1] - tails[2 * k + 1] for k in range(1, cells)]
+    )[distance]
+    source = np.linalg.solve(np.eye(cells) - kernel / math.sqrt(math.pi), np.ones(cells))
+    return 6 / width**2 * float((source - 1).mean())
+
+
+def a_rare_gas(page):
+    page.say("\n## A rare gas\n")
+    page.say(
+        "Flow between flat plates by kinetic theory (the BGK equation) over that of `rl.flow` with "
+        "the same mean free path.\n"
+    )
+    page.table("mean free path over the gap", *FREE_PATHS)
+    plates = np.ones((2, 2))
+    ratios = [
+        kinetic(path) / rl.flow(plates, (1.0, 1.0), mean_free_path=path).permeance
+        for path in FREE_PATHS
+    ]
+    page.row("kinetic theory over slip", *(f"{ratio:.2f}" for ratio in ratios))
+
+
 def main():
     page = Page("permeance-table.md", "How good the flow is", "permeance")
     exact_values(page)
     near_sealing(page)
     the_grid(page)
     luck(page)
+    a_rare_gas(page)
     page.save()
 
 

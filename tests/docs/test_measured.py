@@ -239,3 +239,7 @@ def test_the_page_of_the_flow_quotes_its_table():
     assert f"of {factors[1]:.1f} with four, and of {factors[2]:.0f} with eight" in page
     closed = [100 * (1 - number(row["closed sides over periodic"])) for row in quarter]
     assert f"by {min(closed):.0f} to {max(closed):.0f} % at a quarter in contact" in page
+    (gas,) = rows_of("permeance", "A rare gas")
+    near, one, two, rare = (float(gas[path]) for path in ("0.1", "1", "2", "20"))
+    assert f"{near:.1f} times as much through" in page
+    assert f"{one:.1f} times at 1, {two:.1f} times at 2 and {rare:.1f} times at 20" in page
