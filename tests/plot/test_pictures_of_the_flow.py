@@ -80,6 +80,8 @@ def test_the_ring_is_around_the_constriction_and_the_axes_have_units(gap):
     place = (np.array(flow.constriction) + 0.5) / 64
     assert ring.get_xydata()[0] == pytest.approx(place * [1, 2])
     assert f"$u_h$ = {1e6 * flow.hydraulic_aperture:.3g} µm" in axes.get_title()
+    gas = rl.flow(gap, (1e-3, 2e-3), mean_free_path=1e-6)
+    assert "aperture with slip $u_s$ = " in rl.plot.flow(gas).get_title()
     bare = rl.plot.flow(flow)
     assert (bare.get_xlabel(), bare.figure.axes[1].get_ylabel()) == (
         *("x", r"flux over its mean, $|j|\,/\,\bar j$"),

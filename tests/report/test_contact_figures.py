@@ -11,6 +11,7 @@ from roughline.report.answers import quantity
 from roughline.report.contact_figures import draw_filled, draw_last_contact, draw_stiffness
 from roughline.report.contact_report import write_contact_report
 from roughline.report.fields_of_load import fields_figure, fields_table, write_fields
+from roughline.report.flow_of_load import flow_figure, write_flow
 from roughline.units import engineering
 
 
@@ -93,3 +94,21 @@ def test_the_report_has_them_and_a_line_scan_has_none(rough, tmp_path):
     assert "Gap, pressure and contact patches at 10 N" in page
     without = replace(pressed, curve=replace(pressed.curve, fields=()))
     assert write_fields(without, tmp_path) == ([], [])
+
+
+def test_the_flow_is_that_of_the_load_that_is_shown(rough, tmp_path):
+    asked = rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"])
+    pressed = rl.assess(replace(asked, ask=[rl.Fluid("water")]))
+    along_x, along_y = pressed.flows
+    assert (along_x.along, along_y.along) == ("x", "y")
+    assert along_x.permeance == rl.flow(pressed.fields, along="x").permeance
+    titles = [axes.get_title() for axes in flow_figure(pressed.flows).axes]
+    for each in pressed.flows:
+        assert any(engineering(each.hydraulic_aperture, "m", 3) in title for title in titles)
+    (section,), files = write_flow(pressed, tmp_path)
+    assert section.heading == "Where the fluid goes at 10 N"
+    assert {each.name for each in files} == {"flow.png", "flow.pdf"}
+    assert write_flow(rl.assess(asked), tmp_path) == ([], [])
+    (only,) = rl.assess(replace(asked, ask=[rl.Fluid("water"), rl.FlowAlong("y")])).flows
+    assert only.permeance == along_y.permeance
+    assert len([axes for axes in flow_figure([only]).axes if axes.axison]) == 2  # and its scale

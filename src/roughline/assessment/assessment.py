@@ -23,6 +23,7 @@ from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.rule import Answer
 from roughline.engineering.sealing import Closing
+from roughline.fluid.flow import Flow, flow
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
@@ -134,6 +135,20 @@ class Assessment:
     def fields(self) -> Fields | None:
         """Fields of one load; None if they were not asked for, or the load was not solved."""
         return next((each for each in self.curve.fields if each is not None), None)
+
+    @cached_property
+    def flows(self) -> Sequence[Flow]:
+        """What flows through the gap of the fields, a flow for each direction that is asked for.
+
+        There are none without a fluid or without fields.
+        """
+        fields, sealing = self.fields, self.question.sealing
+        if fields is None or sealing is None:
+            return ()
+        return [
+            flow(fields, along=along, mean_free_path=sealing.free_path)
+            for along in sealing.directions
+        ]
 
     @property
     def curve_as_asked(self) -> Curve:

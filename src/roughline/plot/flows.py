@@ -142,4 +142,5 @@ def _in_words(flow: Flow, unit: str | None) -> str:
     share = flow.largest_share
     one = f"; {100 * share:.0f}% in one channel" if share > _ONE_CHANNEL else ""
     aperture = in_words(flow.hydraulic_aperture, unit, 3)
-    return f"hydraulic aperture $u_h$ = {aperture}{one}\nring: where it is throttled most"
+    name = "aperture with slip $u_s$" if flow.mean_free_path else "hydraulic aperture $u_h$"
+    return f"{name} = {aperture}{one}\nring: where it is throttled most"
