@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,6 @@ from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
-    from roughline.fluid.flow import Flow
 
 _CAPTION = (
     "Flux over its mean, on the gap of the map; black: contact. A ring marks where the fluid is "
@@ -32,7 +30,7 @@ def write_flow(assessment: Assessment, folder: Path) -> tuple[list[Section], lis
     load = load_with_fields(assessment.curve)
     if load is None or not assessment.flows:
         return [], []
-    files = save(flow_figure(assessment.flows), folder, "flow")
+    files = save(flow_figure(assessment), folder, "flow")
     force = engineering(assessment.curve.force[load] * assessment.scale, "N")
     sides = f"The other two sides are {assessment.flows[0].sides}."
     section = Section(
@@ -43,11 +41,11 @@ def write_flow(assessment: Assessment, folder: Path) -> tuple[list[Section], lis
     return [section], files
 
 
-def flow_figure(flows: Sequence[Flow]) -> Figure:
-    """One panel for each direction; lengths in metres."""
+def flow_figure(assessment: Assessment) -> Figure:
+    """One panel for each direction that is asked for."""
     figure = new_figure(PAGE, 3.2)
-    for axes, flow in zip(figure.subplots(1, 2), flows, strict=False):
+    for axes, flow in zip(figure.subplots(1, 2), assessment.flows, strict=False):
         draw_flow(axes, flow, "m")
-    for empty in figure.axes[len(flows) : 2]:
+    for empty in figure.axes[len(assessment.flows) : 2]:
         empty.set_axis_off()
     return figure
