@@ -20,12 +20,14 @@ from roughline.engineering.seal import SealShape
 )
 def test_a_seal_has_a_ratio(typed, ratio):
     assert SealShape.of(typed).ratio == pytest.approx(ratio, rel=1e-12)
+    assert SealShape.of(typed).width in (0.1, 2 * math.pi * 20e-3)
     assert rl.Seal(typed).shape == SealShape.of(typed)
 
 
 @pytest.mark.parametrize("width", [1e-3, 1e-5])
 def test_a_narrow_ring_is_a_strip_as_long_as_its_circumference(width):
     ring = SealShape.of(f"20 mm .. {20 * (1 + width)} mm")
+    assert ring.width == pytest.approx(2 * math.pi * 20e-3, rel=1e-12)
     strip = 2 * math.pi * (1 + width / 2) / width
     assert ring.ratio == pytest.approx(strip, rel=width**2)
 

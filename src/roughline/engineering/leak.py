@@ -31,8 +31,10 @@ def gas_throughput(aperture: _Value, ratio: float, inlet: float, outlet: float, 
     The flow is isothermal. Its density is that of the local pressure, P / (R_s T), so that P² takes
     the place of the pressure of a liquid. The aperture u_s [m] is that with slip at the mean
     pressure: the flux is (u³ P + 6 λ P u²) ∇P, and λ P is a constant of the gas, so that this is
-    exact between flat plates, down to vacuum. In a chain of throats it is right to 6 %, and to a
-    quarter of the share that slip has in the flow.
+    exact between flat plates, down to vacuum. Where the gap varies, throats at the inlet have
+    less slip than this and those at the outlet more. Of two gaps in series, one twice as wide as
+    the other, it is off by 5 % at most, and by 15 % if it is ten times as wide, where the gas flows
+    into vacuum. It is off by a third of that if it flows into half of its pressure.
     """
     return ratio * aperture**3 * (inlet**2 - outlet**2) / (24 * gas.viscosity)
 
@@ -45,3 +47,11 @@ def mass_of_throughput(throughput: _Value, gas: Gas) -> _Value:
 def throughput_at_room(throughput: _Value, gas: Gas) -> _Value:
     """Throughput of the same mass at 20 °C, as leak rates are quoted. [Pa m³ / s]"""
     return throughput * (ROOM / gas.temperature)
+
+
+def reynolds_number(mass: _Value, width: float, viscosity: float) -> _Value:
+    """Reynolds number of what crosses a length W of a seal, m / (W η), the mass m per time. [1]
+
+    It is ρ v u / η with the mean speed v in a gap u, whatever the gap.
+    """
+    return mass / (width * viscosity)

@@ -24,6 +24,7 @@ class SealShape:
 
     words: str
     ratio: float  # W / B, length across the flow over the way through, of a ring 2π / ln(R/r) [1]
+    width: float  # W, of a ring its inner circumference [m]
 
     @classmethod
     def of(cls, given: Any) -> SealShape:
@@ -50,7 +51,8 @@ class SealShape:
         if not (0 < first < math.inf and 0 < second < math.inf):
             refuse("seal", given, "positive, finite lengths are needed")
         if pattern is _ACROSS:
-            return cls(given.strip(), first / second)
+            return cls(given.strip(), first / second, first)
         if first >= second:
             refuse("seal", given, "the inner radius comes first, and is below the outer one")
-        return cls(given.strip(), 2 * math.pi / math.log(second / first))
+        around = 2 * math.pi
+        return cls(given.strip(), around / math.log(second / first), around * first)

@@ -14,6 +14,7 @@ from roughline.engineering.leak import (
     gas_throughput,
     liquid_leak,
     mass_of_throughput,
+    reynolds_number,
     throughput_at_room,
 )
 from roughline.engineering.pressed import Pressed
@@ -34,6 +35,8 @@ _rule = partial(Rule, group="sealing")
 
 _HALF = 0.5  # share of the flow from which on one channel is told
 _STEEP = 0.3  # slope of the gap beyond which Reynolds' equation says too much
+_DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
+_INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
 _RARE = 0.1  # free path over the aperture beyond which slip is not all that a thin gas does
 _MBAR_LITRES = 10.0  # in a Pa m³
 
@@ -131,6 +134,16 @@ def _mass(pressed: Pressed) -> Real | None:
     return mass_of_throughput(throughput, asked.gas)
 
 
+def _reynolds(pressed: Pressed) -> Real:
+    """Reynolds number of what leaks, zero where no leak is asked for. [1]"""
+    asked, mass, volume = _crossed(pressed), _mass(pressed), _liquid_leak(pressed)
+    if mass is None and volume is not None:
+        mass = _DENSITY * volume
+    if asked is None or asked.seal is None or mass is None:
+        return np.zeros(pressed.curve.force.shape)
+    return np.abs(reynolds_number(mass[0], asked.seal.width, asked.fluid.viscosity))
+
+
 def _in_mbar_litres(pressed: Pressed) -> Real | None:
     throughput, asked = _throughput(pressed), pressed.sealing
     if throughput is None or asked is None or asked.gas is None:
@@ -188,6 +201,11 @@ def _beyond_reynolds(pressed: Pressed) -> str:
         found.append(
             f"the gap has a slope of {decimal(worst, 2)} where the flow is throttled: Reynolds' "
             "equation holds for small slopes, and less than it says flows"
+        )
+    if (inertia := float(np.nanmax(_reynolds(pressed) * steep[0], initial=0.0))) > _INERT:
+        found.append(
+            f"the Reynolds number times the slope of the gap is {decimal(inertia, 2)}: inertia, "
+            f"which counts beyond {_INERT:g}, is left out, and less than this flows"
         )
     is_open = aperture[0] > 0
     if asked.gas is not None and is_open.any():
