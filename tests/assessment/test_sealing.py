@@ -1,12 +1,14 @@
 """Answers about a fluid in the gap: from the map to the leak of the seal."""
 
 import json
+import re
 
 import numpy as np
 import pytest
 
 import roughline as rl
 from roughline.fluid import measures
+from roughline.report.contact_tables import symbol_table
 from roughline.report.json_output import of_assessment, to_json
 from roughline.report.terminal import print_assessment
 
@@ -224,3 +226,20 @@ def test_inertia_is_told_where_it_counts(surface):
     rough = rl.Surface(5 * surface.heights, surface.sizes, "m", is_cut_out=False)
     for body, told in ((surface, False), (rough, True)):
         assert ("inertia" in " ".join(asked(body, WATER).warnings)) == told
+
+
+@pytest.mark.parametrize("ask", [WATER, HELIUM])
+def test_every_symbol_of_its_formulas_is_on_the_page(surface, ask):
+    result = asked(surface, ask)
+    _, rows = symbol_table(result)
+    told = {row[0] for row in rows} | {each.symbol for each in result.answers.values()}
+    for key in ("leak_rate", "leak_throughput", "leak_mass", "gas_conductance"):
+        if key in result.answers:
+            letters = re.findall(r"[A-Za-z]+(?:_[a-z]+)?\d?", result.answers[key].formula)
+            words = {"at", "C", "of", "the", "open", "gap", "temperature", "jump", "length"}
+            assert {*letters} - words - {"with", "slip"} <= told
+
+
+def test_a_gas_in_the_gap_is_not_said_to_be_missing(surface):
+    assert not [note for note in asked(surface, HELIUM).notes if "as in vacuum" in note]
+    assert [note for note in asked(surface, WATER).notes if "as in vacuum" in note]

@@ -37,6 +37,12 @@ class Sealing:
         return self.fluid if isinstance(self.fluid, Gas) else None
 
     @property
+    def conducts(self) -> bool:
+        """Whether heat goes through the gas as well, and its conductivity is known."""
+        gas = self.gas
+        return gas is not None and gas.conductivity is not None and self.mean_pressure > 0
+
+    @property
     def mean_pressure(self) -> float:
         """Mean of both pressures, or that of the outlet alone. [Pa]"""
         return self.outlet if self.inlet is None else (self.inlet + self.outlet) / 2

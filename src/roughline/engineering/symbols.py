@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from roughline.engineering.formulas import harmonic_conductivity
 from roughline.engineering.pair import MaterialPair
+from roughline.engineering.sealing import Sealing
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,7 @@ def symbols_of(
     hardness: float | None,
     area: float,
     rms_height: float,
+    sealing: Sealing | None = None,
 ) -> list[_Symbol]:
     """The symbols of formulas that are no answers, with their values.
 
@@ -54,6 +56,7 @@ def symbols_of(
         _Symbol("omega", "angular frequency of the wave", "1/s"),
         _Symbol("K", "stiffness per area of the interface", "N/m³"),
         _Symbol("i", "imaginary unit"),
+        *([] if sealing is None else _of_fluid(sealing)),
     ]
     used = {name for each in formulas for name in _names_in(each)}
     return [each for each in known if each.symbol in used]
@@ -65,8 +68,32 @@ def _names_in(formula: str) -> set[str]:
     return {name for name in names if not name.isalpha() or name in _LETTERS or name in _GREEK}
 
 
-_GREEK = {"rho", "kappa", "sigma", "omega", "nu"}
-_LETTERS = {*"AEFGHKRdikmpwz"}
+_GREEK = {"rho", "kappa", "sigma", "omega", "nu", "eta"}
+_LETTERS = {*"ABEFGHKMPRTWdikmpuwz"}
+
+
+def _of_fluid(sealing: Sealing) -> list[_Symbol]:
+    """The symbols of a fluid and of the seal that it crosses."""
+    gas = sealing.gas
+    found = [
+        _Symbol("W", "length of the seal across the flow; of a ring W/B is 2 pi / ln(R/r)", "m"),
+        _Symbol("B", "width of the seal along the flow", "m"),
+        _Symbol("P1", "absolute pressure at the inlet", "Pa", sealing.inlet),
+        _Symbol("P2", "absolute pressure at the outlet", "Pa", sealing.outlet),
+        _Symbol("eta", f"viscosity of {sealing.fluid.name}", "Pa s", sealing.fluid.viscosity),
+        _Symbol("u", "gap", "m"),
+    ]
+    if gas is None:
+        return found
+    pressure = sealing.mean_pressure
+    return [
+        *found,
+        _Symbol("u_s", "hydraulic aperture of u³ + 6 u² times the mean free path", "m"),
+        _Symbol("R_s", "specific gas constant", "J/(kg K)", gas.gas_constant),
+        _Symbol("T", "temperature of the gas", "K", gas.temperature),
+        _Symbol("k_g", "thermal conductivity of the gas", "W/(m K)", gas.conductivity),
+        _Symbol("M", "temperature jump length", "m", gas.temperature_jump(pressure)),
+    ]
 
 
 def _of_bodies(

@@ -99,6 +99,7 @@ def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
             hardness=assessment.curve.hardness or pair.hardness,
             area=question.joint or assessment.area,
             rms_height=assessment.body.rms_height,
+            sealing=question.sealing,
         )
     ]
     return header, rows

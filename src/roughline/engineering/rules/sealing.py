@@ -263,7 +263,7 @@ def _gas_conductance(pressed: Pressed) -> Real | None:
 
 def _inverse_gap(asked: Sealing) -> Sequence[Measure]:
     """What a gas of known conductivity finds; in vacuum there is none."""
-    if asked.gas is None or asked.gas.conductivity is None or not asked.mean_pressure > 0:
+    if asked.gas is None or not asked.conducts:
         return []
     return [inverse_gap(asked.gas.temperature_jump(asked.mean_pressure))]
 
@@ -281,7 +281,7 @@ SEALING = (
         name="leak rate",
         symbol="Q",
         unit="m³/s",
-        formula="(W/B) u_h³ (P_1 - P_2) / (12 eta)",
+        formula="(W/B) u_h³ (P1 - P2) / (12 eta)",
         validity=_OF_THE_MAP,
         source=_PUBLISHED,
         value=_liquid_leak,
@@ -293,7 +293,7 @@ SEALING = (
         name="leak rate",
         symbol="q_pV",
         unit="mbar l/s",
-        formula="(W/B) u_s³ (P_1² - P_2²) / (24 eta), at 20 °C; u_s with slip",
+        formula="(W/B) u_s³ (P1² - P2²) / (24 eta), at 20 °C; u_s with slip",
         validity=_OF_THE_MAP,
         source=_PUBLISHED,
         value=_in_mbar_litres,
@@ -306,7 +306,7 @@ SEALING = (
         name="mass that leaks",
         symbol="m_dot",
         unit="kg/s",
-        formula="(W/B) u_s³ (P_1² - P_2²) / (24 eta R_s T)",
+        formula="(W/B) u_s³ (P1² - P2²) / (24 eta R_s T)",
         validity=_OF_THE_MAP,
         source=_PUBLISHED,
         value=_mass,
@@ -318,7 +318,7 @@ SEALING = (
         name="hydraulic aperture",
         symbol="u_h",
         unit="m",
-        formula="gap of flat plates that let as much through, (12 eta Q B/(W (P_1 - P_2)))^(1/3)",
+        formula="gap of flat plates that let as much through, (12 eta Q B/(W (P1 - P2)))^(1/3)",
         validity=_OF_THE_MAP,
         source=_PUBLISHED,
         value=_aperture,

@@ -35,6 +35,16 @@ def conductance_of_interface(pressed: Pressed) -> Real | None:
     return _conductance_of(pressed.interface_stiffness / pressed.nominal_area, pressed)
 
 
+def _without_gas(pressed: Pressed) -> str:
+    """Say what is left out, unless a gas of known conductivity is asked for."""
+    if pressed.sealing is not None and pressed.sealing.conducts:
+        return ""
+    return (
+        "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "
+        "adds to them, and air may carry several times what the spots do"
+    )
+
+
 def _shape(pressed: Pressed) -> tuple[float, float, tuple[float, float]] | None:
     """Rms height, rms slope and conductivities, where estimates of the literature have all."""
     conductivities = pressed.pair.both("conductivity")
@@ -86,10 +96,7 @@ THERMAL = (
             f"{pressed.of_interface}"
         },
         lacking=_lacking,
-        note=lambda _pressed: (
-            "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "
-            "adds to them, and air may carry several times what the spots do"
-        ),
+        note=_without_gas,
         leads=always,
         is_of_interface=True,
         may_be_infinite=True,
