@@ -205,7 +205,7 @@ def page_of_fluids() -> str:
         *("mean free path at 1 bar [nm]", "source"),
     )
     own = (
-        "`rl.fluid_of` reads a name, with values of one's own behind it, such as "
+        '`rl.fluid_of` reads a name, such as `"water at 60 °C"`, or one with other values, such as '
         '`"air viscosity=23 uPa s temperature=400 K"`; `rl.Liquid(...)` and `rl.Gas(...)` are '
         "fluids of one's own.\n"
     )

@@ -79,6 +79,19 @@ def test_the_mean_of_the_inverse_gap_between_its_bounds(surface, jump):
     assert (found <= share / jump).all()
 
 
+def test_the_mean_of_the_inverse_gap_under_a_wave_that_hardly_touches():
+    """Of u = a (1 - cos q x) it is 1 / sqrt(M² + 2 a M), by the mean of 1 / (c - cos q x)."""
+    x = 2 * np.pi * np.arange(64) / 64
+    wave = rl.Surface(0.01 * np.cos(x)[:, np.newaxis] * np.ones(16), (1.0, 0.25), is_cut_out=False)
+    for jump in (0.01, 0.1):
+        taken = [inverse_gap(jump)]
+        curve = rl.press(wave, E_star=1e9, forces=[1e-6], periodic=True, measures=taken)
+        expected = 1 / np.sqrt(jump**2 + 2 * 0.01 * jump)
+        touching = curve.area_fraction[0] / jump  # the nodes at u = 0, which no gas is in
+        found = curve.measured["inverse_gap"].values[0] + touching
+        assert found == pytest.approx(expected, rel=1e-6)
+
+
 def test_a_gap_between_flat_plates_is_its_own_aperture():
     """A low plateau beside a high one: the fluid flows over the low one."""
     heights = np.zeros((32, 32))

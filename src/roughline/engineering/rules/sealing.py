@@ -213,7 +213,7 @@ def _beyond_reynolds(pressed: Pressed) -> str:
         if rare > _RARE:
             found.append(
                 f"the mean free path of {asked.fluid.name} is {decimal(rare, 2)} of the hydraulic "
-                f"aperture: beyond {_RARE:g}, slip of the first order is a rough guide only"
+                f"aperture: beyond {_RARE:g}, slip of the first order gives too little, half at 5"
             )
     return "; ".join(found)
 
