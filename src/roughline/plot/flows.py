@@ -14,6 +14,7 @@ from roughline.errors.public import public
 from roughline.fluid.flow import Flow
 from roughline.plot.pixels import any_marked
 from roughline.plot.style import drawing_on, in_unit
+from roughline.topography.heights import checked_unit
 from roughline.units import in_words
 
 _WEAKEST = 1e-2  # of the mean flux: what is less has the colour of no flow
@@ -46,6 +47,11 @@ def flow(flow: Flow, unit: str | None = None, axes: Axes | None = None) -> Axes:
         at which most of the fluid's power is lost. Of a sealed gap the picture shows how far the
         fluid comes from the inlet.
 
+    Raises
+    ------
+    InputError
+        If the unit is none of length.
+
     Examples
     --------
     >>> import roughline as rl
@@ -53,8 +59,9 @@ def flow(flow: Flow, unit: str | None = None, axes: Axes | None = None) -> Axes:
     >>> curve = rl.press(surface, E_star=1.0, forces=[0.05], periodic=True, fields=True)
     >>> axes = rl.plot.flow(rl.flow(curve.fields[0]))
     """
+    length = checked_unit(unit)
     with drawing_on(axes) as drawn:
-        draw_flow(drawn, flow, unit)
+        draw_flow(drawn, flow, length)
     return drawn
 
 
@@ -113,25 +120,18 @@ def _mark_constriction(axes: Axes, flow: Flow, size: float) -> None:
 
 
 def _mark_direction(axes: Axes, flow: Flow) -> None:
-    """Draw an arrow from the inlet to the outlet, beside the map."""
+    """Write beside the map where inlet and outlet are."""
     along_x = flow.along == "x"
-    for text, at, to in (("inlet", 0.0, "left"), ("outlet", 1.0, "right")):
-        axes.annotate(
-            text,
-            (at, 1.03) if along_x else (1.03, at),
-            xycoords="axes fraction",
-            ha=to if along_x else "left",
-            va="bottom" if along_x else {"left": "bottom", "right": "top"}[to],
-            rotation=0 if along_x else 90,
-            fontsize=_TITLE,
-        )
-    first, last = ((0.2, 1.055), (0.78, 1.055)) if along_x else ((1.055, 0.2), (1.055, 0.78))
     axes.annotate(
-        "",
-        last,
-        first,
+        r"inlet  $\Longrightarrow$  outlet",
+        (0.5, 1.0) if along_x else (1.0, 0.5),
+        (0, 4) if along_x else (4, 0),
         xycoords="axes fraction",
-        arrowprops={"arrowstyle": "-|>", "color": "k", "linewidth": 1.0},
+        textcoords="offset points",
+        ha="center" if along_x else "left",
+        va="bottom" if along_x else "center",
+        rotation=0 if along_x else 90,
+        fontsize=_TITLE + 1,
     )
 
 
