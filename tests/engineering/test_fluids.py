@@ -129,6 +129,8 @@ def test_a_temperature_is_written_as_people_do():
     assert rl.fluid_of("water at 20 °C").viscosity == rl.fluid_of("water").viscosity
     own = rl.fluid_of("air at 400 K viscosity=23 uPa s conductivity=33 mW/m/K")
     assert (own.viscosity, own.temperature, own.name) == (23e-6, 400.0, "air")
+    assert own.conductivity == 0.033
+    assert rl.fluid_of("air at 400 K viscosity=23 uPa s").conductivity is None  # not that at 20 °C
 
 
 def test_every_fluid_says_where_it_is_from():

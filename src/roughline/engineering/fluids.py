@@ -235,8 +235,9 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
             f'"water" or "{_EXAMPLE}"'
         )
     start = asdict(known[name]) if name else {}
-    if name and "temperature" in given and "viscosity" not in given:
-        start |= _at(name, given["temperature"])
+    if name and "temperature" in given:
+        start.pop("conductivity", None)  # it is that at 20 °C
+        start |= {} if "viscosity" in given else _at(name, given["temperature"])
     source = f"{start['source']}; {', '.join(given)} given" if name and given else ""
     values = {**start, **given} | ({"source": source} if source else {})
     is_gas = isinstance(known[name], Gas) if name else given.keys() != {"viscosity"}
