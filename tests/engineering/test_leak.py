@@ -111,3 +111,24 @@ def test_the_reynolds_number_is_that_of_the_mean_speed():
     found = reynolds_number(1e3 * speed * gap * width, width, water.viscosity)
     assert found == pytest.approx(1e3 * speed * gap / water.viscosity, rel=1e-12)
     assert found == pytest.approx(0.083, rel=0.01)
+
+
+@pytest.mark.parametrize(("length", "time"), [(1e6, 1.0), (1e3, 10.0), (0.1, 0.01)])
+def test_leaks_do_not_depend_on_units(length, time):
+    """Units of length and time so many times smaller; of mass so that R stays what it is."""
+    mass = (time / length) ** 2
+    pressure = mass / (length * time**2)
+    viscosity = GAS.viscosity * mass / (length * time)
+    gas = rl.Gas(viscosity, GAS.molar_mass * mass, temperature=GAS.temperature)
+    assert gas.mean_free_path(1e5 * pressure) == pytest.approx(GAS.mean_free_path(1e5) * length)
+    there = gas_throughput(1e-6 * length, 5.0, 3e5 * pressure, 1e5 * pressure, gas)
+    here = gas_throughput(1e-6, 5.0, 3e5, 1e5, GAS)
+    assert there == pytest.approx(here * pressure * length**3 / time)
+    assert mass_of_throughput(there, gas) == pytest.approx(
+        mass_of_throughput(here, GAS) * mass / time
+    )
+    volume = liquid_leak(1e-6 * length, 5.0, 1e5 * pressure, rl.Liquid(viscosity))
+    expected = liquid_leak(1e-6, 5.0, 1e5, rl.Liquid(GAS.viscosity)) * length**3 / time
+    assert volume == pytest.approx(expected)
+    turned = gas_throughput(1e-6, 5.0, 1e5, 3e5, GAS)
+    assert turned == -here
