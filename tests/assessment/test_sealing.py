@@ -243,3 +243,29 @@ def test_every_symbol_of_its_formulas_is_on_the_page(surface, ask):
 def test_a_gas_in_the_gap_is_not_said_to_be_missing(surface):
     assert not [note for note in asked(surface, HELIUM).notes if "as in vacuum" in note]
     assert [note for note in asked(surface, WATER).notes if "as in vacuum" in note]
+
+
+def test_a_surface_that_yielded_leaks_less_on_the_way_back(surface):
+    """Its dents keep channels narrow: at each load less leaks than when the load rose."""
+    ask = [*WATER, rl.FlowAlong("x")]
+    given = {"elastic": False, "loads": ["60 MPa"]}
+    back = asked(surface, [*ask, rl.Unloading()], **given).answers["leak_rate"].values
+    assert (np.diff(back) > 0).all()  # from the largest load down to none
+    rising = asked(surface, ask, **given | {"loads": ["45 MPa", "30 MPa", "15 MPa"]})
+    assert (back[1:4] < rising.answers["leak_rate"].values).all()
+
+
+def test_what_flows_is_in_the_cost_that_is_told():
+    """Nothing is pressed: Ctrl-C comes as soon as the cost is told."""
+    large = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(1024, rng=1)
+    told = []
+
+    def stop(text):
+        told.append(text)
+        raise KeyboardInterrupt
+
+    for ask in ([], WATER, HELIUM):
+        question = rl.Question(large, "steel,steel", loads=LOADS, elastic=True, ask=ask)
+        with pytest.raises(KeyboardInterrupt):
+            rl.assess(question, announce=stop)
+    assert ["for what flows" in text for text in told] == [False, True, True]

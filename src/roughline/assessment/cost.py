@@ -32,6 +32,7 @@ _MANY = 1000  # loads from which on the cost is announced
 _BYTES_TO_READ = 30_000_000  # beside that of a press
 _BYTES_OF_OTHER_CURVES = 30  # with materials
 _BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
+_SECONDS_OF_FLOW, _POWER_OF_FLOW = 1e-7, 1.25  # of points, as measured from 256² to 1024²
 _BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
 
 
@@ -76,6 +77,8 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
         told += f", {duration(of_filling)} with missing points filled otherwise"
     if of_interface := seconds("interface"):
         told += f", then {duration(of_interface)} for the interface"
+    if of_flow := _seconds_of_flow(case, variants):
+        told += f", {duration(of_flow)} for what flows"
     if of_larger := seconds("larger surface"):
         told += f", and {duration(of_larger)} for the surface around the map"
     of_one = sum(each.purpose in ("as asked", "interface") for each in variants)
@@ -85,6 +88,21 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
             "bodies and for the scatter of the hardness"
         )
     announce(f"{body.shape[0]} x {body.shape[1]} points, {case.loads.count} loads: {told}")
+
+
+def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
+    """Return about how long all flows take: one for each load and direction, twice of a gas."""
+    sealing = case.question.sealing
+    if sealing is None:
+        return 0.0
+    is_repeated = case.loads.periodic or case.is_repeated_for_interface
+    taken = [
+        each.share * math.prod(each.shape) ** _POWER_OF_FLOW
+        for each in variants
+        if each.is_periodic == is_repeated and each.purpose not in ("larger surface", "slip")
+    ]
+    apertures = len(sealing.directions) * (2 if sealing.free_path > 0 else 1)
+    return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)
 
 
 def _most_memory(case: Case, body: Surface, pressing: int) -> int:

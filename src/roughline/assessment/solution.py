@@ -43,11 +43,11 @@ def solution_of(case: Case, curves: Curves) -> Solution:
     """The solution of a case from the curves of its variants."""
     curve = curves.as_asked
     intervals, note = _with_filling(case, curves, Way.AS_ASKED, case.body)
+    measured = measured_of(case, curves, Way.AS_ASKED, are_known=intervals is not None)
     larger = larger_behind(case, curves, Way.AS_ASKED)
     if larger is not None and case.question.joint is not None and intervals is not None:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
-    measured = measured_of(case, curves, Way.AS_ASKED, are_known=intervals is not None)
     closing = curves.closings.get(Way.AS_ASKED)
     return Solution(curve, intervals, larger, measured, closing, note)
 
