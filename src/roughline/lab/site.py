@@ -35,6 +35,7 @@ TASKS: Mapping[str, Place] = {
     "explore.coarse": _place("explore.pictures", "coarse", is_quick=True),
     "explore.full": _place("explore.pictures", "full"),
     "explore.curve": _place("explore.pictures", "curve"),
+    "explore.flow": _place("explore.pictures", "flow"),
     "explore.unloading": _place("explore.pictures", "unloading"),
     "explore.code": _place("explore.code", "code", is_quick=True),
     "explore.download": _place("explore.downloads", "download"),

@@ -14,8 +14,11 @@ def up() -> None:
 
     rl.set_threads(1)  # many sessions share the cores
     session = {"max_points": 64}
-    for boundary, hardness in (("free", ""), ("periodic", ""), ("free", "0.5")):
-        state = {"n": "64", "boundary": boundary, "hardness_bar": hardness}
+    for boundary, hardness, fluid in (
+        *(("free", "", ""), ("periodic", "", "")),
+        *(("free", "0.5", ""), ("free", "", "x")),
+    ):
+        state = {"n": "64", "boundary": boundary, "hardness_bar": hardness, "fluid": fluid}
         arguments = {"state": state, "session": session, "crowded": True}
         for task in (pictures.reduced, pictures.full):
             task(arguments, lambda done, total: None)

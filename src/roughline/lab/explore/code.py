@@ -13,6 +13,13 @@ _OF_YIELD = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
 print("plastic_fraction", curve.plastic_fraction[0])
 print("largest indentation over rms height", curve.indentation[0] / surface.rms_height)
 """
+_OF_FLUID = """flow = rl.flow(curve.fields[0])
+print("hydraulic aperture over rms height", flow.hydraulic_aperture / surface.rms_height)
+print("sealed", flow.is_sealed)
+"""
+_NO_COMMAND = (
+    "# the flow through the gap under a contact modulus has no command: take it as Python\n"
+)
 
 
 def code(arguments: Arguments, progress: Progress) -> bytes:
@@ -51,7 +58,7 @@ force = {_number(state.F)} * E_star * surface.rms_height * surface.length  # N
 print("stiffness_bar", curve.stiffness_bar[0])
 print("area_fraction_corrected", curve.area_fraction_corrected[0])
 print("depth over rms height", curve.depth[0] / surface.rms_height)
-{of_yield}"""
+{of_yield}{_OF_FLUID if state.fluid else ""}"""
 
 
 def _as_command(state: ExploreState) -> str:
@@ -77,7 +84,8 @@ def _as_command(state: ExploreState) -> str:
         *(["--periodic"] if state.periodic else []),
         *(["--hardness", f"{_number(borne)} Pa", "--unload"] if borne is not None else []),
     ]
-    return f"{shlex.join(generate)}\n{shlex.join(press)}\n"
+    without_flow = _NO_COMMAND if state.fluid else ""
+    return f"{shlex.join(generate)}\n{shlex.join(press)}\n{without_flow}"
 
 
 def _number(value: float) -> str:

@@ -114,9 +114,20 @@ _CHOICES = (
     Choice(
         "shown",
         "contact as",
-        {"area": "area", "pressure": "pressure", "gap": "gap", "displacement": "displacement"},
+        {
+            **{"area": "area", "pressure": "pressure", "gap": "gap"},
+            **{"displacement": "displacement", "flux": "flux"},
+        },
         "area",
-        "Quantity that the second map shows.",
+        "Quantity that the second map shows; the flux is there with a fluid alone.",
+    ),
+    Choice(
+        "fluid",
+        "a fluid flows from left to right",
+        {"": "none", "x": "from left to right"},
+        "",
+        "A fluid flows where the bodies do not touch: the map shows where it goes, the curve how "
+        "much comes through, and at which load the contact seals.",
     ),
     Choice(
         "theories",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -13,18 +13,20 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
-from roughline.lab.controls import as_text
+from roughline.lab.controls import ControlError, as_text
+from roughline.lab.explore import fluid
+from roughline.lab.explore.maps import Map, contact_maps
 from roughline.lab.explore.state import ExploreState, usable_state
 from roughline.lab.explore.words import (
     contact_words,
     line_words,
+    number_rows,
     status,
     unloading_bar,
 )
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
-from roughline.units import decimal
 
 _COARSE, _COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
@@ -32,7 +34,6 @@ _LINES, _FEWER_LINES = 20, 5
 """Lines whose mean stiffness stands for the reduced model, and when many ask at once."""
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
-_DIGITS = 3  # of numbers in tables
 _FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
@@ -63,7 +64,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
                 "high": stiffness.max(axis=0),
             },
             "stiffness_bar_1d": float(mean[here]),
-            "table": [[*row, "1D"] for row in _number_rows(forces, mean)],
+            "table": [[*row, "1D"] for row in number_rows(forces, mean)],
             "strip": line_words(state, float(mean[here]), len(lines)),
             "is_coarse": len(lines) < _LINES,
         }
@@ -93,8 +94,7 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     state, refused = usable_state(arguments)
     n = min(state.n, _CURVE_POINTS)
     surface = state.surface(n)
-    most = _MOST_OF_HARDNESS * state.most_force_bar
-    pressed = _pressed(state, surface, _CURVE_FORCES[most > _CURVE_FORCES], progress)
+    pressed = pressed_under(state, surface, borne(state, _CURVE_FORCES), progress)
     return frame(
         {
             **_settled(state, refused),
@@ -107,18 +107,44 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     )
 
 
+def flow(arguments: Arguments, progress: Progress) -> bytes:
+    """What flows through the gap over force, and what theories of the flow say."""
+    state, refused = usable_state(arguments)
+    if not state.fluid:
+        raise ControlError("there is no fluid: mark that one flows through the gap", "fluid")
+    n = min(state.n, _CURVE_POINTS)
+    surface = state.surface(n)
+    measures = fluid.measures(state)
+    pressed = pressed_under(state, surface, borne(state, fluid.FORCES), progress, measures=measures)
+    return frame(
+        {
+            **_settled(state, refused),
+            "curve": _of_curve(pressed),
+            "grid": f"{n}²",
+            **fluid.of_curve(pressed, state, surface),
+        }
+    )
+
+
+def borne(state: ExploreState, force_bar: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Those of dimensionless forces that the surface bears. [1]"""
+    return force_bar[force_bar < _MOST_OF_HARDNESS * state.most_force_bar]
+
+
 def unloading(arguments: Arguments, progress: Progress) -> bytes:
     """The way back from the load of the state to none."""
     state, refused = usable_state(arguments)
     n = min(state.n, _CURVE_POINTS)
     loads = state.F * np.array([1.0, *UNLOADING])
-    pressed = _pressed(state, state.surface(n), loads, progress)
+    measures = fluid.measures(state)
+    pressed = pressed_under(state, state.surface(n), loads, progress, measures=measures)
     return frame(
         {
             **_settled(state, refused),
             "curve": _of_curve(pressed),
             "stiffness_table": _unloading_rows(pressed),
             "area_table": _area_rows(pressed),
+            "aperture_table": fluid.rows(pressed, "3D, way back"),
         }
     )
 
@@ -128,18 +154,23 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
     started = time.perf_counter()
     is_coarse = n < state.n
     surface = state.surface(n)
-    loads = np.array([state.F])
-    pressed = _pressed(state, surface, loads, progress, fields=True, grid_error=not is_coarse)
+    flows: list[rl.Flow] = []
+    pressed = pressed_under(
+        *(state, surface, np.array([state.F]), progress),
+        fields=True,
+        grid_error=not is_coarse,
+        measures=fluid.measures(state, flows),
+    )
     fields = pressed.fields[0]
-    seconds = time.perf_counter() - started
-    arrays: dict[str, NDArray[Any]] = {"topography": shaded(surface)}
+    maps: dict[str, Map] = {}
+    strip = contact_words(pressed, fields, surface)
     if fields is not None:
-        arrays |= {
-            "area": fields.contact.astype(np.uint8) + fields.plastic,
-            "pressure": fields.pressure / state.E_star,
-            "gap": fields.gap / surface.rms_height,
-            "displacement": fields.displacement / surface.rms_height,
-        }
+        maps = contact_maps(state, surface, fields)
+        if flows:
+            maps["flux"] = fluid.flux_map(flows[0])
+            strip += fluid.flow_words(pressed, flows[0])
+    seconds = time.perf_counter() - started
+    arrays = {"topography": shaded(surface)} | {name: each.values for name, each in maps.items()}
     heights = (surface.heights - surface.heights.mean()) / surface.rms_height
     return frame(
         {
@@ -149,7 +180,8 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
             "heights": [float(heights.min()), float(heights.max())],
             "curve": _of_curve(pressed),
             **({} if is_coarse else _of_spectrum(surface, state)),
-            "strip": contact_words(pressed, fields, surface),
+            "maps": {name: each.look for name, each in maps.items()},
+            "strip": strip,
             "status": status(pressed, n, seconds, is_coarse=is_coarse),
         },
         {name: values.T for name, values in arrays.items()},  # rows of an image run along x
@@ -177,7 +209,7 @@ def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
     }
 
 
-def _pressed(
+def pressed_under(
     state: ExploreState,
     surface: rl.Surface,
     force_bar: NDArray[Any],
@@ -185,6 +217,7 @@ def _pressed(
     *,
     fields: bool = False,
     grid_error: bool = False,
+    measures: Sequence[rl.Measure] = (),
 ) -> rl.Curve:
     """Press a surface of the state under dimensionless forces."""
     return rl.press(
@@ -195,6 +228,7 @@ def _pressed(
         periodic=state.periodic,
         fields=fields,
         grid_error=grid_error,
+        measures=measures,
         throw=False,
         progress=progress,
     )
@@ -224,6 +258,7 @@ def _of_curve(pressed: rl.Curve) -> dict[str, Any]:
         "stiffness_bar": pressed.stiffness_bar,
         "unloading_bar": None if pressed.hardness is None else unloading_bar(pressed),
         "area": pressed.area_fraction_corrected,
+        "aperture": fluid.apertures(pressed),
         "depth": pressed.depth / pressed.rms_height,
         "resolved": pressed.resolved,
         "converged": pressed.converged,
@@ -240,7 +275,7 @@ def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     shown = slice(None, None, -(-waves.size // _MOST_ROWS))
     return {
         "spectrum": {"waves": waves, "C_2d": power, "law": np.where(law > 0, law, np.nan)},
-        "spectrum_table": _number_rows(waves[shown], power[shown], law[shown]),
+        "spectrum_table": number_rows(waves[shown], power[shown], law[shown]),
     }
 
 
@@ -283,14 +318,9 @@ def _area_rows(pressed: rl.Curve) -> list[list[str]]:
     return _rows(pressed, pressed.area_fraction_corrected)
 
 
-def _number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
-    """Rows of a table of numbers."""
-    return [[decimal(float(value), _DIGITS) for value in row] for row in zip(*columns, strict=True)]
-
-
 def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
     """Rows of a quantity over force; a star marks loads with too few cells in contact."""
-    rows = _number_rows(pressed.force_bar, values)
+    rows = number_rows(pressed.force_bar, values)
     for i, row in enumerate(rows):
         if not pressed.converged[i]:
             row[1] = rl.Status(pressed.status[i]).reason

@@ -53,6 +53,7 @@ class ExploreState:
     L: str = "1 mm"  # side of the surface
     E: str = "110 GPa"  # contact modulus
     theories: tuple[str, ...] = ()  # drawn beside the curve
+    fluid: str = CHOICES["fluid"].default  # along which side it flows; empty without one
 
     @property
     def length(self) -> float:
@@ -187,6 +188,7 @@ def state_of(said: Texts, most_points: int) -> ExploreState:
         L=_quantity(said.get("L", ExploreState.L), "m", "L", "side of the surface", _SIDES),
         E=_quantity(said.get("E", ExploreState.E), "Pa", "E", "contact modulus", _MODULI),
         theories=_theories(said.get("theories", "")),
+        fluid=CHOICES["fluid"].read_in(said),
     )
     side = state.length
     state = replace(

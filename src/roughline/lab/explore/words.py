@@ -26,7 +26,7 @@ def line_words(state: ExploreState, stiffness: float, lines: int) -> list[_Item]
     """What the reduced model gives at the load."""
     without_yield = "" if state.hardness_bar is None else " Its springs do not yield."
     return [
-        _item(
+        item(
             "stiffness_1d",
             "k̄ (1D)",
             decimal(stiffness, _DIGITS),
@@ -40,7 +40,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
-        return [_item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
+        return [item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
     intervals = intervals_of(pressed)
     return [
         _stiffness(pressed, intervals),
@@ -54,7 +54,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
 def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
     unsure = not pressed.resolved[0]
     ends = _first(intervals.stiffness) if intervals else None
-    return _item(
+    return item(
         "stiffness_3d",
         "k̄ (3D)",
         decimal(float(pressed.stiffness_bar[0]), _digits(pressed.stiffness, ends))
@@ -71,7 +71,7 @@ def _area(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
     area = float(pressed.area_fraction_corrected[0])
     ends = _first(intervals.area) if intervals else None
     written = with_interval(area, ends, "%")
-    return _item(
+    return item(
         "area",
         "contact",
         f"{decimal(100 * area, supported_digits(area, ends, _DIGITS))}%",
@@ -86,7 +86,7 @@ def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[_Item]:
     force, depth = float(pressed.force[0]), float(pressed.depth[0])
     in_contact = force / (surface.area * float(pressed.area_fraction[0]))
     return [
-        _item(
+        item(
             "pressure",
             "p_c",
             f"{decimal(in_contact / pressed.E_star, _DIGITS)} E*",
@@ -96,14 +96,14 @@ def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[_Item]:
                 f", {decimal(in_contact / pressed.hardness, _DIGITS)} H" if pressed.hardness else ""
             ),
         ),
-        _item(
+        item(
             "depth",
             "d",
             f"{decimal(depth / surface.rms_height, _DIGITS)} h",
             "Depth since the first touch of the highest summit.",
             engineering(depth, "m", _DIGITS),
         ),
-        _item(
+        item(
             "force",
             "F",
             engineering(force, "N", _DIGITS),
@@ -123,7 +123,7 @@ def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surfac
     ends = _first(intervals.unloading) if intervals else None
     indentation = float(pressed.indentation[0])
     return [
-        _item(
+        item(
             "unloading",
             "k̄_u (3D)",
             decimal(float(unloading_bar(pressed)[0]), _digits(pressed.unloading_stiffness, ends)),
@@ -131,14 +131,14 @@ def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surfac
             "loading the spots at the hardness bear no more. Ultrasound and currents depend on it.",
             with_interval(float(pressed.unloading_stiffness[0]), ends, "N/m"),
         ),
-        _item(
+        item(
             "plastic",
             "plastic",
             f"{decimal(100 * float(pressed.plastic_fraction[0]), _DIGITS)}%",
             "Share of the contact that is at the hardness; the hardness is given below.",
             f"H {engineering(pressed.hardness, 'Pa', _DIGITS)}",
         ),
-        _item(
+        item(
             "indentation",
             "indentation",
             f"{decimal(indentation / surface.rms_height, _DIGITS)} h",
@@ -155,7 +155,7 @@ def unloading_bar(pressed: rl.Curve) -> NDArray[np.float64]:
 
 
 def _roughness(surface: rl.Surface) -> _Item:
-    return _item(
+    return item(
         "roughness",
         "h",
         engineering(surface.rms_height, "m", _DIGITS),
@@ -184,5 +184,11 @@ def _first(ends: Any) -> tuple[float, float] | None:
     return None if ends is None else (float(ends[0][0]), float(ends[1][0]))
 
 
-def _item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> _Item:
+def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
+    """Rows of a table of numbers."""
+    return [[decimal(float(value), _DIGITS) for value in row] for row in zip(*columns, strict=True)]
+
+
+def item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> _Item:
+    """One number of the answer strip."""
     return {"key": key, "symbol": symbol, "value": value, "below": below, "meaning": meaning}

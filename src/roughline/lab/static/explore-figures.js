@@ -2,6 +2,7 @@
 import {LOGARITHMIC, add, draw, drawImage, plot} from "./figures.js";
 
 const FORCE = "force F / (E* h L)", FORCES = [1e-4, 10];
+const POWERS = new Map([[-2, "0.01"], [-1, "0.1"], [0, "1"], [1, "10"], [2, "100"], [3, "1000"]]); // by their logarithms
 const DASHES = ["dashed", "dotted", "dashdot"]; // of theories
 const MARKS = [ // of the full model: source, name, colour, and how they look
   ["curve", "3D", "dark-line", {marker: "circle", size: 7}],
@@ -15,9 +16,10 @@ export function exploreFigures() {
   const sides = [1, 2].map(() => new Bokeh.Range1d({start: 0, end: 1}));
   return {
     "explore-topography": map("topography", sides, "height / h", true),
-    "explore-contact": map("contact", sides, "", false),
+    "explore-contact": contact(sides),
     "explore-stiffness": stiffness(),
     "explore-area": area(),
+    "explore-aperture": aperture(),
     "explore-spectrum": spectrum(),
   };
 }
@@ -27,6 +29,17 @@ function map(name, sides, title, isOfColours) {
   const color_mapper = drawImage(made, name, {isOfColours});
   add(made, "ColorBar", `${name} bar`, {color_mapper, title, width: 14, padding: 4}, "right");
   add(made, "BoxAnnotation", `${name} border`, {left: 0, right: 1, bottom: 0, top: 1, fill_alpha: 0, line_width: 1, colours: {line_color: "line"}});
+  return made;
+}
+
+function contact(sides) {
+  const made = map("contact", sides, "", false);
+  const {color_mapper} = made.right.find(({name}) => name === "contact bar");
+  const ticker = new Bokeh.FixedTicker({ticks: [...POWERS.keys()]});
+  add(made, "ColorBar", "contact flux bar", {color_mapper, ticker, major_label_overrides: POWERS, width: 14, padding: 4, visible: false}, "right");
+  for (const [size, line_width, colour] of [[17, 5, "paper"], [17, 2, "here"]]) { // the one is seen around the other
+    draw(made, "scatter", "ring", {size, line_width, fill_alpha: 0, colours: {line_color: colour}});
+  }
   return made;
 }
 
@@ -42,6 +55,17 @@ function stiffness() {
 function area() {
   const made = plot([FORCE, "real contact area A / A₀"], [FORCES, [1e-4, 1.3]], LOGARITHMIC);
   drawLoads(made, "area");
+  return made;
+}
+
+// Loads and theories that are sealed, which have no place on a logarithmic axis, stand at its foot.
+function aperture() {
+  const made = plot([FORCE, "hydraulic aperture uₕ / h"], [FORCES, [1e-2, 10]], LOGARITHMIC);
+  const look = {marker: "x", size: 9, line_width: 2};
+  drawLoads(made, "aperture");
+  draw(made, "scatter", "aperture theory sealed", {...look, colours: {line_color: "theory"}});
+  draw(made, "scatter", "aperture sealed", {...look, legend: "sealed: nothing comes through", colours: {line_color: "dark-line"}});
+  made.legend.location = "bottom_left";
   return made;
 }
 

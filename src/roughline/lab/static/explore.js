@@ -1,27 +1,24 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls} from "./controls.js";
 import {exploreFigures} from "./explore-figures.js";
-import {onDraw} from "./hands.js";
+import {onDraw, onPoint} from "./hands.js";
 import {embedded, points} from "./plots.js";
 import {Strip} from "./strip.js";
-import {fillTable, markKeys} from "./tables.js";
+import {fillCaption, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
 import {TakeAlong} from "./take_along.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
-const LABELS = {
-  pressure: "pressure over E*; blank where nothing touches",
-  gap: "gap in rms heights; blank where they touch",
-  displacement: "deflection of the half-space in rms heights",
-};
 const DASHES = ["– –", "· · ·", "– ·"]; // as theories are drawn
 const MOST_THEORIES = DASHES.length;
 const CONTACT = ["topography", "contact"], CURVES = ["stiffness", "area", "spectrum"]; // panels
-const STRIP = ["stiffness_3d", "unloading", "stiffness_1d", "area", "plastic", "pressure", "depth", "indentation",
-  "force", "roughness"];
-const FINER = ["full", "curve", "unloading"]; // what is asked at rest
-const OF_YIELD = ["unloading", "plastic", "indentation"];
+const OVER_FORCE = {stiffness: "stiffness_bar", area: "area", aperture: "aperture"}; // panels with loads, what they show
+const STRIP = ["stiffness_3d", "unloading", "stiffness_1d", "area", "aperture", "channel", "plastic", "pressure", "depth",
+  "indentation", "force", "roughness"];
+const FINER = ["full", "curve", "flow", "unloading"]; // what is asked at rest
+const NOT_ALWAYS = ["unloading", "plastic", "indentation", "aperture", "channel"]; // in the strip
+const FOOT = 0.04; // of an axis: how far above its end sealed loads stand
 
 export async function open(link, address, said) {
   const view = new Explore(link, address);
@@ -45,14 +42,15 @@ class Explore {
 
   async open(said) {
     this.#take(said);
-    this.#dim([...CONTACT, ...CURVES]);
+    this.#dimAll();
     this.#askNow();
     this.#plots = await embedded(exploreFigures);
-    for (const name of ["stiffness", "area"]) {
+    for (const name of Object.keys(OVER_FORCE)) {
       this.#plots.onMove(`${name} cursor`, (force) => this.#cursorMoved(force));
       onDraw(this.#plots.root(`explore-${name}`), this.#root.querySelector(`[data-draw="${name}"]`),
         (from, {x}) => { this.#plots.model(`${name} cursor`).location = x; });
     }
+    onPoint(this.#plots.root("explore-contact"), (at) => this.#tell(at));
     this.#plots.frame(["explore-topography", "explore-contact"], [1, 1]);
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
@@ -63,6 +61,7 @@ class Explore {
     this.#controls.take(H === undefined ? texts : {...texts, D_f: `H = ${H}`});
     this.#showHeightOrSlope();
     this.#showHardness();
+    this.#showFluid();
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
@@ -78,9 +77,13 @@ class Explore {
     this.#ofLink = "";
     if (key === "rms") this.#showHeightOrSlope();
     if (key === "hardness_bar") this.#showHardness();
+    if (key === "fluid") {
+      this.#controls.put("shown", this.#flows ? "flux" : "area");
+      this.#showFluid();
+    }
     this.#forgetWayBack();
-    this.#stale = key !== "F" || this.#stale;
-    this.#dim(key === "F" ? CONTACT : [...CONTACT, ...CURVES]);
+    if (key === "F") this.#dim(CONTACT);
+    else this.#dimAll();
     this.#askNow();
     clearTimeout(this.#rest);
     this.#waiting.stop(FINER);
@@ -90,6 +93,7 @@ class Explore {
   #cancelled(works) {
     this.#stopped = this.#turn;
     const left = {full: "the coarse answer is shown", curve: "the marks of the curves belong to the previous surface",
+      flow: "the apertures belong to the previous surface",
       unloading: "the way back is not shown", download: "nothing was saved"};
     this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
   }
@@ -123,7 +127,8 @@ class Explore {
     ask("full", args, (header) => {
       this.#drawContact(header, args, turn);
       if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
-      if (this.#stale) ask("curve", {...args, refines: true}, (curve) => this.#drawCurve(curve));
+      if (this.#stale.has("curve")) ask("curve", {...args, refines: true}, (curve) => this.#drawCurve(curve));
+      if (this.#stale.has("flow") && header.state.fluid) ask("flow", {...args, refines: true}, (flow) => this.#drawFlow(flow));
       if (header.state.hardness_bar) ask("unloading", args, (back) => this.#drawWayBack(back));
     });
   }
@@ -145,14 +150,13 @@ class Explore {
     for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
     this.#plots.setMap("topography", header.arrays.topography, [1, 1], header.heights);
     this.#drawField(header);
-    const {force_bar: x, stiffness_bar, area} = header.curve;
-    this.#plots.set("stiffness here", {x, y: stiffness_bar});
-    this.#plots.set("area here", {x, y: area});
-    this.#strip.add(header.strip, header.curve.unloading_bar === null ? OF_YIELD : []);
+    this.#drawHere(header.curve);
+    const said = header.strip.map(({key}) => key);
+    this.#strip.add(header.strip, NOT_ALWAYS.filter((key) => !said.includes(key)));
     this.#fillTables(header.strip);
     const wasStopped = header.is_coarse && turn === this.#stopped; // and says so already
     if (!wasStopped) this.#say(header.status, !header.is_coarse);
-    this.#undim(CONTACT);
+    this.#undim([...CONTACT, ...(header.state.fluid ? [] : ["aperture"])]);
     if (!header.is_coarse) this.#drawSpectrum(header);
   }
 
@@ -170,36 +174,55 @@ class Explore {
     fillTable("explore-spectrum", ["waves along the side", "C_2d [m⁴]", "law [m⁴]"], spectrum_table);
   }
 
-  #drawField(header) {
-    const shown = this.#controls.said.shown ?? "area";
-    const field = header.arrays[shown];
-    if (shown === "area") markKeys(this.#captionOf("shown"), header.curve.unloading_bar !== null);
-    else this.#caption("shown", LABELS[shown]);
-    if (!field) return;
-    let high = 2; // gap, contact, at the hardness
-    if (shown !== "area") { high = 0; for (const value of field.values) if (value > high) high = value; }
-    this.#plots.colours("contact", shown === "area" ? "marks" : shown === "pressure" ? "Viridis256" : "Cividis256");
-    const low = shown === "pressure" ? 1e-6 * high : 0; // where nothing presses, the paper shows
-    this.#plots.setMap("contact", field, [1, 1], [low, high || 1]);
+  #drawField({maps, arrays}) {
+    const {shown: wanted} = this.#controls.said, shown = wanted in maps ? wanted : "area";
+    if (!(shown in maps)) return; // the load was not solved
+    const {palette, low, high, caption, marks, ring} = maps[shown];
+    fillCaption(this.#captionOf("shown"), caption, marks);
+    this.#plots.colours("contact", palette);
+    this.#plots.setMap("contact", arrays[shown], [1, 1], [low, high]);
+    this.#plots.set("ring", {x: ring ? [ring[0]] : [], y: ring ? [ring[1]] : []});
+    this.#tell(this.#at);
   }
 
-  #stale = true; // whether the whole curve belongs to another surface
+  #at = null; // where the mouse is on the map, or a finger was
+
+  // Tell what is at a point of the map: place, gap, and flux if a fluid flows.
+  #tell(at) {
+    this.#at = at;
+    const place = this.#root.querySelector("[data-at]"), {gap, flux} = this.#last?.arrays ?? {};
+    place.hidden = !at || !gap || Math.min(at.x, at.y) < 0 || Math.max(at.x, at.y) >= 1;
+    if (place.hidden) return;
+    const [rows, columns] = gap.shape, cell = Math.floor(at.y * rows) * columns + Math.floor(at.x * columns);
+    const said = [`x ${at.x.toFixed(3)} L, y ${at.y.toFixed(3)} L`];
+    said.push(gap.values[cell] > 0 ? `gap ${gap.values[cell].toPrecision(3)} h` : "in contact");
+    if (flux && gap.values[cell] > 0) said.push(this.#fluxInWords(flux.values[cell]));
+    place.textContent = said.join("; ");
+  }
+
+  #fluxInWords(value) {
+    const {palette, low} = this.#last.maps.flux;
+    if (palette !== "flux") return value === 0 ? "no fluid comes here" : "no flow";
+    if (value < low) return "no flow";
+    return value > low ? `flux ${(10 ** value).toPrecision(3)} of its mean` : `flux below ${10 ** low} of its mean`;
+  }
+
+  #stale = new Set(["curve", "flow"]); // what belongs to another surface
+
+  #dimAll() {
+    this.#stale = new Set(["curve", "flow"]);
+    this.#dim([...CONTACT, ...CURVES, ...(this.#flows ? ["aperture"] : [])]);
+  }
 
   #dim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.add("dimmed"); }
   #undim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.remove("dimmed"); }
 
   #drawCurve({curve, grid, theories, stiffness_table, area_table}) {
-    this.#stale = false;
+    this.#stale.delete("curve");
     this.#undim(CURVES);
-    const rows = (wanted, values) => points(curve.force_bar, values, (i) => curve.converged[i] && curve.resolved[i] === wanted);
     this.#setMarks("stiffness unloading", curve.force_bar, curve.unloading_bar ?? []);
     for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
-    for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
-      this.#plots.set(`${name} curve`, rows(true, values));
-      const few = rows(false, values);
-      this.#plots.set(`${name} unsure`, few);
-      this.#plots.model(`${name} unsure label`).visible = few.x.length > 0;
-    }
+    for (const name of ["stiffness", "area"]) this.#drawLoads(name, curve);
     for (let i = 0; i < MOST_THEORIES; i++) {
       const {force_bar = [], stiffness_bar = null, area = []} = theories[i] ?? {};
       this.#plots.set(`stiffness theory ${i}`, {x: stiffness_bar ? force_bar : [], y: stiffness_bar ?? []});
@@ -207,29 +230,77 @@ class Explore {
     }
     this.#plots.span("explore-stiffness", "y", [...curve.stiffness_bar, ...(curve.unloading_bar ?? [])], [1e-3, 1.3]);
     this.#plots.span("explore-area", "y", curve.area, [1e-4, 1]);
-    const failed = curve.converged.filter((each) => !each).length;
-    const unsure = curve.resolved.some((each) => !each) ? "; hollow, and * in the table: fewer than ten cells touch" : "";
-    const note = unsure + (failed ? `; ${failed} loads were not solved` : "");
     const called = (name) => this.#root.querySelector(`[data-key="theories"][value="${name}"]`).parentElement.textContent.trim();
     const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${called(name)}: ${validity}`);
-    this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
-    this.#caption("area", `marks of the curve on ${grid} points${note}`);
+    for (const name of ["stiffness", "area"]) this.#caption(name, noteOf(curve, grid));
     this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));
     this.#curveTables = [stiffness_table, area_table];
     this.#fillCurveTables();
   }
 
-  #drawWayBack({curve, stiffness_table, area_table}) {
+  #drawFlow({curve, grid, theories, table, words}) {
+    this.#stale.delete("flow");
+    this.#undim(["aperture"]);
+    const known = (values) => values.filter((value) => value > 0);
+    this.#plots.span("explore-aperture", "y", [...known(curve.aperture), ...theories.flatMap(({aperture}) => known(aperture))]);
+    this.#plots.shows("explore-aperture", {what: "flow", grid});
+    this.#drawLoads("aperture", curve);
+    this.#drawSealed("aperture sealed", [curve]);
+    this.#plots.model("aperture sealed label").visible = curve.aperture.includes(0);
+    for (const [i, {force_bar, aperture}] of theories.entries()) {
+      this.#plots.set(`aperture theory ${i}`, points(force_bar, aperture, (j) => aperture[j] > 0));
+    }
+    this.#drawSealed("aperture theory sealed", theories.map(({force_bar, aperture}) => {
+      const first = aperture.indexOf(0); // of a theory the first sealed load alone
+      return first < 0 ? {force_bar: [], aperture: []} : {force_bar: [force_bar[first]], aperture: [0]};
+    }));
+    if (this.#last) this.#drawHere(this.#last.curve);
+    this.#caption("aperture", `${words}; ${noteOf(curve, grid)}`);
+    this.#caption("theories of the flow", theories.map(({name, validity}, i) => `${DASHES[i]} ${name}: ${validity}.`).join(" "));
+    this.#flowTable = table;
+    this.#fillCurveTables();
+  }
+
+  // Draw sealed loads at the foot of the axis.
+  #drawSealed(name, curves) {
+    const x = curves.flatMap(({force_bar, aperture}) => force_bar.filter((_, i) => aperture[i] === 0));
+    this.#plots.set(name, {x, y: x.map(() => this.#foot)});
+  }
+
+  get #foot() {
+    const {start, end} = this.#plots.root("explore-aperture").y_range;
+    return start * (end / start) ** FOOT;
+  }
+
+  // Draw the loads of a curve; those with too few cells in contact are hollow.
+  #drawLoads(name, curve) {
+    const values = curve[OVER_FORCE[name]], isKnown = (i) => curve.converged[i] && values[i] > 0;
+    const few = points(curve.force_bar, values, (i) => isKnown(i) && !curve.resolved[i]);
+    this.#plots.set(`${name} curve`, points(curve.force_bar, values, (i) => isKnown(i) && curve.resolved[i]));
+    this.#plots.set(`${name} unsure`, few);
+    this.#plots.model(`${name} unsure label`).visible = few.x.length > 0;
+  }
+
+  // Draw the present load, at the foot where it is sealed.
+  #drawHere(curve) {
+    for (const [name, quantity] of Object.entries(OVER_FORCE)) {
+      const values = curve[quantity] ?? [], y = name === "aperture" ? values.map((value) => value || this.#foot) : values;
+      this.#plots.set(`${name} here`, {x: y.length ? curve.force_bar : [], y});
+    }
+  }
+
+  #drawWayBack({curve, stiffness_table, area_table, aperture_table}) {
     this.#setMarks("stiffness back", curve.force_bar, curve.unloading_bar);
     this.#setMarks("area back", curve.force_bar, curve.area);
-    this.#backTables = [stiffness_table, area_table.map(([force, area]) => [force, `${area} (way back)`])];
+    this.#setMarks("aperture back", curve.force_bar, curve.aperture ?? []);
+    this.#backTables = [stiffness_table, area_table.map(([force, area]) => [force, `${area} (way back)`]), aperture_table];
     this.#fillCurveTables();
   }
 
   #forgetWayBack() {
     if (!this.#backTables[0].length) return;
-    for (const name of ["stiffness", "area"]) this.#setMarks(`${name} back`, [], []);
-    this.#backTables = [[], []];
+    for (const name of Object.keys(OVER_FORCE)) this.#setMarks(`${name} back`, [], []);
+    this.#backTables = [[], [], []];
     this.#fillCurveTables();
   }
 
@@ -240,12 +311,13 @@ class Explore {
     this.#plots.model(`${name} label`).visible = marks.x.length > 0;
   }
 
-  #lineTable = []; #curveTables = [[], []]; #backTables = [[], []];
+  #lineTable = []; #curveTables = [[], []]; #backTables = [[], [], []]; #flowTable = [];
 
   #fillCurveTables() {
     const [stiffness, area] = [0, 1].map((i) => [...this.#curveTables[i], ...this.#backTables[i]]);
     fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness, ...this.#lineTable]);
     fillTable("explore-area", ["F̄", "A/A_0"], area);
+    fillTable("explore-aperture", ["F̄", "u_h/h", "model"], [...this.#flowTable, ...this.#backTables[2]]);
   }
 
   #stopped = null; // turn whose finer answer was cancelled
@@ -265,7 +337,7 @@ class Explore {
 
   #cursorTo(force) {
     this.#fromCursor = true;
-    for (const name of ["stiffness", "area"]) this.#plots.model(`${name} cursor`).location = force;
+    for (const name of Object.keys(OVER_FORCE)) this.#plots.model(`${name} cursor`).location = force;
     this.#fromCursor = false;
   }
 
@@ -306,6 +378,18 @@ class Explore {
     this.#root.querySelector('[data-control="hardness_bar"]').hidden = !yields;
   }
 
+  get #flows() { return Boolean(this.#controls.said.fluid); }
+
+  // Show what there is with a fluid alone, and its curve.
+  #showFluid() {
+    const flows = this.#flows;
+    for (const each of this.#root.querySelectorAll('[data-of="fluid"]')) each.hidden = !flows;
+    for (const select of this.#root.querySelectorAll('select:has([data-of="fluid"]:checked)')) if (!flows) select.selectedIndex = 0;
+    this.#root.querySelector(flows ? "#tab-aperture" : "#tab-area").click();
+    this.#caption("theories of the flow", "");
+    if (!flows) this.#undim(["aperture"]);
+  }
+
   #showHeightOrSlope() {
     const bySlope = this.#controls.said.rms === "slope";
     this.#root.querySelector('[data-control="h"]').hidden = bySlope;
@@ -324,6 +408,13 @@ class Explore {
     });
     bindTabs(this.#root);
   }
+}
+
+// Say of a curve what its marks are, and which loads have none.
+function noteOf({converged, resolved}, grid) {
+  const failed = converged.filter((each) => !each).length;
+  const unsure = resolved.some((each) => !each) ? "; hollow, and * in the table: fewer than ten cells touch" : "";
+  return `marks of the curve on ${grid} points${unsure}${failed ? `; ${failed} loads were not solved` : ""}`;
 }
 
 function sameState(first, second) { return JSON.stringify(first) === JSON.stringify(second); }

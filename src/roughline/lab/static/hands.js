@@ -53,6 +53,16 @@ export function onTouch(root, touched) {
   });
 }
 
+// Call with the point under the mouse, or that was touched, and with none when the mouse leaves.
+export function onPoint(root, told) {
+  const {element, canvas, view} = placeOf(root);
+  element.addEventListener("pointermove", (event) => {
+    if (event.pointerType === "mouse") told(event.composedPath()[0] === canvas ? pointAt(view, event) : null);
+  }, true);
+  element.addEventListener("pointerleave", ({pointerType}) => { if (pointerType === "mouse") told(null); });
+  onTouch(root, told);
+}
+
 // Let a button, once pressed, have the next drag on the plot draw, with one finger too: drawn(from, to, isLast)
 // has points in the units of the axes.
 export function onDraw(root, button, drawn) {

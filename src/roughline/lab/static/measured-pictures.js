@@ -1,7 +1,7 @@
 // Pictures of My surface: heights, spectrum, contact and curves, and their tables.
 import {onDraw} from "./hands.js";
 import {points} from "./plots.js";
-import {fillTable, markKeys} from "./tables.js";
+import {fillCaption, fillTable} from "./tables.js";
 
 const FIELDS = {
   area: ["marks", ""],
@@ -118,8 +118,8 @@ export class Pictures {
     this.#plots.colours("contact", palette);
     this.#map("contact", arrays[shown], contact, field.range, field.unit);
     const caption = this.#view.find('[data-caption="contact"]');
-    if (shown === "area") markKeys(caption, contact.yields);
-    else caption.textContent = meaning;
+    const marks = shown === "area" ? ["ink", ...(contact.yields ? ["plastic"] : [])] : [];
+    fillCaption(caption, meaning, marks);
     caption.append(`; ${contact.load}${contact.spots.x.length ? "; rings: the few points that touch" : ""}`);
     const rows = Object.entries(contact.fields).filter(([name]) => name !== "area")
       .map(([name, {unit, range}]) => [`largest ${name}`, `${range[1].toPrecision(4)} ${unit}`]);

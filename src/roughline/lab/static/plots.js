@@ -3,6 +3,11 @@ import {element} from "./elements.js";
 import {takeHands} from "./hands.js";
 
 const documents = [], allPlots = [];
+const MARKS = { // palettes of a few colours of the theme
+  marks: ["paper", "ink", "plastic"], // gap, contact, contact at the hardness
+  reach: ["paper", "ink", "dark-line"], // gap, contact, gap that a fluid comes to
+};
+const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
 
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
 const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
@@ -83,13 +88,14 @@ class Plots {
     if (y) yaxes[0].axis_label = y;
   }
 
-  // Give a map a palette: one of Bokeh's, or "marks": gap, contact, contact at the hardness.
+  // Give a map a palette: one of Bokeh's, that of a flow, or one of few marks.
   colours(name, palette) {
     if (this.#palette[name] === `${palette} ${colour("paper")}`) return;
     this.#palette[name] = `${palette} ${colour("paper")}`;
-    const wanted = palette === "marks" ? [colour("paper"), colour("ink"), colour("plastic")] : Bokeh.Palettes[palette];
-    this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper")});
-    this.model(`${name} bar`).visible = palette !== "marks";
+    const wanted = MARKS[palette]?.map(colour) ?? (palette === "flux" ? ofFlux() : Bokeh.Palettes[palette]);
+    this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper"), nan_color: colour("ink")});
+    this.model(`${name} bar`).visible = !(palette in MARKS) && palette !== "flux";
+    this.model(`${name} flux bar`)?.setv({visible: palette === "flux"}); // its scale is logarithmic
   }
 
   // Give maps that were drawn before the palettes of the theme.
@@ -150,6 +156,13 @@ const known = new Map(); // colours: to ask for one makes the browser style the 
 export function colour(name) {
   if (!known.has(name)) known.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
   return known.get(name);
+}
+
+// Colours that stand out from the paper the more, the more flows.
+function ofFlux() {
+  const {Viridis256, YlGnBu9, interp_palette} = Bokeh.Palettes;
+  if (document.documentElement.dataset.theme === "dark") return Viridis256.slice(FAINTEST);
+  return interp_palette(YlGnBu9.slice(DEEPEST).reverse(), Viridis256.length);
 }
 
 function recolour(made) {

@@ -42,8 +42,14 @@ export function fillFigures(place, lead, figures) {
     element("dt", {textContent: name}), ...[value, interval].map((textContent) => element("dd", {textContent})))));
 }
 
-// Say what the colours of a map of marks mean; points at the hardness only where there may be any.
-export function markKeys(place, yields) {
-  const key = (name, text) => [element("span", {className: `patch ${name}`}), text];
-  place.replaceChildren(...key("ink", "in contact"), ...(yields ? key("plastic", "of this at the hardness: permanently indented") : []));
+const MEANINGS = { // of the colours of marks
+  ink: "in contact",
+  plastic: "of this at the hardness: permanently indented",
+  reach: "reached by the fluid",
+};
+
+// Say in a caption what a map shows, and what the colours of its marks mean.
+export function fillCaption(place, caption, marks = []) {
+  const patches = marks.flatMap((name) => [element("span", {className: `patch ${name}`}), MEANINGS[name]]);
+  place.replaceChildren(caption, ...patches);
 }

@@ -16,7 +16,8 @@ export function bindTabs(root) {
     tab.addEventListener("keydown", ({key}) => {
       const step = {ArrowLeft: -1, ArrowRight: 1}[key];
       if (!step) return;
-      const other = tabs[(tabs.indexOf(tab) + step + tabs.length) % tabs.length];
+      const there = tabs.filter(({hidden}) => !hidden);
+      const other = there[(there.indexOf(tab) + step + there.length) % there.length];
       choose(other);
       other.focus();
     });

@@ -1,0 +1,162 @@
+"""A fluid between the two bodies: where it goes, how much comes through, and what theories say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import roughline as rl
+from roughline.lab.explore.maps import Map
+from roughline.lab.explore.state import ExploreState
+from roughline.lab.explore.words import item, number_rows
+from roughline.report.values import value_and_interval, with_interval
+from roughline.theories.theory_curve import TheoryCurve
+from roughline.units import decimal, engineering, supported_digits
+
+_NAME = "hydraulic_aperture"
+_DIGITS = 3
+_WEAKEST = -2.0  # decimal logarithm of the flux over its mean that has the palest colour
+_NONE = -9.0  # the same, for no flow
+_THEORIES = {"critical-junction": "critical junction", "bruggeman": "Bruggeman"}
+FORCES, _THEORY_FORCES = np.geomspace(1e-3, 9, 14), np.geomspace(1e-3, 9, 27)
+"""Dimensionless forces of the curve; the largest seal most surfaces."""
+_SEALED = "sealed"
+
+
+def measures(state: ExploreState, first: list[rl.Flow] | None = None) -> list[rl.Measure]:
+    """What is measured of each load, if there is a fluid; a list gets the flow of the first."""
+    if not state.fluid:
+        return []
+
+    def aperture(fields: rl.Fields) -> float:
+        flow = rl.flow(fields)
+        if first is not None and not first:
+            first.append(flow)
+        return flow.hydraulic_aperture
+
+    meaning = "gap of two flat plates that let as much through"
+    return [rl.Measure(_NAME, "u_h", "length", meaning, aperture)]
+
+
+def apertures(pressed: rl.Curve) -> NDArray[np.float64] | None:
+    """Hydraulic apertures over the rms height, zero where sealed; None without a fluid. [1]"""
+    measured = pressed.measured.get(_NAME)
+    return None if measured is None else measured.values / pressed.rms_height
+
+
+def flux_map(flow: rl.Flow) -> Map:
+    """Where the fluid goes: the flux over its mean; of a sealed gap, how far the fluid comes."""
+    is_open = flow.gap > 0
+    if flow.is_sealed:
+        reached = flow.pressure == 1
+        marks = np.where(is_open, 2 * reached, 1).astype(np.uint8)
+        caption = "sealed: no way through"
+        return Map(marks, "reach", 0, 2, caption, ("ink", "reach"))
+    flux = np.hypot(*flow.flux) * flow.sizes[1] / flow.inflow
+    logarithm = np.full(flux.shape, _NONE)
+    np.log10(flux, out=logarithm, where=flux > 0)
+    logarithm[flux > 0] = np.maximum(logarithm[flux > 0], _WEAKEST)
+    logarithm[~is_open] = np.nan
+    high = max(float(np.log10(flux.max())), 0.0)
+    return Map(
+        *(logarithm, "flux", _WEAKEST, high),
+        "flux over its mean; ring: throttled most",
+        ("ink",),
+        _place(flow),
+    )
+
+
+def _place(flow: rl.Flow) -> tuple[float, float]:
+    """Where the fluid is throttled most, in sides of the surface."""
+    assert flow.constriction is not None
+    x, y = ((i + 0.5) / n for i, n in zip(flow.constriction, flow.gap.shape, strict=True))
+    return x, y
+
+
+def flow_words(pressed: rl.Curve, flow: rl.Flow) -> list[dict[str, str]]:
+    """What comes through at the load, and the channel that carries most of it."""
+    aperture, ends = flow.hydraulic_aperture, None
+    measured = pressed.measured[_NAME]
+    if measured.low is not None and measured.high is not None:
+        ends = float(measured.low[0]), float(measured.high[0])
+    meaning = (
+        "Hydraulic aperture: gap of two flat plates that let as much fluid through, from left to "
+        "right; a leak is proportional to its cube. The interval shows how far finer grids may "
+        "change it."
+    )
+    if flow.is_sealed:
+        below = f"at most {engineering(ends[1], 'm', _DIGITS)}" if ends and ends[1] > 0 else ""
+        return [item("aperture", "u_h", _SEALED, meaning, below)]
+    doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
+    value = decimal(aperture / pressed.rms_height, supported_digits(aperture, ends, _DIGITS))
+    below = " ".join(filter(None, value_and_interval(with_interval(aperture, ends, "m"))))
+    x, y = (decimal(share, _DIGITS) for share in _place(flow))
+    share = f"{decimal(100 * flow.largest_share, _DIGITS)}%" if flow.largest_share else "none"
+    gap = decimal(float(flow.gap[flow.constriction]) / pressed.rms_height, _DIGITS)
+    return [
+        item(
+            *("aperture", "u_h", f"{value} h" + (" *" if doubt else "")),
+            meaning + (f" But {doubt}." if doubt else ""),
+            below,
+        ),
+        item(
+            *("channel", "largest channel", share),
+            "Largest share of the flow that one channel between two places of contact carries. "
+            "Below: where the fluid is throttled most, the ring in the map, and the gap there.",
+            f"ring: x {x} L, y {y} L, gap {gap} h",
+        ),
+    ]
+
+
+def of_curve(pressed: rl.Curve, state: ExploreState, surface: rl.Surface) -> dict[str, Any]:
+    """Theories beside a curve with a fluid, all as a table, and in words where it seals."""
+    of_theories, table = _drawn(state, surface), rows(pressed, "3D")
+    for each in of_theories:
+        table += _rows(each["force_bar"], each["aperture"], each["name"])
+    return {"theories": of_theories, "table": table, "words": _where_sealed(pressed)}
+
+
+def rows(pressed: rl.Curve, name: str) -> list[list[str]]:
+    """Rows of F̄, the hydraulic aperture or that it is sealed, and a name; none without a fluid."""
+    found = apertures(pressed)
+    return [] if found is None else _rows(pressed.force_bar, found, name)
+
+
+def _rows(forces: NDArray[Any], found: NDArray[Any], name: str) -> list[list[str]]:
+    return [
+        [force, _SEALED if aperture == 0 else text, name]
+        for (force, text), aperture in zip(number_rows(forces, found), found, strict=True)
+    ]
+
+
+def _where_sealed(pressed: rl.Curve) -> str:
+    """Say from which load on the curve is sealed."""
+    found = pressed.measured[_NAME].values
+    is_open = np.flatnonzero(found != 0)  # and those that were not solved
+    first = int(is_open[-1]) + 1 if is_open.size else 0
+    if first == found.size:
+        most = decimal(float(pressed.force_bar[-1]), _DIGITS)
+        return f"no load up to F̄ = {most} seals"
+    return f"sealed, at the foot, from F̄ = {decimal(float(pressed.force_bar[first]), _DIGITS)} on"
+
+
+def theories(state: ExploreState, surface: rl.Surface) -> list[TheoryCurve]:
+    """Theories of the flow for the waves of the surface."""
+    pressures = state.force(_THEORY_FORCES) / surface.area
+    return [rl.theory(name, surface, state.E_star, pressures) for name in _THEORIES]
+
+
+def _drawn(state: ExploreState, surface: rl.Surface) -> list[dict[str, Any]]:
+    """The same as the page draws them."""
+    return [
+        {
+            "name": _THEORIES[each.name],
+            "force_bar": _THEORY_FORCES,
+            "aperture": each.hydraulic_aperture / surface.rms_height,
+            "validity": each.validity,
+        }
+        for each in theories(state, surface)
+        if each.hydraulic_aperture is not None
+    ]

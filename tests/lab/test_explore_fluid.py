@@ -1,0 +1,218 @@
+"""A fluid in Explore: its flow, apertures, theories, code and files are those of the library."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from matplotlib import image
+
+import roughline as rl
+from lab.test_explore import E_STAR, HEIGHT, LENGTH, SMALL, answer, arguments
+from lab.unpacked import unpacked
+from roughline.assessment.question import UNLOADING
+from roughline.lab.controls import ControlError
+from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore.state import state_of
+from roughline.report.values import with_interval
+
+SCALE = E_STAR * HEIGHT * LENGTH
+FLOWS = {**SMALL, "fluid": "x"}
+SEALED = {**FLOWS, "F": "9"}
+APERTURE = rl.Measure(
+    "hydraulic_aperture",
+    "u_h",
+    "length",
+    "gap of two flat plates",
+    lambda fields: rl.flow(fields).hydraulic_aperture,
+)
+
+
+@pytest.fixture(scope="module")
+def surface():
+    return state_of(SMALL, 64).surface(64)
+
+
+@pytest.fixture(scope="module")
+def curve(surface):
+    return rl.press(
+        surface,
+        E_star=E_STAR,
+        forces=[0.2 * SCALE],
+        fields=True,
+        measures=[APERTURE],
+        grid_error=True,
+    )
+
+
+def said(header):
+    return {item["key"]: item for item in header["strip"]}
+
+
+def test_without_the_tick_no_flow_is_computed(monkeypatch):
+    def none(*given, **named):
+        raise AssertionError("a flow was computed")
+
+    monkeypatch.setattr(rl, "flow", none)
+    monkeypatch.setattr(rl, "theory", none)
+    yields = {**SMALL, "hardness_bar": "0.3"}
+    for task in (pictures.coarse, pictures.full, pictures.curve, pictures.unloading):
+        header, arrays = answer(task, yields)
+        assert header["curve"]["aperture"] is None
+        assert "flux" not in arrays
+    with pytest.raises(ControlError) as refused:
+        answer(pictures.flow, SMALL)
+    assert refused.value.at == "fluid"
+    with pytest.raises(AssertionError, match="a flow"):
+        answer(pictures.coarse, FLOWS)
+
+
+def test_the_flux_is_that_of_the_library(curve):
+    header, arrays = answer(pictures.full, FLOWS)
+    flow = rl.flow(curve.fields[0])
+    flux = np.hypot(*flow.flux) * LENGTH / flow.inflow
+    shown, is_open = arrays["flux"].T, flow.gap > 0
+    np.testing.assert_array_equal(np.isnan(shown), ~is_open)
+    np.testing.assert_array_equal(np.isnan(shown), curve.fields[0].contact)
+    flows = is_open & (flux > 0)
+    np.testing.assert_allclose(10 ** shown[flows], np.maximum(flux[flows], 0.01), rtol=1e-5)
+    look = header["maps"]["flux"]
+    assert (shown[is_open & ~flows] < look["low"]).all()
+    assert 10 ** look["high"] == pytest.approx(flux.max())
+    assert look["ring"] == pytest.approx([(i + 0.5) / 64 for i in flow.constriction])
+    # as a mean over every line across the flow, the flux along it is the mean flux
+    mean = flow.flux[0].mean(axis=1) * LENGTH / flow.inflow
+    np.testing.assert_allclose(mean, 1, rtol=1e-8)
+
+
+def test_the_strip_says_how_much_comes_through_with_its_interval(curve):
+    found, flow = said(answer(pictures.full, FLOWS)[0]), rl.flow(curve.fields[0])
+    measured = curve.measured["hydraulic_aperture"]
+    ends = float(measured.low[0]), float(measured.high[0])
+    assert ends[0] < flow.hydraulic_aperture < ends[1]
+    number = float(found["aperture"]["value"].removesuffix(" h"))
+    assert number == pytest.approx(flow.hydraulic_aperture / HEIGHT, rel=0.05)
+    assert found["aperture"]["below"] == with_interval(flow.hydraulic_aperture, ends, "m")
+    assert float(found["channel"]["value"].rstrip("%")) == pytest.approx(
+        100 * flow.largest_share, rel=0.01
+    )
+    x, y, gap = map(float, re.findall(r"[xyp] ([\d.]+)", found["channel"]["below"]))
+    cell = tuple(int(64 * place) for place in (x, y))
+    assert cell == flow.constriction
+    assert gap == pytest.approx(flow.gap[flow.constriction] / HEIGHT, rel=0.01)
+
+
+def test_what_is_sealed_is_said_and_its_map_shows_how_far_the_fluid_comes(surface):
+    header, arrays = answer(pictures.full, SEALED)
+    pressed = rl.press(surface, E_star=E_STAR, forces=[9 * SCALE], fields=True)
+    flow = rl.flow(pressed.fields[0])
+    assert flow.is_sealed
+    assert said(header)["aperture"]["value"] == "sealed"
+    assert "channel" not in said(header)
+    assert header["curve"]["aperture"] == [0.0]
+    assert header["maps"]["flux"]["caption"].startswith("sealed")
+    shown = arrays["flux"].T
+    np.testing.assert_array_equal(shown == 1, flow.gap == 0)
+    np.testing.assert_array_equal(shown == 2, (flow.gap > 0) & (flow.pressure == 1))
+
+
+def test_apertures_over_the_load_and_theories_are_those_of_the_library(surface):
+    header, _ = answer(pictures.flow, FLOWS)
+    forces = np.array(header["curve"]["force_bar"])
+    pressed = rl.press(surface, E_star=E_STAR, forces=forces * SCALE, measures=[APERTURE])
+    wanted = pressed.measured["hydraulic_aperture"].values / HEIGHT
+    np.testing.assert_allclose(header["curve"]["aperture"], wanted, rtol=1e-9)
+    assert wanted[-1] == 0 < wanted[0]
+    first = forces[np.flatnonzero(wanted)[-1] + 1]
+    assert f"sealed, at the foot, from F̄ = {first:.3g} on" in header["words"]
+    for found, name in zip(header["theories"], ("critical-junction", "bruggeman"), strict=True):
+        pressures = np.array(found["force_bar"]) * SCALE / surface.area
+        theory = rl.theory(name, surface, E_STAR, pressures)
+        np.testing.assert_allclose(found["aperture"], theory.hydraulic_aperture / HEIGHT)
+        assert found["validity"] == theory.validity
+    rows = {tuple(row[1:]) for row in header["table"]}
+    assert {("sealed", "3D"), ("sealed", "critical junction"), ("sealed", "Bruggeman")} <= rows
+
+
+def test_a_gap_that_no_load_seals_says_so():
+    header, _ = answer(pictures.flow, {**FLOWS, "roll_off": "0.07"})
+    assert header["words"].startswith("no load up to F̄ = ")
+
+
+def test_the_way_back_has_its_apertures(surface):
+    header, _ = answer(pictures.unloading, {**FLOWS, "hardness_bar": "0.3"})
+    pressed = rl.press(
+        surface,
+        E_star=E_STAR,
+        hardness=0.3 * E_STAR * surface.rms_slope,
+        forces=0.2 * SCALE * np.array([1, *UNLOADING]),
+        measures=[APERTURE],
+    )
+    wanted = pressed.measured["hydraulic_aperture"].values / HEIGHT
+    np.testing.assert_allclose(header["curve"]["aperture"], wanted, rtol=1e-9)
+    assert [row[2] for row in header["aperture_table"]] == ["3D, way back"] * len(wanted)
+
+
+def test_a_load_that_is_not_solved_has_no_flow(monkeypatch):
+    solved = rl.press
+
+    def unsolved(*given, **named):
+        return solved(*given, **{**named, "max_iterations": 1, "grid_error": False})
+
+    monkeypatch.setattr(rl, "press", unsolved)
+    header, arrays = answer(pictures.full, FLOWS)
+    assert said(header)["stiffness_3d"]["value"] == "not solved"
+    assert header["maps"] == {}
+    assert list(arrays) == ["topography"]
+
+
+def test_an_address_carries_the_tick_and_refuses_another_word():
+    state = state_of(FLOWS, 1024)
+    assert state.address()["fluid"] == "x"
+    assert state_of(state.address(), 1024) == state
+    assert "fluid" not in state_of(SMALL, 1024).address()
+    with pytest.raises(ControlError) as refused:
+        state_of({"fluid": "z"}, 1024)
+    assert refused.value.at == "fluid"
+
+
+def test_as_python_gives_the_aperture_and_the_command_says_that_it_does_not(curve, capsys):
+    exec(answer(code.code, FLOWS, which="python")[0]["text"], {})
+    lines = capsys.readouterr().out.splitlines()
+    wanted = rl.flow(curve.fields[0]).hydraulic_aperture / HEIGHT
+    found = float(lines[3].removeprefix("hydraulic aperture over rms height "))
+    assert found == pytest.approx(wanted, rel=1e-9)
+    assert lines[4] == "sealed False"
+    command = answer(code.code, FLOWS, which="command")[0]["text"]
+    assert command.splitlines()[-1].startswith("# ")  # which a shell passes over
+    assert "as Python" in command
+    assert "#" not in answer(code.code, SMALL, which="command")[0]["text"]
+
+
+@pytest.mark.parametrize("name", downloads.OF_FLUID)
+def test_pictures_of_the_flow_can_be_saved_with_the_tick_alone(name, tmp_path):
+    state = {**FLOWS, "hardness_bar": "0.3"} if name.startswith("aperture") else FLOWS
+    header, _ = answer(downloads.download, state, folder=tmp_path, name=name)
+    file = tmp_path / "results" / header["file"]
+    if file.suffix == ".png":
+        assert image.imread(file).size
+    else:
+        assert file.read_bytes().startswith(b"%PDF")
+    with pytest.raises(ControlError, match="no such file"):
+        answer(downloads.download, SMALL, folder=tmp_path, name=name)
+
+
+def test_a_saved_curve_has_the_apertures(tmp_path):
+    header, _ = answer(downloads.download, FLOWS, folder=tmp_path, name="curve.csv")
+    first, *rows = (tmp_path / "results" / header["file"]).read_text().splitlines()
+    column = first.split(",").index("hydraulic_aperture [m]")
+    apertures = [float(row.split(",")[column]) for row in rows]
+    assert apertures == sorted(apertures, reverse=True)
+    assert math.isfinite(sum(apertures))
+
+
+def test_a_crowd_has_its_flow_on_fewer_points_first():
+    crowded = {**arguments({**FLOWS, "n": "512"}), "crowded": True}
+    header, arrays = unpacked(pictures.coarse(crowded, lambda done, total: None))
+    assert header["points"] == 64
+    assert arrays["flux"].shape == (64, 64)
