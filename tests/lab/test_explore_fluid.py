@@ -123,8 +123,11 @@ def test_apertures_over_the_load_and_theories_are_those_of_the_library(surface):
     wanted = pressed.measured["hydraulic_aperture"].values / HEIGHT
     np.testing.assert_allclose(header["curve"]["aperture"], wanted, rtol=1e-9)
     assert wanted[-1] == 0 < wanted[0]
-    first = forces[np.flatnonzero(wanted)[-1] + 1]
-    assert f"sealed, at the foot, from F̄ = {first:.3g} on" in header["words"]
+    last = np.flatnonzero(wanted)[-1]
+    open_until, sealed_from = forces[last : last + 2]
+    assert header["words"] == (
+        f"seals between F̄ = {open_until:.3g} and {sealed_from:.3g}: marks at the foot"
+    )
     for found, name in zip(header["theories"], ("critical-junction", "bruggeman"), strict=True):
         pressures = np.array(found["force_bar"]) * SCALE / surface.area
         theory = rl.theory(name, surface, E_STAR, pressures)

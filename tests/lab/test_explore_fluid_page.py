@@ -158,7 +158,7 @@ def test_sealed_loads_stand_at_the_foot_and_are_said(fresh):
     at_rest(fresh, points=64, F=9)
     assert strip(fresh)["aperture"][0] == "sealed"
     assert "sealed" in fresh.inner_text('[data-caption="shown"]')
-    assert "sealed, at the foot, from F̄ = " in fresh.inner_text('[data-caption="aperture"]')
+    assert "seals between F̄ = " in fresh.inner_text('[data-caption="aperture"]')
     start, end = fresh.evaluate(
         """() => {
             const made = Bokeh.documents.find((each) => each.get_model_by_name("aperture here"));

@@ -132,14 +132,16 @@ def _rows(forces: NDArray[Any], found: NDArray[Any], name: str) -> list[list[str
 
 
 def _where_sealed(pressed: rl.Curve) -> str:
-    """Say from which load on the curve is sealed."""
-    found = pressed.measured[_NAME].values
-    is_open = np.flatnonzero(found != 0)  # and those that were not solved
-    first = int(is_open[-1]) + 1 if is_open.size else 0
-    if first == found.size:
-        most = decimal(float(pressed.force_bar[-1]), _DIGITS)
-        return f"no load up to F̄ = {most} seals"
-    return f"sealed, at the foot, from F̄ = {decimal(float(pressed.force_bar[first]), _DIGITS)} on"
+    """Say between which loads of a rising curve it seals."""
+    is_open = np.flatnonzero(pressed.measured[_NAME].values != 0)  # and those that were not solved
+    if not is_open.size:
+        return "sealed under every load"
+    open_until, *sealed_from = (
+        decimal(float(force), _DIGITS) for force in pressed.force_bar[is_open[-1] :][:2]
+    )
+    if not sealed_from:
+        return f"no load up to F̄ = {open_until} seals"
+    return f"seals between F̄ = {open_until} and {sealed_from[0]}: marks at the foot"
 
 
 def theories(state: ExploreState, surface: rl.Surface) -> list[TheoryCurve]:

@@ -19,6 +19,7 @@ const STRIP = ["stiffness_3d", "unloading", "stiffness_1d", "area", "aperture", 
 const FINER = ["full", "curve", "flow", "unloading"]; // what is asked at rest
 const NOT_ALWAYS = ["unloading", "plastic", "indentation", "aperture", "channel"]; // in the strip
 const FOOT = 0.04; // of an axis: how far above its end sealed loads stand
+const ROOM = 3; // between them and the smallest aperture
 
 export async function open(link, address, said) {
   const view = new Explore(link, address);
@@ -241,8 +242,8 @@ class Explore {
   #drawFlow({curve, grid, theories, table, words}) {
     this.#stale.delete("flow");
     this.#undim(["aperture"]);
-    const known = (values) => values.filter((value) => value > 0);
-    this.#plots.span("explore-aperture", "y", [...known(curve.aperture), ...theories.flatMap(({aperture}) => known(aperture))]);
+    const known = curve.aperture.filter((value) => value > 0);
+    this.#plots.span("explore-aperture", "y", [...known, ...theories.map(({aperture}) => aperture[0]), Math.min(...known) / ROOM]);
     this.#plots.shows("explore-aperture", {what: "flow", grid});
     this.#drawLoads("aperture", curve);
     this.#drawSealed("aperture sealed", [curve]);
