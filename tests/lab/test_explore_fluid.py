@@ -19,13 +19,7 @@ from roughline.report.values import with_interval
 SCALE = E_STAR * HEIGHT * LENGTH
 FLOWS = {**SMALL, "fluid": "x"}
 SEALED = {**FLOWS, "F": "9"}
-APERTURE = rl.Measure(
-    "hydraulic_aperture",
-    "u_h",
-    "length",
-    "gap of two flat plates",
-    lambda fields: rl.flow(fields).hydraulic_aperture,
-)
+APERTURE = rl.hydraulic_aperture("x")
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +81,7 @@ def test_the_flux_is_that_of_the_library(curve):
 
 def test_the_strip_says_how_much_comes_through_with_its_interval(curve):
     found, flow = said(answer(pictures.full, FLOWS)[0]), rl.flow(curve.fields[0])
-    measured = curve.measured["hydraulic_aperture"]
+    measured = curve.measured["hydraulic_aperture_x"]
     ends = float(measured.low[0]), float(measured.high[0])
     assert ends[0] < flow.hydraulic_aperture < ends[1]
     number = float(found["aperture"]["value"].removesuffix(" h"))
@@ -120,7 +114,7 @@ def test_apertures_over_the_load_and_theories_are_those_of_the_library(surface):
     header, _ = answer(pictures.flow, FLOWS)
     forces = np.array(header["curve"]["force_bar"])
     pressed = rl.press(surface, E_star=E_STAR, forces=forces * SCALE, measures=[APERTURE])
-    wanted = pressed.measured["hydraulic_aperture"].values / HEIGHT
+    wanted = pressed.measured["hydraulic_aperture_x"].values / HEIGHT
     np.testing.assert_allclose(header["curve"]["aperture"], wanted, rtol=1e-9)
     assert wanted[-1] == 0 < wanted[0]
     last = np.flatnonzero(wanted)[-1]
@@ -151,7 +145,7 @@ def test_the_way_back_has_its_apertures(surface):
         forces=0.2 * SCALE * np.array([1, *UNLOADING]),
         measures=[APERTURE],
     )
-    wanted = pressed.measured["hydraulic_aperture"].values / HEIGHT
+    wanted = pressed.measured["hydraulic_aperture_x"].values / HEIGHT
     np.testing.assert_allclose(header["curve"]["aperture"], wanted, rtol=1e-9)
     assert [row[2] for row in header["aperture_table"]] == ["3D, way back"] * len(wanted)
 
@@ -208,7 +202,7 @@ def test_pictures_of_the_flow_can_be_saved_with_the_tick_alone(name, tmp_path):
 def test_a_saved_curve_has_the_apertures(tmp_path):
     header, _ = answer(downloads.download, FLOWS, folder=tmp_path, name="curve.csv")
     first, *rows = (tmp_path / "results" / header["file"]).read_text().splitlines()
-    column = first.split(",").index("hydraulic_aperture [m]")
+    column = first.split(",").index("hydraulic_aperture_x [m]")
     apertures = [float(row.split(",")[column]) for row in rows]
     assert apertures == sorted(apertures, reverse=True)
     assert math.isfinite(sum(apertures))

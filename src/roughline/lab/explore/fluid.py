@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from roughline.report.values import value_and_interval, with_interval
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.units import decimal, engineering, supported_digits
 
-_NAME = "hydraulic_aperture"
+_APERTURE = rl.hydraulic_aperture("x")
 _DIGITS = 3
 _WEAKEST = -2.0  # decimal logarithm of the flux over its mean that has the palest colour
 _NONE = -9.0  # the same, for no flow
@@ -29,20 +30,21 @@ def measures(state: ExploreState, first: list[rl.Flow] | None = None) -> list[rl
     """What is measured of each load, if there is a fluid; a list gets the flow of the first."""
     if not state.fluid:
         return []
+    if first is None:
+        return [_APERTURE]
 
     def aperture(fields: rl.Fields) -> float:
         flow = rl.flow(fields)
-        if first is not None and not first:
+        if not first:
             first.append(flow)
         return flow.hydraulic_aperture
 
-    meaning = "gap of two flat plates that let as much through"
-    return [rl.Measure(_NAME, "u_h", "length", meaning, aperture)]
+    return [replace(_APERTURE, value=aperture)]
 
 
 def apertures(pressed: rl.Curve) -> NDArray[np.float64] | None:
     """Hydraulic apertures over the rms height, zero where sealed; None without a fluid. [1]"""
-    measured = pressed.measured.get(_NAME)
+    measured = pressed.measured.get(_APERTURE.name)
     return None if measured is None else measured.values / pressed.rms_height
 
 
@@ -78,7 +80,7 @@ def _place(flow: rl.Flow) -> tuple[float, float]:
 def flow_words(pressed: rl.Curve, flow: rl.Flow) -> list[dict[str, str]]:
     """What comes through at the load, and the channel that carries most of it."""
     aperture, ends = flow.hydraulic_aperture, None
-    measured = pressed.measured[_NAME]
+    measured = pressed.measured[_APERTURE.name]
     if measured.low is not None and measured.high is not None:
         ends = float(measured.low[0]), float(measured.high[0])
     meaning = (
@@ -133,7 +135,9 @@ def _rows(forces: NDArray[Any], found: NDArray[Any], name: str) -> list[list[str
 
 def _where_sealed(pressed: rl.Curve) -> str:
     """Say between which loads of a rising curve it seals."""
-    is_open = np.flatnonzero(pressed.measured[_NAME].values != 0)  # and those that were not solved
+    is_open = np.flatnonzero(
+        pressed.measured[_APERTURE.name].values != 0
+    )  # and those that were not solved
     if not is_open.size:
         return "sealed under every load"
     open_until, *sealed_from = (
