@@ -8,11 +8,19 @@ from matplotlib.figure import Figure
 
 import roughline as rl
 from roughline.report.answers import quantity
-from roughline.report.contact_figures import draw_filled, draw_last_contact, draw_stiffness
+from roughline.report.contact_figures import (
+    draw_filled,
+    draw_last_contact,
+    draw_stiffness,
+    overview,
+    overview_in_words,
+)
 from roughline.report.contact_report import write_contact_report
 from roughline.report.fields_of_load import fields_figure, fields_table, write_fields
 from roughline.report.flow_of_load import flow_figure, write_flow
 from roughline.units import engineering
+
+FLOW = ("critical-junction", "bruggeman")  # theories of the flow
 
 
 def test_one_area_is_told_everywhere(rough):
@@ -112,3 +120,23 @@ def test_the_flow_is_that_of_the_load_that_is_shown(rough, tmp_path):
     of_one = rl.assess(replace(asked, ask=[rl.Fluid("water"), rl.FlowAlong("y")]))
     assert [each.permeance for each in of_one.flows] == [along_y.permeance]
     assert len([axes for axes in flow_figure(of_one).axes if axes.axison]) == 2  # and its scale
+
+
+def test_apertures_stand_over_force_with_theories_of_flow_alone():
+    """Each theory has dashes of its own; what is sealed is marked at the foot."""
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4, q_high=1e5)
+    names = ("persson", "bush-gibson-thomas", "greenwood-williamson", *FLOW)
+    asked = [rl.Fluid("water"), rl.Theories(*names)]
+    loads = ["20 MPa", "100 MPa", "350 MPa"]
+    question = rl.Question(
+        spectrum.surface(64, rng=1), materials="steel,copper", loads=loads, ask=asked
+    )
+    assessment = rl.assess(question)
+    figure = overview(assessment)
+    (axes,) = [each for each in figure.axes if "aperture" in each.get_ylabel()]
+    shown = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert shown == ["along x", "along y", "sealed", *FLOW]
+    (area,) = [each for each in figure.axes if "contact area" in each.get_ylabel()]
+    lines = [line for line in area.get_lines() if line.get_label() in names]
+    assert [line.get_label() for line in lines] == list(names[:3])
+    assert "hydraulic aperture over force" in overview_in_words(assessment)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from itertools import cycle
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,10 +26,13 @@ if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.assessment.slip import PartialSlip
     from roughline.contact.curve import Curve
+    from roughline.contact.measures import Measured
     from roughline.engineering.intervals import Ends
 
 _PANEL, _PANELS = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
-_DASHES = ("--", ":", "-.")
+_DASHES = ("--", ":", "-.", (0, (6, 1)), (0, (3, 1, 1, 1, 1, 1)))  # for each theory one
+_FOOT = 0.1  # of the least value: where the band of an interval ends that goes down to zero
+_APERTURE = "hydraulic_aperture_"  # measures along either side begin so
 
 
 def write_contact(assessment: Assessment, out: Path) -> list[Path]:
@@ -79,6 +83,8 @@ def overview(assessment: Assessment) -> Figure:
     if isinstance(body, Surface):
         panels.append(partial(_draw_area, assessment=assessment))
         panels.append(partial(draw_last_contact, surface=body, assessment=assessment))
+    if _apertures(assessment):
+        panels.append(partial(_draw_apertures, assessment=assessment))
     if _has_falling_loads(assessment):
         panels.append(partial(_draw_force, assessment=assessment))
     if assessment.question.friction is not None:
@@ -118,6 +124,8 @@ def overview_in_words(assessment: Assessment) -> str:
             "contact area, corrected for the outline's steps as in the table, over force; the "
             f"points in contact at the largest load{red}"
         )
+    if _apertures(assessment):
+        shown.append("hydraulic aperture over force")
     if _has_falling_loads(assessment):
         shown.append("force over depth")
     if question.friction is not None:
@@ -157,29 +165,65 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
         axes.loglog(curve.force[loading] * force, unloading, "--.", color="tab:red", label=label)
         _draw_interval(axes, curve, assessment.unloading_interval, (force, stiffness), "tab:red")
         axes.legend()
-    for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
-        if theory.stiffness is not None:
-            axes.plot(
-                theory.pressure * area * force,
-                theory.stiffness * area * stiffness,
-                dashes,
-                label=theory.name,
-            )
-            axes.legend()
+    _draw_theories(axes, assessment, "stiffness", (force, area * stiffness))
     axes.set(xlabel=x_label, ylabel=y_label)
 
 
 def _draw_area(axes: Axes, assessment: Assessment) -> None:
     """Contact area over force with its interval, and theories."""
-    curve, area = assessment.curve, assessment.area
+    curve = assessment.curve
     assert curve.area_fraction_corrected is not None
     label, force = _force_axis(assessment)
     draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve)
     _draw_interval(axes, curve, assessment.area_interval, (force, 1.0))
-    for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
-        axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
-        axes.legend()
+    _draw_theories(axes, assessment, "area_fraction", (force, 1.0))
     axes.set(xlabel=label, ylabel="contact area $A/A_0$")
+
+
+def _draw_apertures(axes: Axes, assessment: Assessment) -> None:
+    """Hydraulic aperture over force with its interval, along each side, and theories."""
+    curve, found = assessment.curve, _apertures(assessment)
+    x_label, force = _force_axis(assessment)
+    held = np.concatenate([each.values for each in found.values()])
+    y_label, length = in_unit("hydraulic aperture $u_h$", held, "m")
+    loading = rising(curve)
+    for (name, each), colour in zip(found.items(), ("k", "tab:orange"), strict=False):
+        label = f"along {name.removeprefix(_APERTURE)}"
+        rows = np.where(each.rows > 0, each.rows, np.nan) * length
+        x = curve.force * force
+        look: dict[str, Any] = {"color": colour, "markersize": 3}
+        axes.loglog(x[loading], rows[0][loading], ".-", label=label, **look)
+        axes.loglog(x[~loading], rows[0][~loading], ".", markerfacecolor="none", **look)
+        if len(rows) == 3:
+            ends = np.fmax(rows[1:], _FOOT * np.nanmin(rows, initial=np.inf)) / length
+            _draw_interval(axes, curve, (ends[0], ends[1]), (force, length), colour)
+        if (sealed := x[each.values == 0]).size:  # which a logarithmic axis cannot show
+            foot = np.full(sealed.size, 0.04)
+            axes.plot(sealed, foot, "x", transform=axes.get_xaxis_transform(), **look)
+    if any((each.values == 0).any() for each in found.values()):
+        axes.plot([], [], "x", color="0.4", label="sealed")
+    _draw_theories(axes, assessment, "hydraulic_aperture", (force, length))
+    axes.legend()
+    axes.set(xlabel=x_label, ylabel=y_label)
+
+
+def _apertures(assessment: Assessment) -> dict[str, Measured]:
+    """Hydraulic apertures over the loads, along each side that was asked for."""
+    taken = assessment.measured.items()
+    return {name: each for name, each in taken if name.startswith(_APERTURE)}
+
+
+def _draw_theories(
+    axes: Axes, assessment: Assessment, quantity: str, factors: tuple[float, float]
+) -> None:
+    """Draw one quantity of theories of the same spectrum; those of flow have an aperture alone."""
+    for theory, dashes in zip(assessment.theories, cycle(_DASHES), strict=False):
+        values, of_flow = getattr(theory, quantity), theory.hydraulic_aperture is not None
+        if values is not None and of_flow == (quantity == "hydraulic_aperture"):
+            shown = np.where(values > 0, values, np.nan) * factors[1]
+            x = theory.pressure * assessment.area * factors[0]
+            axes.plot(x, shown, linestyle=dashes, label=theory.name)
+            axes.legend()
 
 
 def _draw_partial_slip(axes: Axes, slip: PartialSlip | None) -> None:
