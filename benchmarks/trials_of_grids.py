@@ -36,6 +36,7 @@ ON_TWO_GRIDS = {  # cutoffs count in cells of the coarser grid
     "one seed, cutoff at 2.2 cells": lambda n: {"q_high": math.tau * n / 2.2},
     "one seed, cutoff at 8 cells": lambda n: {"q_high": math.tau * n / 8},
 }
+MEASURES = {"u_m": rl.MEAN_GAP, "u_h": rl.hydraulic_aperture("x")}
 QUANTITIES = {"k": "stiffness", "k_u": "unloading_stiffness", "A": "area_fraction_corrected"}
 
 
@@ -51,6 +52,10 @@ def rows_beside(finer, coarse, forces, loads, **given):
         for i in np.flatnonzero(known):
             ends = (0.0, math.inf) if math.isnan(e[i]) else (v[i] / (1 + e[i] / v[i]), v[i] + e[i])
             yield row(symbol, loads[i], true[i], v[i], *ends)
+    for symbol, measure in MEASURES.items() if curve.measured else ():
+        true, measured = truth.measured[measure.name].values, curve.measured[measure.name]
+        for i in np.flatnonzero(curve.resolved & np.isfinite(true)):
+            yield row(symbol, loads[i], true[i], *measured.rows[:, i])
 
 
 def grid_rows(kind, option, seed):
@@ -61,7 +66,8 @@ def grid_rows(kind, option, seed):
     fine = parent_of(kind, make, rng).detrended()
     fine = as_surface(fine.heights, fine)
     coarse, forces = seen("grid", fine, instrument, rng), pressures_of(fine, bar) * fine.area
-    return rows_beside(fine, coarse, forces, WANTED, **hardness_of(fine, bar))
+    given = {"measures": [*MEASURES.values()], **hardness_of(fine, bar)}
+    return rows_beside(fine, coarse, forces, WANTED, **given)
 
 
 def finer_rows(kind, option, seed):

@@ -47,6 +47,16 @@ def test_nine_of_ten_printed_intervals_hold(counted, study):
     assert held.mean() >= 0.9, printed[~held].to_string()
 
 
+def test_those_of_measures_are_among_them(counted):
+    """Of the mean gap, and of the aperture that a fluid finds; of few loads, one may be missed."""
+    rows, are_printed = asked(counted, "grid", CASES["grid"])
+    for symbol in ("u_m", "u_h"):
+        of_measure = rows[(rows.quantity == symbol) & are_printed]
+        held = (of_measure.low <= of_measure.truth) & (of_measure.truth <= of_measure.high)
+        assert len(held) >= 7
+        assert held.mean() >= 0.85, of_measure[~held].to_string()
+
+
 @pytest.mark.parametrize(
     ("study", "case", "said"),
     [

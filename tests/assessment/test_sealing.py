@@ -264,8 +264,9 @@ def test_what_flows_is_in_the_cost_that_is_told():
         told.append(text)
         raise KeyboardInterrupt
 
-    for ask in ([], WATER, HELIUM):
+    for ask in ([], WATER, [*HELIUM, rl.Closure()]):
         question = rl.Question(large, "steel,steel", loads=LOADS, elastic=True, ask=ask)
         with pytest.raises(KeyboardInterrupt):
             rl.assess(question, announce=stop)
     assert ["for what flows" in text for text in told] == [False, True, True]
+    assert ["for the pressure that seals" in text for text in told] == [False, False, True]

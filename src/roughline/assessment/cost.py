@@ -32,6 +32,7 @@ _MANY = 1000  # loads from which on the cost is announced
 _BYTES_TO_READ = 30_000_000  # beside that of a press
 _BYTES_OF_OTHER_CURVES = 30  # with materials
 _BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
+_LOADS_TO_SEAL = 30  # that the pressure is sought with, quarters and coarser grid included
 _SECONDS_OF_FLOW, _POWER_OF_FLOW = 1e-7, 1.25  # of points, as measured from 256² to 1024²
 _BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
 
@@ -79,6 +80,9 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
         told += f", then {duration(of_interface)} for the interface"
     if of_flow := _seconds_of_flow(case, variants):
         told += f", {duration(of_flow)} for what flows"
+    if case.question.finds_closing:
+        of_load = seconds("as asked") / case.loads.count
+        told += f", {duration(_LOADS_TO_SEAL * of_load)} for the pressure that seals"
     if of_larger := seconds("larger surface"):
         told += f", and {duration(of_larger)} for the surface around the map"
     of_one = sum(each.purpose in ("as asked", "interface") for each in variants)
