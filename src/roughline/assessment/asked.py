@@ -13,8 +13,10 @@ from roughline.assessment.fields import FIELDS, asked_fields
 from roughline.assessment.given import Parsed, as_si, quantity, several
 from roughline.engineering.fluids import Gas, Liquid, fluid_of
 from roughline.engineering.seal import SealShape
+from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.public import public
+from roughline.errors.words import speaking
 
 _MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4
 _Class = TypeVar("_Class", bound=type)
@@ -38,6 +40,15 @@ def _absolute(name: str) -> Callable[[Any], float]:
         return pressure
 
     return read
+
+
+def _fluid(given: Any) -> Liquid | Gas:
+    """A fluid, from itself or from its description."""
+    try:
+        with speaking(None):  # a description calls its values the same for everyone
+            return fluid_of(given)
+    except InputError as error:
+        raise type(error)(f"cannot be used: {error}", "fluid") from error
 
 
 def _direction(given: Any) -> Literal["x", "y", "both"]:
@@ -142,7 +153,7 @@ class Fluid:
         Such as "water" or "helium", of the table of fluids.
     """
 
-    fluid: Parsed[Liquid | Gas] = Parsed(fluid_of)
+    fluid: Parsed[Liquid | Gas] = Parsed(_fluid)
 
 
 @public
