@@ -23,14 +23,14 @@ def described(
     InputError or a UnitError.
     """
     start = re.search(r"\w+\s*=", description)
-    name = (description[: start.start()] if start else description).strip(" ;").lower()
-    name = re.sub(r"[\s_]+", "-", name)
+    typed = (description[: start.start()] if start else description).strip(" ;")
+    name = re.sub(r"[\s_]+", "-", typed.lower())
     given = _settings(description[start.start() :] if start else "", description, what, units)
     if name and name not in known:
         near = difflib.get_close_matches(name, known, 1)
         hint = f'; did you mean "{near[0]}"?' if near else "."
         raise InputError(
-            f"no {what} is called {shown(name)}{hint} Known are {', '.join(known)}; others are "
+            f"no {what} is called {shown(typed)}{hint} Known are {', '.join(known)}; others are "
             f'given as "{example}"'
         )
     return name, given

@@ -228,7 +228,7 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
     if not isinstance(description, str):
         refuse("fluid", description, 'a name such as "water", a Liquid or a Gas is needed')
     known = _table()
-    name, given = described(_known_name(description), "fluid", known, _UNITS, _EXAMPLE)
+    name, given = described(_known_name(description), "fluid", known, _UNITS, "viscosity=40 mPa s")
     if not name and "viscosity" not in given:
         raise InputError(
             f"the fluid {shown(description)} needs a name or a viscosity, such as "
