@@ -169,6 +169,37 @@ def test_answers_are_those_of_the_library(page, key):
     )
 
 
+LEAKS = {"fluid": "helium", "inlet": "6 bar", "seal": "20 mm .. 24 mm"}
+
+
+def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page):
+    said = {"example": "ground", **PAIR, **SMALL, "loads": "50 MPa"}
+    header, arrays = page.ask("answer", {**said, **LEAKS})
+    answers = {row[0]: row[1] for row in header["answers"][1]}
+    assert "mbar l/s" in answers["leak rate q_pV"]
+    assert any(figure["name"].startswith("leak rate") for figure in header["figures"])
+    question = question_of({**said, **LEAKS}, source_of({**said, **LEAKS}, page.session))
+    fields = rl.assess_body(question).fields
+    flow = max(rl.flow(fields, along="both"), key=lambda each: each.hydraulic_aperture)
+    shown, look = arrays["flux"].T, header["contact"]["fields"]["flux"]
+    np.testing.assert_array_equal(np.isnan(shown), flow.gap == 0)
+    width = flow.sizes[1] if flow.along == "x" else flow.sizes[0]
+    flux = np.hypot(*flow.flux) * width / flow.inflow
+    flows = flux > 0.01
+    np.testing.assert_allclose(10 ** shown[flows], flux[flows], rtol=1e-5)
+    place = [
+        (i + 0.5) / n * size
+        for i, n, size in zip(
+            flow.constriction, flow.gap.shape, header["contact"]["sizes"], strict=True
+        )
+    ]
+    assert [look["ring"]["x"][0], look["ring"]["y"][0]] == pytest.approx(place)
+    assert look["caption"].endswith("from left to right" if flow.along == "x" else "upwards")
+    without, arrays = page.ask("answer", said)
+    assert "flux" not in without["contact"]["fields"]
+    assert "flux" not in arrays
+
+
 def test_an_assessment_is_solved_once(page, only_drawn, monkeypatch):
     only_drawn()
     said = {"example": "film", **PAIR, **SMALL}
@@ -357,6 +388,12 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ),
         ({"frequency": "5 m"}, "answer", "frequency", "no quantity in Hz"),
         ({"theories": "hertz"}, "answer", "theories", "there is no theory"),
+        ({"fluid": "watr"}, "bodies", "fluid", 'did you mean "water"'),
+        ({"fluid": "water", "bodies": "modulus", "E": "1 GPa"}, "bodies", "fluid", "two materials"),
+        ({"inlet": "6 bar"}, "bodies", "inlet", "belongs to a fluid"),
+        ({"fluid": "water", "inlet": "6 bar"}, "bodies", "inlet", "needs seal"),
+        ({"fluid": "water", "seal": "24 mm .. 20 mm"}, "bodies", "seal", "inner radius"),
+        ({"fluid": "water", "flow_along": "z"}, "bodies", "flow_along", "allowed are"),
         ({"crop": "1, 2"}, "prepare", "crop", "without a unit"),
         ({"crop": "0 um, 1 um"}, "prepare", "crop", "give 4"),
         ({"low_pass": "-1 um"}, "prepare", "low_pass", "a positive, finite length"),

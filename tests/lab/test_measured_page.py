@@ -66,6 +66,40 @@ def test_an_example_is_answered_for(answered):
     assert answered.is_visible("#plot-measured-contact")
 
 
+def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(pages):
+    page = pages.open("?view=measured&v=1&example=ground&resample=64&loads=50+MPa")
+    assert not page.is_visible("#measured-fluid-text")
+    page.click("summary:has-text('a fluid in the gap')")
+    for key, text in (("fluid", "helium"), ("inlet", "6 bar"), ("seal", "20 mm .. 24 mm")):
+        page.fill(f"#measured-{key}-text", text)
+        page.press(f"#measured-{key}-text", "Tab")
+    page.click("[data-press]:not([disabled])")
+    answers = page.locator('[data-table="measured-answers"]')
+    answers.filter(has_text="leak rate").wait_for(timeout=60_000)
+    assert not page.locator("#measured .error:visible").filter(has_text="a").count()
+    page.select_option("#measured [data-shown]", "flux")
+    assert "in contact" in page.inner_text('[data-caption="contact"]')
+    shown = page.evaluate(
+        """() => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name("measured-contact"));
+            return [made.get_model_by_name("contact flux bar").visible,
+                made.get_model_by_name("contact spikes").data.x.length];
+        }"""
+    )
+    assert shown == [True, 1]
+    assert faint(page) == []
+    page.fill("#measured-fluid-text", "")
+    page.fill("#measured-inlet-text", "")
+    page.fill("#measured-seal-text", "")
+    page.press("#measured-seal-text", "Tab")
+    page.click("[data-press]:not([disabled])")
+    page.wait_for_function(
+        """() => document.querySelector('#measured [data-shown]').value === "area" """
+    )
+    assert page.locator('#measured [data-shown] [value="flux"]').get_attribute("hidden") is not None
+    page.context.close()
+
+
 def test_the_report_opens_under_the_policy(answered, pages):
     answered.click("[data-report]")
     links = answered.locator("[data-links] a")

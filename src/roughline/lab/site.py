@@ -12,6 +12,7 @@ import jinja2
 from markupsafe import Markup, escape
 
 import roughline as rl
+from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
 from roughline.lab.measured import controls as measured
@@ -82,6 +83,7 @@ def page() -> str:
         published=published,
         examples=EXAMPLES,
         materials=list(materials()),
+        fluids=list(fluids()),
         studies=study_summaries(),
     )
 

@@ -9,17 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.lab.explore.maps import Map
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import item, number_rows
+from roughline.lab.maps import throttled_at
 from roughline.report.values import value_and_interval, with_interval
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.units import decimal, engineering, supported_digits
 
 _APERTURE = rl.hydraulic_aperture("x")
 _DIGITS = 3
-_WEAKEST = -2.0  # decimal logarithm of the flux over its mean that has the palest colour
-_NONE = -9.0  # the same, for no flow
 _THEORIES = {"critical-junction": "critical junction", "bruggeman": "Bruggeman"}
 FORCES, _THEORY_FORCES = np.geomspace(1e-3, 9, 14), np.geomspace(1e-3, 9, 27)
 """Dimensionless forces of the curve; the largest seal most surfaces."""
@@ -48,35 +46,6 @@ def apertures(pressed: rl.Curve) -> NDArray[np.float64] | None:
     return None if measured is None else measured.values / pressed.rms_height
 
 
-def flux_map(flow: rl.Flow) -> Map:
-    """Where the fluid goes: the flux over its mean; of a sealed gap, how far the fluid comes."""
-    is_open = flow.gap > 0
-    if flow.is_sealed:
-        reached = flow.pressure == 1
-        marks = np.where(is_open, 2 * reached, 1).astype(np.uint8)
-        caption = "sealed: no way through"
-        return Map(marks, "reach", 0, 2, caption, ("ink", "reach"))
-    flux = np.hypot(*flow.flux) * flow.sizes[1] / flow.inflow
-    logarithm = np.full(flux.shape, _NONE)
-    np.log10(flux, out=logarithm, where=flux > 0)
-    logarithm[flux > 0] = np.maximum(logarithm[flux > 0], _WEAKEST)
-    logarithm[~is_open] = np.nan
-    high = max(float(np.log10(flux.max())), 0.0)
-    return Map(
-        *(logarithm, "flux", _WEAKEST, high),
-        "flux over its mean; ring: throttled most",
-        ("ink",),
-        _place(flow),
-    )
-
-
-def _place(flow: rl.Flow) -> tuple[float, float]:
-    """Where the fluid is throttled most, in sides of the surface."""
-    assert flow.constriction is not None
-    x, y = ((i + 0.5) / n for i, n in zip(flow.constriction, flow.gap.shape, strict=True))
-    return x, y
-
-
 def flow_words(pressed: rl.Curve, flow: rl.Flow) -> list[dict[str, str]]:
     """What comes through at the load, and the channel that carries most of it."""
     aperture, ends = flow.hydraulic_aperture, None
@@ -94,7 +63,7 @@ def flow_words(pressed: rl.Curve, flow: rl.Flow) -> list[dict[str, str]]:
     doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
     value = decimal(aperture / pressed.rms_height, supported_digits(aperture, ends, _DIGITS))
     below = " ".join(filter(None, value_and_interval(with_interval(aperture, ends, "m"))))
-    x, y = (decimal(share, _DIGITS) for share in _place(flow))
+    x, y = (decimal(share, _DIGITS) for share in throttled_at(flow))
     share = f"{decimal(100 * flow.largest_share, _DIGITS)}%" if flow.largest_share else "none"
     gap = decimal(float(flow.gap[flow.constriction]) / pressed.rms_height, _DIGITS)
     return [

@@ -1,8 +1,7 @@
-"""What the second picture can show of a contact: its maps, with how each is drawn."""
+"""What the second picture can show of a contact."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,26 +9,9 @@ from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.lab.explore.state import ExploreState
+from roughline.lab.maps import Map
 
 _PRESSED = 1e-6  # of the largest pressure: where less presses, the paper shows
-
-
-@dataclass(frozen=True, eq=False)
-class Map:
-    """Numbers over the surface, and all that the page needs to draw them."""
-
-    values: NDArray[Any]
-    palette: str  # the page knows it by this name
-    low: float
-    high: float
-    caption: str = ""
-    marks: tuple[str, ...] = ()  # the colours that mean something, by their names
-    ring: tuple[float, float] | None = None  # a place that is marked, in sides of the surface
-
-    @property
-    def look(self) -> dict[str, Any]:
-        """How it is drawn, without its numbers."""
-        return {name: value for name, value in vars(self).items() if name != "values"}
 
 
 def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:

@@ -15,7 +15,7 @@ from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore import fluid
-from roughline.lab.explore.maps import Map, contact_maps
+from roughline.lab.explore.maps import contact_maps
 from roughline.lab.explore.state import ExploreState, usable_state
 from roughline.lab.explore.words import (
     contact_words,
@@ -25,6 +25,7 @@ from roughline.lab.explore.words import (
     unloading_bar,
 )
 from roughline.lab.frames import frame
+from roughline.lab.maps import Map, flux_map
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
 
@@ -167,7 +168,7 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
     if fields is not None:
         maps = contact_maps(state, surface, fields)
         if flows:
-            maps["flux"] = fluid.flux_map(flows[0])
+            maps["flux"] = flux_map(flows[0])
             strip += fluid.flow_words(pressed, flows[0])
     seconds = time.perf_counter() - started
     arrays = {"topography": shaded(surface)} | {name: each.values for name, each in maps.items()}

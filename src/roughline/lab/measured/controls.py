@@ -39,10 +39,12 @@ OF_PREPARATION = tuple(
     if field.group in (FILE, PREPARATION) and key not in ("unit", "channel", "size")
 )
 """Controls of the second step; what a file leaves open is asked in the first."""
+OF_FLUID = ("fluid", "inlet", "outlet", "seal", "flow_along", "sealing_pressure")
+"""Controls of the third step for a fluid in the gap, in a fold of their own."""
 FOLDED = tuple(
     key
     for key, field in BY_CONTROL.items()
-    if key == "boundary" or (field.group == ANSWERS and key != "theories")
+    if key == "boundary" or (field.group == ANSWERS and key != "theories" and key not in OF_FLUID)
 )
 """Controls of the third step that are folded away; theories have boxes of their own."""
 OF_BODIES = tuple(

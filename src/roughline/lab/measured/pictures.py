@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+import roughline as rl
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.description import Description
 from roughline.engineering.intervals import Ends
+from roughline.lab.maps import Map, flux_map
 from roughline.plot.pixels import any_marked, thinned
 from roughline.report.contact_tables import area_in_words
 from roughline.topography.body import Body, Surface, sides_of
@@ -175,7 +178,9 @@ def contact_drawing(result: Assessment) -> Drawing:
     force = engineering(float(result.curve.force[shown]) * result.scale, "N")
     marks = fields.contact.astype(np.uint8) + fields.plastic
     arrays: dict[str, NDArray[Any]] = {"area": any_marked(marks).T}
-    units = {"area": {"unit": "", "range": [0, 2]}}  # gap, contact, contact at the hardness
+    units: dict[str, Any] = {
+        "area": {"unit": "", "range": [0, 2]}
+    }  # gap, contact, contact at the hardness
     for name, values, unit in (
         ("pressure", fields.pressure, "Pa"),
         ("gap", np.maximum(fields.gap, 0), "m"),  # rounding leaves it just below in contact
@@ -185,6 +190,11 @@ def contact_drawing(result: Assessment) -> Drawing:
         arrays[name] = thinned(values).T * factor
         largest = float(np.nanmax(values, initial=0.0)) * factor
         units[name] = {"unit": prefixed, "range": [0, largest or 1.0]}
+    if result.question.sealing is not None:
+        through = _flow(result, fields)
+        map_of_flow = flux_map(through)
+        arrays["flux"] = thinned(map_of_flow.values).T
+        units["flux"] = _in_sides(map_of_flow, body.header["sizes"], through.along)
     header = {
         **body.header,
         "load": f"corrected area {area_in_words(result, shown)} at {force}",
@@ -193,6 +203,23 @@ def contact_drawing(result: Assessment) -> Drawing:
         "spots": _spots(fields.contact, surface, body.header["metres"]),
     }
     return Drawing(header, body.arrays | arrays)
+
+
+def _flow(result: Assessment, fields: rl.Fields) -> rl.Flow:
+    """The flow under the load that is drawn, along the leakier of the directions that are asked."""
+    assert result.question.sealing is not None
+    flows = [rl.flow(fields, along=along) for along in result.question.sealing.directions]
+    return max(flows, key=lambda each: each.hydraulic_aperture)
+
+
+def _in_sides(drawn: Map, sizes: Sequence[float], along: str) -> dict[str, Any]:
+    """How the map of a flow is drawn, with its ring in the units of the axes."""
+    ring: list[list[float]] = [[], []]
+    if drawn.ring is not None:
+        ring = [[share * side] for share, side in zip(drawn.ring, sizes, strict=True)]
+    caption = f"{drawn.caption}; {'from left to right' if along == 'x' else 'upwards'}"
+    look = {**drawn.look, "caption": caption, "ring": {"x": ring[0], "y": ring[1]}}
+    return {**look, "unit": "", "range": [drawn.low, drawn.high]}
 
 
 def _spots(contact: _Mask, surface: Surface, metres: float) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 // The figures of Explore.
-import {LOGARITHMIC, add, draw, drawImage, plot} from "./figures.js";
+import {LOGARITHMIC, add, addFluxBar, draw, drawImage, plot} from "./figures.js";
 
 const FORCE = "force F / (E* h L)", FORCES = [1e-4, 10];
-const POWERS = new Map([[-2, "0.01"], [-1, "0.1"], [0, "1"], [1, "10"], [2, "100"], [3, "1000"]]); // by their logarithms
+const BAR = {width: 14, padding: 4};
 const DASHES = ["dashed", "dotted", "dashdot"]; // of theories
 const MARKS = [ // of the full model: source, name, colour, and how they look
   ["curve", "3D", "dark-line", {marker: "circle", size: 7}],
@@ -27,16 +27,14 @@ export function exploreFigures() {
 function map(name, sides, title, isOfColours) {
   const made = plot(["x / L", "y / L"], sides, {min_border_left: 62, min_border_right: 84}); // maps side by side are alike
   const color_mapper = drawImage(made, name, {isOfColours});
-  add(made, "ColorBar", `${name} bar`, {color_mapper, title, width: 14, padding: 4}, "right");
+  add(made, "ColorBar", `${name} bar`, {color_mapper, title, ...BAR}, "right");
   add(made, "BoxAnnotation", `${name} border`, {left: 0, right: 1, bottom: 0, top: 1, fill_alpha: 0, line_width: 1, colours: {line_color: "line"}});
   return made;
 }
 
 function contact(sides) {
   const made = map("contact", sides, "", false);
-  const {color_mapper} = made.right.find(({name}) => name === "contact bar");
-  const ticker = new Bokeh.FixedTicker({ticks: [...POWERS.keys()]});
-  add(made, "ColorBar", "contact flux bar", {color_mapper, ticker, major_label_overrides: POWERS, width: 14, padding: 4, visible: false}, "right");
+  addFluxBar(made, "contact", made.right.find(({name}) => name === "contact bar").color_mapper, BAR);
   for (const [size, line_width, colour] of [[17, 5, "paper"], [17, 2, "here"]]) { // the one is seen around the other
     draw(made, "scatter", "ring", {size, line_width, fill_alpha: 0, colours: {line_color: colour}});
   }

@@ -55,6 +55,14 @@ export function drawImage(plot, name, {isOfColours = false, ...look} = {}) {
   return mapper;
 }
 
+const POWERS = new Map([[-2, "0.01"], [-1, "0.1"], [0, "1"], [1, "10"], [2, "100"], [3, "1000"]]); // by their logarithms
+
+// Add the scale of a flow's colours, which is logarithmic, to a map; it is shown with them.
+export function addFluxBar(plot, name, color_mapper, look) {
+  const ticker = new Bokeh.FixedTicker({ticks: [...POWERS.keys()]});
+  add(plot, "ColorBar", `${name} flux bar`, {color_mapper, ticker, major_label_overrides: POWERS, visible: false, ...look}, "right");
+}
+
 // Add what is no glyph: a span, a box, whiskers, a colour bar.
 export function add(plot, kind, name, {colours = {}, ...look}, side = "center") {
   const added = new Bokeh[kind]({name, tags: [{colours}], ...look});

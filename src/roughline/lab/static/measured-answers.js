@@ -138,7 +138,7 @@ export class Answers {
     if (answer.slip) fillTable("measured-slip", ["displacement", "tangential force"], answer.slip.rows);
     this.#contact = answer.contact;
     this.#arrays = answer.arrays;
-    this.pictures.drawContact(answer.contact, answer.arrays, this.#shown);
+    this.pictures.drawContact(answer.contact, answer.arrays);
     this.pictures.drawCurve(answer.plot, answer.curve);
   }
 

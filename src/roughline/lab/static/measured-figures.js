@@ -1,5 +1,5 @@
 // The figures of My surface.
-import {LOGARITHMIC, add, draw, drawImage, plot} from "./figures.js";
+import {LOGARITHMIC, add, addFluxBar, draw, drawImage, plot} from "./figures.js";
 
 // Of maps, so wide that axes and colour bars fit: maps beside each other have frames alike. [px]
 const BORDERS = {min_border_left: 72, min_border_right: 96, min_border_bottom: 54};
@@ -37,6 +37,7 @@ function map(name, ranges, rings = "") {
   const color_mapper = drawImage(made, name, {tags: [{colours: {nan_color: "here"}}]});
   if (rings) draw(made, "scatter", `${name} spikes`, {size: 13, line_width: 2, fill_alpha: 0, colours: {line_color: rings}});
   add(made, "ColorBar", `${name} bar`, {color_mapper, title: ""}, "right");
+  if (name === "contact") addFluxBar(made, name, color_mapper);
   return made;
 }
 

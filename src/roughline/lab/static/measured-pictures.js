@@ -102,26 +102,30 @@ export class Pictures {
     fillTable("measured-after", ["heights", ""], after.rows);
   }
 
-  drawContact(contact, arrays, shown) {
+  drawContact(contact, arrays) {
     for (const name of ["topography", "contact"]) this.#toggle(`measured-${name}`, contact !== null);
     if (!contact) return;
     this.#map("topography", arrays["body heights"], contact, contact.range, contact.up);
     this.#caption("topography", "heights about their mean");
     fillTable("measured-topography", ["heights", ""], contact.rows);
-    this.drawField(contact, arrays, shown);
+    const select = this.#view.find("[data-shown]");
+    select.querySelector('[value="flux"]').hidden = !contact.fields.flux;
+    if (!(select.value in contact.fields)) select.value = "area";
+    this.drawField(contact, arrays, select.value);
   }
 
   drawField(contact, arrays, shown) {
-    const field = contact.fields[shown], [palette, meaning] = FIELDS[shown];
+    const field = contact.fields[shown];
     if (!field) { this.#caption("contact", "the load was not solved"); return; }
-    this.#plots.set("contact spikes", contact.spots);
+    const [palette, meaning] = FIELDS[shown] ?? [field.palette, field.caption], rings = field.ring ?? contact.spots;
+    this.#plots.set("contact spikes", rings);
     this.#plots.colours("contact", palette);
     this.#map("contact", arrays[shown], contact, field.range, field.unit);
     const caption = this.#view.find('[data-caption="contact"]');
-    const marks = shown === "area" ? ["ink", ...(contact.yields ? ["plastic"] : [])] : [];
+    const marks = field.marks ?? (shown === "area" ? ["ink", ...(contact.yields ? ["plastic"] : [])] : []);
     fillCaption(caption, meaning, marks);
-    caption.append(`; ${contact.load}${contact.spots.x.length ? "; rings: the few points that touch" : ""}`);
-    const rows = Object.entries(contact.fields).filter(([name]) => name !== "area")
+    caption.append(`; ${contact.load}${rings === contact.spots && rings.x.length ? "; rings: the few points that touch" : ""}`);
+    const rows = Object.entries(contact.fields).filter(([, {unit}]) => unit)
       .map(([name, {unit, range}]) => [`largest ${name}`, `${range[1].toPrecision(4)} ${unit}`]);
     fillTable("measured-contact", ["quantity", "value"], [["contact", contact.load], ...rows]);
   }

@@ -1,0 +1,66 @@
+"""Maps as the page draws them, and that of a flow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import roughline as rl
+
+_WEAKEST = -2.0  # decimal logarithm of the flux over its mean that has the palest colour
+_NONE = -9.0  # the same, for no flow
+
+
+@dataclass(frozen=True, eq=False)
+class Map:
+    """Numbers over a surface, and all that the page needs to draw them."""
+
+    values: NDArray[Any]
+    palette: str  # the page knows it by this name
+    low: float
+    high: float
+    caption: str = ""
+    marks: tuple[str, ...] = ()  # the colours that mean something, by their names
+    ring: tuple[float, float] | None = None  # a place that is marked, in sides of the surface
+
+    @property
+    def look(self) -> dict[str, Any]:
+        """How it is drawn, without its numbers."""
+        return {name: value for name, value in vars(self).items() if name != "values"}
+
+
+def flux_map(flow: rl.Flow) -> Map:
+    """Where the fluid goes: the flux over its mean; of a sealed gap, how far the fluid comes."""
+    is_open = flow.gap > 0
+    if flow.is_sealed:
+        reached = flow.pressure == 1
+        marks = np.where(is_open, 2 * reached, 1).astype(np.uint8)
+        caption = "sealed: no way through"
+        return Map(marks, "reach", 0, 2, caption, ("ink", "reach"))
+    flux = np.hypot(*flow.flux) * _width(flow) / flow.inflow
+    logarithm = np.full(flux.shape, _NONE)
+    np.log10(flux, out=logarithm, where=flux > 0)
+    logarithm[flux > 0] = np.maximum(logarithm[flux > 0], _WEAKEST)
+    logarithm[~is_open] = np.nan
+    high = max(float(np.log10(flux.max())), 0.0)
+    return Map(
+        *(logarithm, "flux", _WEAKEST, high),
+        "flux over its mean; ring: throttled most",
+        ("ink",),
+        throttled_at(flow),
+    )
+
+
+def throttled_at(flow: rl.Flow) -> tuple[float, float]:
+    """Where the fluid is throttled most, in sides of the surface."""
+    assert flow.constriction is not None
+    x, y = ((i + 0.5) / n for i, n in zip(flow.constriction, flow.gap.shape, strict=True))
+    return x, y
+
+
+def _width(flow: rl.Flow) -> float:
+    """Side across the flow. [length]"""
+    return flow.sizes[1] if flow.along == "x" else flow.sizes[0]
