@@ -137,8 +137,8 @@ def press_command(
     if export_table is not None:
         from roughline.report.finite_elements import checked_table, refuse_without_interface
 
-        refuse_without_interface(question)
         checked_table(export_table)
+        refuse_without_interface(question)
     if question.is_of_several:
         _press_part(question, report, out, json=json, unfolded_by=unfolded_by)
     else:
