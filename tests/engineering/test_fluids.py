@@ -217,3 +217,25 @@ def test_a_pressure_below_vacuum_is_refused(pressure):
         with pytest.raises(rl.InputError, match=r"pressure is .*, 0 \(vacuum\) or more"):
             length(pressure)
     assert GASES["helium"].mean_free_path(0.0) == math.inf
+
+
+def test_oils_are_known_to_a_factor_that_holds_other_indices_and_the_grade():
+    """From a viscosity index of 80 to one of 140, and 10 % of the grade at 40 °C."""
+    at_100 = {80: 6.35, 140: 7.7}  # of a grade of 46, ASTM D2270 [mm²/s]
+
+    def twice(viscosity):
+        return math.log10(math.log10(viscosity + 0.7))
+
+    oil = rl.fluid_of("ISO VG 46")
+    assert oil.viscosity_factor == 1.3
+    for warm in at_100.values():
+        for grade in (0.9 * 46, 1.1 * 46):
+            fall = (twice(46) - twice(warm)) / math.log10(373.15 / 313.15)
+            kinematic = 10**10 ** (twice(46) + fall * math.log10(313.15 / ROOM)) - 0.7
+            found = kinematic * grade / 46 * 0.872e-3
+            assert oil.viscosity / 1.3 < found < oil.viscosity * 1.3
+    assert rl.fluid_of("ISO VG 46 viscosity=0.1 Pa s").viscosity_factor == 1.0
+    assert rl.fluid_of("ISO VG 46 at 40 °C").viscosity_factor == 1.3
+    assert rl.fluid_of("water").viscosity_factor == 1.0
+    with pytest.raises(rl.InputError, match="viscosity_factor"):
+        rl.Liquid(0.1, viscosity_factor=0.9)

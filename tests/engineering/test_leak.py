@@ -6,6 +6,7 @@ from scipy import optimize
 
 import roughline as rl
 from roughline.engineering.leak import (
+    beyond_slip,
     gas_throughput,
     liquid_leak,
     mass_of_throughput,
@@ -132,3 +133,14 @@ def test_leaks_do_not_depend_on_units(length, time):
     assert volume == pytest.approx(expected)
     turned = gas_throughput(1e-6, 5.0, 1e5, 3e5, GAS)
     assert turned == -here
+
+
+def test_beyond_slip_more_flows_and_never_less():
+    """Far from it nothing changes; from there on it rises, beyond the table as well."""
+    ratios = np.geomspace(1e-4, 1e3, 50)
+    more = beyond_slip(ratios)
+    assert more[0] == 1
+    assert (np.diff(more) >= 0).all()
+    assert beyond_slip(5.0) == pytest.approx(2.01)
+    free = beyond_slip(400.0) - beyond_slip(20.0)  # with the logarithm, as between 5 and 20
+    assert free == pytest.approx((2.63 - 2.01) / np.log(4) * np.log(20), rel=1e-9)

@@ -47,6 +47,9 @@ _OF_LAWS = (
     *("viscosity", "conductivity", "viscosity_power", "conductivity_power", "vogel_B", "vogel_C"),
 )
 _AT = re.compile(r"\s+at\s+(-?[\d.]+)\s*(?:°|deg)?\s*([CK])\b", re.IGNORECASE)
+_OF_OILS = (
+    1.3  # uncertainty of their viscosities, a factor: 10 % of the grade, an index of 80 to 140
+)
 _COLDEST, _HOTTEST = 273.15, 373.15  # between which the table knows how fluids change [K]
 _GRADE = re.compile(r"^\W*(?:(?:iso|oil)\W*)*vg\W*(\d+)(?:\W*oil\b)?", re.IGNORECASE)
 
@@ -64,19 +67,26 @@ class Liquid:
         What it is called.
     source : str, optional
         Where the values come from.
+    viscosity_factor : float, optional
+        Factor by which the viscosity is uncertain: it lies between η / factor and η * factor. Oils
+        of the table are uncertain, as a grade is fixed to 10 % at 40 °C, and how oils thin on the
+        way to other temperatures differs; a given viscosity is taken as exact. [1]
 
     Raises
     ------
     InputError
-        If the viscosity is not positive and finite.
+        If the viscosity is not positive and finite, or its factor is below 1.
     """
 
     viscosity: float
     name: str = "given liquid"
     source: str = "given by the user"
+    viscosity_factor: float = 1.0
 
     def __post_init__(self) -> None:
         _refuse_senseless(self)
+        if not 1 <= self.viscosity_factor < math.inf:
+            refuse("viscosity_factor", self.viscosity_factor, "1 or more is needed")
 
 
 @public
@@ -239,6 +249,8 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
         start.pop("conductivity", None)  # it is that at 20 °C
         start |= {} if "viscosity" in given else _at(name, given["temperature"])
     source = f"{start['source']}; {', '.join(given)} given" if name and given else ""
+    if "viscosity" in given:
+        start.pop("viscosity_factor", None)
     values = {**start, **given} | ({"source": source} if source else {})
     is_gas = isinstance(known[name], Gas) if name else given.keys() != {"viscosity"}
     if is_gas:
@@ -293,6 +305,8 @@ def _table() -> dict[str, Liquid | Gas]:
     for name, row in _rows().items():
         numbers = {key: float(row[key]) for key in _UNITS if row.get(key)}
         kind = Gas if "molar_mass" in numbers else Liquid
+        if name.startswith("oil-"):
+            numbers["viscosity_factor"] = _OF_OILS
         found[name] = kind(**numbers, name=name, source=row["source"])
     return found
 

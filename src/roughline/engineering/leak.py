@@ -39,6 +39,27 @@ def gas_throughput(aperture: _Value, ratio: float, inlet: float, outlet: float, 
     return ratio * aperture**3 * (inlet**2 - outlet**2) / (24 * gas.viscosity)
 
 
+def beyond_slip(path_over_gap: _Value) -> _Value:
+    """How much more than slip of the first order lets through kinetic theory does. [1]
+
+    It is that of flat plates, by the BGK equation [1]_, between mean free paths of a hundredth and
+    of twenty gaps, and goes on with the logarithm of the path from there.
+
+    References
+    ----------
+    .. [1] Cercignani, C., Daneri, A. Flow of a rarefied gas between two parallel plates. J. Appl.
+       Phys. 34, 3509-3513 (1963).
+    """
+    rare = np.log(np.maximum(path_over_gap, _PATHS[0]))
+    paths, more = np.log(_PATHS), np.array(_MORE)
+    rise = (more[-1] - more[-2]) / (paths[-1] - paths[-2])
+    return np.interp(rare, paths, more) + rise * np.maximum(rare - paths[-1], 0.0)
+
+
+_PATHS = (0.01, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0)  # mean free paths over the gap
+_MORE = (1.0, 1.09, 1.21, 1.33, 1.49, 1.69, 2.01, 2.63)  # flow at these over that with slip
+
+
 def mass_of_throughput(throughput: _Value, gas: Gas) -> _Value:
     """Mass per time of a throughput at the temperature of the gas. [kg / s]"""
     return throughput / (gas.gas_constant * gas.temperature)

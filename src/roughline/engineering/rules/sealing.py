@@ -11,6 +11,7 @@ from roughline.computing.arrays import Real
 from roughline.contact.measures import Measure
 from roughline.engineering.fluids import Gas
 from roughline.engineering.leak import (
+    beyond_slip,
     gas_throughput,
     liquid_leak,
     mass_of_throughput,
@@ -107,7 +108,8 @@ def _liquid_leak(pressed: Pressed) -> Real | None:
         return None
     assert asked.seal is not None
     assert asked.inlet is not None
-    return liquid_leak(aperture, asked.seal.ratio, asked.inlet - asked.outlet, asked.fluid)
+    found = liquid_leak(aperture, asked.seal.ratio, asked.inlet - asked.outlet, asked.fluid)
+    return _widened(found, asked.fluid.viscosity_factor, asked.fluid.viscosity_factor)
 
 
 def _throughput(pressed: Pressed) -> Real | None:
@@ -120,7 +122,18 @@ def _throughput(pressed: Pressed) -> Real | None:
         return None
     assert asked.seal is not None
     assert asked.inlet is not None
-    return gas_throughput(aperture, asked.seal.ratio, asked.inlet, asked.outlet, asked.gas)
+    found = gas_throughput(aperture, asked.seal.ratio, asked.inlet, asked.outlet, asked.gas)
+    without_slip = _aperture(pressed)
+    if without_slip is None:
+        return found
+    widest = np.where(without_slip[0] > 0, without_slip[0], without_slip[-1])
+    gap = np.where(widest > 0, widest, np.inf)  # nothing leaks, however rare the gas
+    return _widened(found, 1.0, beyond_slip(asked.free_path / gap))
+
+
+def _widened(rows: Real, less: float, more: Real | float) -> Real:
+    """A quantity in rows that may be so many times smaller and larger than its interval says."""
+    return rows if len(rows) == 1 else np.stack([rows[0], rows[1] / less, rows[2] * more])
 
 
 def _slipped(asked: Sealing, along: Along) -> Measure:
@@ -155,8 +168,10 @@ def _through_seal(pressed: Pressed) -> Mapping[str, str]:
     asked = _crossed(pressed)
     if asked is None or asked.seal is None or asked.inlet is None:
         return {}
+    factor = 1.0 if isinstance(asked.fluid, Gas) else asked.fluid.viscosity_factor
+    known = "" if factor == 1 else f", viscosity known to a factor of {factor:g}"
     return {
-        "validity": f"{asked.fluid.name}, {engineering(asked.inlet, 'Pa')} to "
+        "validity": f"{asked.fluid.name}{known}, {engineering(asked.inlet, 'Pa')} to "
         f"{engineering(asked.outlet, 'Pa')} absolute, seal {asked.seal.words}; {_OF_THE_MAP}"
     }
 
