@@ -183,27 +183,29 @@ class _Dissection:
         ends = np.cumsum([face.size for face in faces])[:-1]
         return numbers[closed:], np.split(places - closed, ends)
 
-    def _eliminated(self, corner: _Corner) -> tuple[_Block, Real]:
-        """A rectangle, condensed, and how the pressure of each of its cells follows."""
-        (i, i_end), (j, j_end) = corner
-        numbers, places = self._border(corner)
-        cells = self.network.cells[i:i_end, j:j_end]
-        shares = np.zeros((cells.size, numbers.size + cells.shape[1] + 1))
-        before, behind, left, right = places
-        square = self.network.along, self.network.across
-        conductances = _eliminate_cells(cells, square, before, behind, left, right, shares)
-        return _Block(numbers, conductances), shares
-
     def _condensed(self, corner: _Corner) -> _Block:
-        return self._eliminated(corner)[0]
+        """A rectangle, condensed."""
+        numbers, places = self._border(corner)
+        return _Block(numbers, self._eliminated(corner, places, numbers.size, kept=1)[0])
 
     def _spread(self, corner: _Corner, of_faces: Real, pressures: Real) -> None:
         """Set the pressures of the cells of a rectangle from those of its faces."""
         (i, i_end), (j, j_end) = corner
-        block, shares = self._eliminated(corner)
-        pressures[:, i:i_end, j:j_end] = _follow_cells(
-            shares, of_faces[block.faces], i_end - i, j_end - j
-        )
+        numbers, places = self._border(corner)
+        rows, columns = i_end - i, j_end - j
+        _, shares, slots = self._eliminated(corner, places, numbers.size, kept=rows * columns)
+        of_border = of_faces[numbers]
+        pressures[:, i:i_end, j:j_end] = _follow_cells(shares, slots, of_border, rows, columns)
+
+    def _eliminated(
+        self, corner: _Corner, places: list[Indices], faces: int, kept: int
+    ) -> tuple[Real, Real, Indices]:
+        """What the elimination of the cells of a rectangle gives."""
+        (i, i_end), (j, j_end) = corner
+        before, behind, left, right = places
+        square = self.network.along, self.network.across
+        cells = self.network.cells[i:i_end, j:j_end]
+        return _eliminate_cells(cells, square, before, behind, left, right, faces, kept)
 
 
 _Corner = tuple[tuple[int, int], tuple[int, int]]
@@ -221,36 +223,81 @@ def _cuts(n: int, least: int) -> Indices:
 def _joined(pair: tuple[_Block, _Block]) -> tuple[_Block, list[_Step]]:
     """Condense two blocks into one."""
     first, second = pair
-    inner = np.intersect1d(first.faces, second.faces, assume_unique=True)
-    inner = inner[inner > OUTLET]
-    both = np.union1d(first.faces, second.faces)
-    outer = np.setdiff1d(both, inner, assume_unique=True)
-    numbers = np.concatenate([inner, outer])
-    order = np.argsort(numbers)
-    conductances = np.zeros((both.size, both.size))
-    for block in pair:
-        _add(conductances, order[np.searchsorted(both, block.faces)], block.conductances)
+    numbers, inner, conductances = _assembled(
+        first.faces, first.conductances, second.faces, second.conductances
+    )
     steps = []
-    for first_inner in range(0, inner.size, _AT_ONCE):
-        n = min(_AT_ONCE, inner.size - first_inner)
+    for start in range(0, inner, _AT_ONCE):
+        end = min(start + _AT_ONCE, inner)
+        n = end - start
         to_others = conductances[:n, n:]
         lower = _inverse_factor(conductances[:n, :n].copy(), to_others.sum(axis=1))
         upper = lower @ to_others
         between_others = upper.T @ upper
         between_others += conductances[n:, n:]
         conductances = between_others
-        steps.append(
-            _Step(numbers[first_inner : first_inner + n], numbers[first_inner + n :], lower, upper)
-        )
-    return _Block(outer, conductances), steps
+        steps.append(_Step(numbers[start:end], numbers[end:], lower, upper))
+    return _Block(numbers[inner:], conductances), steps
 
 
 @compiled
-def _add(total: Real, places: Indices, conductances: Real) -> None:
-    """Add conductances of a block to those of all faces, in which its own have these places."""
+def _assembled(
+    faces: Indices, conductances: Real, others: Indices, of_others: Real
+) -> tuple[Indices, int, Real]:
+    """Faces of two blocks, those between them first, how many these are, and all conductances."""
+    between = both = 0
+    j = 0
+    for face in faces:
+        while j < others.size and others[j] < face:
+            j += 1
+        if j < others.size and others[j] == face:
+            both += 1
+            between += face > OUTLET
+    numbers = np.empty(faces.size + others.size - both, faces.dtype)
+    places, of_second = np.empty_like(faces), np.empty_like(others)
+    i = j = inner = 0
+    outer = between
+    while i < faces.size or j < others.size:
+        in_first = j == others.size or (i < faces.size and faces[i] <= others[j])
+        in_second = i == faces.size or (j < others.size and others[j] <= faces[i])
+        face = faces[i] if in_first else others[j]
+        place = outer
+        if in_first and in_second and face > OUTLET:
+            place = inner
+            inner += 1
+        else:
+            outer += 1
+        numbers[place] = face
+        if in_first:
+            places[i] = place
+            i += 1
+        if in_second:
+            of_second[j] = place
+            j += 1
+    total = np.zeros((numbers.size, numbers.size))
     for i, row in enumerate(places):
         for j, column in enumerate(places):
-            total[row, column] += conductances[i, j]
+            total[row, column] = conductances[i, j]
+    for i, row in enumerate(of_second):
+        for j, column in enumerate(of_second):
+            total[row, column] += of_others[i, j]
+    return numbers, between, total
+
+
+@compiled
+def _eliminate(g: Real, here: int, share: Real) -> None:
+    """Join the neighbours of a node in its place, and set the share of each in its pressure."""
+    reach = share.size
+    row = g[here]
+    share[:] = row[:reach] / row[:reach].sum()
+    for other in range(reach):
+        part = share[other]
+        if part > 0:
+            g[other, here] = 0
+            for each in range(reach):
+                g[other, each] += part * row[each]
+            g[other, other] = 0
+    row[:reach] = 0
 
 
 @compiled
@@ -261,71 +308,70 @@ def _eliminate_cells(
     behind: Indices,
     left: Indices,
     right: Indices,
-    shares: Real,
-) -> Real:
-    """Condense a rectangle, cell by cell; also the share of each neighbour in a cell's pressure.
+    faces: int,
+    kept: int,
+) -> tuple[Real, Real, Indices]:
+    """Condense a rectangle, cell by cell, and tell how the pressure of each cell follows.
 
-    A cell has a place in a window of one row and a cell until it is eliminated.
+    Returns the conductances between faces, the share of each neighbour in the pressure of a cell,
+    of all cells or of one if no more are kept, and the places of the faces among these. Cells have
+    the first places, in turns, as long as they are not eliminated; each face has one from where the
+    sweep meets it.
     """
     along, across = square
     nx, ny = cells.shape
     window = ny + 1
-    size = shares.shape[1]
-    faces = size - window
-    g = np.zeros((size, size))
+    reach = window
+    slots = np.full(faces, -1)
+    g = np.zeros((window + faces, window + faces))
+    shares = np.zeros((kept, window + faces))
     for cell in range(nx * ny):
         i, j = cell // ny, cell % ny
         k = cells[i, j]
         if k == 0:
             continue
-        here = faces + cell % window
-        if i == 0 and before[j] >= 0:
-            g[here, before[j]] += 2 * along * k
-        if j == 0 and left[i] >= 0:
-            g[here, left[i]] += 2 * across * k
-        if i + 1 == nx:
-            if behind[j] >= 0:
-                g[here, behind[j]] += 2 * along * k
-        elif cells[i + 1, j] > 0:
-            next_row = cells[i + 1, j]
-            g[here, faces + (cell + ny) % window] += 2 * along * k * (next_row / (k + next_row))
-        if j + 1 == ny:
-            if right[i] >= 0:
-                g[here, right[i]] += 2 * across * k
-        elif cells[i, j + 1] > 0:
-            next_one = cells[i, j + 1]
-            g[here, faces + (cell + 1) % window] += 2 * across * k * (next_one / (k + next_one))
+        here = cell % window
         row = g[here]
-        pivot = row.sum()
-        share = shares[cell]
-        for other in range(size):
-            share[other] = row[other] / pivot
-        for other in range(size):
-            if share[other] > 0:
-                g[other, here] = 0
-                part = share[other]
-                for each in range(size):
-                    g[other, each] += part * row[each]
-                g[other, other] = 0
-        row[:] = 0
-    return g[:faces, :faces].copy()
+        for face, square_of in (
+            (before[j] if i == 0 else -1, along),
+            (behind[j] if i + 1 == nx else -1, along),
+            (left[i] if j == 0 else -1, across),
+            (right[i] if j + 1 == ny else -1, across),
+        ):
+            if face >= 0:
+                if slots[face] < 0:
+                    slots[face] = reach
+                    reach += 1
+                row[slots[face]] += 2 * square_of * k
+        if i + 1 < nx and cells[i + 1, j] > 0:
+            next_row = cells[i + 1, j]
+            row[(cell + ny) % window] += 2 * along * k * (next_row / (k + next_row))
+        if j + 1 < ny and cells[i, j + 1] > 0:
+            next_one = cells[i, j + 1]
+            row[(cell + 1) % window] += 2 * across * k * (next_one / (k + next_one))
+        _eliminate(g, here, shares[cell % kept, :reach])
+    conductances = np.empty((faces, faces))
+    for i in range(faces):
+        for j in range(faces):
+            conductances[i, j] = g[slots[i], slots[j]]
+    return conductances, shares, slots
 
 
 @compiled
-def _follow_cells(shares: Real, of_faces: Real, nx: int, ny: int) -> Real:
+def _follow_cells(shares: Real, slots: Indices, of_faces: Real, nx: int, ny: int) -> Real:
     """Pressures of the cells of a rectangle from those of its faces, (2, nx, ny)."""
     window = ny + 1
-    faces = of_faces.shape[0]
-    values = np.zeros((faces + window, 2))
-    values[:faces] = of_faces
+    values = np.zeros((shares.shape[1], 2))
+    for face in range(slots.size):
+        values[slots[face]] = of_faces[face]
     pressures = np.empty((2, nx, ny))
     for cell in range(nx * ny - 1, -1, -1):
         first = second = 0.0
-        for each in range(faces + window):
+        for each in range(shares.shape[1]):
             share = shares[cell, each]
             first += share * values[each, 0]
             second += share * values[each, 1]
-        values[faces + cell % window] = first, second
+        values[cell % window] = first, second
         pressures[:, cell // ny, cell % ny] = first, second
     return pressures
 
