@@ -230,7 +230,7 @@ def test_refused_controls_of_my_surface_leave_the_others_alive(pages, rough):
     page.locator('[data-list="prepared-remarks"]', has_text="curvature").wait_for()
     page.check('#measured [data-key="pixels"][value="points"]')
     page.click("[data-press]")
-    said_at("answers").filter(has_text="3-gpa").wait_for()
+    said_at("answers").filter(has_text="3 GPa").wait_for()
     assert len(complaints(page, "measured")) == len(wrong) + 1
     for key in wrong:
         typed_in(key, {"second": "copper", "loads": "2 MPa", "resample": "32"}.get(key, ""))
