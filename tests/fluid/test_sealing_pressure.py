@@ -66,7 +66,7 @@ def test_grooves_close_where_a_wave_is_in_full_contact(n):
 @pytest.mark.slow
 def test_its_interval_holds_that_of_grids_four_times_finer():
     held = []
-    for seed in range(5000, 5000 + cases(4, share=4)):
+    for seed in range(5000, 5000 + cases(4, share=2)):
         for hurst in (0.5, 0.8):
             for q_high in (None, 2 * np.pi * 16):
                 for hardness in (False, True):
