@@ -108,7 +108,7 @@ def test_a_gap_between_flat_plates_is_its_own_aperture():
 def test_intervals_hold_what_grids_four_times_finer_give():
     """From an open gap to sealing, with and without waves that the grid does not have."""
     held, opened = [], []
-    for seed in range(3000, 3000 + cases(4, share=4)):
+    for seed in range(3000, 3000 + cases(4, share=2)):
         for hurst in (0.3, 0.5, 0.8):
             for hardness in (False, True):
                 for q_high in (None, 2 * np.pi * 16):

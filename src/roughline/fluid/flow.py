@@ -83,9 +83,9 @@ class Flow:
 
     @cached_property
     def dissipation(self) -> float:
-        """Power that is lost in the fluid, over that which the flow carries in per unit of it.
+        """Power lost in the fluid, times 12 viscosity / pressure difference². [length³]
 
-        Under a unit difference of pressure this is once more the flow. [length³]
+        Pressure times flow is power, so that this is the flow once more.
         """
         along, across = self._lost
         return float(along.sum() + across[:, 1:].sum())
@@ -168,11 +168,8 @@ class Flow:
     @property
     def validity(self) -> str:
         """Says why Reynolds' equation is not good for this gap; empty where it is."""
-        if self.slope > _STEEP:
-            return (
-                f"the gap has a slope of {self.slope:.2g} where the fluid is throttled: Reynolds' "
-                "equation holds for small slopes, and less than it says flows"
-            )
+        if steep := why_too_steep(self.slope):
+            return steep
         if self.hydraulic_aperture > _HIGH * min(self.sizes):
             return (
                 f"the hydraulic aperture is {self.hydraulic_aperture / min(self.sizes):.2g} of the "
@@ -209,6 +206,16 @@ class Flow:
         narrow = ends - firsts <= _NARROW * rates.size
         sums = np.concatenate([[0.0], np.cumsum(rates)])
         return float((sums[ends] - sums[firsts])[narrow].max(initial=0.0))
+
+
+def why_too_steep(slope: float) -> str:
+    """Say why Reynolds' equation is not good for a gap of such a slope; empty where it is."""
+    if slope <= _STEEP:
+        return ""
+    return (
+        f"the gap has a slope of {slope:.2g} where the flow is throttled: Reynolds' equation holds "
+        "for small slopes, and less than it says flows"
+    )
 
 
 @overload

@@ -22,7 +22,7 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
 from roughline.engineering.sealing import Sealing
-from roughline.fluid.flow import Along
+from roughline.fluid.flow import Along, why_too_steep
 from roughline.fluid.measures import (
     flow_factor,
     hydraulic_aperture,
@@ -35,7 +35,6 @@ from roughline.units import decimal, engineering
 _rule = partial(Rule, group="sealing")
 
 _HALF = 0.5  # share of the flow from which on one channel is told
-_STEEP = 0.3  # slope of the gap beyond which Reynolds' equation says too much
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
 _RARE = 0.1  # free path over the aperture beyond which slip is not all that a thin gas does
@@ -212,11 +211,8 @@ def _beyond_reynolds(pressed: Pressed) -> str:
     if steep is None or asked is None or aperture is None:
         return ""
     found = []
-    if (worst := float(np.nanmax(steep[0], initial=0.0))) > _STEEP:
-        found.append(
-            f"the gap has a slope of {decimal(worst, 2)} where the flow is throttled: Reynolds' "
-            "equation holds for small slopes, and less than it says flows"
-        )
+    if too_steep := why_too_steep(float(np.nanmax(steep[0], initial=0.0))):
+        found.append(too_steep)
     if (inertia := float(np.nanmax(_reynolds(pressed) * steep[0], initial=0.0))) > _INERT:
         found.append(
             f"the Reynolds number times the slope of the gap is {decimal(inertia, 2)}: inertia, "
