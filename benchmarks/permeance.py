@@ -284,7 +284,7 @@ def a_rare_gas(page):
 
 
 def main():
-    page = Page("permeance-table.md", "How good the flow is", "permeance")
+    page = Page("permeance-table.md", "How good the flow is, measured", "permeance")
     exact_values(page)
     near_sealing(page)
     the_grid(page)
