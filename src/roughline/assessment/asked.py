@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeVar, get_args
 from roughline.assessment.fields import FIELDS, asked_fields
 from roughline.assessment.given import Parsed, as_si, quantity, several
 from roughline.engineering.fluids import Gas, Liquid, fluid_of
-from roughline.engineering.seal import SealShape
+from roughline.engineering.sealing import SealShape
 from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.public import public

@@ -2,18 +2,70 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal, get_args
 
+from roughline.computing.arrays import Real
 from roughline.engineering.fluids import Gas, Liquid
-from roughline.engineering.seal import SealShape
+from roughline.engineering.leak import gas_throughput, liquid_leak
+from roughline.errors.checks import refuse
 from roughline.fluid.flow import Along
 from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure
+from roughline.units import in_si
 
 ATMOSPHERE = 101325.0
 """Pressure outside, where no other is given. [Pa]"""
+
+_ACROSS = re.compile(r"\s+x\s+|\s*×\s*")
+_RING = re.compile(r"\s*\.\.+\s*")
+_NEEDED = (
+    'give its length across the flow and its width along it, such as "100 mm x 2 mm", or the two '
+    'radii of a ring, such as "20 mm .. 24 mm"'
+)
+
+
+@dataclass(frozen=True)
+class SealShape:
+    """The face of a seal: a strip that is crossed, or a ring that is crossed radially."""
+
+    words: str
+    ratio: float  # W / B, length across the flow over the way through, of a ring 2π / ln(R/r) [1]
+    width: float  # W, of a ring its inner circumference [m]
+
+    @classmethod
+    def of(cls, given: Any) -> SealShape:
+        """Read a shape such as "100 mm x 2 mm" or "20 mm .. 24 mm".
+
+        Raises
+        ------
+        InputError
+            If it is neither, or the inner radius is not below the outer one.
+        UnitError
+            If a length has no unit, or a wrong one.
+        """
+        if isinstance(given, cls):
+            return given
+        if not isinstance(given, str):
+            refuse("seal", given, _NEEDED)
+        for pattern in (_RING, _ACROSS):
+            parts = pattern.split(given.strip())
+            if len(parts) == 2:
+                first, second = (in_si(part, "m", "seal") for part in parts)
+                break
+        else:
+            refuse("seal", given, _NEEDED)
+        if not (0 < first < math.inf and 0 < second < math.inf):
+            refuse("seal", given, "positive, finite lengths are needed")
+        if pattern is _ACROSS:
+            return cls(given.strip(), first / second, first)
+        if first >= second:
+            refuse("seal", given, "the inner radius comes first, and is below the outer one")
+        around = 2 * math.pi
+        return cls(given.strip(), around / math.log(second / first), around * first)
 
 
 @dataclass(frozen=True)
@@ -29,7 +81,7 @@ class Sealing:
     @property
     def directions(self) -> Sequence[Along]:
         """Directions over the map in which the fluid flows."""
-        return ("x", "y") if self.along == "both" else (self.along,)
+        return get_args(Along) if self.along == "both" else (self.along,)
 
     @property
     def gas(self) -> Gas | None:
@@ -37,10 +89,10 @@ class Sealing:
         return self.fluid if isinstance(self.fluid, Gas) else None
 
     @property
-    def conducts(self) -> bool:
-        """Whether heat goes through the gas as well, and its conductivity is known."""
+    def conductivity(self) -> float:
+        """Thermal conductivity of the gas; 0 where none is known, and in vacuum. [W / (m K)]"""
         gas = self.gas
-        return gas is not None and gas.conductivity is not None and self.mean_pressure > 0
+        return gas.conductivity or 0.0 if gas is not None and self.mean_pressure > 0 else 0.0
 
     @property
     def mean_pressure(self) -> float:
@@ -53,6 +105,18 @@ class Sealing:
         if self.gas is None or not self.mean_pressure > 0:
             return 0.0
         return self.gas.mean_free_path(self.mean_pressure)
+
+    def leak(self, aperture: Real) -> Real | None:
+        """Volume of a liquid, or pressure times volume of a gas, per time. [m³ / s, Pa m³ / s]
+
+        The aperture, of a gas that with slip, is in m. None where no seal is crossed.
+        """
+        if self.seal is None or self.inlet is None:
+            return None
+        ratio, fluid = self.seal.ratio, self.fluid
+        if isinstance(fluid, Gas):
+            return gas_throughput(aperture, ratio, self.inlet, self.outlet, fluid)
+        return liquid_leak(aperture, ratio, self.inlet - self.outlet, fluid)
 
 
 @dataclass(frozen=True, eq=False)

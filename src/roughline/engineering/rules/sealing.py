@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from typing import get_args
 
 import numpy as np
 
@@ -12,8 +13,6 @@ from roughline.contact.measures import Measure
 from roughline.engineering.fluids import Gas
 from roughline.engineering.leak import (
     beyond_slip,
-    gas_throughput,
-    liquid_leak,
     mass_of_throughput,
     reynolds_number,
     throughput_at_room,
@@ -21,7 +20,7 @@ from roughline.engineering.leak import (
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
-from roughline.engineering.sealing import Sealing
+from roughline.engineering.sealing import Closing, Sealing
 from roughline.fluid.flow import Along, why_too_steep
 from roughline.fluid.measures import (
     flow_factor,
@@ -30,9 +29,9 @@ from roughline.fluid.measures import (
     largest_share,
     slope_of_flow,
 )
+from roughline.fluid.reopening import Reopening
+from roughline.fluid.sealing_pressure import SealingPressure
 from roughline.units import decimal, engineering
-
-_rule = partial(Rule, group="sealing")
 
 _HALF = 0.5  # share of the flow from which on one channel is told
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
@@ -44,127 +43,94 @@ _OF_THE_MAP = (
     "of the map, which is one place of the seal: near sealing, another place may leak far more or "
     "less; laminar, thin gap"
 )
-_PUBLISHED = "Reynolds 1886"
+_rule = partial(Rule, group="sealing", validity=_OF_THE_MAP, source="Reynolds 1886")
+
+_Needed = Callable[[Sealing], Sequence[Measure]]
+"""What is taken from the fields of every load, from what is asked."""
 
 
-def _along_each(
-    measure_of: Callable[[Along], Measure],
-) -> Callable[[Sealing], Sequence[Measure]]:
-    """A measure along each direction that is asked for."""
-    return lambda asked: [measure_of(along) for along in asked.directions]
+def _along_each(*measures_of: Callable[[Along], Measure]) -> _Needed:
+    """Measures along each direction that is asked for."""
+    return lambda asked: [of(along) for along in asked.directions for of in measures_of]
 
 
-def _with_slip(asked: Sealing) -> Sequence[Measure]:
-    """Apertures that a gas finds at its mean pressure."""
-    if asked.gas is None:
-        return []
+_APERTURES = _along_each(hydraulic_aperture)
+_FACTORS = _along_each(flow_factor)
+_SHARES = _along_each(largest_share)
+_SLOPES = _along_each(slope_of_flow)
+
+
+def _apertures_with_slip(asked: Sealing) -> Sequence[Measure]:
+    """What a gas finds at its mean pressure; of a liquid the apertures themselves."""
     return [hydraulic_aperture(along, asked.free_path) for along in asked.directions]
 
 
-def _largest(pressed: Pressed, measure_of: Callable[[Along], Measure]) -> Real | None:
-    """A measure along the direction in which it is larger, in rows."""
-    if pressed.sealing is None:
-        return None
-    rows = [pressed.measure(measure_of(along).name) for along in pressed.sealing.directions]
-    known = [each for each in rows if each is not None]
-    return np.maximum.reduce(known) if len(known) == len(rows) else None
+def _inverse_gap(asked: Sealing) -> Sequence[Measure]:
+    """What a gas of known conductivity finds; in vacuum there is none."""
+    if asked.gas is None or not asked.conductivity:
+        return []
+    return [inverse_gap(asked.gas.temperature_jump(asked.mean_pressure))]
 
 
-def _along(pressed: Pressed, along: Along) -> Real | None:
+def _largest(pressed: Pressed, needed: _Needed) -> Real | None:
+    """A measure along the direction in which it is larger, in rows; None where it is not taken."""
+    asked = [] if pressed.sealing is None else needed(pressed.sealing)
+    rows = [found for each in asked if (found := pressed.measure(each.name)) is not None]
+    return np.maximum.reduce(rows) if rows else None
+
+
+def _along(along: Along, pressed: Pressed) -> Real | None:
     """Aperture along one direction, where both are asked for."""
     if pressed.sealing is None or len(pressed.sealing.directions) == 1:
         return None
     return pressed.measure(hydraulic_aperture(along).name)
 
 
-def _aperture(pressed: Pressed) -> Real | None:
-    return _largest(pressed, hydraulic_aperture)
-
-
-def _of_direction(name: str) -> Callable[[Pressed], Mapping[str, str]]:
+def _with_direction(name: str, pressed: Pressed) -> Mapping[str, str]:
     """The name of an answer with the direction that it is of."""
-
-    def texts(pressed: Pressed) -> Mapping[str, str]:
-        if pressed.sealing is None:
-            return {}
-        both = pressed.sealing.along == "both"
-        return {
-            "name": f"{name}, {'leakier direction' if both else 'along ' + pressed.sealing.along}"
-        }
-
-    return texts
+    along = "both" if pressed.sealing is None else pressed.sealing.along
+    return {"name": f"{name}, {'leakier direction' if along == 'both' else f'along {along}'}"}
 
 
-def _crossed(pressed: Pressed) -> Sealing | None:
-    """What is asked, if a seal is crossed under known pressures."""
-    asked = pressed.sealing
-    return None if asked is None or asked.seal is None or asked.inlet is None else asked
-
-
-def _liquid_leak(pressed: Pressed) -> Real | None:
-    asked, aperture = _crossed(pressed), _aperture(pressed)
-    if asked is None or aperture is None or isinstance(asked.fluid, Gas):
+def _leak(pressed: Pressed) -> Real | None:
+    """Volume of a liquid, or pressure times volume of a gas, per time, in rows. [m³/s, Pa m³/s]"""
+    asked, aperture = pressed.sealing, _largest(pressed, _APERTURES)
+    with_slip = _largest(pressed, _apertures_with_slip)
+    if asked is None or aperture is None or with_slip is None:
         return None
-    assert asked.seal is not None
-    assert asked.inlet is not None
-    found = liquid_leak(aperture, asked.seal.ratio, asked.inlet - asked.outlet, asked.fluid)
-    return _widened(found, asked.fluid.viscosity_factor, asked.fluid.viscosity_factor)
-
-
-def _throughput(pressed: Pressed) -> Real | None:
-    """Pressure times volume of a gas that leaks, in rows. [Pa m³ / s]"""
-    asked = _crossed(pressed)
-    if asked is None or asked.gas is None:
-        return None
-    aperture = _largest(pressed, partial(_slipped, asked))
-    if aperture is None:
-        return None
-    assert asked.seal is not None
-    assert asked.inlet is not None
-    found = gas_throughput(aperture, asked.seal.ratio, asked.inlet, asked.outlet, asked.gas)
-    without_slip = _aperture(pressed)
-    if without_slip is None:
+    found = asked.leak(with_slip)
+    if found is None or len(found) == 1:
         return found
-    widest = np.where(without_slip[0] > 0, without_slip[0], without_slip[-1])
+    if not isinstance(asked.fluid, Gas):
+        factor = asked.fluid.viscosity_factor
+        return np.stack([found[0], found[1] / factor, found[2] * factor])
+    widest = np.where(aperture[0] > 0, aperture[0], aperture[-1])
     gap = np.where(widest > 0, widest, np.inf)  # nothing leaks, however rare the gas
-    return _widened(found, 1.0, beyond_slip(asked.free_path / gap))
+    return np.stack([found[0], found[1], found[2] * beyond_slip(asked.free_path / gap)])
 
 
-def _widened(rows: Real, less: float, more: Real | float) -> Real:
-    """A quantity in rows that may be so many times smaller and larger than its interval says."""
-    return rows if len(rows) == 1 else np.stack([rows[0], rows[1] / less, rows[2] * more])
+def _of_liquid(pressed: Pressed) -> Real | None:
+    return None if pressed.sealing is None or pressed.sealing.gas else _leak(pressed)
 
 
-def _slipped(asked: Sealing, along: Along) -> Measure:
-    return hydraulic_aperture(along, asked.free_path)
+def _of_gas(quantity: Callable[[Real, Gas], Real], pressed: Pressed) -> Real | None:
+    """What follows from the pressure times volume of a gas that leaks."""
+    gas = None if pressed.sealing is None else pressed.sealing.gas
+    leak = None if gas is None else _leak(pressed)
+    return None if gas is None or leak is None else quantity(leak, gas)
 
 
-def _mass(pressed: Pressed) -> Real | None:
-    throughput, asked = _throughput(pressed), pressed.sealing
-    if throughput is None or asked is None or asked.gas is None:
-        return None
-    return mass_of_throughput(throughput, asked.gas)
-
-
-def _reynolds(pressed: Pressed) -> Real:
+def _reynolds(pressed: Pressed) -> Real | float:
     """Reynolds number of what leaks, zero where no leak is asked for. [1]"""
-    asked, mass, volume = _crossed(pressed), _mass(pressed), _liquid_leak(pressed)
-    if mass is None and volume is not None:
-        mass = _DENSITY * volume
-    if asked is None or asked.seal is None or mass is None:
-        return np.zeros(pressed.curve.force.shape)
-    return np.abs(reynolds_number(mass[0], asked.seal.width, asked.fluid.viscosity))
-
-
-def _in_mbar_litres(pressed: Pressed) -> Real | None:
-    throughput, asked = _throughput(pressed), pressed.sealing
-    if throughput is None or asked is None or asked.gas is None:
-        return None
-    return throughput_at_room(throughput, asked.gas) * _MBAR_LITRES
+    asked, leak = pressed.sealing, _leak(pressed)
+    if asked is None or asked.seal is None or leak is None:
+        return 0.0
+    mass = _DENSITY * leak[0] if asked.gas is None else mass_of_throughput(leak[0], asked.gas)
+    return np.abs(reynolds_number(mass, asked.seal.width, asked.fluid.viscosity))
 
 
 def _through_seal(pressed: Pressed) -> Mapping[str, str]:
-    asked = _crossed(pressed)
+    asked = pressed.sealing
     if asked is None or asked.seal is None or asked.inlet is None:
         return {}
     factor = 1.0 if isinstance(asked.fluid, Gas) else asked.fluid.viscosity_factor
@@ -177,7 +143,7 @@ def _through_seal(pressed: Pressed) -> Mapping[str, str]:
 
 def _one_channel(pressed: Pressed) -> str:
     """Say where a single channel carries half of the flow."""
-    share, aperture = _largest(pressed, largest_share), _aperture(pressed)
+    share, aperture = _largest(pressed, _SHARES), _largest(pressed, _APERTURES)
     if share is None or aperture is None:
         return ""
     shares = np.where(aperture[0] > 0, share[0], 0.0)
@@ -193,7 +159,7 @@ def _one_channel(pressed: Pressed) -> str:
 
 def _sealed(pressed: Pressed) -> str:
     """Say under which loads no path is open, and whether that is sure."""
-    aperture = _aperture(pressed)
+    aperture = _largest(pressed, _APERTURES)
     if aperture is None or not (aperture[0] == 0).any():
         return ""
     least = pressed.pressure[aperture[0] == 0].min()
@@ -207,7 +173,8 @@ def _sealed(pressed: Pressed) -> str:
 
 def _beyond_reynolds(pressed: Pressed) -> str:
     """Say where the equation of thin gaps, or slip, is no longer good."""
-    steep, asked, aperture = _largest(pressed, slope_of_flow), pressed.sealing, _aperture(pressed)
+    asked, steep = pressed.sealing, _largest(pressed, _SLOPES)
+    aperture = _largest(pressed, _APERTURES)
     if steep is None or asked is None or aperture is None:
         return ""
     found = []
@@ -229,26 +196,21 @@ def _beyond_reynolds(pressed: Pressed) -> str:
     return "; ".join(found)
 
 
-def _sealing_pressure(pressed: Pressed) -> Real | None:
-    """Under all loads the same."""
-    if pressed.closing is None:
+def _bisected(
+    which: Callable[[Closing], SealingPressure | Reopening | None], pressed: Pressed
+) -> Real | None:
+    """What bisection found, the same under all loads, with its ends where they are known."""
+    found = None if pressed.closing is None else which(pressed.closing)
+    if found is None:
         return None
-    found = pressed.closing.pressure
-    return _under_all(pressed, found.value, found.interval)
-
-
-def _reopening(pressed: Pressed) -> Real | None:
-    if pressed.closing is None or pressed.closing.reopening is None:
-        return None
-    found = pressed.closing.reopening
-    return _under_all(pressed, found.value, found.interval)
+    rows = [found.value] if np.isnan(found.interval).any() else [found.value, *found.interval]
+    return np.where(pressed.curve.converged, np.array(rows)[:, np.newaxis], np.nan)
 
 
 def _stays_tight(pressed: Pressed) -> str:
     """Say where the load may be taken off altogether."""
-    if pressed.closing is None or pressed.closing.reopening is None:
-        return ""
-    if pressed.closing.reopening.low > 0:
+    reopens = None if pressed.closing is None else pressed.closing.reopening
+    if reopens is None or reopens.low > 0:
         return ""
     return (
         "once the largest load was on, less than ten times as much leaks however far it is taken "
@@ -256,27 +218,9 @@ def _stays_tight(pressed: Pressed) -> str:
     )
 
 
-def _under_all(pressed: Pressed, value: float, ends: tuple[float, float]) -> Real:
-    """A value in rows that is the same under all loads, with its ends where they are known."""
-    rows = [value] if np.isnan(ends).any() else [value, *ends]
-    return np.where(pressed.curve.converged, np.array(rows)[:, np.newaxis], np.nan)
-
-
 def _gas_conductance(pressed: Pressed) -> Real | None:
-    asked = pressed.sealing
-    if asked is None or not (measures := _inverse_gap(asked)):
-        return None
-    inverse = pressed.measure(measures[0].name)
-    if inverse is None or asked.gas is None or asked.gas.conductivity is None:
-        return None
-    return asked.gas.conductivity * inverse
-
-
-def _inverse_gap(asked: Sealing) -> Sequence[Measure]:
-    """What a gas of known conductivity finds; in vacuum there is none."""
-    if asked.gas is None or not asked.conducts:
-        return []
-    return [inverse_gap(asked.gas.temperature_jump(asked.mean_pressure))]
+    asked, inverse = pressed.sealing, _largest(pressed, _inverse_gap)
+    return None if asked is None or inverse is None else asked.conductivity * inverse
 
 
 def _joint_conductance(pressed: Pressed) -> Real | None:
@@ -293,9 +237,7 @@ SEALING = (
         symbol="Q",
         unit="m³/s",
         formula="(W/B) u_h³ (P1 - P2) / (12 eta)",
-        validity=_OF_THE_MAP,
-        source=_PUBLISHED,
-        value=_liquid_leak,
+        value=_of_liquid,
         differing=_through_seal,
         leads=always,
     ),
@@ -305,12 +247,10 @@ SEALING = (
         symbol="q_pV",
         unit="mbar l/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta), at 20 °C; u_s with slip",
-        validity=_OF_THE_MAP,
-        source=_PUBLISHED,
-        value=_in_mbar_litres,
+        value=partial(_of_gas, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
         differing=_through_seal,
         leads=always,
-        measured_with=_with_slip,
+        measured_with=_apertures_with_slip,
     ),
     _rule(
         key="leak_mass",
@@ -318,11 +258,9 @@ SEALING = (
         symbol="m_dot",
         unit="kg/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta R_s T)",
-        validity=_OF_THE_MAP,
-        source=_PUBLISHED,
-        value=_mass,
+        value=partial(_of_gas, mass_of_throughput),
         differing=_through_seal,
-        measured_with=_with_slip,
+        measured_with=_apertures_with_slip,
     ),
     _rule(
         key="hydraulic_aperture",
@@ -330,34 +268,23 @@ SEALING = (
         symbol="u_h",
         unit="m",
         formula="gap of flat plates that let as much through, (12 eta Q B/(W (P1 - P2)))^(1/3)",
-        validity=_OF_THE_MAP,
-        source=_PUBLISHED,
-        value=_aperture,
-        differing=_of_direction("hydraulic aperture"),
+        value=partial(_largest, needed=_APERTURES),
+        differing=partial(_with_direction, "hydraulic aperture"),
         warning=_beyond_reynolds,
         note=_sealed,
         leads=always,
-        measured_with=_along_each(hydraulic_aperture),
+        measured_with=_APERTURES,
     ),
-    _rule(
-        key="hydraulic_aperture_x",
-        name="hydraulic aperture along x",
-        symbol="u_hx",
-        unit="m",
-        formula="the same, along x over the map",
-        validity=_OF_THE_MAP,
-        source=_PUBLISHED,
-        value=partial(_along, along="x"),
-    ),
-    _rule(
-        key="hydraulic_aperture_y",
-        name="hydraulic aperture along y",
-        symbol="u_hy",
-        unit="m",
-        formula="the same, along y over the map",
-        validity=_OF_THE_MAP,
-        source=_PUBLISHED,
-        value=partial(_along, along="y"),
+    *(
+        _rule(
+            key=f"hydraulic_aperture_{along}",
+            name=f"hydraulic aperture along {along}",
+            symbol=f"u_h{along}",
+            unit="m",
+            formula=f"the same, along {along} over the map",
+            value=partial(_along, along),
+        )
+        for along in get_args(Along)
     ),
     _rule(
         key="pressure_flow_factor",
@@ -365,11 +292,10 @@ SEALING = (
         symbol="phi_p",
         unit="1",
         formula="(u_h / u_m)³",
-        validity=_OF_THE_MAP,
         source="Patir and Cheng 1978",
-        value=partial(_largest, measure_of=flow_factor),
-        differing=_of_direction("pressure flow factor"),
-        measured_with=_along_each(flow_factor),
+        value=partial(_largest, needed=_FACTORS),
+        differing=partial(_with_direction, "pressure flow factor"),
+        measured_with=_FACTORS,
     ),
     _rule(
         key="largest_channel",
@@ -378,13 +304,12 @@ SEALING = (
         unit="1",
         formula="largest flow between two places of contact on a line across it, over all of it",
         validity="of the map; the larger one of both directions",
-        value=partial(_largest, measure_of=largest_share),
+        source="",
+        value=partial(_largest, needed=_SHARES),
         warning=_one_channel,
         limits=lambda _pressed: (0.0, 1.0),
         in_per_cent=True,
-        measured_with=lambda asked: [
-            each(along) for along in asked.directions for each in (largest_share, slope_of_flow)
-        ],
+        measured_with=_along_each(largest_share, slope_of_flow),
     ),
     _rule(
         key="sealing_pressure",
@@ -394,7 +319,7 @@ SEALING = (
         formula="mean pressure at which the last channel closes on first loading, by bisection",
         validity="of the map; the interval holds what its quarters and its grid leave open",
         source="Dapp et al. 2012",
-        value=_sealing_pressure,
+        value=partial(_bisected, lambda closing: closing.pressure),
         leads=always,
     ),
     _rule(
@@ -405,7 +330,7 @@ SEALING = (
         formula="share of the largest load down to which it may be taken off, by bisection",
         validity="of the map",
         source="Pérez-Ràfols, Larsson and Almqvist 2016",
-        value=_reopening,
+        value=partial(_bisected, lambda closing: closing.reopening),
         note=_stays_tight,
         limits=lambda _pressed: (0.0, 1.0),
         in_per_cent=True,

@@ -37,7 +37,7 @@ def conductance_of_interface(pressed: Pressed) -> Real | None:
 
 def _without_gas(pressed: Pressed) -> str:
     """Say what is left out, unless a gas of known conductivity is asked for."""
-    if pressed.sealing is not None and pressed.sealing.conducts:
+    if pressed.sealing is not None and pressed.sealing.conductivity:
         return ""
     return (
         "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "

@@ -5,7 +5,7 @@ import math
 import pytest
 
 import roughline as rl
-from roughline.engineering.seal import SealShape
+from roughline.engineering.sealing import SealShape
 
 
 @pytest.mark.parametrize(
