@@ -16,8 +16,12 @@ from roughline.report.contact_figures import (
     overview_in_words,
 )
 from roughline.report.contact_report import write_contact_report
-from roughline.report.fields_of_load import fields_figure, fields_table, write_fields
-from roughline.report.flow_of_load import flow_figure, write_flow
+from roughline.report.fields_of_load import (
+    fields_figure,
+    fields_table,
+    flow_figure,
+    write_fields,
+)
 from roughline.units import engineering
 
 FLOW = ("critical-junction", "bruggeman")  # theories of the flow
@@ -113,10 +117,14 @@ def test_the_flow_is_that_of_the_load_that_is_shown(rough, tmp_path):
     titles = [axes.get_title() for axes in flow_figure(pressed).axes]
     for each in pressed.flows:
         assert any(engineering(each.hydraulic_aperture, "m", 3) in title for title in titles)
-    (section,), files = write_flow(pressed, tmp_path)
+    (section, _), files = write_fields(pressed, tmp_path)
     assert section.heading == "Where the fluid goes at 10 N"
-    assert {each.name for each in files} == {"flow.png", "flow.pdf"}
-    assert write_flow(rl.assess(asked), tmp_path) == ([], [])
+    assert {each.name for each in files[2:]} == {"flow.png", "flow.pdf"}
+    assert section.pictures[0].path.name == "flow.png"
+    without = rl.assess(replace(asked, ask=rl.WholeCurve()))
+    (section,), files = write_fields(without, tmp_path)
+    assert "patches" in section.heading
+    assert {each.name for each in files} == {"distributions.png", "distributions.pdf"}
     of_one = rl.assess(replace(asked, ask=[rl.Fluid("water"), rl.FlowAlong("y")]))
     assert [each.permeance for each in of_one.flows] == [along_y.permeance]
     assert len([axes for axes in flow_figure(of_one).axes if axes.axison]) == 2  # and its scale

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,7 +15,7 @@ from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.plot.pixels import thinned
+from roughline.plot.pixels import draw_map, thinned
 from roughline.plot.style import drawing_on, in_unit, say
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, digits_known, in_words
@@ -49,7 +50,7 @@ def draw_heights(axes: Axes, body: Body, unit: str | None) -> None:
     deviation = body.heights - body.heights.mean()
     label, factor = in_unit("height", deviation, unit)
     if isinstance(body, Surface):
-        _draw_map(axes, body, unit, deviation * factor, label)
+        _draw_scale(axes, deviation * factor, body.sizes, unit, label)
         return
     along, size = in_unit("x", body.length, unit)
     x = (np.arange(deviation.size) + 0.5) * body.spacing * size
@@ -57,32 +58,18 @@ def draw_heights(axes: Axes, body: Body, unit: str | None) -> None:
     axes.set(xlabel=along, ylabel=label)
 
 
-def _draw_map(
+def _draw_scale(
     axes: Axes,
-    surface: Surface,
-    unit: str | None,
     values: Real,
+    sizes: tuple[float, float],
+    unit: str | None,
     label: str,
     cmap: str = "cividis",
 ) -> None:
-    """Draw values on the grid of a surface, from above, with a colour bar."""
-    borders = _extent(surface, unit)
-    shown = axes.imshow(thinned(values).T, origin="lower", extent=borders, cmap=cmap)
+    """Draw values on a map with a colour bar."""
+    shown = draw_map(axes, thinned(values), sizes, unit, cmap=cmap)
     assert axes.figure is not None
     axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.85)
-    label_sides(axes, surface, unit)
-
-
-def _extent(surface: Surface, unit: str | None) -> tuple[float, float, float, float]:
-    """Return the borders of a surface on the axes: left, right, bottom and top."""
-    _, size = in_unit("x", surface.sizes, unit)
-    return (0.0, surface.sizes[0] * size, 0.0, surface.sizes[1] * size)
-
-
-def label_sides(axes: Axes, surface: Surface, unit: str | None) -> None:
-    """Label both axes of a map."""
-    labels = [in_unit(name, surface.sizes, unit)[0] for name in ("x", "y")]
-    axes.set(xlabel=labels[0], ylabel=labels[1])
 
 
 @public
@@ -137,49 +124,42 @@ def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     return drawn_at(curve, load, axes, _draw_pressure)
 
 
-def draw_contact(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
+def draw_contact(axes: Axes, fields: Fields, unit: str | None) -> None:
     """Draw where bodies touch, and where they yield, where lengths have a given unit."""
-    axes.imshow(
-        fields.contact.T.astype(int) + fields.plastic.T,
-        origin="lower",
-        extent=_extent(surface, unit),
-        cmap=_GAP_ELASTIC_PLASTIC,
-        vmin=0,
-        vmax=2,
-        interpolation="nearest",
-    )
-    label_sides(axes, surface, unit)
+    marks = fields.contact.astype(int) + fields.plastic
+    look: Any = {"cmap": _GAP_ELASTIC_PLASTIC, "vmin": 0, "vmax": 2, "interpolation": "nearest"}
+    draw_map(axes, marks, fields.sizes, unit, **look)
 
 
-def _draw_contact_with_key(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
+def _draw_contact_with_key(axes: Axes, fields: Fields, unit: str | None) -> None:
     """Draw where bodies touch, and explain red in the title."""
-    draw_contact(axes, surface, fields, unit)
+    draw_contact(axes, fields, unit)
     axes.set_title(axes.get_title() + yield_key(fields), fontsize=_TITLE)
 
 
-def _draw_pressure(axes: Axes, surface: Surface, fields: Fields, unit: str | None) -> None:
+def _draw_pressure(axes: Axes, fields: Fields, unit: str | None) -> None:
     """Draw the pressure where bodies touch."""
     of_pressure = "Pa" if unit == "m" else None
     label, factor = in_unit("pressure $p$", fields.pressure, of_pressure)
     shown = np.where(fields.contact, fields.pressure * factor, np.nan)
-    _draw_map(axes, surface, unit, shown, label, "viridis_r")
+    _draw_scale(axes, shown, fields.sizes, unit, label, "viridis_r")
 
 
 def drawn_at(
     curve: Curve,
     load: int,
     axes: Axes | None,
-    draw: Callable[[Axes, Surface, Fields, str | None], None],
+    draw: Callable[[Axes, Fields, str | None], None],
 ) -> Axes:
     """Draw the fields of a load under its title, or say why there are none."""
-    surface, fields = _at_load(curve, load)
+    fields = _at_load(curve, load)
     with drawing_on(axes) as drawn:
         if fields is None:
             number = load % curve.status.size
             say(drawn, f"load {number} was not solved\n{Status(curve.status[load]).reason}")
         else:
             drawn.set_title(_title(curve, load), fontsize=_TITLE)
-            draw(drawn, surface, fields, surface.unit)
+            draw(drawn, fields, curve.unit)
     return drawn
 
 
@@ -197,8 +177,8 @@ def _title(curve: Curve, load: int) -> str:
     return f"corrected area {share}% at $F$ = {force}"
 
 
-def _at_load(curve: Curve, load: int) -> tuple[Surface, Fields | None]:
-    """Return the surface of a curve and the fields of a load; None where it was not solved."""
+def _at_load(curve: Curve, load: int) -> Fields | None:
+    """Return the fields of a load; None where it was not solved."""
     if curve.surface is None:
         raise InputError(
             "this curve is of a line: the reduced model gives no contact area and no pressure"
@@ -208,4 +188,4 @@ def _at_load(curve: Curve, load: int) -> tuple[Surface, Fields | None]:
     count = len(curve.fields)
     if not -count <= load < count:
         raise InputError(f"load is {load}; the curve has loads 0 to {count - 1}")
-    return curve.surface, curve.fields[load]
+    return curve.fields[load]

@@ -16,7 +16,6 @@ from roughline.errors.checks import one_of
 from roughline.errors.public import public
 from roughline.plot.bodies import drawn_at
 from roughline.plot.style import in_unit, say
-from roughline.topography.body import Surface
 from roughline.units import decimal, in_words
 
 _BARS = "0.75"
@@ -54,7 +53,7 @@ def distribution(
         If the curve has no fields, no such load, or for another field.
     """
     one_of("of", of, ("gap", "pressure"))
-    return drawn_at(curve, load, axes, partial(_draw_of_surface, of=of))
+    return drawn_at(curve, load, axes, partial(draw_distribution, of=of))
 
 
 @public
@@ -80,11 +79,11 @@ def patches(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     InputError
         If the curve has no fields, or no such load.
     """
-    return drawn_at(curve, load, axes, _draw_patches_of_surface)
+    return drawn_at(curve, load, axes, draw_patches)
 
 
 def draw_distribution(
-    axes: Axes, fields: Fields, of: Literal["gap", "pressure"], unit: str | None
+    axes: Axes, fields: Fields, unit: str | None, of: Literal["gap", "pressure"]
 ) -> None:
     """Draw the density of the gap, or of the pressure in contact, where lengths have a unit."""
     found, declared = fields.distribution(of), QUANTITIES[of]
@@ -131,18 +130,6 @@ def _tell(axes: Axes, lines: Sequence[str]) -> None:
     """Write lines above axes, below a title that they have."""
     title = axes.get_title()
     axes.set_title("\n".join([title] * bool(title) + [*lines]), fontsize=_TITLE)
-
-
-def _draw_of_surface(
-    axes: Axes, surface: Surface, fields: Fields, unit: str | None, of: Literal["gap", "pressure"]
-) -> None:
-    draw_distribution(axes, fields, of, unit)
-
-
-def _draw_patches_of_surface(
-    axes: Axes, surface: Surface, fields: Fields, unit: str | None
-) -> None:
-    draw_patches(axes, fields, unit)
 
 
 def _percent(share: float) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import matplotlib as mpl
@@ -12,8 +14,8 @@ from matplotlib.patheffects import withStroke
 
 from roughline.errors.public import public
 from roughline.fluid.flow import Flow
-from roughline.plot.pixels import any_marked
-from roughline.plot.style import drawing_on, in_unit
+from roughline.plot.pixels import any_marked, draw_map
+from roughline.plot.style import drawing_on
 from roughline.topography.heights import checked_unit
 from roughline.units import in_words
 
@@ -67,30 +69,22 @@ def flow(flow: Flow, unit: str | None = None, axes: Axes | None = None) -> Axes:
 
 def draw_flow(axes: Axes, flow: Flow, unit: str | None) -> None:
     """Draw the flux on the gap, where lengths have a given unit."""
-    _, size = in_unit("x", flow.sizes, unit)
-    extent = (0.0, flow.sizes[0] * size, 0.0, flow.sizes[1] * size)
-    look: Any = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
+    shown = partial(draw_map, axes, sizes=flow.sizes, unit=unit, interpolation="nearest")
     is_open = any_marked(flow.gap > 0)
-    axes.imshow(is_open.T, cmap="gray", vmin=0, vmax=1, **look)
+    shown(is_open, cmap="gray", vmin=0, vmax=1)
     if flow.is_sealed:
-        reached = any_marked(flow.pressure == 1)
-        shown = np.where(is_open & reached, 1.0, np.nan)
-        axes.imshow(shown.T, cmap=ListedColormap([_scale()(0.6)]), **look)
+        reached = np.where(is_open & any_marked(flow.pressure == 1), 1.0, np.nan)
+        shown(reached, cmap=ListedColormap([_scale()(0.6)]))
     else:
         width = flow.sizes[1] if flow.along == "x" else flow.sizes[0]
         flux = any_marked(np.hypot(*flow.flux)) * width / flow.inflow
-        image = axes.imshow(
-            np.where(flux > 0, flux, np.nan).T,
-            cmap=_scale(),
-            norm=LogNorm(_WEAKEST, max(flux.max(), 1.0)),
-            **look,
-        )
+        norm = LogNorm(_WEAKEST, max(flux.max(), 1.0))
+        image = shown(np.where(flux > 0, flux, np.nan), cmap=_scale(), norm=norm)
         assert axes.figure is not None
         axes.figure.colorbar(
             image, ax=axes, label=r"flux over its mean, $|j|\,/\,\bar j$", shrink=0.85, extend="min"
         )
-        _mark_constriction(axes, flow, size)
-    axes.set(xlabel=in_unit("x", flow.sizes, unit)[0], ylabel=in_unit("y", flow.sizes, unit)[0])
+        _mark_constriction(axes, flow, image.get_extent()[1::2])
     _mark_direction(axes, flow)
     axes.set_title(_in_words(flow, unit), fontsize=_TITLE, pad=17 if flow.along == "x" else 6)
 
@@ -100,13 +94,13 @@ def _scale() -> ListedColormap:
     return ListedColormap(mpl.colormaps["YlGnBu"](np.linspace(0, _DARKEST, 256)))
 
 
-def _mark_constriction(axes: Axes, flow: Flow, size: float) -> None:
+def _mark_constriction(axes: Axes, flow: Flow, sides: Sequence[float]) -> None:
     """Mark where most power is lost with a ring, and an arrow that comes across the flow."""
     assert flow.constriction is not None
     place = (np.array(flow.constriction) + 0.5) / flow.gap.shape  # of the sides
     seen: Any = [withStroke(linewidth=3.5, foreground="w")]
     look: Any = {"color": "k", "path_effects": seen, "zorder": 4}
-    at = place * flow.sizes * size
+    at = place * sides
     axes.plot(*at[:, None], "o", markersize=11, markerfacecolor="none", **look)
     across = 1 if flow.along == "x" else 0
     length = 34 if place[across] < 0.5 else -34

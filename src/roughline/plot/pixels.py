@@ -1,13 +1,33 @@
-"""Maps thinned to the number of points that a picture can show."""
+"""Maps from above, thinned to the number of points that a picture can show."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
+from roughline.plot.style import in_unit
+
 _MOST_PIXELS = 600  # along a side; a picture shows no more
+
+
+def draw_map(
+    axes: Axes, values: NDArray[Any], sizes: tuple[float, float], unit: str | None, **look: Any
+) -> AxesImage:
+    """Draw values over sides that have a given unit."""
+    size = label_sides(axes, sizes, unit)
+    extent = (0.0, sizes[0] * size, 0.0, sizes[1] * size)
+    return axes.imshow(values.T, origin="lower", extent=extent, **look)
+
+
+def label_sides(axes: Axes, sizes: tuple[float, float], unit: str | None) -> float:
+    """Label both axes of a map; returns the factor from lengths to those on the axes."""
+    (x, size), (y, _) = (in_unit(name, sizes, unit) for name in "xy")
+    axes.set(xlabel=x, ylabel=y)
+    return size
 
 
 def thinned(heights: NDArray[Any]) -> NDArray[Any]:

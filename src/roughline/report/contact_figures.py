@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughline.plot.bodies import draw_contact, draw_heights, label_sides, yield_key
+from roughline.plot.bodies import draw_contact, draw_heights, yield_key
 from roughline.plot.curves import draw_loads, rising
-from roughline.plot.pixels import any_marked
+from roughline.plot.pixels import any_marked, label_sides
 from roughline.plot.spectra import draw_spectrum
 from roughline.plot.style import PAGE, in_unit, new_figure, save, say, styled
 from roughline.report.contact_tables import area_in_words
@@ -263,9 +263,9 @@ def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> N
     load = load_with_fields(curve)
     fields = None if load is None else curve.fields[load]
     if load is None or fields is None:
-        label_sides(axes, surface, "m")
+        label_sides(axes, surface.sizes, "m")
         return
-    draw_contact(axes, surface, fields, "m")
+    draw_contact(axes, fields, "m")
     force = engineering(curve.force[load] * assessment.scale, "N")
     share = area_in_words(assessment, load)
     axes.set_title(f"corrected area {share} at {force}{yield_key(fields)}", fontsize=8)

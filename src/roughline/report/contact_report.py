@@ -11,7 +11,6 @@ from roughline.plot.style import save, styled
 from roughline.report.contact_figures import overview, overview_in_words, write_contact
 from roughline.report.document import write_document
 from roughline.report.fields_of_load import write_fields
-from roughline.report.flow_of_load import write_flow
 from roughline.report.page import Picture, Section, sentence
 from roughline.topography.body import Body, Line, Surface, sides_of
 from roughline.units import engineering
@@ -46,14 +45,13 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
     files = write_contact(assessment, folder)
     with styled():
         drawn = save(overview(assessment), folder, "overview")
-        of_fields, distributions = write_fields(assessment, folder)
-        of_fluid, flow = write_flow(assessment, folder)
+        of_fields, drawn_fields = write_fields(assessment, folder)
     pictures = [Picture(drawn[0], "Overview", overview_in_words(assessment))]
     surface = Section("Surface", [_surface(assessment)], pictures=pictures)
     title = f"Contact of {assessment.question.name}"
     repeat = [how_to_repeat, settings_in_words(assessment)]
-    document = write_document(assessment, folder, title, [surface, *of_fluid, *of_fields], repeat)
-    return [*document, *files, *drawn, *distributions, *flow]
+    document = write_document(assessment, folder, title, [surface, *of_fields], repeat)
+    return [*document, *files, *drawn, *drawn_fields]
 
 
 def settings_in_words(assessment: Assessment) -> str:

@@ -1,4 +1,4 @@
-"""What the fields of one load say: gap, pressure and contact patches, drawn and in a table."""
+"""What the fields of one load say: where a fluid goes; gap, pressure and contact patches."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from roughline.plot.distributions import draw_distribution, draw_patches
+from roughline.plot.flows import draw_flow
 from roughline.plot.style import PAGE, new_figure, save
 from roughline.report.contact_figures import load_with_fields
 from roughline.report.page import Picture, Section, Table
@@ -18,7 +19,11 @@ if TYPE_CHECKING:
     from roughline.contact.fields import Fields
 
 _DIGITS = 3  # of statistics of one map
-_CAPTION = (
+_OF_FLOW = (
+    "Flux over its mean, on the gap of the map; black: contact. A ring marks where the fluid is "
+    "throttled most, near sealing the last channel. The other two sides are"
+)
+_OF_DISTRIBUTIONS = (
     "Density of the gap over the nominal area, without the points in contact, and of the pressure "
     "in contact, without the points at the hardness (bins chosen by the data: Freedman and "
     "Diaconis); number of contact patches of at least an area. Points that meet at a corner belong "
@@ -28,7 +33,7 @@ _CAPTION = (
 
 
 def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], list[Path]]:
-    """Write the figure of the load whose fields are kept; returns its section and the files.
+    """Write figures of the load whose fields are kept; returns their sections and the files.
 
     There are none where no fields are kept.
     """
@@ -37,23 +42,43 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
         return [], []
     fields = assessment.curve.fields[load]
     assert fields is not None
-    files = save(fields_figure(fields), folder, "distributions")
     force = engineering(assessment.curve.force[load] * assessment.scale, "N")
-    section = Section(
-        f"Gap, pressure and contact patches at {force}",
-        tables=[Table(*fields_table(fields))],
-        pictures=[Picture(files[0], "Distributions", _CAPTION)],
-        behind="how far the bodies are apart, and where the load is borne",
-    )
-    return [section], files
+    files = save(fields_figure(fields), folder, "distributions")
+    sections = [
+        Section(
+            f"Gap, pressure and contact patches at {force}",
+            tables=[Table(*fields_table(fields))],
+            pictures=[Picture(files[0], "Distributions", _OF_DISTRIBUTIONS)],
+            behind="how far the bodies are apart, and where the load is borne",
+        )
+    ]
+    if assessment.flows:
+        files += save(flow_figure(assessment), folder, "flow")
+        of_flow = Section(
+            f"Where the fluid goes at {force}",
+            pictures=[Picture(files[2], "Flow", f"{_OF_FLOW} {assessment.flows[0].sides}.")],
+            behind="where it goes, and where it is throttled",
+        )
+        sections.insert(0, of_flow)
+    return sections, files
+
+
+def flow_figure(assessment: Assessment) -> Figure:
+    """One panel for each direction in which a fluid flows; lengths in metres."""
+    figure = new_figure(PAGE, 3.2)
+    for axes, flow in zip(figure.subplots(1, 2), assessment.flows, strict=False):
+        draw_flow(axes, flow, "m")
+    for empty in figure.axes[len(assessment.flows) : 2]:
+        empty.set_axis_off()
+    return figure
 
 
 def fields_figure(fields: Fields) -> Figure:
     """Three panels: the distributions of gap and pressure, and the patches; lengths in metres."""
     figure = new_figure(PAGE, 2.6)
     left, middle, right = figure.subplots(1, 3)
-    draw_distribution(left, fields, "gap", "m")
-    draw_distribution(middle, fields, "pressure", "m")
+    draw_distribution(left, fields, "m", "gap")
+    draw_distribution(middle, fields, "m", "pressure")
     draw_patches(right, fields, "m")
     return figure
 

@@ -6,6 +6,7 @@ import difflib
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import compress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.assessment.question import Question
     from roughline.computing.arrays import Real
-    from roughline.engineering.intervals import Ends
 
 _BROAD = 96  # letters of a line of comments
 _LEAST_STEP = 1e-10  # of overclosures that CalculiX tells apart, in the unit of its model
@@ -44,7 +44,6 @@ class _JointTable:
     pressure: Real  # mean over the nominal area [Pa]
     overclosure: Real  # approach since first touch [m]
     columns: Mapping[str, Real]  # other quantities by their headings, in rows: (1 or 3, pressures)
-    remarks: Sequence[str]
 
     def of_pressure(self, heading: str) -> tuple[Real, Real] | None:
         """Pressures and values of a quantity as far as they are finite; None where it is not."""
@@ -108,9 +107,11 @@ def export_table(assessment: Assessment, table: str | Path) -> Path:
     """
     program, file = checked_table(table)
     refuse_without_interface(assessment.question)
-    text = _PROGRAMS[program](_table_of(assessment))
+    joint = _table_of(assessment)
+    lines = _PROGRAMS[program](joint, _remarks(assessment, joint))
+    text = "\n".join([*lines, ""]).replace("²", "^2").replace("µ", "u")
     try:
-        file.write_text(text, encoding="ascii")
+        file.write_text(text, encoding="ascii", errors="replace")
     except OSError as error:
         raise StoreError(f"cannot write {file} ({error}): choose another place") from error
     return file
@@ -184,47 +185,32 @@ def _table_of(assessment: Assessment) -> _JointTable:
             f"{curve.status.size} is one: give more {called('loads')}",
             "table",
         )
-    loading_ends, unloading_ends = (known.stiffness, known.unloading) if known else (None, None)
-    columns = {_STIFFNESS: _rows(curve.stiffness, loading_ends) / assessment.area}
+    loading_ends, unloading_ends = (known.stiffness, known.unloading) if known else ((), ())
+    columns = {_STIFFNESS: np.stack([curve.stiffness, *loading_ends]) / assessment.area}
     if curve.hardness is not None and curve.unloading_stiffness is not None:
-        columns[_UNLOADING] = _rows(curve.unloading_stiffness, unloading_ends) / assessment.area
+        unloading = np.stack([curve.unloading_stiffness, *unloading_ends])
+        columns[_UNLOADING] = unloading / assessment.area
     columns |= _of_answers(assessment)
-    touching = float(body.heights.max() - body.heights.mean())
-    at_touch = {_MEAN_GAP: touching}
-    columns = {
-        heading: np.insert(each[:, chosen], 0, at_touch.get(heading, 0.0), axis=1)
-        for heading, each in columns.items()
-    }
+    at_touch = {_MEAN_GAP: body.heights.max() - body.heights.mean()}
     return _JointTable(
         np.insert(pressure, 0, 0.0),
         np.insert(curve.depth[chosen], 0, 0.0),
-        columns,
-        [*_remarks(assessment, touching, columns, chosen.size), *_full_contact(pressure, columns)],
+        {
+            heading: np.insert(each[:, chosen], 0, at_touch.get(heading, 0.0), axis=1)
+            for heading, each in columns.items()
+        },
     )
-
-
-def _full_contact(pressure: Real, columns: Mapping[str, Real]) -> list[str]:
-    """Say from where on all of the interface touches, so that its stiffness has no end."""
-    closed = np.isinf(columns[_STIFFNESS][0][1:])
-    if not closed.any():
-        return []
-    return [
-        f"In full contact from {pressure[closed][0]:.4e} Pa on: the overclosure stays, and "
-        "stiffness and conductances are infinite and left out."
-    ]
 
 
 def _of_answers(assessment: Assessment) -> dict[str, Real]:
     """Conductances per area and the mean gap over the loads that were asked for, in rows."""
-    found = {}
-    for heading, key in (
-        (_HEAT, "thermal_conductance_per_area"),
-        (_CURRENT, "constriction_resistance"),
-        (_MEAN_GAP, "mean_gap"),
-    ):
-        if (answer := assessment.answers.get(key)) is not None:
-            ends = None if answer.low is None or answer.high is None else (answer.low, answer.high)
-            found[heading] = _rows(answer.values, ends)
+    keys = {
+        _HEAT: "thermal_conductance_per_area",
+        _CURRENT: "constriction_resistance",
+        _MEAN_GAP: "mean_gap",
+    }
+    answers = assessment.answers
+    found = {heading: answers[key].rows for heading, key in keys.items() if key in answers}
     if _CURRENT in found:  # the reciprocal of its resistance, whose ends change places
         resistance = found[_CURRENT] * assessment.area * assessment.scale
         with np.errstate(divide="ignore"):
@@ -232,16 +218,13 @@ def _of_answers(assessment: Assessment) -> dict[str, Real]:
     return found
 
 
-def _rows(values: Real, ends: Ends | None) -> Real:
-    """Values and, where they are known, both ends of their interval."""
-    return np.stack([values, *(ends or ())])
-
-
-def _remarks(
-    assessment: Assessment, touching: float, columns: Mapping[str, Real], chosen: int
-) -> list[str]:
+def _remarks(assessment: Assessment, table: _JointTable) -> list[str]:
     """What a user of the table must know."""
-    question, curve = assessment.question, assessment.curve_as_asked
+    question, curve, heights = (
+        assessment.question,
+        assessment.curve_as_asked,
+        assessment.body.heights,
+    )
     remarks = [
         f"Contact of {question.name}, by roughline {__version__}.",
         "SI units: pressures in Pa, overclosures in m, stiffnesses in Pa/m, thermal conductances "
@@ -249,17 +232,14 @@ def _remarks(
         "Pa/m times 1e-9.",
         "Pressure is the mean over the nominal area, compression positive. Overclosure is the "
         "approach of the bodies, positive, from 0 where the highest points of the map touch; the "
-        f"mean planes are {touching:.4e} m apart there.",
+        f"mean planes are {heights.max() - heights.mean():.4e} m apart there.",
         "All is of the interface alone, of the map in a periodic half-space: the give of the "
         "bodies themselves is that of the mesh.",
+        "Elastic bodies: unloading goes back the same way."
+        if curve.hardness is None
+        else "The loading branch: points at the hardness yield and stay indented. On unloading the "
+        "interface is stiffer, and conducts more at the same pressure.",
     ]
-    if curve.hardness is None:
-        remarks.append("Elastic bodies: unloading goes back the same way.")
-    else:
-        remarks.append(
-            "The loading branch: points at the hardness yield and stay indented. On unloading the "
-            "interface is stiffer, and conducts more at the same pressure."
-        )
     pair = question.pair
     if pair is None:
         remarks.append(
@@ -267,31 +247,27 @@ def _remarks(
         )
     else:
         remarks.append(f"{material_in_words(pair.first)}; {material_in_words(pair.second)}.")
-        if _HEAT in columns:
+        if _HEAT in table.columns:
             remarks.append("Conductances are those of the solid spots alone, as in vacuum.")
-        missing = [
-            key
-            for heading, key in ((_HEAT, "thermal"), (_CURRENT, "electrical"))
-            if heading not in columns
-        ]
-        if missing:
+        kinds = {_HEAT: "thermal", _CURRENT: "electrical"}
+        if missing := [kind for heading, kind in kinds.items() if heading not in table.columns]:
             remarks.append(f"Not known of these materials: {' and '.join(missing)} conductance.")
-    unsolved = [
-        name
-        for name, solved in zip(assessment.headings, curve.converged, strict=True)
-        if not solved
-    ]
-    others = int(curve.converged.sum()) - chosen
-    if unsolved:
+    if unsolved := list(compress(assessment.headings, ~curve.converged)):
         remarks.append(f"Left out, as they were not solved: {', '.join(unsolved)}.")
-    if others:
+    if others := int(curve.converged.sum()) - (table.pressure.size - 1):
         remarks.append(
             f"Left out, as they come after larger loads, or again: {others} of the loads."
         )
-    return [*remarks, f"Settings: {settings_in_words(assessment)}."]
+    remarks.append(f"Settings: {settings_in_words(assessment)}.")
+    if (closed := np.isinf(table.columns[_STIFFNESS][0])).any():
+        remarks.append(
+            f"In full contact from {table.pressure[closed][0]:.4e} Pa on: the overclosure stays, "
+            "and stiffness and conductances are infinite and left out."
+        )
+    return remarks
 
 
-def _csv(table: _JointTable) -> str:
+def _csv(table: _JointTable, remarks: Sequence[str]) -> list[str]:
     """A plain table; lines of comments begin with #."""
     headings, columns = ["pressure [Pa]", "overclosure [m]"], [table.pressure, table.overclosure]
     for heading, rows in table.columns.items():
@@ -300,53 +276,54 @@ def _csv(table: _JointTable) -> str:
             headings.append(f"{name}{end}{bracket}{unit}")
             columns.append(values)
     lines = [",".join(map(_number, row)) for row in zip(*columns, strict=True)]
-    return _lines([*_comments("# ", table.remarks), ",".join(headings), *lines])
+    return [*_comments("# ", remarks), ",".join(headings), *lines]
 
 
-def _calculix(table: _JointTable) -> str:
+def _calculix(table: _JointTable, remarks: Sequence[str]) -> list[str]:
     """A surface interaction for CalculiX: conductance over pressure, and none for current."""
-    overclosure, pressure = table.of_overclosure(_LEAST_STEP)
     own = [
         "For CalculiX. Beyond the last line it keeps pressure and conductance constant: press the "
         "map further than the model will be."
     ]
-    if (near := table.overclosure.size - overclosure.size) > 0:
+    if (near := table.overclosure.size - table.of_overclosure(_LEAST_STEP)[0].size) > 0:
         own.append(
             f"{near} of the overclosures are left out, which are within "
             f"{_LEAST_STEP:g} of the one before: CalculiX does not tell such apart."
         )
     if _CURRENT in table.columns:
         own.append("It has no electrical contact, so that conductance is left out.")
-    lines = [
-        *_comments("** ", [*table.remarks, *own]),
-        "*SURFACE INTERACTION,NAME=ROUGH_JOINT",
-        "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TABULAR",
-        *_pairs(pressure, overclosure),
-    ]
-    if (heat := table.of_pressure(_HEAT)) is not None:
-        lines += ["*GAP CONDUCTANCE", *_pairs(heat[1], heat[0])]
-    return _lines(lines)
+    interaction = "*SURFACE INTERACTION,NAME=ROUGH_JOINT"
+    behaviour = "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TABULAR"
+    conductances = {_HEAT: "*GAP CONDUCTANCE"}
+    keywords = [*_comments("** ", [*remarks, *own]), interaction, behaviour]
+    return [*keywords, *_cards(table, conductances, _LEAST_STEP)]
 
 
-def _abaqus(table: _JointTable) -> str:
+def _abaqus(table: _JointTable, remarks: Sequence[str]) -> list[str]:
     """A surface interaction for Abaqus."""
     own = "For Abaqus. Beyond the last line it goes on with the last slope of the pressure."
-    lines = [
-        *_comments("** ", [*table.remarks, own]),
+    conductances = {
+        _HEAT: "*Gap Conductance, pressure",
+        _CURRENT: "*Gap Electrical Conductance, pressure",
+    }
+    return [
+        *_comments("** ", [*remarks, own]),
         "*Surface Interaction, name=ROUGH_JOINT",
         "*Surface Behavior, pressure-overclosure=TABULAR",
-        *_pairs(*reversed(table.of_overclosure())),
+        *_cards(table, conductances),
     ]
-    for heading, keyword in (
-        (_HEAT, "*Gap Conductance"),
-        (_CURRENT, "*Gap Electrical Conductance"),
-    ):
+
+
+def _cards(table: _JointTable, conductances: Mapping[str, str], least: float = 0.0) -> list[str]:
+    """Pressures with overclosures, then, under their keywords, conductances with pressures."""
+    lines = _pairs(table.of_overclosure(least))
+    for heading, keyword in conductances.items():
         if (found := table.of_pressure(heading)) is not None:
-            lines += [f"{keyword}, pressure", *_pairs(found[1], found[0])]
-    return _lines(lines)
+            lines += [keyword, *_pairs(found)]
+    return lines
 
 
-def _moose(table: _JointTable) -> str:
+def _moose(table: _JointTable, remarks: Sequence[str]) -> list[str]:
     """Functions for MOOSE; what they are over stands in the place of x."""
     own = (
         "For MOOSE, to be included in an input file. Beyond the ends a function keeps its last "
@@ -354,7 +331,7 @@ def _moose(table: _JointTable) -> str:
         "CoupledValueFunctionMaterial, function = thermal_contact_conductance, v = "
         "contact_pressure, prop_name = gap_conductance."
     )
-    lines = [*_comments("# ", [*table.remarks, own]), "[Functions]"]
+    lines = [*_comments("# ", [*remarks, own]), "[Functions]"]
     named = {
         "contact_pressure_over_overclosure": table.of_overclosure(),
         "contact_stiffness": table.of_pressure(_STIFFNESS),
@@ -366,10 +343,10 @@ def _moose(table: _JointTable) -> str:
             x, y = (" ".join(map(_number, each)) for each in pair)
             own_lines = [f"[{name}]", "  type = PiecewiseLinear", "  axis = x"]
             lines += [f"  {each}" for each in (*own_lines, f"  x = '{x}'", f"  y = '{y}'", "[]")]
-    return _lines([*lines, "[]"])
+    return [*lines, "[]"]
 
 
-_PROGRAMS: dict[str, Callable[[_JointTable], str]] = {
+_PROGRAMS: dict[str, Callable[[_JointTable, Sequence[str]], list[str]]] = {
     "csv": _csv,
     "calculix": _calculix,
     "abaqus": _abaqus,
@@ -377,8 +354,9 @@ _PROGRAMS: dict[str, Callable[[_JointTable], str]] = {
 }
 
 
-def _pairs(first: Real, second: Real) -> list[str]:
-    return [f"{_number(one)}, {_number(other)}" for one, other in zip(first, second, strict=True)]
+def _pairs(over: tuple[Real, Real]) -> list[str]:
+    """Values, each before what it is over."""
+    return [f"{_number(value)}, {_number(at)}" for at, value in zip(*over, strict=True)]
 
 
 def _number(value: float) -> str:
@@ -388,9 +366,3 @@ def _number(value: float) -> str:
 
 def _comments(mark: str, remarks: Sequence[str]) -> list[str]:
     return [mark + line for remark in remarks for line in textwrap.wrap(remark, _BROAD - len(mark))]
-
-
-def _lines(lines: Sequence[str]) -> str:
-    """A file of lines, without letters that programs may not know."""
-    text = "\n".join([*lines, ""])
-    return text.replace("²", "^2").replace("µ", "u").encode("ascii", "replace").decode("ascii")
