@@ -1,10 +1,12 @@
-"""Texts that describe a material or a fluid: a name of a table, values, or a name and values."""
+"""Texts that describe a material or a fluid by a name, values, or both; and tables of the names."""
 
 from __future__ import annotations
 
+import csv
 import difflib
 import re
 from collections.abc import Collection, Mapping
+from importlib import resources
 
 from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
@@ -34,6 +36,13 @@ def described(
             f'given as "{example}"'
         )
     return name, given
+
+
+def rows_of(table: str) -> dict[str, dict[str, str]]:
+    """Return the lines of a table that comes with the package, by what they name."""
+    text = resources.files("roughline.engineering").joinpath(table).read_text(encoding="utf-8")
+    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+    return {row["name"]: row for row in rows}
 
 
 def _settings(text: str, description: str, what: str, units: Mapping[str, str]) -> dict[str, float]:

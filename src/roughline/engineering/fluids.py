@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import csv
 import functools
 import math
 import re
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from importlib import resources
+from functools import partial
+from types import MappingProxyType
 
-from roughline.engineering.described import described
+from roughline.engineering.described import described, rows_of
 from roughline.errors import InputError
 from roughline.errors.checks import between, refuse, shown
 from roughline.errors.public import public
@@ -237,7 +238,7 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
         return description
     if not isinstance(description, str):
         refuse("fluid", description, 'a name such as "water", a Liquid or a Gas is needed')
-    known = _table()
+    known = fluids()
     name, given = described(_known_name(description), "fluid", known, _UNITS, "viscosity=40 mPa s")
     if not name and "viscosity" not in given:
         raise InputError(
@@ -294,13 +295,9 @@ def _known_name(description: str) -> str:
     return " ".join([_SYNONYMS.get(name, first), *rest])
 
 
-def fluids() -> dict[str, Liquid | Gas]:
-    """Return the table of common fluids by name."""
-    return dict(_table())
-
-
 @functools.cache
-def _table() -> dict[str, Liquid | Gas]:
+def fluids() -> Mapping[str, Liquid | Gas]:
+    """Return the table of common fluids by name."""
     found: dict[str, Liquid | Gas] = {}
     for name, row in _rows().items():
         numbers = {key: float(row[key]) for key in _UNITS if row.get(key)}
@@ -308,16 +305,10 @@ def _table() -> dict[str, Liquid | Gas]:
         if name.startswith("oil-"):
             numbers["viscosity_factor"] = _OF_OILS
         found[name] = kind(**numbers, name=name, source=row["source"])
-    return found
+    return MappingProxyType(found)
 
 
-@functools.cache
-def _rows() -> dict[str, dict[str, str]]:
-    """The lines of the table by name."""
-    path = resources.files("roughline.engineering").joinpath("fluids.csv")
-    lines = path.read_text(encoding="utf-8").splitlines()
-    rows = csv.DictReader(line for line in lines if not line.startswith("#"))
-    return {row["name"]: row for row in rows}
+_rows = functools.cache(partial(rows_of, "fluids.csv"))
 
 
 def _refuse_senseless(fluid: Liquid | Gas) -> None:

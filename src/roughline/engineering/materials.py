@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import functools
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from importlib import resources
+from types import MappingProxyType
 
-from roughline.engineering.described import described
+from roughline.engineering.described import described, rows_of
 from roughline.errors import InputError
 from roughline.errors.checks import shown
 from roughline.errors.public import public
@@ -108,11 +108,6 @@ class Material:
         return math.sqrt(self.density * self.E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)))
 
 
-def materials() -> dict[str, Material]:
-    """Return the table of common materials by name."""
-    return dict(_table())
-
-
 @public
 def material(description: str) -> Material:
     """Return a material from its name, its values, or a name with other values.
@@ -138,7 +133,7 @@ def material(description: str) -> Material:
     >>> print(rl.material("steel hardness=2 GPa").hardness)
     2000000000.0
     """
-    known = _table()
+    known = materials()
     name, given = described(description, "material", known, _UNITS, "E=70 GPa nu=0.33")
     if not name:
         if not {"E", "nu"} <= given.keys():
@@ -153,21 +148,17 @@ def material(description: str) -> Material:
 
 
 @functools.cache
-def _table() -> dict[str, Material]:
-    text = (
-        resources.files("roughline.engineering")
-        .joinpath("materials.csv")
-        .read_text(encoding="utf-8")
-    )
+def materials() -> Mapping[str, Material]:
+    """Return the table of common materials by name."""
     others = ("name", "source", "hardness_factor")
     numbers = [item.name for item in fields(Material) if item.name not in others]
-    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
-    return {
-        row["name"]: Material(
-            name=row["name"],
+    found = {
+        name: Material(
+            name=name,
             source=row["source"],
             hardness_factor=_TABLE_FACTOR,
             **{key: float(row[key]) if row[key] else None for key in numbers},  # type: ignore[arg-type]
         )
-        for row in rows
+        for name, row in rows_of("materials.csv").items()
     }
+    return MappingProxyType(found)

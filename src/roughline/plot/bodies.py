@@ -104,22 +104,8 @@ def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
 
     Parameters
     ----------
-    curve : Curve
-        Of a surface, pressed with ``fields=True``.
-    load : int, optional
-        Number of the load, from 0; negative ones count from the last.
-    axes : Axes, optional
-        Where to draw; default: those of a new figure.
-
-    Returns
-    -------
-    Axes
-        What was drawn on. Of a load that was not solved it says so.
-
-    Raises
-    ------
-    InputError
-        If the curve has no fields, or no such load.
+    curve, load, axes
+        As of :func:`roughline.plot.contact`, with what it returns and refuses.
     """
     return drawn_at(curve, load, axes, _draw_pressure)
 

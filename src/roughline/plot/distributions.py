@@ -29,28 +29,15 @@ def distribution(
 ) -> Axes:
     """Draw how the gap at one load is distributed over the area, or the pressure in contact.
 
+    The picture shows the density of :meth:`Fields.distribution`, that of the pressure over its
+    share in contact; with that share, and the share of it at the hardness, in words.
+
     Parameters
     ----------
-    curve : Curve
-        Of a surface, pressed with ``fields=True``.
+    curve, load, axes
+        As of :func:`roughline.plot.contact`, with what it returns and refuses.
     of : {"gap", "pressure"}
         What is distributed.
-    load : int, optional
-        Number of the load, from 0; negative ones count from the last.
-    axes : Axes, optional
-        Where to draw; default: those of a new figure.
-
-    Returns
-    -------
-    Axes
-        What was drawn on: the density of :meth:`Fields.distribution`, that of the pressure over its
-        share in contact; with that share, and the share of it at the hardness, in words. Of a load
-        that was not solved it says so.
-
-    Raises
-    ------
-    InputError
-        If the curve has no fields, no such load, or for another field.
     """
     one_of("of", of, ("gap", "pressure"))
     return drawn_at(curve, load, axes, partial(draw_distribution, of=of))
@@ -62,22 +49,8 @@ def patches(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
 
     Parameters
     ----------
-    curve : Curve
-        Of a surface, pressed with ``fields=True``.
-    load : int, optional
-        Number of the load, from 0; negative ones count from the last.
-    axes : Axes, optional
-        Where to draw; default: those of a new figure.
-
-    Returns
-    -------
-    Axes
-        What was drawn on. Of a load that was not solved it says so.
-
-    Raises
-    ------
-    InputError
-        If the curve has no fields, or no such load.
+    curve, load, axes
+        As of :func:`roughline.plot.contact`, with what it returns and refuses.
     """
     return drawn_at(curve, load, axes, draw_patches)
 
