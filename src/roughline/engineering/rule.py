@@ -88,8 +88,6 @@ class Rule:
     may_be_infinite : bool, optional
         Whether infinity is a value of it, as of a stiffness in full contact. An answer that is not
         finite is left out otherwise, with a note that says so.
-    needs_fields : bool, optional
-        Whether it is worked out from the fields of a load.
     measures : sequence of Measure, optional
         What it needs from the fields of every load: ``pressed.measure(name)`` returns them, in
         rows.
@@ -142,7 +140,6 @@ class Rule:
     is_of_hardness_alone: bool = False
     in_per_cent: bool = False
     may_be_infinite: bool = False
-    needs_fields: bool = False
     measures: Sequence[Measure] = ()
     measured_with: Callable[[Sealing], Sequence[Measure]] = lambda _sealing: ()
 

@@ -18,7 +18,7 @@ from roughline.errors.public import public
 from roughline.plot.curves import rising
 from roughline.plot.style import MARKERS, OPEN, colours, drawing_on, in_unit
 
-_NAME = "hydraulic_aperture"
+_APERTURE = "hydraulic aperture $u_h$"
 _ROW = 0.035  # height of a row of marks at the foot of axes, over theirs
 _DASHES = (":", "-.")
 
@@ -55,8 +55,8 @@ def hydraulic_aperture(
         The axes that were drawn on, with logarithmic scales. Lines are dashed, with open
         marks, after a larger load. Sealed loads, which have no place on such a scale, are marked at
         the foot of the axes, in a row for each kind of curve. A theory is drawn as far down as the
-        curves, and its first sealed load is marked. The
-        pressure is over E* where the bodies are not in metres.
+        curves, and its first sealed load is marked. The pressure is over E* where the bodies are
+        not in metres.
 
     Raises
     ------
@@ -74,45 +74,32 @@ def hydraulic_aperture(
     >>> theory = rl.theory("critical-junction", surface, 1.0, loads[:3])
     >>> axes = rl.plot.hydraulic_aperture(curve, theories=[theory])
     """
-    given = _checked_curves(curves, measure)
-    _refuse_what_does_not_fit(given, theories, labels)
-    scales = _Scales.of(given, measure)
-    lines = _lines_of(given, measure, labels, scales)
+    given = _checked(curves, measure, theories, labels)
+    pressures = [curve.force / curve.length**2 for curve in given]
+    apertures = [curve.measured[measure].values for curve in given]
+    x_label, x = _axis_of_pressure(given[0], np.concatenate(pressures))
+    y_label, y = in_unit(_APERTURE, np.concatenate(apertures), given[0].unit)
+    looks = _looks(labels or range(len(given)))
+    lines = [
+        _Line(pressure * x, aperture * y, rising(curve), look)
+        for curve, pressure, aperture, look in zip(given, pressures, apertures, looks, strict=True)
+    ]
     with drawing_on(axes, height=4.4) as drawn:
-        drawn.set(xscale="log", yscale="log", xlabel=scales.pressure)
-        drawn.set_ylabel(f"hydraulic aperture $u_h${scales.length}")
+        drawn.set(xscale="log", yscale="log", xlabel=x_label, ylabel=y_label)
         for line in lines:
             line.draw(drawn)
-        lines += _lines_of_theories(theories, scales, _lowest(drawn, lines))
-        for line in lines[len(given) :]:
-            line.draw(drawn)
+        lines += _drawn_theories(drawn, theories, (x, y), lines)
         _mark_sealed(drawn, lines)
         _explain(drawn, lines)
-        _add_leak(drawn, scales.length)
+        _add_leak(drawn, y_label.removeprefix(_APERTURE))
     return drawn
 
 
-@dataclass(frozen=True)
-class _Scales:
-    """Labels of pressure and length, and the factors to the units in them."""
-
-    pressure: str
-    x: float
-    length: str
-    y: float
-
-    @classmethod
-    def of(cls, curves: Sequence[Curve], measure: str) -> _Scales:
-        pressures = np.concatenate([_pressure(curve) for curve in curves])
-        apertures = np.concatenate([curve.measured[measure].values for curve in curves])
-        unit, E_star = curves[0].unit, curves[0].E_star
-        name, of_pressure, over = ("$p$", "Pa", 1.0) if unit == "m" else ("$p/E^*$", None, E_star)
-        pressure, x = in_unit(f"mean pressure {name}", pressures, of_pressure, 1 / over)
-        return cls(pressure, x, *in_unit("", apertures, unit))
-
-
-def _pressure(curve: Curve) -> Real:
-    return curve.force / curve.length**2
+def _axis_of_pressure(curve: Curve, pressures: Real) -> tuple[str, float]:
+    """Label of the axis, and the factor from mean pressures to it; over E* without a unit."""
+    if curve.unit == "m":
+        return in_unit("mean pressure $p$", pressures, "Pa")
+    return in_unit("mean pressure $p/E^*$", pressures, None, 1 / curve.E_star)
 
 
 @dataclass(frozen=True)
@@ -149,34 +136,18 @@ def _looks(names: Sequence[Any]) -> list[dict[str, Any]]:
     return [of_kind[name] for name in names]
 
 
-def _lines_of(
-    curves: Sequence[Curve], measure: str, labels: Sequence[str], scales: _Scales
+def _drawn_theories(
+    axes: Axes, theories: Sequence[Any], factors: tuple[float, float], curves: Sequence[_Line]
 ) -> list[_Line]:
-    """Curves with their looks."""
-    return [
-        _Line(
-            _pressure(curve) * scales.x,
-            curve.measured[measure].values * scales.y,
-            rising(curve),
-            look,
-        )
-        for curve, look in zip(curves, _looks(labels or range(len(curves))), strict=True)
-    ]
-
-
-def _lowest(axes: Axes, lines: Sequence[_Line]) -> float:
-    """Lower end of axes on which lines are drawn; zero if all of them are sealed."""
-    return axes.get_ylim()[0] if any((line.aperture > 0).any() for line in lines) else 0.0
-
-
-def _lines_of_theories(theories: Sequence[Any], scales: _Scales, least: float) -> list[_Line]:
-    """Theories, down to a least aperture; of what is sealed the first pressure alone."""
+    """Draw theories as far down as curves; of what is sealed they have the first pressure alone."""
+    least = axes.get_ylim()[0] if any((each.aperture > 0).any() for each in curves) else 0.0
     lines = []
     for theory, dashes in zip(theories, cycle(_DASHES), strict=False):
-        pressure, aperture = theory.pressure * scales.x, theory.hydraulic_aperture * scales.y
+        pressure, aperture = theory.pressure * factors[0], theory.hydraulic_aperture * factors[1]
         kept = (aperture > least) | ((aperture == 0) & (np.cumsum(aperture == 0) == 1))
         look = {"color": "k", "linestyle": dashes, "label": theory.name}
         lines.append(_Line(pressure[kept], aperture[kept], np.full(kept.sum(), True), look))
+        lines[-1].draw(axes)
     return lines
 
 
@@ -217,8 +188,8 @@ def _add_leak(axes: Axes, of_length: str) -> None:
     cubed.set_ylabel(f"leak, in proportion to $u_h^3${of_length.replace(']', '³]')}")
 
 
-def _checked_curves(curves: Any, measure: str) -> list[Curve]:
-    """Curves that have a measure."""
+def _checked(curves: Any, measure: str, theories: Any, labels: Any) -> list[Curve]:
+    """Curves that have a measure; theories of something else and other labels are refused."""
     given = [curves] if isinstance(curves, Curve) else several(curves)
     if not given or not all(isinstance(curve, Curve) for curve in given):
         refuse("curves", curves, "one or several curves, as rl.press returns them, are needed")
@@ -228,16 +199,12 @@ def _checked_curves(curves: Any, measure: str) -> list[Curve]:
         )
     if len({curve.unit for curve in given}) > 1:
         raise InputError("curves are in different units: press bodies in the same unit")
-    return given
-
-
-def _refuse_what_does_not_fit(curves: Sequence[Curve], theories: Any, labels: Any) -> None:
-    """Refuse theories of something else, and labels that are not those of the curves."""
-    if not isinstance(theories, (list, tuple)) or any(
-        getattr(each, _NAME, None) is None for each in theories
+    if not isinstance(theories, list | tuple) or any(
+        getattr(each, "hydraulic_aperture", None) is None for each in theories
     ):
         known = '"critical-junction" and "bruggeman"'
         refuse("theories", theories, f"a list of what rl.theory gives for {known} is needed")
-    texts = isinstance(labels, (list, tuple)) and all(isinstance(label, str) for label in labels)
-    if not texts or len(labels) not in (0, len(curves)):
-        refuse("labels", labels, f"a list of {len(curves)} texts is needed, one for each curve")
+    texts = isinstance(labels, list | tuple) and all(isinstance(label, str) for label in labels)
+    if not texts or len(labels) not in (0, len(given)):
+        refuse("labels", labels, f"a list of {len(given)} texts is needed, one for each curve")
+    return given
