@@ -42,9 +42,8 @@ def _closing(case: Case, curve: Curve, *, is_judged: bool) -> Closing:
     interval = is_judged and case.loads.grid_error
     closes = sealing_pressure(
         surface,
-        E_star=curve.E_star,
-        hardness=curve.hardness,
-        periodic=curve.half_space.periodic,
+        half_space=curve.half_space,
+        law=curve.law,
         along=along,
         rtol=_RTOL,
         interval=interval,

@@ -17,6 +17,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
+from roughline.topography.body import Body, Line
 
 LARGEST = 1e150  # beyond it, squares leave the range of double precision
 _MOST = 10**9  # loads, points along a side, or iterations
@@ -65,6 +66,40 @@ def given_half_space(
     checked_number("half_space.E_star", half_space.E_star, allowed, 1 / LARGEST, LARGEST)
     checked_flag("half_space.periodic", half_space.periodic)
     return half_space
+
+
+def given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> ContactLaw:
+    """Return the law that bodies obey; a hardness is short for one, unless it is infinite."""
+    if hardness is not None:
+        allowed = "a positive pressure, or none for elastic bodies,"
+        hardness = checked_number("hardness", hardness, allowed, most=math.inf)
+        hardness = None if hardness == math.inf else hardness
+    if hardness is not None and isinstance(body, Line):
+        raise InputError(
+            "hardness belongs to the full model; the reduced model of a Line has no yield: leave "
+            "it out, and trust the line only while mean contact pressures stay below about 0.4 "
+            "of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
+        )
+    if law is None:
+        return law_of(hardness)
+    if not isinstance(law, ContactLaw):
+        refuse(
+            "law",
+            law,
+            "a contact law is needed, such as rl.Unilateral(), rl.Yielding(hardness) or another "
+            "rl.ContactLaw",
+        )
+    if hardness is not None:
+        raise InputError(
+            "law and hardness given together: hardness is short for law=rl.Yielding(hardness); "
+            "give one of the two"
+        )
+    if isinstance(body, Line):
+        raise InputError(
+            "law belongs to the full model; the springs of a Line only push: leave it out, or "
+            "press a Surface"
+        )
+    return law
 
 
 def checked_count(name: str, value: Any, least: int = -_MOST) -> int:

@@ -40,8 +40,6 @@ _FEWEST_POINTS = 4  # along a side of the coarsest grid
 _Press = Callable[..., Curve]
 """Presses another surface under some loads, by a contact law, and measures as the first was."""
 
-_Coarsen = Callable[[Surface], Surface]  # takes a surface to a coarser grid
-
 
 @dataclass(frozen=True, eq=False)
 class _Grids:
@@ -66,7 +64,7 @@ class _Grids:
     def laws(self, law: ContactLaw) -> list[ContactLaw]:
         """Return a law of the surface on each of them."""
         coarsened = _thinned, halved, lambda surface: halved(halved(surface))
-        return [law.on(partial(_field_on, self.full, each)) for each in coarsened]
+        return [law.on(partial(field_on, self.full, each)) for each in coarsened]
 
     @property
     def steepening(self) -> float:
@@ -303,9 +301,9 @@ def _times(value: Real, error: Real) -> Real:
     return np.where(error == 0, 0.0, value * np.expm1(error))
 
 
-def _field_on(surface: Surface, coarsen: _Coarsen, field: Real) -> Real:
-    """Take a field over a surface to a coarser grid."""
-    return coarsen(with_heights(surface, field)).heights
+def field_on(surface: Surface, take: Callable[[Surface], Surface], field: Real) -> Real:
+    """Take a field over a surface to where surfaces are taken: a coarser grid, or a piece."""
+    return take(with_heights(surface, field)).heights
 
 
 def halved(surface: Surface) -> Surface:

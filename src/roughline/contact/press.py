@@ -15,8 +15,8 @@ from roughline.contact.arguments import (
     checked_flag,
     checked_number,
     given_half_space,
+    given_law,
     kept_loads,
-    law_of,
 )
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import expected_area_fraction, memory_for
@@ -155,7 +155,7 @@ def press(
     [0.308]
     """
     half_space = given_half_space(half_space, E_star, periodic)
-    law = _given_law(law, hardness, body)
+    law = given_law(law, hardness, body)
     rtol = checked_number("rtol", rtol, "a tolerance from 1e-12 to 0.1", 1e-12, 0.1)
     max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = checked_flag("grid_error", grid_error)
@@ -238,40 +238,6 @@ def _refuse_beyond_memory(
         + (f" and keeping the fields of {kept} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
     )
-
-
-def _given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> ContactLaw:
-    """Return the law that bodies obey; a hardness is short for one, unless it is infinite."""
-    if hardness is not None:
-        allowed = "a positive pressure, or none for elastic bodies,"
-        hardness = checked_number("hardness", hardness, allowed, most=np.inf)
-        hardness = None if hardness == np.inf else hardness
-    if hardness is not None and isinstance(body, Line):
-        raise InputError(
-            "hardness belongs to the full model; the reduced model of a Line has no yield: leave "
-            "it out, and trust the line only while mean contact pressures stay below about 0.4 "
-            "of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
-        )
-    if law is None:
-        return law_of(hardness)
-    if not isinstance(law, ContactLaw):
-        refuse(
-            "law",
-            law,
-            "a contact law is needed, such as rl.Unilateral(), rl.Yielding(hardness) or another "
-            "rl.ContactLaw",
-        )
-    if hardness is not None:
-        raise InputError(
-            "law and hardness given together: hardness is short for law=rl.Yielding(hardness); "
-            "give one of the two"
-        )
-    if isinstance(body, Line):
-        raise InputError(
-            "law belongs to the full model; the springs of a Line only push: leave it out, or "
-            "press a Surface"
-        )
-    return law
 
 
 def _failure_message(curve: Curve) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -11,13 +12,15 @@ import numpy as np
 from roughline.computing.summary import summary
 from roughline.contact.arguments import checked_count, checked_flag, checked_number
 from roughline.contact.curve import Curve
-from roughline.contact.grid_error import halved
 from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import one_of
 from roughline.errors.public import public_names
 from roughline.fluid.flow import Along
 from roughline.fluid.measures import hydraulic_aperture
+from roughline.fluid.one_map import is_judged, on_half
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
 _LEAST = 1e-4  # share of the load below which it counts as taken off
@@ -113,54 +116,63 @@ def reopening(
     rtol = checked_number("rtol", rtol, "a tolerance from 1e-6 to 1", 1e-6, 1.0)
     interval = checked_flag("interval", interval)
     left = curve.surface_after(load)
-    force = float(curve.force[load])
-    if not force > 0:
+    assert curve.surface is not None  # else it has refused
+    assert curve.law is not None
+    if curve.law.memory == "path":
+        raise InputError(
+            f"is {type(curve.law).__name__}, which remembers its path and not only dents: press "
+            'the loads on the way back with measures=[rl.hydraulic_aperture("x")] instead',
+            "curve.law",
+        )
+    forces = curve.force[: load % curve.force.size + 1]
+    if not forces[-1] > 0:
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
-    found = _bisected(curve, left, force, times, along, rtol)
-    if not interval or found.low == 0 or curve.surface is None:
+    search = _Search(curve.half_space, float(forces[-1]), times, along, rtol)
+    found = search.bracket(left, curve.law)
+    if not interval or found.low == 0 or not is_judged(left):
         return found
-    coarse = halved(curve.surface)
-    on_half = press(coarse, half_space=curve.half_space, law=curve.law, forces=[force])
-    other = _bisected(on_half, on_half.surface_after(0), force, times, along, rtol)
-    factor = math.exp(abs(math.log(other.value / found.value))) if other.low > 0 else math.inf
+    coarse, law = on_half(curve.surface, curve.law)
+    history = [float(np.nanmax(forces)), float(forces[-1])]
+    pressed = press(coarse, half_space=curve.half_space, law=law, forces=history)
+    half = search.bracket(pressed.surface_after(-1), law)
+    factor = math.exp(abs(math.log(half.value / found.value))) if half.low > 0 else math.inf
     return replace(found, interval=(found.low / factor, min(found.high * factor, 1.0)))
 
 
-def _bisected(
-    curve: Curve,
-    left: Surface,
-    force: float,
-    times: float,
-    along: Along | Literal["both"],
-    rtol: float,
-) -> Reopening:
-    """Bisect the shares of a force on the surface that it left."""
-    measures = [hydraulic_aperture(each) for each in (("x", "y") if along == "both" else (along,))]
+@dataclass(frozen=True)
+class _Search:
+    """How surfaces are pressed that a force has left, and how near both shares have to be."""
 
-    def aperture(share: float) -> float:
+    half_space: HalfSpace
+    force: float
+    times: float
+    along: Along | Literal["both"]
+    rtol: float
+
+    def bracket(self, left: Surface, law: ContactLaw) -> Reopening:
+        """Bisect the shares of the force."""
+        full = self._aperture(left, law, 1.0)
+        most = full * float(np.cbrt(self.times))  # if sealed, whatever leaks is too much
+        low, high, at_low, at_high = _LEAST, 1.0, self._aperture(left, law, _LEAST), full
+        if not (at_low >= most and at_low > 0):
+            return Reopening(0.0, 0.0, (full, at_low, at_low), self.times, self.along)
+        while high > low * (1 + self.rtol):
+            middle = math.sqrt(low * high)
+            found = self._aperture(left, law, middle)
+            if found >= most and found > 0:
+                low, at_low = middle, found
+            else:
+                high, at_high = middle, found
+        return Reopening(low, high, (full, at_low, at_high), self.times, self.along)
+
+    def _aperture(self, left: Surface, law: ContactLaw, share: float) -> float:
+        """Hydraulic aperture under a share of the force."""
+        directions: Sequence[Along] = ("x", "y") if self.along == "both" else (self.along,)
         pressed = press(
             left,
-            half_space=curve.half_space,
-            law=curve.law,
-            forces=[share * force],
-            measures=measures,
+            half_space=self.half_space,
+            law=law,
+            forces=[share * self.force],
+            measures=[hydraulic_aperture(along) for along in directions],
         )
         return max(float(each.values[0]) for each in pressed.measured.values())
-
-    full = aperture(1.0)
-    most = full * float(np.cbrt(times))  # from which on it leaks too much, or, sealed, at all
-
-    def leaks(u: float) -> bool:
-        return u >= most and u > 0
-
-    low, high, at_low, at_high = _LEAST, 1.0, aperture(_LEAST), full
-    if not leaks(at_low):
-        return Reopening(0.0, 0.0, (full, at_low, at_low), times, along)
-    while high > low * (1 + rtol):
-        middle = math.sqrt(low * high)
-        found = aperture(middle)
-        if leaks(found):
-            low, at_low = middle, found
-        else:
-            high, at_high = middle, found
-    return Reopening(low, high, (full, at_low, at_high), times, along)

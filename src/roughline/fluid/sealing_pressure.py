@@ -10,25 +10,33 @@ from typing import Literal
 
 import numpy as np
 
+from roughline.computing.fft import half_spectrum, synthesise
 from roughline.computing.summary import summary
-from roughline.contact.arguments import checked_flag, checked_number
+from roughline.contact.arguments import (
+    checked_flag,
+    checked_number,
+    given_half_space,
+    given_law,
+)
 from roughline.contact.fields import Fields
-from roughline.contact.grid_error import halved, steepening_of
+from roughline.contact.grid_error import steepening_of
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import one_of
 from roughline.errors.public import public_names
 from roughline.fluid.flow import Along, Sides, components
-from roughline.topography.body import Surface
+from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.laws.law import ContactLaw
+from roughline.topography.body import Surface, with_heights
 
 _PERCOLATING = 0.277  # mean pressure over E* and the rms slope at which Persson's area is 0.42
 _OF_HARDNESS = 0.4  # about the share of the area that seals, all of which bears the hardness
 _WIDER = 1.5  # step from one trial to the next, until one is open and the other sealed
 _MOST_TRIALS = 60
 _NEARLY_ALL = 0.999  # of the hardness: all of the area bears it
-_FEWEST_POINTS = 32  # along a side that is halved, or cut into quarters
-_STUDENT = 3.182  # of 95 %, with the three degrees of freedom of four quarters
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +83,11 @@ class SealingPressure:
 def sealing_pressure(
     surface: Surface,
     *,
-    E_star: float,
+    E_star: float | None = None,
+    half_space: HalfSpace | None = None,
     hardness: float | None = None,
-    periodic: bool = True,
+    law: ContactLaw | None = None,
+    periodic: bool | None = None,
     along: Along | Literal["both"] = "both",
     rtol: float = 0.01,
     interval: bool = True,
@@ -92,12 +102,16 @@ def sealing_pressure(
     ----------
     surface : Surface
         The rough body. [length]
-    E_star : float
+    E_star : float, optional
         Contact modulus. [pressure]
+    half_space : HalfSpace, optional
+        What the surface is pressed into, in place of `E_star` and `periodic`.
     hardness : float, optional
         Of the softer body, as for :func:`press`. [pressure]
+    law : ContactLaw, optional
+        What pressure and gap obey at a point, in place of `hardness`.
     periodic : bool, optional
-        Whether the surface is repeated; free, its borders are closed sides.
+        Whether the surface is repeated; free, its borders are closed sides. Default: it is.
     along : {"both", "x", "y"}, optional
         Direction in which the last path closes; of both, when none leads either way.
     rtol : float, optional
@@ -127,52 +141,48 @@ def sealing_pressure(
         raise InputError("is no Surface; in one dimension any contact stops the flow", "surface")
     if surface.rms_slope == 0:
         raise InputError("is flat: it seals under any load; give a rough one", "surface")
-    given = _Given(E_star, hardness, periodic, along, rtol)
-    guess = _PERCOLATING * E_star * surface.rms_slope
-    if hardness is not None:
-        guess = min(guess, _OF_HARDNESS * hardness)
-    (low, open_area), (high, sealed_area) = given.bracket(surface, guess)
+    if half_space is None and periodic is None:
+        periodic = True
+    half_space = given_half_space(half_space, E_star, periodic)
+    law = given_law(law, hardness, surface)
+    full = _in_full_contact(surface, half_space)
+    guess = _PERCOLATING * half_space.E_star * full.rms_slope
+    guess = min(guess, _OF_HARDNESS * law.largest_force(1.0))
+    search = _Search(half_space, along, rtol)
+    (low, open_area), (high, sealed_area) = search.bracket(surface, law, guess)
     found = SealingPressure(low, high, (open_area, sealed_area), along)
-    if not interval or min(surface.shape) < _FEWEST_POINTS:
+    if not interval or not is_judged(surface):
         return found
-    return given.with_interval(found, surface)
+    half = search.middle(*on_half(surface, law), found.value)
+    of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
+    factor = factor_left_open(found.value, half, of_quarters)
+    most = min(high * max(factor, steepening_of(full)), law.largest_force(1.0))
+    ends = low / factor, max(high, most)
+    return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
 
 @dataclass(frozen=True)
-class _Given:
+class _Search:
     """How surfaces are pressed, and how near both ends of a bracket have to be."""
 
-    E_star: float
-    hardness: float | None
-    periodic: bool
+    half_space: HalfSpace
     along: Along | Literal["both"]
     rtol: float
 
-    def with_interval(self, found: SealingPressure, surface: Surface) -> SealingPressure:
-        """Press half as many points along each side, and the quarters of the surface."""
-        half = self.middle(halved(surface), found.value)
-        quarters = [self.middle(each, found.value) for each in _quarters(surface)]
-        of_size = _STUDENT * float(np.log(quarters).std(ddof=1)) / math.sqrt(len(quarters))
-        factor = math.exp(math.hypot(math.log(half / found.value), of_size))
-        most = found.high * max(factor, steepening_of(surface))
-        if self.hardness is not None:
-            most = max(found.high, min(most, self.hardness))
-        ends = found.low / factor, most
-        return replace(found, on_half=half, on_quarters=quarters, interval=ends)
-
-    def middle(self, surface: Surface, guess: float) -> float:
+    def middle(self, surface: Surface, law: ContactLaw, guess: float) -> float:
         """The middle of the bracket of a surface."""
-        (low, _), (high, _) = self.bracket(surface, guess)
+        (low, _), (high, _) = self.bracket(surface, law, guess)
         return math.sqrt(low * high)
 
     def bracket(
-        self, surface: Surface, guess: float
+        self, surface: Surface, law: ContactLaw, guess: float
     ) -> tuple[tuple[float, float], tuple[float, float]]:
         """Mean pressure and area fraction of the last open gap, and of the first sealed one."""
         ends: dict[bool, tuple[float, float]] = {}
-        pressure, step = guess, _WIDER
+        largest = law.largest_force(1.0)
+        pressure, step = guess if guess < largest else _OF_HARDNESS * largest, _WIDER
         for _ in range(_MOST_TRIALS):
-            is_open, area = self._is_open(surface, pressure)
+            is_open, area = self._is_open(surface, law, pressure)
             ends[is_open] = pressure, area
             if len(ends) == 2:
                 low, high = ends[True][0], ends[False][0]
@@ -182,18 +192,16 @@ class _Given:
             else:
                 pressure = pressure * step if is_open else pressure / step
                 step *= step
-            if self.hardness is not None:
-                most = _NEARLY_ALL * self.hardness
-                pressure = pressure if pressure < most else math.sqrt(ends[True][0] * self.hardness)
+            if pressure >= _NEARLY_ALL * largest:
+                pressure = math.sqrt(ends[True][0] * largest)
         raise InputError("does not seal under any load that was tried", "surface")
 
-    def _is_open(self, surface: Surface, pressure: float) -> tuple[bool, float]:
+    def _is_open(self, surface: Surface, law: ContactLaw, pressure: float) -> tuple[bool, float]:
         """Whether the gap is open under a mean pressure, and the contact area fraction."""
         curve = press(
             surface,
-            E_star=self.E_star,
-            hardness=self.hardness,
-            periodic=self.periodic,
+            half_space=self.half_space,
+            law=law,
             forces=[pressure * surface.area],
             measures=[OPEN[self.along]],
         )
@@ -225,7 +233,18 @@ OPEN = {
 """Whether the gap is open, along x, along y, or along one of both."""
 
 
-def _quarters(surface: Surface) -> list[Surface]:
-    """The four quarters of a surface."""
-    sides = [[(0, n // 2), (n // 2, n)] for n in surface.shape]
-    return [surface.cropped(x, y).detrended() for x in sides[0] for y in sides[1]]
+def _in_full_contact(surface: Surface, half_space: HalfSpace) -> Surface:
+    """The surface whose full contact with a homogeneous half-space has the same pressures.
+
+    A wave that reaches deeper than what is near the surface is as much higher or lower as that is
+    stiffer or softer there.
+    """
+    nx, ny = surface.shape
+    dx, dy = surface.spacing
+    q = np.hypot(np.fft.fftfreq(nx, dx)[:, np.newaxis], np.fft.rfftfreq(ny, dy)) * 2 * np.pi
+    q[0, 0] = 1.0  # the mean has no slope
+    stiffness = Homogeneous(half_space.E_star).spectrum(q) / half_space.spectrum(q)
+    if (stiffness == 1).all():
+        return surface
+    waves = stiffness * half_spectrum(surface.heights)
+    return with_heights(surface, synthesise(waves, ny) / surface.heights.size)

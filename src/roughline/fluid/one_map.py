@@ -1,0 +1,45 @@
+"""What grid and size leave open of a number that one map gives: its half grid and its quarters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+import numpy as np
+
+from roughline.contact.grid_error import field_on, halved
+from roughline.halfspace.laws.law import ContactLaw
+from roughline.topography.body import Surface
+
+_FEWEST_POINTS = 32  # along a side that is halved, or cut into quarters
+_STUDENT = 3.182  # of 95 %, with the three degrees of freedom of four quarters
+
+
+def is_judged(surface: Surface) -> bool:
+    """Whether a surface has points enough to be halved, and cut into quarters."""
+    return min(surface.shape) >= _FEWEST_POINTS
+
+
+def on_half(surface: Surface, law: ContactLaw) -> tuple[Surface, ContactLaw]:
+    """The surface on half as many points along each side, and the law there."""
+    return halved(surface), law.on(partial(field_on, surface, halved))
+
+
+def quarters(surface: Surface, law: ContactLaw) -> Iterator[tuple[Surface, ContactLaw]]:
+    """The four quarters of a surface, and the law on each."""
+    sides = [[(0, n // 2), (n // 2, n)] for n in surface.shape]
+    for x in sides[0]:
+        for y in sides[1]:
+            cut = partial(Surface.cropped, x=x, y=y)
+            yield cut(surface).detrended(), law.on(partial(field_on, surface, cut))
+
+
+def factor_left_open(value: float, half: float, of_quarters: Sequence[float]) -> float:
+    """Factor up and down that grid and size leave open.
+
+    They combine, as independent, by how much the logarithm differs from that on half as many
+    points, and how uncertain the mean of the quarters is by their scatter, at 95 %.
+    """
+    of_size = _STUDENT * float(np.log(of_quarters).std(ddof=1)) / math.sqrt(len(of_quarters))
+    return math.exp(math.hypot(math.log(half / value), of_size))

@@ -1,0 +1,103 @@
+"""Where half-spaces and laws that the package does not know seal, and leak again."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from halfspace.test_foreign_half_space import Coated, OnRigidBase
+from halfspace.test_foreign_law import RangedPull, UnevenHardness
+
+STIFF_COATING = Coated(1.0, -1.5, 0.02, periodic=True)
+SOFT_COATING = Coated(1.0, 0.7, 0.02, periodic=True)
+
+
+@pytest.fixture(scope="module")
+def surface():
+    return rl.SelfAffine(hurst=0.5, rms_height=0.01, q_roll=8 * np.pi).surface(64, rng=1)
+
+
+@pytest.mark.parametrize("half_space", [STIFF_COATING, SOFT_COATING, OnRigidBase(1.0, 0.1)])
+def test_grooves_close_where_a_wave_is_in_full_contact(half_space):
+    """Full contact with a wave d cos(q x) takes d / s(q), s the displacement over the pressure."""
+    n = 64
+    wave = 0.01 * np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)
+    grooves = rl.Surface(np.repeat(wave[:, np.newaxis], 16, axis=1), (1.0, 1.0), is_cut_out=False)
+    found = rl.sealing_pressure(
+        grooves, half_space=half_space, along="y", interval=False, rtol=1e-4
+    )
+    exact = 0.01 / half_space.spectrum(np.array(2 * np.pi))
+    # the cells nearest to the trough are half a cell away from it, and close before
+    assert exact * (1 - 2 / n) < found.value <= exact * 1.0001
+
+
+def test_an_even_hardness_of_each_node_is_that_of_all(surface):
+    hardness = 0.4 * surface.rms_slope
+    law = UnevenHardness(np.full(surface.shape, hardness))
+    one, each = (
+        rl.sealing_pressure(surface, E_star=1.0, **given)
+        for given in ({"hardness": hardness}, {"law": law})
+    )
+    rounding = 1e-12
+    assert [each.low, *each.interval] == pytest.approx([one.low, *one.interval], rel=rounding)
+
+
+def test_a_law_of_each_node_is_taken_to_the_half_grid_and_the_quarters(surface):
+    """The quarter that is softer than the others seals sooner."""
+    hardness = np.full(surface.shape, 10 * surface.rms_slope)
+    hardness[32:, 32:] = 0.1 * surface.rms_slope
+    half_space, law = rl.Homogeneous(1.0, periodic=True), UnevenHardness(hardness)
+    found = rl.sealing_pressure(surface, half_space=half_space, law=law)
+    elastic = rl.sealing_pressure(surface, half_space=half_space)
+    assert found.on_quarters[:3] == pytest.approx(elastic.on_quarters[:3], rel=0.02)
+    assert found.on_quarters[3] < 0.1 * surface.rms_slope
+    curve = rl.press(surface, half_space=half_space, law=law, forces=[0.02])
+    low, high = rl.reopening(curve, interval=True).interval
+    assert 0 <= low < high <= 1
+
+
+def test_waves_that_the_grid_lacks_meet_the_coating_alone(surface):
+    """They add more to the pressure where the coating is stiffer than its base."""
+    softer, same, stiffer = (
+        found.interval[1] / found.high
+        for half_space in (SOFT_COATING, rl.Homogeneous(1.0, periodic=True), STIFF_COATING)
+        for found in [rl.sealing_pressure(surface, half_space=half_space)]
+    )
+    assert softer < 0.95 * same
+    assert stiffer > 1.05 * same
+
+
+def test_the_half_grid_is_left_by_the_largest_load_before(surface):
+    """Its dents are of that load, as those of the surface are."""
+    given = {"E_star": 1.0, "hardness": 0.4 * surface.rms_slope, "periodic": True}
+    after, alone = (
+        rl.reopening(rl.press(surface, forces=forces, **given), interval=True)
+        for forces in ([0.08, 0.05], [0.05])
+    )
+    coarse = rl.press(surface.coarsened(), forces=[0.08, 0.05], **given)
+    off = rl.reopening(coarse).value / after.value
+    assert after.interval[0] == pytest.approx(after.low * min(off, 1 / off), rel=1e-6)
+    assert after.interval != alone.interval
+
+
+def test_a_pull_is_refused_in_words_of_the_law_or_of_what_to_do(surface):
+    law = RangedPull(0.01, 0.001)
+    with pytest.raises(rl.InputError, match="a pulled contact has two depths under a force"):
+        rl.sealing_pressure(surface, E_star=1.0, law=law)
+    curve = rl.press(surface, E_star=1.0, law=law, depths=[0.02])
+    with pytest.raises(rl.InputError, match="RangedPull, which remembers its path .* measures="):
+        rl.reopening(curve)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({}, "needs E_star="),
+        ({"E_star": 1.0, "half_space": SOFT_COATING}, "half_space and E_star are given"),
+        ({"periodic": True, "half_space": SOFT_COATING}, "half_space and periodic are given"),
+        ({"E_star": 1.0, "hardness": 1.0, "law": rl.Unilateral()}, "law and hardness given"),
+        ({"half_space": "steel"}, "an rl.HalfSpace is needed"),
+    ],
+)
+def test_it_is_given_as_to_press(surface, given, said):
+    with pytest.raises(rl.InputError, match=said):
+        rl.sealing_pressure(surface, **given)
