@@ -117,11 +117,16 @@ class Theories:
     names: tuple[str, ...]
 
     def __init__(self, *names: str) -> None:
-        from roughline.theories.theory import THEORIES  # here because it loads slowly
-
         for name in names:
-            one_of("theories", name, THEORIES)
+            one_of("theories", name, known_theories())
         object.__setattr__(self, "names", names)
+
+
+def known_theories() -> list[str]:
+    """Names of the theories that can be asked."""
+    from roughline.theories.theory import THEORIES  # here because it loads slowly
+
+    return list(THEORIES)
 
 
 @public

@@ -28,10 +28,11 @@ class PanelsFirst(TyperCommand):
 
     def fill_lists(self) -> None:
         """Fill the lists into the texts."""
+        from roughline.assessment.asked import known_theories
         from roughline.engineering.materials import materials
-        from roughline.theories.theory import THEORIES
 
-        lists = {"{materials}": ", ".join(sorted(materials())), "{theories}": _either(THEORIES)}
+        theories = _either(known_theories())
+        lists = {"{materials}": ", ".join(sorted(materials())), "{theories}": theories}
         for place, names in lists.items():
             self.epilog = (self.epilog or "").replace(place, names)
             for param in self.params:

@@ -95,8 +95,7 @@ def reopening(
     Raises
     ------
     InputError
-        If the curve is that of a line, the load was not solved or is none, or an argument cannot be
-        used.
+        If the curve is of a line or a law that remembers its path, or an argument cannot be used.
     ConvergenceError
         If a load was not solved.
 
@@ -115,26 +114,22 @@ def reopening(
     one_of("along", along, ("both", "x", "y"))
     rtol = checked_number("rtol", rtol, "a tolerance from 1e-6 to 1", 1e-6, 1.0)
     interval = checked_flag("interval", interval)
-    left = curve.surface_after(load)
-    assert curve.surface is not None  # else it has refused
-    assert curve.law is not None
-    if curve.law.memory == "path":
+    left, law = curve.surface_after(load), curve.law
+    assert law is not None  # else there is no surface
+    if law.memory == "path":
         raise InputError(
-            f"is {type(curve.law).__name__}, which remembers its path and not only dents: press "
-            'the loads on the way back with measures=[rl.hydraulic_aperture("x")] instead',
+            f"is {type(law).__name__}, which remembers its path and not only dents: press the "
+            'loads on the way back with measures=[rl.hydraulic_aperture("x")] instead',
             "curve.law",
         )
-    forces = curve.force[: load % curve.force.size + 1]
-    if not forces[-1] > 0:
+    history = curve.force[: load % curve.force.size + 1]
+    if not history[-1] > 0:
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
-    search = _Search(curve.half_space, float(forces[-1]), times, along, rtol)
-    found = search.bracket(left, curve.law)
-    if not interval or found.low == 0 or not is_judged(left):
+    search = _Search(curve.half_space, float(history[-1]), times, along, rtol)
+    found = search.bracket(left, law)
+    if not interval or found.low == 0 or curve.surface is None or not is_judged(curve.surface):
         return found
-    coarse, law = on_half(curve.surface, curve.law)
-    history = [float(np.nanmax(forces)), float(forces[-1])]
-    pressed = press(coarse, half_space=curve.half_space, law=law, forces=history)
-    half = search.bracket(pressed.surface_after(-1), law)
+    half = search.after(float(np.nanmax(history)), *on_half(curve.surface, law))
     factor = math.exp(abs(math.log(half.value / found.value))) if half.low > 0 else math.inf
     return replace(found, interval=(found.low / factor, min(found.high * factor, 1.0)))
 
@@ -148,6 +143,12 @@ class _Search:
     times: float
     along: Along | Literal["both"]
     rtol: float
+
+    def after(self, largest: float, untouched: Surface, law: ContactLaw) -> Reopening:
+        """Bisect the shares on a surface that the largest force, and then this one, has left."""
+        forces = [largest, self.force]
+        curve = press(untouched, half_space=self.half_space, law=law, forces=forces)
+        return self.bracket(curve.surface_after(-1), law)
 
     def bracket(self, left: Surface, law: ContactLaw) -> Reopening:
         """Bisect the shares of the force."""
