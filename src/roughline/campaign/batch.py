@@ -17,7 +17,7 @@ from roughline.computing.cores import available_cores
 from roughline.contact.press import press
 from roughline.errors import RoughlineError
 
-Results = dict[str, NDArray[Any]]
+_Results = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class BatchResult:
     """Results of a batch."""
 
     # every variable over (case, load) or (case); cases that failed hold fill values
-    results: Results
+    results: _Results
     failures: dict[int, str]  # why cases failed, by the index of the case in the batch
     core_seconds: float = 0.0  # computing time of the batch, summed over its cores [s]
 
@@ -69,7 +69,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
     start = clock()
     ensemble = batch.ensemble
     loads = len(ensemble.force_bars)
-    results: Results = {}
+    results: _Results = {}
     for variable in variables_of(ensemble):
         shape = (len(batch.cells),) if variable.per_body else (len(batch.cells), loads)
         results[variable.name] = np.full(shape, variable.fill, dtype=variable.dtype)
@@ -86,7 +86,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
     return BatchResult(results, failures, clock() - start)
 
 
-def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int) -> Results:
+def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int) -> _Results:
     """Generate and press one body; return every variable of it, over the loads or as one value."""
     spectrum = ensemble.spectrum(fractal_dimension)
     seed = ensemble.seed_of(realisation)

@@ -19,10 +19,10 @@ from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse
 from roughline.errors.public import public
 
-Group = Literal["mechanics", "contact", "sealing", "electrical", "thermal", "acoustic"]
+_Group = Literal["mechanics", "contact", "sealing", "electrical", "thermal", "acoustic"]
 """What an answer is about."""
 
-_GROUPS: tuple[Group, ...] = get_args(Group)  # in the order in which pages show them
+_GROUPS: tuple[_Group, ...] = get_args(_Group)  # in the order in which pages show them
 
 Limits = tuple[Real | float, Real | float]
 """Least and largest possible value, over the loads or at all of them."""
@@ -121,7 +121,7 @@ class Rule:
     name: str
     symbol: str
     unit: str
-    group: Group
+    group: _Group
     formula: str
     value: Callable[[Pressed], Real | None]
     validity: str = ""

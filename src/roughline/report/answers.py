@@ -31,7 +31,7 @@ _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
 
 
 @dataclass(frozen=True)
-class Group:
+class _Group:
     """Answers about one thing, by their keys, and the one that stands for them all.
 
     That is the first leading one, or else the first.
@@ -42,13 +42,13 @@ class Group:
     headline: str
 
 
-def groups(result: Assessment | PartAssessment) -> list[Group]:
+def groups(result: Assessment | PartAssessment) -> list[_Group]:
     """The groups of its answers, in the order of their rules."""
     leading, keys = leading_keys(result), dict[str, list[str]]()
     for key, each in result.answers.items():
         keys.setdefault(each.rule.group, []).append(key)
     return [
-        Group(name, some, next((key for key in some if key in leading), some[0]))
+        _Group(name, some, next((key for key in some if key in leading), some[0]))
         for name, some in keys.items()
     ]
 
@@ -186,7 +186,7 @@ def counted(
 ) -> list[tuple[str, str, int]]:
     """Name, headline and number of rows of each group, for a page that folds one table."""
 
-    def rows(group: Group) -> list[list[str]]:
+    def rows(group: _Group) -> list[list[str]]:
         return answer_table(result, keys=group.keys, with_elastic=with_elastic)[1]
 
     return [(each.name, told(result, each.headline), len(rows(each))) for each in groups(result)]

@@ -16,7 +16,7 @@ from roughline.report.values import value_and_interval
 if TYPE_CHECKING:
     from roughline.report.page import Headline, KeyFigure, Section, Table
 
-SIZE = 9.0
+_SIZE = 9.0
 """Of the text and of tables; nothing is smaller. [points]"""
 
 _LARGE, _HEADING, _TITLE = 15.0, 11.5, 16.0  # of key figures, headings and the title [points]
@@ -57,7 +57,7 @@ def write_pdf(
         document = _document(target, title)
 
         def foot(canvas: Any, _: Any) -> None:
-            canvas.setFont("Sans", SIZE)
+            canvas.setFont("Sans", _SIZE)
             number = f"page {canvas.getPageNumber()} of {count}"
             canvas.drawRightString(_MARGIN + document.width - 12, _FOOT, number)
             canvas.drawString(_MARGIN, _FOOT, _shortened(title, 0.8 * document.width))
@@ -112,15 +112,15 @@ def _flow(
     from reportlab.lib import colors
     from reportlab.platypus import CondPageBreak, Paragraph, Spacer
 
-    text, small = _style(SIZE), _style(SIZE, textColor=colors.HexColor("#555555"))
-    heading = _style(_HEADING, bold=True, keepWithNext=1, spaceBefore=SIZE, spaceAfter=3)
-    item = _style(SIZE, leftIndent=12, bulletIndent=3, spaceAfter=2)
+    text, small = _style(_SIZE), _style(_SIZE, textColor=colors.HexColor("#555555"))
+    heading = _style(_HEADING, bold=True, keepWithNext=1, spaceBefore=_SIZE, spaceAfter=3)
+    item = _style(_SIZE, leftIndent=12, bulletIndent=3, spaceAfter=2)
     flow: list[Any] = [Paragraph(escape(title), _style(_TITLE, bold=True, spaceAfter=4))]
     if headline is not None:
-        grave = _style(SIZE, backColor=colors.HexColor(_GRAVE), borderPadding=3, spaceAfter=7)
+        grave = _style(_SIZE, backColor=colors.HexColor(_GRAVE), borderPadding=3, spaceAfter=7)
         flow += [Spacer(1, 3)] if headline.warnings else []
         flow += [Paragraph(f"Warning: {escape(each)}", grave) for each in headline.warnings]
-    flow += [Paragraph(escape(lead), _style(SIZE + 1, spaceAfter=4))] if lead else []
+    flow += [Paragraph(escape(lead), _style(_SIZE + 1, spaceAfter=4))] if lead else []
     if headline is not None and headline.figures:
         flow += [_key_figures(headline.figures, width), Spacer(1, 3)]
         flow += [Paragraph(escape(headline.below), text)] if headline.below else []
@@ -153,7 +153,7 @@ def _key_figures(figures: Sequence[KeyFigure], width: float) -> Any:
     from reportlab.platypus import Paragraph
     from reportlab.platypus import Table as Grid
 
-    text, large = _style(SIZE), _style(_LARGE, bold=True)
+    text, large = _style(_SIZE), _style(_LARGE, bold=True)
     rows: list[list[Any]] = []
     for i in range(0, len(figures), _ABREAST):
         shown = figures[i : i + _ABREAST]
@@ -181,7 +181,7 @@ def _picture(path: Path, caption: str, width: float) -> Any:
     wide, high = ImageReader(str(path)).getSize()
     share = min(1.0, _PICTURE * wide / (high * width))
     image = Image(str(path), width * share, width * share * high / wide)
-    return KeepTogether([Spacer(1, 5), image, Paragraph(escape(caption), _style(SIZE))])
+    return KeepTogether([Spacer(1, 5), image, Paragraph(escape(caption), _style(_SIZE))])
 
 
 def _grids(table: Table, width: float) -> Iterator[Any]:
@@ -191,7 +191,7 @@ def _grids(table: Table, width: float) -> Iterator[Any]:
     from reportlab.platypus import Table as Grid
 
     styles = {
-        (bold, right): _style(SIZE, bold=bold, alignment=2 if right else 0)
+        (bold, right): _style(_SIZE, bold=bold, alignment=2 if right else 0)
         for bold in (False, True)
         for right in (False, True)
     }
@@ -274,7 +274,7 @@ def _length(text: str) -> float:
     """Length of a text in bold, the widest that it may be set in. [points]"""
     from reportlab.pdfbase.pdfmetrics import stringWidth
 
-    return float(stringWidth(text, "Sans-Bold", SIZE)) + 0.5
+    return float(stringWidth(text, "Sans-Bold", _SIZE)) + 0.5
 
 
 def _shortened(text: str, width: float) -> str:

@@ -27,7 +27,7 @@ from roughline.theories.interfacial_separation import separation
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
 
-TWO_DIMENSIONS = 0.5  # share of contact at which the medium seals, 1 - 1 / d, for d = 2
+_TWO_DIMENSIONS = 0.5  # share of contact at which the medium seals, 1 - 1 / d, for d = 2
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)  # over the shares without contact
 
 _NARROWEST = 1e-300  # conductance over the largest, below which a place counts as contact
@@ -35,7 +35,7 @@ _ROUNDING = 1e-14  # of a sum of shares
 
 
 def bruggeman(
-    roughness: SurfaceOrSpectrum, E_star: float, pressure: Real, threshold: float = TWO_DIMENSIONS
+    roughness: SurfaceOrSpectrum, E_star: float, pressure: Real, threshold: float = _TWO_DIMENSIONS
 ) -> TheoryCurve:
     """Flow through the effective medium of the separations that Persson's theory gives.
 
@@ -61,7 +61,7 @@ def bruggeman(
 
 
 @public
-def effective_medium(gap: ArrayLike, threshold: float = TWO_DIMENSIONS) -> float:
+def effective_medium(gap: ArrayLike, threshold: float = _TWO_DIMENSIONS) -> float:
     """Hydraulic aperture of a gap in Bruggeman's effective medium, which asks how wide, not where.
 
     The conductance sigma = u³ of the medium solves

@@ -26,14 +26,14 @@ from roughline.theories.greenwood_williamson import greenwood_williamson
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
 
-OF_FLOW = {"critical-junction": critical_junction, "bruggeman": bruggeman}
+_OF_FLOW = {"critical-junction": critical_junction, "bruggeman": bruggeman}
 """Theories of the flow through the gap; each seals at a threshold that may be given."""
 
 THEORIES: dict[str, Callable[[SurfaceOrSpectrum, float, Real], TheoryCurve]] = {
     "persson": persson,
     "bush-gibson-thomas": bush_gibson_thomas,
     "greenwood-williamson": greenwood_williamson,
-    **OF_FLOW,
+    **_OF_FLOW,
 }
 """Every theory, by its name."""
 
@@ -93,12 +93,12 @@ def theory(
     if threshold is None:
         curve = THEORIES[name](roughness, E_star, pressures)
     else:
-        if name not in OF_FLOW:
+        if name not in _OF_FLOW:
             refuse(
-                "threshold", threshold, f"theories of flow alone have one: {' and '.join(OF_FLOW)}"
+                "threshold", threshold, f"theories of flow alone have one: {' and '.join(_OF_FLOW)}"
             )
         check_threshold(threshold)
-        curve = OF_FLOW[name](roughness, E_star, pressures, threshold)
+        curve = _OF_FLOW[name](roughness, E_star, pressures, threshold)
     if isinstance(roughness, SelfAffine) and (difference := roughness.difference_from_surfaces()):
         validity = (
             f"{curve.validity}; of the continuum, with {difference} of the surfaces that this "

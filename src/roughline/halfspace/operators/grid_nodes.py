@@ -35,7 +35,7 @@ class GridNodes:
         most = min(shape[0], indices.size)
         rows, starts = np.empty(most, dtype=np.intp), np.empty(most + 1, dtype=np.intp)
         columns = np.empty(indices.size, dtype=np.int32)
-        found = list_rows(indices, shape[1], rows, starts, columns)
+        found = _list_rows(indices, shape[1], rows, starts, columns)
         return cls(indices, rows[:found], starts[: found + 1], columns, shape)
 
     @property
@@ -82,7 +82,7 @@ def unit_in_single(values: Real) -> float:
 
 
 @compiled
-def list_rows(
+def _list_rows(
     indices: Integers, width: int, rows: Integers, starts: Integers, columns: Integers
 ) -> int:
     """List nodes of ascending flat indices row by row, and return how many rows hold any.
