@@ -135,10 +135,9 @@ def press_command(
     )
     unfolded_by = "" if everything else "--all"
     if export_table is not None:
-        from roughline.report.finite_elements import checked_table, refuse_without_interface
+        from roughline.report.finite_elements import checked_table
 
-        checked_table(export_table)
-        refuse_without_interface(question)
+        checked_table(export_table, question)
     if question.is_of_several:
         _press_part(question, report, out, json=json, unfolded_by=unfolded_by)
     else:

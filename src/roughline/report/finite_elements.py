@@ -105,8 +105,7 @@ def export_table(assessment: Assessment, table: str | Path) -> Path:
     >>> print([line for line in file.read_text().splitlines() if line[1] != "*"][0])
     *Surface Interaction, name=ROUGH_JOINT
     """
-    program, file = checked_table(table)
-    refuse_without_interface(assessment.question)
+    program, file = checked_table(table, assessment.question)
     joint = _table_of(assessment)
     lines = _PROGRAMS[program](joint, _remarks(assessment, joint))
     text = "\n".join([*lines, ""]).replace("²", "^2").replace("µ", "u")
@@ -117,13 +116,14 @@ def export_table(assessment: Assessment, table: str | Path) -> Path:
     return file
 
 
-def checked_table(table: str | Path) -> tuple[str, Path]:
-    """Return the program and the file of a table.
+def checked_table(table: str | Path, question: Question) -> tuple[str, Path]:
+    """Return the program and the file of a table, as far as they and a question allow it.
 
     Raises
     ------
     InputError
-        If the program is not known, or the folder does not exist.
+        If the program is not known, the folder does not exist, or answers to the question are not
+        of an interface alone, or of one load.
     """
     text = str(table)
     program, colon, name = text.partition(":")
@@ -143,17 +143,11 @@ def checked_table(table: str | Path) -> tuple[str, Path]:
     file = Path(name)
     if not file.name or file.is_dir() or not file.parent.is_dir():
         refuse("table", text, "a file in a folder that exists is needed")
+    _refuse_without_interface(question)
     return program.lower(), file
 
 
-def refuse_without_interface(question: Question) -> None:
-    """Refuse a question whose answers are not of an interface alone, or are of one load.
-
-    Raises
-    ------
-    InputError
-        In terms of the question.
-    """
+def _refuse_without_interface(question: Question) -> None:
     if question.is_of_several:
         raise InputError(f"{called('table')} is of one map; give one")
     if any(isinstance(body, Line) for body in question.bodies):
