@@ -44,13 +44,9 @@ _SYNONYMS = {
     "natural-gas": "methane",
     "co2": "carbon-dioxide",
 }
-_OF_LAWS = (
-    *("viscosity", "conductivity", "viscosity_power", "conductivity_power", "vogel_B", "vogel_C"),
-)
 _AT = re.compile(r"\s+at\s+(-?[\d.]+)\s*(?:°|deg)?\s*([CK])\b", re.IGNORECASE)
-_OF_OILS = (
-    1.3  # uncertainty of their viscosities, a factor: 10 % of the grade, an index of 80 to 140
-)
+_OF_OILS = 1.3  # factor of their viscosities' uncertainty: grade 10 %, index 80 to 140
+_OF_IRON = 55.85  # molar mass of the wall [g / mol]
 _COLDEST, _HOTTEST = 273.15, 373.15  # between which the table knows how fluids change [K]
 _GRADE = re.compile(r"^\W*(?:(?:iso|oil)\W*)*vg\W*(\d+)(?:\W*oil\b)?", re.IGNORECASE)
 
@@ -127,7 +123,7 @@ class Gas:
     """
 
     viscosity: float
-    molar_mass: float | None = None
+    molar_mass: float
     conductivity: float | None = None
     heat_capacity_ratio: float = 1.4
     accommodation: float | None = None
@@ -136,12 +132,6 @@ class Gas:
     source: str = "given by the user"
 
     def __post_init__(self) -> None:
-        if self.molar_mass is None:
-            raise InputError(
-                f"of {self.name} is not given, and the leak of a gas depends on it; give one in "
-                "kg/mol, or a Liquid",
-                "molar_mass",
-            )
         _refuse_senseless(self)
         if self.molar_mass > 1:
             needed = "it is in kg/mol, such as 0.0040026 of helium"
@@ -154,7 +144,6 @@ class Gas:
     @property
     def gas_constant(self) -> float:
         """Specific gas constant R_s. [J / (kg K)]"""
-        assert self.molar_mass is not None
         return R / self.molar_mass
 
     def mean_free_path(self, pressure: float) -> float:
@@ -196,15 +185,11 @@ class Gas:
         """Accommodation coefficient: the one given, or that of engineering metals. [1]"""
         if self.accommodation is not None:
             return self.accommodation
-        assert self.molar_mass is not None
         is_monatomic = self.heat_capacity_ratio > 1.6
         mass = 1e3 * self.molar_mass * (1.0 if is_monatomic else 1.4)
         ratio = 1e3 * self.molar_mass / _OF_IRON
         cold = math.exp(-0.57 * (self.temperature / 273.15 - 1))
         return cold * mass / (6.8 + mass) + (1 - cold) * 2.4 * ratio / (1 + ratio) ** 2
-
-
-_OF_IRON = 55.85  # molar mass of the wall [g / mol]
 
 
 @public
@@ -264,7 +249,8 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
 
 def _at(name: str, temperature: float) -> dict[str, float | str]:
     """What differs at a temperature [K]: by Vogel's law in liquids, by powers of it in gases."""
-    row = {key: float(value) for key, value in _rows()[name].items() if key in _OF_LAWS and value}
+    texts = {"name", "source"}
+    row = {key: float(value) for key, value in _rows()[name].items() if value and key not in texts}
     if not _COLDEST <= temperature <= _HOTTEST or not {"vogel_B", "viscosity_power"} & row.keys():
         raise InputError(
             f"is {temperature:g} K, where the table does not know {name}; give its viscosity "

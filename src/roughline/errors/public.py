@@ -87,6 +87,7 @@ _MEANT = {
 
 _EXPLAINED = {
     "E_star": "the contact modulus, which rl.contact_modulus(first, second) gives of two materials",
+    "molar_mass": "in kg/mol, on which the leak of a gas depends",
     "forces": "total forces: a mean pressure times the nominal area",
     "is_cut_out": "False for a surface that is repeated periodically",
 }

@@ -17,6 +17,7 @@ from roughline.engineering.rule import Rule, always
 _rule = partial(Rule, group="thermal")
 
 _IN_VACUUM = "solid spots alone, as in vacuum: gas in the gap adds to it"
+_OF_INTERFACE = f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i"
 
 
 def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
@@ -88,13 +89,10 @@ THERMAL = (
         symbol="h_c",
         unit="W/(m² K)",
         formula="kappa_s k_i / (E* A_0)",
-        validity=f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i",
+        validity=_OF_INTERFACE,
         source="Barber 2003",
         value=conductance_of_interface,
-        differing=lambda pressed: {
-            "validity": f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i"
-            f"{pressed.of_interface}"
-        },
+        differing=lambda pressed: {"validity": f"{_OF_INTERFACE}{pressed.of_interface}"},
         lacking=_lacking,
         note=_without_gas,
         leads=always,
