@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 
 from roughline.assessment.assumptions import broken
 from roughline.computing.arrays import Real
-from roughline.contact.arguments import checked_flag
 from roughline.contact.comparison.trust import trust_map
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
+from roughline.errors.checks import flag
 from roughline.errors.public import public
 from roughline.spectra.coarser_selves import coarser_selves
 from roughline.spectra.isotropic import IsotropicSpectrum
@@ -112,7 +112,7 @@ def press_scan(
     >>> print(pressed.curve.stiffness.round(2), pressed.low.round(2), pressed.high.round(2))
     [0.21] [0.14] [0.28]
     """
-    gaussian = checked_flag("gaussian", gaussian)
+    gaussian = flag("gaussian", gaussian)
     scans = [each for each in (scan, against) if each is not None]
     bins = [ScanBins.of(profile_spectrum(each)) for each in scans]
     curves = _pressed(scans, bins, E_star, forces, rng)

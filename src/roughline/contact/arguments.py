@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
-
 from roughline.errors import InputError
-from roughline.errors.checks import as_number, is_whole, refuse, several
+from roughline.errors.checks import as_plain, between, flag, is_whole, refuse, several
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -23,25 +20,11 @@ LARGEST = 1e150  # beyond it, squares leave the range of double precision
 _MOST = 10**9  # loads, points along a side, or iterations
 
 
-def checked_number(
-    name: str,
-    value: Any,
-    allowed: str,
-    least: float = math.ulp(0),
-    most: float = sys.float_info.max,
-) -> float:
-    """Return a number, by default a positive one; refuse what is none, or out of range."""
-    number = as_number(_plain(value))
-    if number is None or not least <= number <= most:
-        refuse(name, value, f"{allowed} is needed")
-    return number
-
-
 def given_half_space(
     half_space: HalfSpace | None, E_star: float | None, periodic: bool | None
 ) -> HalfSpace:
     """Return the half-space that is given, as it is or by the short forms."""
-    allowed = "a positive, finite contact modulus from 1e-150 to 1e150"
+    needed = "a positive, finite contact modulus from 1e-150 to 1e150 is needed"
     if half_space is None:
         if E_star is None:
             raise InputError(
@@ -49,8 +32,8 @@ def given_half_space(
                 "rl.contact_modulus(first, second) "
                 "gives of two materials; give it, or half_space="
             )
-        E_star = checked_number("E_star", E_star, allowed, 1 / LARGEST, LARGEST)
-        return Homogeneous(E_star, periodic is not None and checked_flag("periodic", periodic))
+        E_star = between("E_star", E_star, 1 / LARGEST, LARGEST, needed)
+        return Homogeneous(E_star, periodic is not None and flag("periodic", periodic))
     if E_star is not None or periodic is not None:
         short = "periodic" if E_star is None else "E_star"
         raise InputError(
@@ -63,16 +46,16 @@ def given_half_space(
             half_space,
             "an rl.HalfSpace is needed, such as rl.Homogeneous(E_star=1.0, periodic=True)",
         )
-    checked_number("half_space.E_star", half_space.E_star, allowed, 1 / LARGEST, LARGEST)
-    checked_flag("half_space.periodic", half_space.periodic)
+    between("half_space.E_star", half_space.E_star, 1 / LARGEST, LARGEST, needed)
+    flag("half_space.periodic", half_space.periodic)
     return half_space
 
 
 def given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> ContactLaw:
     """Return the law that bodies obey; a hardness is short for one, unless it is infinite."""
     if hardness is not None:
-        allowed = "a positive pressure, or none for elastic bodies,"
-        hardness = checked_number("hardness", hardness, allowed, most=math.inf)
+        needed = "a positive pressure, or none for elastic bodies, is needed"
+        hardness = between("hardness", hardness, math.ulp(0), math.inf, needed)
         hardness = None if hardness == math.inf else hardness
     if hardness is not None and isinstance(body, Line):
         raise InputError(
@@ -104,21 +87,13 @@ def given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> Con
 
 def checked_count(name: str, value: Any, least: int = -_MOST) -> int:
     """Return a whole number; refuse what is none, too small, or beyond all that is countable."""
-    plain = _plain(value)
+    plain = as_plain(value)
     whole = is_whole(plain) or (isinstance(plain, float) and plain.is_integer())
     if not whole or not least <= plain <= _MOST:
         bound = "" if least == -_MOST else f" of at least {least}"
         at_most = f" and at most {_MOST:.0e}" if whole and plain > _MOST else ""
         refuse(name, value, f"a whole number{bound}{at_most} is needed")
     return int(plain)
-
-
-def checked_flag(name: str, value: Any) -> bool:
-    """Return True or False; refuse all else, whose truth would be a guess."""
-    plain = _plain(value)
-    if not isinstance(plain, bool):
-        refuse(name, value, "True or False is needed")
-    return plain
 
 
 def law_of(hardness: float | None) -> ContactLaw:
@@ -141,7 +116,7 @@ def checked_shape(shape: Any) -> tuple[int, int]:
 
 def kept_loads(fields: Any, count: int) -> frozenset[int]:
     """Return the numbers of the loads whose fields are kept."""
-    plain = _plain(fields)
+    plain = as_plain(fields)
     if isinstance(plain, bool):
         return frozenset(range(count)) if plain else frozenset()
     numbers = list(plain) if isinstance(plain, Iterable) and not isinstance(plain, str) else None
@@ -152,14 +127,6 @@ def kept_loads(fields: Any, count: int) -> frozenset[int]:
             f"give True, False, or numbers of loads, 0 to {count - 1}, such as fields=[0]",
         )
     return frozenset(int(each) for each in numbers)
-
-
-def _plain(value: Any) -> Any:
-    """Return what NumPy or xarray hold as a single value as Python's own; NaN if it is masked."""
-    if value is np.ma.masked:
-        return math.nan
-    single = getattr(value, "ndim", None) == 0 and hasattr(value, "item")
-    return value.item() if single else value
 
 
 def _is_load(number: Any, count: int) -> bool:

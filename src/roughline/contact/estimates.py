@@ -11,12 +11,11 @@ import numpy as np
 
 from roughline.contact.arguments import (
     checked_count,
-    checked_flag,
-    checked_number,
     checked_shape,
     kept_loads,
 )
 from roughline.contact.loads import Loads
+from roughline.errors.checks import between, flag
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -117,11 +116,11 @@ def estimate(
     True True
     """
     shape, n_loads = checked_shape(shape), checked_count("n_loads", n_loads, 1)
-    periodic, yielding = checked_flag("periodic", periodic), checked_flag("yielding", yielding)
+    periodic, yielding = flag("periodic", periodic), flag("yielding", yielding)
     kept = kept_loads(fields, n_loads)
     if area_fraction is not None:
-        share = "a share of the surface from 0 to 1"
-        area_fraction = checked_number("area_fraction", area_fraction, share, 0.0, 1.0)
+        share = "a share of the surface from 0 to 1 is needed"
+        area_fraction = between("area_fraction", area_fraction, 0.0, 1.0, share)
     pressing = memory_for(
         shape,
         periodic,

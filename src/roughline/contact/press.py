@@ -12,8 +12,6 @@ from numpy.typing import ArrayLike
 from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
 from roughline.contact.arguments import (
     checked_count,
-    checked_flag,
-    checked_number,
     given_half_space,
     given_law,
     kept_loads,
@@ -26,7 +24,7 @@ from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
 from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
-from roughline.errors.checks import one_of, refuse, shown
+from roughline.errors.checks import between, flag, one_of, refuse, shown
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -156,11 +154,11 @@ def press(
     """
     half_space = given_half_space(half_space, E_star, periodic)
     law = given_law(law, hardness, body)
-    rtol = checked_number("rtol", rtol, "a tolerance from 1e-12 to 0.1", 1e-12, 0.1)
+    rtol = between("rtol", rtol, 1e-12, 0.1, "a tolerance from 1e-12 to 0.1 is needed")
     max_iterations = checked_count("max_iterations", max_iterations, 1)
-    grid_error = checked_flag("grid_error", grid_error)
+    grid_error = flag("grid_error", grid_error)
     measures = checked_measures(measures)
-    throw = checked_flag("throw", throw)
+    throw = flag("throw", throw)
     one_of("precision", precision, ("mixed", "float64", "float32"))
     if progress is not None and not callable(progress):
         refuse("progress", progress, "a function of (loads done, loads in all) is needed")

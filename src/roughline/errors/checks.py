@@ -82,6 +82,14 @@ def whole(argument: str, given: Any, least: int, needed: str) -> int:
     return int(given)
 
 
+def flag(argument: str, given: Any) -> bool:
+    """Return True or False; refuse all else, whose truth would be a guess."""
+    value = as_plain(given)
+    if not isinstance(value, bool):
+        refuse(argument, given, "True or False is needed")
+    return value
+
+
 def refuse_other_seeds(rng: Any) -> None:
     """Refuse a seed that is no whole number."""
     whole("rng", rng, 0, "a seed, a whole number from 0 on, is needed")
@@ -115,11 +123,11 @@ def several(given: Any) -> list[Any]:
 
 def as_number(given: Any) -> float | None:
     """Return a real number, or an array of no dimensions, as a float; None for all else."""
-    is_scalar = isinstance(given, Real) or getattr(given, "shape", None) == ()
-    if isinstance(given, bool) or not is_scalar:
+    single = as_plain(given)
+    if isinstance(single, bool) or not isinstance(single, Real):
         return None
     try:
-        return float(given)
+        return float(single)
     except (TypeError, ValueError, OverflowError):
         return None
 
@@ -127,6 +135,13 @@ def as_number(given: Any) -> float | None:
 def is_whole(given: Any) -> bool:
     """Whether a value is a whole number; True and False are none."""
     return isinstance(given, Integral) and not isinstance(given, bool)
+
+
+def as_plain(given: Any) -> Any:
+    """Return what NumPy or xarray hold as a single value as Python's own; NaN if it is masked."""
+    if getattr(given, "ndim", None) != 0 or not hasattr(given, "item"):
+        return given
+    return math.nan if getattr(given, "mask", False) else given.item()
 
 
 def _of_several(given: Any) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -10,11 +11,11 @@ from typing import Literal
 import numpy as np
 
 from roughline.computing.summary import summary
-from roughline.contact.arguments import checked_count, checked_flag, checked_number
+from roughline.contact.arguments import checked_count
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors import InputError
-from roughline.errors.checks import one_of
+from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
 from roughline.fluid.flow import Along
 from roughline.fluid.measures import hydraulic_aperture
@@ -110,10 +111,12 @@ def reopening(
     0.32 0.30
     """
     load = checked_count("load", load)
-    times = checked_number("times", times, "a factor above 1", math.nextafter(1.0, 2.0))
+    times = between(
+        "times", times, math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
+    )
     one_of("along", along, ("both", "x", "y"))
-    rtol = checked_number("rtol", rtol, "a tolerance from 1e-6 to 1", 1e-6, 1.0)
-    interval = checked_flag("interval", interval)
+    rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
+    interval = flag("interval", interval)
     left, law = curve.surface_after(load), curve.law
     assert law is not None  # else there is no surface
     if law.memory == "path":

@@ -13,8 +13,6 @@ import numpy as np
 from roughline.computing.fft import half_spectrum, synthesise
 from roughline.computing.summary import summary
 from roughline.contact.arguments import (
-    checked_flag,
-    checked_number,
     given_half_space,
     given_law,
 )
@@ -23,7 +21,7 @@ from roughline.contact.grid_error import steepening_of
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.errors import InputError
-from roughline.errors.checks import one_of
+from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
 from roughline.fluid.flow import Along, Sides, components
 from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
@@ -135,8 +133,8 @@ def sealing_pressure(
     0.0657 to 0.0661: area 0.40
     """
     one_of("along", along, ("both", "x", "y"))
-    rtol = checked_number("rtol", rtol, "a tolerance from 1e-6 to 1", 1e-6, 1.0)
-    interval = checked_flag("interval", interval)
+    rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
+    interval = flag("interval", interval)
     if not isinstance(surface, Surface):
         raise InputError("is no Surface; in one dimension any contact stops the flow", "surface")
     if surface.rms_slope == 0:

@@ -11,7 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, PreparationWarning
-from roughline.errors.checks import as_number, is_whole, positive, refuse, several
+from roughline.errors.checks import as_number, flag, is_whole, positive, refuse, several
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.body import (
@@ -70,8 +70,7 @@ class Preparation:
     points: int | tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.remove_outliers, bool | np.bool_):
-            refuse("remove_outliers", self.remove_outliers, "True or False is needed")
+        flag("remove_outliers", self.remove_outliers)
         if self.trend is not None:
             refuse_unknown_trend(self.trend)
         if self.crop is not None:

@@ -11,10 +11,8 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, get_args
 
-import numpy as np
-
 from roughline.computing.arrays import Real
-from roughline.errors.checks import one_of, refuse
+from roughline.errors.checks import flag, one_of, refuse
 from roughline.topography.trend import Trend, slopes_of_plane
 
 Settings = Mapping[str, str | int | float]
@@ -54,9 +52,7 @@ def checked_cut_out(given: object, settings: Settings) -> bool | None:
         if "cropped" in settings or origin in (MEASURED, PIECE):
             return True
         return False if origin == PERIODIC or origin.startswith(_GENERATED) else None
-    if not isinstance(given, bool | np.bool_):
-        refuse("is_cut_out", given, "True or False is needed")
-    return bool(given)
+    return flag("is_cut_out", given)
 
 
 def checked_trend(given: Trend | None, settings: Settings) -> Trend:
