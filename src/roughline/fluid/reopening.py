@@ -24,6 +24,7 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
+_TIMES = math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
 _LEAST = 1e-4  # share of the load below which it counts as taken off
 
 
@@ -111,9 +112,7 @@ def reopening(
     0.32 0.30
     """
     load = checked_count("load", load)
-    times = between(
-        "times", times, math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
-    )
+    times = between("times", times, *_TIMES)
     one_of("along", along, ("both", "x", "y"))
     rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
     interval = flag("interval", interval)
