@@ -14,11 +14,18 @@ import pandas as pd
 from page import Page
 from trials import misses, recorded, written
 from trials_of_grids import FINER, GRID
-from trials_of_joints import LARGER, MINE, PART, TILED
+from trials_of_joints import LARGER, MINE, PART, SEAL, TILED
 from trials_of_spectra import FIT, PIECE, SCAN
 
 OF_THE_PAGE = {"grid": GRID, "larger": LARGER, "part": PART, "scan": SCAN, "fit": FIT}
-STUDIES = {**OF_THE_PAGE, "finer": FINER, "tiled": TILED, "mine": MINE, "pieces": PIECE}
+STUDIES = {
+    **OF_THE_PAGE,
+    "finer": FINER,
+    "tiled": TILED,
+    "mine": MINE,
+    "pieces": PIECE,
+    "seal": SEAL,
+}
 
 
 def main():

@@ -29,6 +29,12 @@ COUNTS = (2, 3, 5, 10)
 DRAWS = 12
 LOADS = (0.002, 0.01, 0.05, 0.2, 0.5, 0.8)  # contact area fractions of the tiled maps, about
 MAPS = 3  # of each parent
+SEALED_FROM = (
+    0.05,
+    0.15,
+    0.3,
+    0.42,
+)  # contact area fractions from which loads are taken off, about
 MOST_POINTS = 600  # along a side of a measured map
 
 
@@ -119,6 +125,33 @@ def drawn(maps, pressures, joint, truths, rng):
             yield from answered(part, truths, lambda answer: answer.mean, name)
 
 
+def seal_rows(kind, option, seed):
+    """Where maps of a part seal, and leak again under one of some loads, and where the part does.
+
+    What never leaks ten times as much, neither the map nor the part, is left out.
+    """
+    make, rng = make_of("seal", kind, seed)
+    parent = parent_of(kind, make, rng)
+    bar = None if option == "elastic" else 0.2
+    given = {"E_star": E_STAR, "periodic": True, **hardness_of(parent, bar)}
+    load = float(rng.choice(SEALED_FROM))
+    (pressure,) = pressures_of(parent, bar, np.array([load]))
+
+    def found(surface, **more):
+        pressed = rl.press(surface, forces=[pressure * surface.area], **given)
+        leaks = rl.reopening(pressed, rtol=0.02, **more)
+        return rl.sealing_pressure(surface, **given, rtol=0.02, **more), leaks
+
+    truths = found(parent, interval=False)
+    for _ in range(MAPS):
+        piece = piece_of(parent, make, rng).detrended()
+        for name, truth, of_map in zip(
+            ("p_s", "F_10/F"), truths, found(piece, interval=True), strict=True
+        ):
+            if truth.value or of_map.value:
+                yield row(name, load, truth.value, of_map.value, *of_map.interval)
+
+
 def tiled_rows(kind, option, seed):
     """Maps for a joint as large as their parent, by their tiles; the error of the grid is left out.
 
@@ -193,6 +226,16 @@ MINE = Study(
     "whole part. The last column says how often the maps do not agree.",
     tuple(KINDS),
     columns=(*COLUMNS, "disagree"),
+)
+SEAL = Study(
+    seal_rows,
+    "The seal behind one map",
+    "A map of 64 x 64 pixels, without its tilt, is asked at which pressure it seals, and which "
+    "share of a load is left when ten times as much leaks. The truth is the part, three maps a "
+    "side, on the same pixels.",
+    tuple(KINDS),
+    ("elastic", "yielding"),
+    groups=("kind", "option", "load"),
 )
 TILED = Study(
     tiled_rows,

@@ -167,3 +167,29 @@ def test_what_cannot_be_taken_off_is_refused(pressed):
     line = rl.press(rl.SelfAffine(hurst=0.8, rms_height=1.0).line(64, 1), E_star=1.0, forces=[1.0])
     with pytest.raises(rl.InputError, match="reduced model of a line"):
         rl.reopening(line)
+
+
+@pytest.mark.slow
+def test_the_interval_of_the_load_left_holds_that_of_the_larger_surface():
+    """Maps that are cut from a surface four times as large, and lose their tilt."""
+    held = []
+    for seed in range(cases(24, share=6)):
+        spectrum = rl.SelfAffine(
+            hurst=(0.5, 0.8)[seed % 2], rms_height=0.01, q_roll=16 * np.pi, q_high=64 * np.pi
+        )
+        part, is_yielding = spectrum.surface(128, seed), seed // 2 % 2
+        one = part.cropped((0, 64), (0, 64)).detrended()
+        pressure = (0.1 if is_yielding else 0.15) * part.rms_slope
+        given = {"E_star": 1.0, "periodic": True}
+        given |= {"hardness": 0.4 * part.rms_slope} if is_yielding else {}
+        truth, found = (
+            rl.reopening(
+                rl.press(each, forces=[pressure * each.area], **given),
+                along="x",
+                rtol=0.05,
+                interval=each is one,
+            )
+            for each in (part, one)
+        )
+        held.append(found.interval[0] <= truth.value <= found.interval[1])
+    assert np.mean(held) >= 0.9

@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.contact.arguments import checked_count
 from roughline.contact.curve import Curve
@@ -19,7 +20,7 @@ from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
 from roughline.fluid.flow import Along
 from roughline.fluid.measures import hydraulic_aperture
-from roughline.fluid.one_map import is_judged, on_half
+from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
@@ -43,9 +44,14 @@ class Reopening:
         How much more leaks; of a gap that is sealed under the load, whatever leaks is more. [1]
     along : {"both", "x", "y"}
         Direction of the flow; of both, the leakier.
+    on_half : float
+        The same on half as many points along each side; NaN if not asked for. [1]
+    on_quarters : sequence of float
+        The same of the four quarters of the surface, each of them repeated. [1]
     interval : tuple of float
-        Ends that the grid leaves open, by how much the logarithm differs from that on half as many
-        points; NaN if not asked for. [1]
+        Ends that grid and size leave open; NaN if not asked for. They combine, as independent, by
+        how much the logarithm differs from that on half as many points, and how uncertain the mean
+        of the quarters is by their scatter, at 95 %. [1]
     """
 
     low: float
@@ -53,6 +59,8 @@ class Reopening:
     apertures: tuple[float, float, float]
     times: float
     along: Along | Literal["both"]
+    on_half: float = math.nan
+    on_quarters: Sequence[float] = ()
     interval: tuple[float, float] = (math.nan, math.nan)
 
     __repr__ = summary
@@ -92,7 +100,7 @@ def reopening(
     rtol : float, optional
         How far apart both shares may be, over the lower one. [1]
     interval : bool, optional
-        Whether half as many points are pressed too, for what the grid leaves open.
+        Whether the coarser grid and the quarters are pressed too, which takes about as long again.
 
     Raises
     ------
@@ -127,13 +135,21 @@ def reopening(
     history = curve.force[: load % curve.force.size + 1]
     if not history[-1] > 0:
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
-    search = _Search(curve.half_space, float(history[-1]), times, along, rtol)
-    found = search.bracket(left, law)
-    if not interval or found.low == 0 or curve.surface is None or not is_judged(curve.surface):
+    search = _Search(curve.half_space, times, along, rtol)
+    found = search.bracket(left, law, float(history[-1]))
+    if not interval or curve.surface is None or not is_judged(curve.surface):
         return found
-    half = search.after(float(np.nanmax(history)), *on_half(curve.surface, law))
-    factor = math.exp(abs(math.log(half.value / found.value))) if half.low > 0 else math.inf
-    return replace(found, interval=(found.low / factor, min(found.high * factor, 1.0)))
+    forces = np.array([np.nanmax(history), history[-1]])
+    half = search.after(forces, *on_half(curve.surface, law))
+    of_quarters = [
+        search.after(forces * (each.area / curve.surface.area), each, its_law)
+        for each, its_law in quarters(curve.surface, law)
+    ]
+    shares = np.maximum([found.low, found.high, found.value, half, *of_quarters], _LEAST)
+    factor = factor_left_open(shares[2], shares[3], shares[4:])
+    low, high = shares[0] / factor, shares[1] * factor
+    ends = low if low > _LEAST else 0.0, min(high, 1.0) if high > _LEAST else 0.0
+    return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
 
 @dataclass(frozen=True)
@@ -141,41 +157,39 @@ class _Search:
     """How surfaces are pressed that a force has left, and how near both shares have to be."""
 
     half_space: HalfSpace
-    force: float
     times: float
     along: Along | Literal["both"]
     rtol: float
 
-    def after(self, largest: float, untouched: Surface, law: ContactLaw) -> Reopening:
-        """Bisect the shares on a surface that the largest force, and then this one, has left."""
-        forces = [largest, self.force]
+    def after(self, forces: Real, untouched: Surface, law: ContactLaw) -> float:
+        """The share of the last of some forces that are put on one after the other."""
         curve = press(untouched, half_space=self.half_space, law=law, forces=forces)
-        return self.bracket(curve.surface_after(-1), law)
+        return self.bracket(curve.surface_after(-1), law, float(forces[-1])).value
 
-    def bracket(self, left: Surface, law: ContactLaw) -> Reopening:
+    def bracket(self, left: Surface, law: ContactLaw, force: float) -> Reopening:
         """Bisect the shares of the force."""
-        full = self._aperture(left, law, 1.0)
+        full = self._aperture(left, law, force)
         most = full * float(np.cbrt(self.times))  # if sealed, whatever leaks is too much
-        low, high, at_low, at_high = _LEAST, 1.0, self._aperture(left, law, _LEAST), full
+        low, high, at_low, at_high = _LEAST, 1.0, self._aperture(left, law, _LEAST * force), full
         if not (at_low >= most and at_low > 0):
             return Reopening(0.0, 0.0, (full, at_low, at_low), self.times, self.along)
         while high > low * (1 + self.rtol):
             middle = math.sqrt(low * high)
-            found = self._aperture(left, law, middle)
+            found = self._aperture(left, law, middle * force)
             if found >= most and found > 0:
                 low, at_low = middle, found
             else:
                 high, at_high = middle, found
         return Reopening(low, high, (full, at_low, at_high), self.times, self.along)
 
-    def _aperture(self, left: Surface, law: ContactLaw, share: float) -> float:
-        """Hydraulic aperture under a share of the force."""
+    def _aperture(self, left: Surface, law: ContactLaw, force: float) -> float:
+        """Hydraulic aperture under a force."""
         directions: Sequence[Along] = ("x", "y") if self.along == "both" else (self.along,)
         pressed = press(
             left,
             half_space=self.half_space,
             law=law,
-            forces=[share * self.force],
+            forces=[force],
             measures=[hydraulic_aperture(along) for along in directions],
         )
         return max(float(each.values[0]) for each in pressed.measured.values())
