@@ -32,7 +32,7 @@ _MANY = 1000  # loads from which on the cost is announced
 _BYTES_TO_READ = 30_000_000  # beside that of a press
 _BYTES_OF_OTHER_CURVES = 30  # with materials
 _BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
-_LOADS_TO_SEAL = 30  # that the pressure is sought with, quarters and coarser grid included
+_LOADS_TO_SEAL = 45  # that both are sought with, quarters and coarser grids included
 _SECONDS_OF_FLOW, _POWER_OF_FLOW = 1e-7, 1.25  # of points, as measured from 256² to 1024²
 _BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
 

@@ -250,7 +250,7 @@ FIELDS: tuple[Field, ...] = (
         of="Closure",
         label="sealing",
         help="Find the mean pressure at which the last channel closes, and down to which load the "
-        "leak stays below ten times that under the largest; it takes as long as some 30 loads.",
+        "leak stays below ten times that under the largest; it takes as long as some 45 loads.",
         choices={"no": (False, "as loaded"), "yes": (True, "where it seals")},
     ),
     _of_answers(

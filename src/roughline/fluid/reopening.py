@@ -47,7 +47,7 @@ class Reopening:
     on_half : float
         The same on half as many points along each side; NaN if not asked for. [1]
     on_quarters : sequence of float
-        The same of the four quarters of the surface, each of them repeated. [1]
+        The same of the four quarters of the surface. [1]
     interval : tuple of float
         Ends that grid and size leave open; NaN if not asked for. They combine, as independent, by
         how much the logarithm differs from that on half as many points, and how uncertain the mean
