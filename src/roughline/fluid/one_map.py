@@ -8,7 +8,6 @@ from functools import partial
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.contact.grid_error import field_on, halved
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
@@ -36,7 +35,7 @@ def quarters(surface: Surface, law: ContactLaw) -> Iterator[tuple[Surface, Conta
             yield cut(surface).detrended(), law.on(partial(field_on, surface, cut))
 
 
-def factor_left_open(value: float, half: float, of_quarters: Sequence[float] | Real) -> float:
+def factor_left_open(value: float, half: float, of_quarters: Sequence[float]) -> float:
     """Factor up and down that grid and size leave open.
 
     They combine, as independent, by how much the logarithm differs from that on half as many

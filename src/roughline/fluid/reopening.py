@@ -140,16 +140,7 @@ def reopening(
     if not interval or curve.surface is None or not is_judged(curve.surface):
         return found
     forces = np.array([np.nanmax(history), history[-1]])
-    half = search.after(forces, *on_half(curve.surface, law))
-    of_quarters = [
-        search.after(forces * (each.area / curve.surface.area), each, its_law)
-        for each, its_law in quarters(curve.surface, law)
-    ]
-    shares = np.maximum([found.low, found.high, found.value, half, *of_quarters], _LEAST)
-    factor = factor_left_open(shares[2], shares[3], shares[4:])
-    low, high = shares[0] / factor, shares[1] * factor
-    ends = low if low > _LEAST else 0.0, min(high, 1.0) if high > _LEAST else 0.0
-    return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
+    return search.with_interval(found, curve.surface, law, forces)
 
 
 @dataclass(frozen=True)
@@ -160,6 +151,21 @@ class _Search:
     times: float
     along: Along | Literal["both"]
     rtol: float
+
+    def with_interval(
+        self, found: Reopening, surface: Surface, law: ContactLaw, forces: Real
+    ) -> Reopening:
+        """Press half as many points along each side, and the quarters of the surface."""
+        half = self.after(forces, *on_half(surface, law))
+        of_quarters = [
+            self.after(forces * (each.area / surface.area), each, its_law)
+            for each, its_law in quarters(surface, law)
+        ]
+        value, *others = np.maximum([found.value, half, *of_quarters], _LEAST)
+        factor = factor_left_open(value, others[0], others[1:])
+        low, high = max(found.low, _LEAST) / factor, max(found.high, _LEAST) * factor
+        ends = low if low > _LEAST else 0.0, min(high, 1.0) if high > _LEAST else 0.0
+        return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
     def after(self, forces: Real, untouched: Surface, law: ContactLaw) -> float:
         """The share of the last of some forces that are put on one after the other."""
