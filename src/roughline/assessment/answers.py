@@ -8,13 +8,11 @@ from dataclasses import replace
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.kinds import has_spectrum, nominal_area
-from roughline.assessment.larger_surface import stiffness_of_the_piece
+from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
 from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
-from roughline.computing.arrays import Indices
 from roughline.contact.curve import Curve
-from roughline.contact.measures import Measured
 from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pair import MaterialPair
@@ -51,7 +49,8 @@ def answers_of(
     pressed = _pressed(question, question.pair, body, curve, interface, intervals, case.moments)
     found = replace(
         pressed,
-        measured=_taken(solution.measured, asked),
+        measured=taken(solution.measured, asked),
+        place=solution.place,
         closing=solution.closing,
         fields=next((each for each in solution.curve.fields if each is not None), None),
     )
@@ -59,9 +58,9 @@ def answers_of(
 
 
 def ends_from_many(
-    result: Assessment, further: tuple[Ends, Ends], *, with_grid: bool
+    result: Assessment, further: Differences, *, with_grid: bool
 ) -> Mapping[str, Ends]:
-    """Ends of the answers of one of many maps, by their keys; `further` is over the asked loads.
+    """Ends of the answers of one of many maps, by their keys, over the loads that were asked for.
 
     `with_grid` says whether they hold what the grid leaves open as well.
     """
@@ -77,20 +76,17 @@ def ends_from_many(
     spectrum = moments(body) if has_spectrum(body) else None
     interface = larger.stiffness
     pressed = _pressed(result.question, pair, body, curve, interface, intervals, spectrum)
-    measured = _taken(result.measured, result.asked)
+    measured = dict(taken(result.measured, result.asked))
     if not with_grid:
         measured = {
             key: replace(each, low=each.values, high=each.values) for key, each in measured.items()
         }
+    for key, ends in further.measures.items():
+        measured[key] = result.larger.measures[key].widened(ends, with_grid=with_grid)
     given, _ = rules.answers(
         replace(pressed, measured=measured, closing=result.closing, fields=result.fields)
     )
     return {key: each.ends for key, each in given.items() if each.ends is not None}
-
-
-def _taken(measured: Mapping[str, Measured], loads: Indices) -> Mapping[str, Measured]:
-    """Measures at some of the loads, by their numbers."""
-    return {key: each.over(lambda values: values[loads]) for key, each in measured.items()}
 
 
 def _pressed(

@@ -30,7 +30,8 @@ import numpy as np
 
 from roughline.assessment.answers import ends_from_many
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.larger_surface import roll_offs_of
+from roughline.assessment.larger_measure import UNTOLD
+from roughline.assessment.larger_surface import Differences, LargerSurface, roll_offs_of
 from roughline.assessment.tiles import FEWEST, MOST_DOUBLINGS, Beyond, Tiles, logit
 from roughline.computing.arrays import Real
 from roughline.engineering.intervals import Ends
@@ -54,13 +55,8 @@ class BehindMaps:
     """The surface behind several maps, under the loads that were asked for."""
 
     agreement: Agreement | None  # of logarithms of rms heights, between maps and their quarters
-    alike: tuple[Ends, Ends]
-    """How it differs from the mean of its places, as the tiles of maps show it: both ends of the
-    stiffness's logarithm and of the contact area's logit."""
-
-    sharing: tuple[Ends, Ends]
-    """The same as places share the load."""
-
+    alike: Differences  # from the mean of its places, as the tiles of maps show it
+    sharing: Differences  # as places share the load
     untold: str = ""  # why the maps do not tell of it; empty where they do
 
 
@@ -74,13 +70,17 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     law = _law_of(same)
     roll_offs = None if law is None else roll_offs_of(law)
     area = float(np.mean([each.area for each in surfaces]))
-    beyond = Beyond.of(roll_offs, area, first.question.joint)
+    beyond = beyond_gap = Beyond.of(roll_offs, area, first.question.joint)
+    if (seal := first.question.seal) is not None:
+        beyond_gap = Beyond.of(roll_offs, area, seal.area, "seal")
     tiles = [each.tiles for each in larger if each.tiles is not None]
     nothing = np.zeros(first.asked.size)
-    alike = ((nothing, nothing), (nothing, nothing))
+    alike = Differences((nothing, nothing), (nothing, nothing))
     if tiles:
-        of_stiffness, of_area = (Tiles.mean(each) for each in zip(*tiles, strict=True))
-        alike = of_stiffness.beyond(beyond, mean=True), of_area.beyond(beyond, mean=True)
+        of_stiffness, of_area = (
+            Tiles.mean(each).beyond(beyond, mean=True) for each in zip(*tiles, strict=True)
+        )
+        alike = Differences(of_stiffness, of_area, _of_measures(larger, beyond_gap))
     agree = _agreement(surfaces)
     areas = [each.curve_as_asked.area_fraction_corrected for each in results]
     sharing = shared_load(
@@ -105,6 +105,16 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     return BehindMaps(agree, alike, sharing, untold)
 
 
+def _of_measures(larger: Sequence[LargerSurface], beyond: Beyond) -> Mapping[str, Ends]:
+    """How measures of the surface behind maps differ from the mean of its places."""
+    found: dict[str, Ends] = {}
+    for name in larger[0].measures:
+        if all(name in each.measures for each in larger):
+            mean = Tiles.mean([each.measures[name].tiles for each in larger])
+            found[name] = mean.beyond(beyond, mean=True) if beyond.is_told else UNTOLD
+    return found
+
+
 def missed_of_map(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, Ends], ...]:
     """What a map misses as all others do of each answer, and how sharing its load changes it."""
     alike = ends_from_many(result, behind.alike, with_grid=True)
@@ -119,7 +129,7 @@ def missed_of_map(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, 
 
 def shared_load(
     stiffness: Real, area: Real, side: float, E_star: float, of_places: float = 1.0
-) -> tuple[Ends, Ends]:
+) -> Differences:
     """Bounds of how a part differs from the mean of its places as they share its load.
 
     The stiffness of the interface [N / m] and the area fraction of each map are of shape (maps,
@@ -136,7 +146,8 @@ def shared_load(
     towards_rough = -np.log(a) * t
     softer = np.minimum(np.maximum(towards_rough, 0.5) * s_k**2, _EDGE * s_k)
     less = np.minimum(np.maximum(towards_rough * s_k, (a - 0.5) * s_a) * s_a, _EDGE * s_a)
-    return (-softer, 0.0 * softer), (-less, np.maximum(0.5 - a, 0.0) * s_a**2)
+    more = np.maximum(0.5 - a, 0.0) * s_a**2
+    return Differences((-softer, 0.0 * softer), (-less, more))
 
 
 def _scatter_and_middle(scale: Callable[[Real], Real], values: Real) -> tuple[Real, Real]:

@@ -104,6 +104,14 @@ class Case:
         roll_offs = roll_offs_along_a_side(body) if isinstance(body, Surface) else None
         return Beyond.of(roll_offs, nominal_area(body), joint)
 
+    @property
+    def beyond_gap(self) -> Beyond:
+        """The same for what flows in the gap: of a seal, if one is given."""
+        seal = self.question.seal
+        if seal is None:
+            return self.beyond
+        return Beyond.of(self.beyond.roll_offs, nominal_area(self.body), seal.area, "seal")
+
     @cached_property
     def moments(self) -> Moments | None:
         """Moments of the body's spectrum; None of a line, where it has none, without materials."""

@@ -103,7 +103,7 @@ def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
     taken = [
         each.share * math.prod(each.shape) ** _POWER_OF_FLOW
         for each in variants
-        if each.is_periodic == is_repeated and each.purpose not in ("larger surface", "slip")
+        if each.is_periodic == is_repeated and each.purpose != "slip"
     ]
     apertures = len(sealing.directions) * (2 if sealing.free_path > 0 else 1)
     return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)

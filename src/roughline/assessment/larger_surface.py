@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
+from roughline.assessment.larger_measure import LargerMeasure
 from roughline.assessment.tiles import MOST_DOUBLINGS, Beyond, Tiles, logit
 from roughline.assessment.uncertainty import (
     area_fraction,
+    combined,
     interval,
     loading_under_unloading,
     unloading_stiffness,
+    widened,
 )
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
@@ -30,6 +35,16 @@ _LEAST_SHARE = 1e-9  # of the area that is in contact, or is not; less counts as
 
 
 @dataclass(frozen=True, eq=False)
+class Differences:
+    """Ends of the differences between a larger surface and a map."""
+
+    stiffness: Ends  # of its logarithm
+    area: Ends  # of the logit of the area fraction
+    measures: Mapping[str, Ends] = field(default_factory=dict)
+    """Of logarithms of measures and their floors, by names."""
+
+
+@dataclass(frozen=True, eq=False)
 class LargerSurface:
     """The surface behind a piece, under the loads of the piece's curve."""
 
@@ -42,18 +57,18 @@ class LargerSurface:
     tiles: tuple[Tiles, Tiles] | None = None
     """Logarithms of the stiffness, and logits of the contact area fraction."""
 
-    def from_many(
-        self, area: Real, further: tuple[Ends, Ends], *, with_grid: bool
-    ) -> LargerSurface:
+    measures: Mapping[str, LargerMeasure] = field(default_factory=dict)
+    """What a larger surface has as well, by names; empty without tiles."""
+
+    def from_many(self, area: Real, further: Differences, *, with_grid: bool) -> LargerSurface:
         """The same with intervals that many pieces leave open; `area` is the piece's area fraction.
 
-        `further` are ends of the differences of its stiffness's logarithm and its area's logit;
-        with the grid, they are combined with what that leaves open, as independent.
+        With the grid, `further` is combined with what that leaves open, as independent.
         """
         k, shares = self.of_grid if with_grid else (None, None)
         values = self.stiffness.values
-        stiffness = replace(self.stiffness, ends=_widened(values, k, further[0]))
-        return LargerSurface(stiffness, _widened_share(area, shares or (area, area), further[1]))
+        stiffness = replace(self.stiffness, ends=widened(values, k, further.stiffness))
+        return LargerSurface(stiffness, _widened_share(area, shares or (area, area), further.area))
 
     def intervals(self, curve: Curve) -> Intervals | None:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
@@ -75,7 +90,7 @@ class LargerSurface:
                 )
                 own = interval(curve.stiffness, curve.stiffness_error)
                 yields = share < 1
-                with_own = loading_under_unloading(_widened(curve.stiffness, own, further), ends)
+                with_own = loading_under_unloading(widened(curve.stiffness, own, further), ends)
                 loading = (
                     np.where(yields, with_own[0], loading[0]),
                     np.where(yields, with_own[1], loading[1]),
@@ -158,15 +173,15 @@ def larger_surface(
     formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"
     grid = stiffness, area
     if tiles is None:
-        return LargerSurface(Interface(k, None, _which(beyond), formula), of_grid=grid)
+        return LargerSurface(Interface(k, None, which_surface(beyond), formula), of_grid=grid)
     of_stiffness, of_area = tiles
-    ends = _widened(k, stiffness, of_stiffness.beyond(beyond))
-    interface = Interface(k, ends, _which(beyond), formula)
+    ends = widened(k, stiffness, of_stiffness.beyond(beyond))
+    interface = Interface(k, ends, which_surface(beyond), formula)
     share = None if area is None else _widened_share(touching, area, of_area.beyond(beyond))
     return LargerSurface(interface, share, grid, tiles)
 
 
-def _which(beyond: Beyond) -> str:
+def which_surface(beyond: Beyond, of: Literal["stiffness", "gap"] = "stiffness") -> str:
     """Say which larger surface is meant, and how much of its waves the map holds."""
     if beyond.roll_offs is not None:
         return (
@@ -174,28 +189,18 @@ def _which(beyond: Beyond) -> str:
             f"{beyond.roll_offs:.2g} roll-off wavelengths along a side"
         )
     times = f"{2**beyond.doublings:.2g} times as long as the map, which shows no roll-off"
-    if not beyond.is_joint:
+    if beyond.whole is None:
+        further = "lower the stiffness" if of == "stiffness" else "open the gap"
         return (
-            f"of a surface {times}: on a larger one longer waves lower the stiffness further; give "
+            f"of a surface {times}: on a larger one longer waves {further} further; give "
             f"the joint's area ({called('rl.Joint')}), or measure a larger map"
         )
     if beyond.is_told:
-        return f"of a joint {times}: the interval allows for waves as long as the joint"
+        return f"of a {beyond.whole} {times}: the interval allows for waves as long as that"
     return (
-        f"of a joint {times}: the longer waves that it lacks leave the stiffness open; measure a "
-        f"map at least 1/{2**MOST_DOUBLINGS:g} as long as the joint"
+        f"of a {beyond.whole} {times}: without the longer waves its {of} is not known; measure a "
+        f"map at least 1/{2**MOST_DOUBLINGS:g} as long"
     )
-
-
-def _widened(values: Real, ends: Ends | None, further: Ends) -> Ends:
-    """Ends of values whose logarithms differ further, combined with their own as independent."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        logs = np.log(values)
-        if ends is not None:
-            further = _combined(further, (np.log(ends[0]) - logs, np.log(ends[1]) - logs))
-        low, high = (values * np.exp(each) for each in further)
-    low = np.where(np.isneginf(further[0]) & ~np.isnan(values), 0.0, low)
-    return np.where(values == 0, 0.0, low), np.where(values == 0, 0.0, high)
 
 
 def _widened_share(values: Real, ends: Ends, further: Ends) -> Ends:
@@ -203,12 +208,7 @@ def _widened_share(values: Real, ends: Ends, further: Ends) -> Ends:
     logits, *own = (
         logit(np.clip(each, _LEAST_SHARE, 1 - _LEAST_SHARE)) for each in (values, *ends)
     )
-    further = _combined(further, (own[0] - logits, own[1] - logits))
+    further = combined(further, (own[0] - logits, own[1] - logits))
     with np.errstate(over="ignore"):
         low, high = (1 / (1 + np.exp(-(logits + each))) for each in further)
     return np.where(values == 0, 0.0, low), np.where(values == 0, 0.0, high)
-
-
-def _combined(first: Ends, second: Ends) -> Ends:
-    """Both ends of a sum of independent differences."""
-    return -np.hypot(first[0], second[0]), np.hypot(first[1], second[1])

@@ -70,7 +70,8 @@ def _of_way(case: Case, curves: Curves, name: str, hardness: float | None, judge
     """Answer the same of a body of another hardness, elastic if None; without intervals."""
     curve = curves.by_name[name]
     larger, measured = larger_behind(case, curves, name), measured_of(case, curves, name)
-    solution = Solution(curve, None, larger, measured, curves.closings.get(name))
+    closing = curves.closings.get(name)
+    solution = Solution(curve, None, larger, measured, closing=closing)
     return _Way(curve, answers_of(case, solution, body=judged, hardness=hardness)[0])
 
 

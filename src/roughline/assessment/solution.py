@@ -9,11 +9,12 @@ import numpy as np
 
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
-from roughline.assessment.larger_surface import LargerSurface, larger_surface
+from roughline.assessment.larger_measure import LargerMeasure
+from roughline.assessment.larger_surface import LargerSurface, larger_surface, which_surface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.notes import how_far_a_line_serves
 from roughline.assessment.source import Topography
-from roughline.assessment.tiles import Tiles, coarse_shape, tiles_from
+from roughline.assessment.tiles import TiledCurves, coarse_shape
 from roughline.assessment.uncertainty import change, intervals_of
 from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
 from roughline.computing.arrays import Indices, Real
@@ -34,7 +35,8 @@ class Solution:
     curve: Curve
     intervals: Intervals | None  # None where the grid's errors are not known
     larger: LargerSurface | None = None  # None where the answers are not about a larger surface
-    measured: Mapping[str, Measured] = field(default_factory=dict)  # of the larger one, if it is
+    measured: Mapping[str, Measured] = field(default_factory=dict)
+    place: str = ""  # the surface that these are of; empty for the map alone
     closing: Closing | None = None
     note: str = ""  # what another way to fill missing points changes, if that was tried
 
@@ -44,12 +46,16 @@ def solution_of(case: Case, curves: Curves) -> Solution:
     curve = curves.as_asked
     intervals, note = _with_filling(case, curves, Way.AS_ASKED, case.body)
     measured = measured_of(case, curves, Way.AS_ASKED, are_known=intervals is not None)
-    larger = larger_behind(case, curves, Way.AS_ASKED)
+    larger, place = larger_behind(case, curves, Way.AS_ASKED), ""
+    if larger is not None and larger.measures:
+        beyond = None if broken("larger surface", case.body) else case.beyond_gap
+        of_larger = {key: each.of_larger(beyond) for key, each in larger.measures.items()}
+        measured, place = {**measured, **of_larger}, which_surface(case.beyond_gap, "gap")
     if larger is not None and case.question.joint is not None and intervals is not None:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
     closing = curves.closings.get(Way.AS_ASKED)
-    return Solution(curve, intervals, larger, measured, closing, note)
+    return Solution(curve, intervals, larger, measured, place, closing, note)
 
 
 def solution_of_scan(case: Case, body: Line) -> Solution:
@@ -73,15 +79,21 @@ def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None
         return None
     repeated = name if case.loads.periodic else periodic(name)
     whole = curves.get(repeated)
-    intervals = tiles = None
+    intervals = tiled = None
     if whole is None:  # no load is borne, or Ctrl-C came before
         whole = replace(curve, unloading_stiffness=np.full(curve.status.size, np.nan))
     elif case.loads.grid_error:
         intervals, _ = _with_filling(case, curves, repeated, body)
-        tiles = _tiles(curves, whole, body) if intervals is not None else None
+        tiled = _tiled(curves, whole, body) if intervals is not None else None
     beyond = case.beyond
     ends = (intervals.unloading, intervals.area) if intervals else (None, None)
+    tiles = tiled.stiffness_and_contact() if tiled is not None else None
     larger = larger_surface(whole, beyond, tiles, *ends)
+    if tiled is not None:
+        of_map = measured_of(case, curves, name, are_known=True)
+        names = [each.name for each in case.measures if each.intensive]
+        measures = {each: LargerMeasure.of(of_map[each], tiled) for each in names}
+        larger = replace(larger, measures=measures)
     if beyond.is_told and not broken("larger surface", body):
         return larger
     return replace(larger, stiffness=larger.stiffness.bare, area=None)
@@ -143,8 +155,8 @@ def _most_changed(before: Real | None, after: Real | None, asked: Indices) -> st
     return f"up to {share:.2g}%" if share >= _SMALL else f"less than {_SMALL}%"
 
 
-def _tiles(curves: Curves, whole: Curve | None, body: Surface) -> tuple[Tiles, Tiles] | None:
-    """What the tiles of a map say beside its periodic curve; None if that is not known."""
+def _tiled(curves: Curves, whole: Curve | None, body: Surface) -> TiledCurves | None:
+    """Curves of a map and of its tiles, from its periodic curve; None if one is not known."""
     shape = coarse_shape(body.shape)
     if shape != body.shape:
         whole = curves.whole(Way.COARSE)
@@ -154,7 +166,7 @@ def _tiles(curves: Curves, whole: Curve | None, body: Surface) -> tuple[Tiles, T
     )
     if whole is None or len(halves) < 4 or len(quarters) < 16:
         return None
-    return tiles_from(whole, halves, quarters, shape[0] * shape[1])
+    return TiledCurves(whole, halves, quarters, shape[0] * shape[1])
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -25,6 +26,11 @@ _USUAL = 2.0  # doublings where the larger surface has no size
 _POINTS = 2**16  # of a map whose tiles are pressed; a finer one is coarsened before
 _STUDENT = 2.131  # of 95 %, with the 15 degrees of freedom of sixteen tiles
 _DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a border's share
+_FLOOR = 0.3  # of a measure, added before its logarithm is taken: what is sealed has none
+
+
+Whole = Literal["joint", "seal"]
+"""What a map is a piece of."""
 
 
 @dataclass(frozen=True)
@@ -33,14 +39,16 @@ class Beyond:
 
     roll_offs: float | None  # wavelengths along a side of the map; None if it shows none
     doublings: float = _USUAL  # of the map's side until it is as long as the larger surface
-    is_joint: bool = False  # of known area
+    whole: Whole | None = None  # what it is, if its area is known
 
     @classmethod
-    def of(cls, roll_offs: float | None, area: float, joint: float | None) -> Beyond:
+    def of(
+        cls, roll_offs: float | None, area: float, joint: float | None, whole: Whole = "joint"
+    ) -> Beyond:
         """The larger surface behind a map of a nominal area [m²], a joint's whose area is known."""
         if joint is None:
             return cls(roll_offs)
-        return cls(roll_offs, max(0.0, math.log2(joint / area) / 2), is_joint=True)
+        return cls(roll_offs, max(0.0, math.log2(joint / area) / 2), whole)
 
     @property
     def is_told(self) -> bool:
@@ -138,23 +146,43 @@ class Tiles:
         )
 
 
-def tiles_from(
-    whole: Curve, halves: Sequence[Curve], quarters: Sequence[Curve], points: int
-) -> tuple[Tiles, Tiles]:
-    """Logarithms of the stiffness of a map and its tiles, and logits of their contact.
+@dataclass(frozen=True, eq=False)
+class TiledCurves:
+    """Curves of a map and of its tiles under the same mean pressures, all of them periodic."""
 
-    The whole map has so many points; its 4 halves and 16 quarters, row by row, are under the same
-    mean pressures, and all are periodic.
-    """
+    whole: Curve
+    halves: Sequence[Curve]  # 4, row by row
+    quarters: Sequence[Curve]  # 16
+    points: int  # of the whole map
 
-    def tiles(of: Callable[[Curve, int], Real]) -> Tiles:
-        return Tiles(
-            of(whole, points),
-            np.stack([of(each, points // 4) for each in halves]).reshape(2, 2, -1),
-            np.stack([of(each, points // 16) for each in quarters]).reshape(4, 4, -1),
+    def stiffness_and_contact(self) -> tuple[Tiles, Tiles]:
+        """Logarithms of the stiffness, and logits of the contact."""
+        return self._tiles(_stiffness), self._tiles(_contact)
+
+    def measure(self, name: str) -> tuple[Tiles, Real]:
+        """Logarithms of a measure and a floor that is added to it, and the floor, (loads,).
+
+        The floor is a share of the measure's mean, so that what is sealed has a logarithm. Near
+        sealing places scatter evenly in the aperture itself, and elsewhere in its logarithm. It is
+        zero where all is sealed.
+        """
+        values = self._tiles(lambda curve, _points: curve.measured[name].values)
+        means = [values.whole, _mean(values.halves), _mean(values.quarters)]
+        floor = _FLOOR * np.fmax.reduce(means)
+        with np.errstate(divide="ignore"):
+            parts = (
+                np.log(each + floor) for each in (values.whole, values.halves, values.quarters)
+            )
+            return Tiles(*parts), floor
+
+    def _tiles(self, of: Callable[[Curve, int], Real]) -> Tiles:
+        halves, quarters = (
+            np.stack([of(each, self.points // count**2) for each in curves]).reshape(
+                count, count, -1
+            )
+            for count, curves in ((2, self.halves), (4, self.quarters))
         )
-
-    return tiles(_stiffness), tiles(_contact)
+        return Tiles(of(self.whole, self.points), halves, quarters)
 
 
 def _stiffness(curve: Curve, points: int) -> Real:

@@ -74,6 +74,22 @@ def loading_under_unloading(loading: Ends, unloading: Ends) -> Ends:
     return low, np.where(known, np.fmin(loading[1], unloading[1]), loading[1])
 
 
+def widened(values: Real, ends: Ends | None, further: Ends) -> Ends:
+    """Ends of values whose logarithms differ further, combined with their own as independent."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        logs = np.log(values)
+        if ends is not None:
+            further = combined(further, (np.log(ends[0]) - logs, np.log(ends[1]) - logs))
+        low, high = (values * np.exp(each) for each in further)
+    low = np.where(np.isneginf(further[0]) & ~np.isnan(values), 0.0, low)
+    return np.where(values == 0, 0.0, low), np.where(values == 0, 0.0, high)
+
+
+def combined(first: Ends, second: Ends) -> Ends:
+    """Both ends of a sum of independent differences."""
+    return -np.hypot(first[0], second[0]), np.hypot(first[1], second[1])
+
+
 def change(before: Real | None, after: Real | None) -> Real:
     """By how much each load changes; nothing does in what the model of a line does not predict."""
     if before is None or after is None:

@@ -307,7 +307,8 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
         piece = pieces(count)[i]
         forces = (np.array(loads.forces) / body.area * piece.area).tolist()
         loads = replace(loads, body=piece, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
-        return replace(loads, levelled=False, grid_error=False)
+        measures = [each for each in case.measures if each.intensive]
+        return replace(loads, measures=measures, levelled=False, grid_error=False)
 
     return [
         Variant(

@@ -37,6 +37,9 @@ class Measure:
         What it is, in a few words.
     value : callable
         Takes it from :class:`~roughline.Fields`; NaN where they do not tell it. [dimension]
+    intensive : bool, optional
+        Whether it comes to a number as a surface grows, as a mean gap does and a largest one does
+        not. What a larger surface has is then told by the parts of a map; it is not negative.
 
     Raises
     ------
@@ -60,6 +63,7 @@ class Measure:
     dimension: str
     meaning: str
     value: Callable[[Fields], float]
+    intensive: bool = False
 
     def __post_init__(self) -> None:
         if not (isinstance(self.name, str) and self.name.isidentifier()):
@@ -98,6 +102,7 @@ MEAN_GAP = Measure(
     "length",
     "mean gap over the nominal area, zero where the bodies touch",
     lambda fields: fields.mean_gap,
+    intensive=True,
 )
 """Mean distance of the bodies: the volume between them over the nominal area."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, TypeVar
 
@@ -31,6 +32,8 @@ def taken(value: _Value, loads: Indices) -> _Value:
         found = value[..., loads]
     elif isinstance(value, tuple):
         found = tuple(taken(each, loads) for each in value)
+    elif isinstance(value, Mapping):
+        found = {key: taken(each, loads) for key, each in value.items()}
     elif is_dataclass(value) and not isinstance(value, type):
         names = [each.name for each in fields(value)]
         found = replace(value, **{name: taken(getattr(value, name), loads) for name in names})

@@ -69,6 +69,8 @@ class Pressed:
     measured : mapping of str to Measured
         What rules need from the fields of every load, with what the grid and filled points leave
         open: of the map in a periodic half-space where it was cut out of a larger surface.
+    place : str, optional
+        Which surface the intervals of measures are of; empty for that of the map alone.
     sealing : Sealing, optional
         What is asked of a fluid in the gap.
     closing : Closing, optional
@@ -89,6 +91,7 @@ class Pressed:
     hardest: float | None = None
     has_depths: bool = False
     measured: Mapping[str, Measured] = field(default_factory=dict)
+    place: str = ""
     sealing: Sealing | None = None
     closing: Closing | None = None
     fields: Fields | None = None

@@ -35,6 +35,7 @@ class SealShape:
     words: str
     ratio: float  # W / B, length across the flow over the way through, of a ring 2π / ln(R/r) [1]
     width: float  # W, of a ring its inner circumference [m]
+    area: float  # [m²]
 
     @classmethod
     def of(cls, given: Any) -> SealShape:
@@ -61,11 +62,11 @@ class SealShape:
         if not (0 < first < math.inf and 0 < second < math.inf):
             refuse("seal", given, "positive, finite lengths are needed")
         if pattern is _ACROSS:
-            return cls(given.strip(), first / second, first)
+            return cls(given.strip(), first / second, first, first * second)
         if first >= second:
             refuse("seal", given, "the inner radius comes first, and is below the outer one")
-        around = 2 * math.pi
-        return cls(given.strip(), around / math.log(second / first), around * first)
+        around, area = 2 * math.pi, math.pi * (second**2 - first**2)
+        return cls(given.strip(), around / math.log(second / first), around * first, area)
 
 
 @dataclass(frozen=True)

@@ -93,6 +93,7 @@ def _hydraulic_aperture(along: Along, path: float) -> Measure:
         "length",
         f"gap of flat plates that let as much {'gas' if slips else ''} through along {along}",
         lambda fields: _found(fields, along, path).aperture,
+        intensive=True,
     )
 
 
@@ -112,6 +113,7 @@ def flow_factor(along: Along) -> Measure:
         "1",
         f"flow along {along} over that of flat plates at the mean gap",
         lambda fields: _found(fields, along, 0.0).factor,
+        intensive=True,
     )
 
 
@@ -148,6 +150,7 @@ def inverse_gap(jump: float) -> Measure:
         "1/length",
         "mean of one over the gap and the temperature jump length, zero where the bodies touch",
         lambda fields: _mean_inverse(fields, jump),
+        intensive=True,
     )
 
 

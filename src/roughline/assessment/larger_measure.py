@@ -1,0 +1,50 @@
+"""A measure of a map, and of the larger surface that the map was cut out of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.assessment.tiles import Beyond, TiledCurves, Tiles
+from roughline.assessment.uncertainty import widened
+from roughline.computing.arrays import Real
+from roughline.contact.measures import Measured
+from roughline.engineering.intervals import Ends
+
+UNTOLD: Ends = (np.array(-np.inf), np.array(np.inf))
+"""Ends of a difference from a larger surface that a map does not tell of."""
+
+
+@dataclass(frozen=True, eq=False)
+class LargerMeasure:
+    """A measure of a map, and what its tiles tell of that of a larger surface."""
+
+    of_map: Measured  # with what its grid and filled points leave open
+    tiles: Tiles  # logarithms of the measure and the floor
+    floor: Real  # added to the measure, (loads,); zero where the map and all its tiles are sealed
+
+    @classmethod
+    def of(cls, of_map: Measured, curves: TiledCurves) -> LargerMeasure:
+        """A measure with the tiles of its map."""
+        return cls(of_map, *curves.measure(of_map.quantity.name))
+
+    def of_larger(self, beyond: Beyond | None) -> Measured:
+        """The same with an interval that holds a larger surface; none if the map tells of none."""
+        if beyond is None or not beyond.is_told:
+            return replace(self.of_map, low=None, high=None)
+        return self.widened(self.tiles.beyond(beyond), with_grid=True)
+
+    def widened(self, further: Ends, *, with_grid: bool) -> Measured:
+        """The same with ends of the difference of its logarithm.
+
+        With the grid, they are combined with what that leaves open, as independent.
+        """
+        values, floor = self.of_map.values, self.floor
+        low, high = (
+            self.of_map.rows[1:] if with_grid and self.of_map.low is not None else (values,) * 2
+        )
+        ends = widened(values + floor, (low + floor, high + floor), further)
+        is_known = floor > 0
+        low = np.where(is_known, np.maximum(ends[0] - floor, 0.0), low)
+        return replace(self.of_map, low=low, high=np.where(is_known, ends[1] - floor, high))
