@@ -22,7 +22,7 @@ from trials import (
 import roughline as rl
 from roughline.assessment.assumptions import broken
 from roughline.assessment.larger_surface import larger_surface, roll_offs_along_a_side
-from roughline.assessment.tiles import Beyond, coarsened, tiles_from, tiles_of
+from roughline.assessment.tiles import Beyond, coarsened, TiledCurves, tiles_of
 
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 COUNTS = (2, 3, 5, 10)
@@ -187,7 +187,8 @@ def _of_tiles(piece, whole, truth, press):
     coarse = coarsened(level)
     sizes = [coarse], tiles_of(coarse, 2), tiles_of(coarse, 4)
     (of_map,), *of_tiles = ([press(each, rtol=1e-4) for each in some] for some in sizes)
-    tiles = tiles_from(of_map, *of_tiles, coarse.heights.size)
+    tiled = TiledCurves(of_map, *of_tiles, coarse.heights.size)
+    tiles = tiled.stiffness_and_contact()
     larger = larger_surface(curve, beyond, tiles, (k, k), (area, area))
     told = {
         "k_i": (truth.unloading_stiffness / whole.area, k / piece.area),

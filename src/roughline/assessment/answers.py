@@ -82,7 +82,7 @@ def ends_from_many(
             key: replace(each, low=each.values, high=each.values) for key, each in measured.items()
         }
     for key, ends in further.measures.items():
-        measured[key] = result.larger.measures[key].widened(ends, with_grid=with_grid)
+        measured[key] = larger.measures[key].widened(ends, with_grid=with_grid)
     given, _ = rules.answers(
         replace(pressed, measured=measured, closing=result.closing, fields=result.fields)
     )

@@ -68,7 +68,8 @@ class LargerSurface:
         k, shares = self.of_grid if with_grid else (None, None)
         values = self.stiffness.values
         stiffness = replace(self.stiffness, ends=widened(values, k, further.stiffness))
-        return LargerSurface(stiffness, _widened_share(area, shares or (area, area), further.area))
+        share = _widened_share(area, shares or (area, area), further.area)
+        return LargerSurface(stiffness, share, measures=self.measures)
 
     def intervals(self, curve: Curve) -> Intervals | None:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
@@ -198,8 +199,8 @@ def which_surface(beyond: Beyond, of: Literal["stiffness", "gap"] = "stiffness")
     if beyond.is_told:
         return f"of a {beyond.whole} {times}: the interval allows for waves as long as that"
     return (
-        f"of a {beyond.whole} {times}: without the longer waves its {of} is not known; measure a "
-        f"map at least 1/{2**MOST_DOUBLINGS:g} as long"
+        f"of a {beyond.whole} {times}: what its longer waves do is not known; measure a map at "
+        f"least 1/{2**MOST_DOUBLINGS:g} as long"
     )
 
 

@@ -39,7 +39,7 @@ from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.reading import Reading
 from roughline.engineering.materials import Material
 from roughline.engineering.pair import MaterialPair, contact_modulus
-from roughline.engineering.sealing import ATMOSPHERE, SealShape, Sealing
+from roughline.engineering.sealing import ATMOSPHERE, Sealing, SealShape
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole
 from roughline.errors.public import public

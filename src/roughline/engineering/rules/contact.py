@@ -143,7 +143,9 @@ CONTACT = (
         unit="m",
         formula="volume between the bodies over A_0",
         validity="of the map in a periodic half-space; waves longer than the map open it further",
+        differing=lambda pressed: {"validity": pressed.place} if pressed.place else {},
         value=lambda pressed: pressed.measure(MEAN_GAP.name),
+        is_of_interface=True,
         measures=[MEAN_GAP],
     ),
 )

@@ -39,9 +39,10 @@ _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large a
 _RARE = 0.1  # free path over the aperture beyond which slip is not all that a thin gas does
 _MBAR_LITRES = 10.0  # in a Pa m³
 
+_THIN, _STILL = "laminar, thin gap", "a thin gap without convection or radiation"
 _OF_THE_MAP = (
     "of the map, which is one place of the seal: near sealing, another place may leak far more or "
-    "less; laminar, thin gap"
+    f"less; {_THIN}"
 )
 _rule = partial(Rule, group="sealing", validity=_OF_THE_MAP, source="Reynolds 1886")
 
@@ -86,10 +87,16 @@ def _along(along: Along, pressed: Pressed) -> Real | None:
     return pressed.measure(hydraulic_aperture(along).name)
 
 
+def _placed(pressed: Pressed) -> Mapping[str, str]:
+    """Of which surface an answer is, where that is not the map alone."""
+    return {"validity": f"{pressed.place}; {_THIN}"} if pressed.place else {}
+
+
 def _with_direction(name: str, pressed: Pressed) -> Mapping[str, str]:
     """The name of an answer with the direction that it is of."""
     along = "both" if pressed.sealing is None else pressed.sealing.along
-    return {"name": f"{name}, {'leakier direction' if along == 'both' else f'along {along}'}"}
+    direction = "leakier direction" if along == "both" else f"along {along}"
+    return {"name": f"{name}, {direction}", **_placed(pressed)}
 
 
 def _leak(pressed: Pressed) -> Real | None:
@@ -135,9 +142,10 @@ def _through_seal(pressed: Pressed) -> Mapping[str, str]:
         return {}
     factor = 1.0 if isinstance(asked.fluid, Gas) else asked.fluid.viscosity_factor
     known = "" if factor == 1 else f", viscosity known to a factor of {factor:g}"
+    place = _placed(pressed).get("validity", _OF_THE_MAP)
     return {
         "validity": f"{asked.fluid.name}{known}, {engineering(asked.inlet, 'Pa')} to "
-        f"{engineering(asked.outlet, 'Pa')} absolute, seal {asked.seal.words}; {_OF_THE_MAP}"
+        f"{engineering(asked.outlet, 'Pa')} absolute, seal {asked.seal.words}; {place}"
     }
 
 
@@ -168,7 +176,11 @@ def _sealed(pressed: Pressed) -> str:
         "zero on this map and its grid"
     )
     open_still = aperture.shape[0] == 3 and (aperture[2][aperture[0] == 0] > 0).any()
-    return text + (", but coarser grids or waves that no grid here has leak" if open_still else "")
+    return text + (
+        ", but other places, coarser grids or waves that no grid here has leak"
+        if open_still
+        else ""
+    )
 
 
 def _beyond_reynolds(pressed: Pressed) -> str:
@@ -237,6 +249,7 @@ SEALING = (
         symbol="Q",
         unit="m³/s",
         formula="(W/B) u_h³ (P1 - P2) / (12 eta)",
+        is_of_interface=True,
         value=_of_liquid,
         differing=_through_seal,
         leads=always,
@@ -247,6 +260,7 @@ SEALING = (
         symbol="q_pV",
         unit="mbar l/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta), at 20 °C; u_s with slip",
+        is_of_interface=True,
         value=partial(_of_gas, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
         differing=_through_seal,
         leads=always,
@@ -258,6 +272,7 @@ SEALING = (
         symbol="m_dot",
         unit="kg/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta R_s T)",
+        is_of_interface=True,
         value=partial(_of_gas, mass_of_throughput),
         differing=_through_seal,
         measured_with=_apertures_with_slip,
@@ -268,6 +283,7 @@ SEALING = (
         symbol="u_h",
         unit="m",
         formula="gap of flat plates that let as much through, (12 eta Q B/(W (P1 - P2)))^(1/3)",
+        is_of_interface=True,
         value=partial(_largest, needed=_APERTURES),
         differing=partial(_with_direction, "hydraulic aperture"),
         warning=_beyond_reynolds,
@@ -283,6 +299,8 @@ SEALING = (
             unit="m",
             formula=f"the same, along {along} over the map",
             value=partial(_along, along),
+            differing=_placed,
+            is_of_interface=True,
         )
         for along in get_args(Along)
     ),
@@ -293,6 +311,7 @@ SEALING = (
         unit="1",
         formula="(u_h / u_m)³",
         source="Patir and Cheng 1978",
+        is_of_interface=True,
         value=partial(_largest, needed=_FACTORS),
         differing=partial(_with_direction, "pressure flow factor"),
         measured_with=_FACTORS,
@@ -342,8 +361,10 @@ SEALING = (
         unit="W/(m² K)",
         group="thermal",
         formula="k_g <1 / (u + M)> of the open gap, M the temperature jump length",
-        validity="of the map; a thin gap without convection or radiation",
+        validity=f"of the map; {_STILL}",
+        differing=lambda pressed: {"validity": f"{pressed.place or 'of the map'}; {_STILL}"},
         source="Yovanovich 2005",
+        is_of_interface=True,
         value=_gas_conductance,
         measured_with=_inverse_gap,
     ),
