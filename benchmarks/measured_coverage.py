@@ -1,7 +1,8 @@
 """Count how often intervals hold on surfaces as they are made and measured.
 
 ``make intervals`` asks what users ask, and writes ``docs/intervals-table.md``; ``make coverage``,
-``make grid-error``, ``make interface-stiffness`` and ``make part-coverage`` each count one study.
+``make grid-error``, ``make interface-stiffness`` and ``make part-coverage`` each count one study;
+``make leak-coverage`` counts what flows, and writes ``docs/leak-coverage-table.md``.
 The truth is the full model's answer for the parent, or for the finer surface that an instrument
 saw. An interval that is not printed counts as silent. Rows go to a file as they are made; what is
 there is not made again. ``--files`` takes measured maps, whose quarters are asked instead.
@@ -14,17 +15,20 @@ import pandas as pd
 from page import Page
 from trials import misses, recorded, written
 from trials_of_grids import FINER, GRID
-from trials_of_joints import LARGER, MINE, PART, SEAL, TILED
+from trials_of_joints import LARGER, LEAK, MINE, PART, SEAL, TILED
 from trials_of_spectra import FIT, PIECE, SCAN
 
 OF_THE_PAGE = {"grid": GRID, "larger": LARGER, "part": PART, "scan": SCAN, "fit": FIT}
-STUDIES = {
-    **OF_THE_PAGE,
-    "finer": FINER,
-    "tiled": TILED,
-    "mine": MINE,
-    "pieces": PIECE,
-    "seal": SEAL,
+OF_LEAKS = {"leak": LEAK}
+OTHERS = {"finer": FINER, "tiled": TILED, "mine": MINE, "pieces": PIECE, "seal": SEAL}
+STUDIES = {**OF_THE_PAGE, **OF_LEAKS, **OTHERS}
+PAGES = {
+    (*OF_THE_PAGE,): (
+        "intervals-table.md",
+        "Intervals on surfaces as they are measured",
+        "intervals",
+    ),
+    (*OF_LEAKS,): ("leak-coverage-table.md", "Intervals of what flows", "leak-coverage"),
 }
 
 
@@ -44,7 +48,8 @@ def main():
         trials = study.trials(name, kinds, arguments.seed, 0 if quarters else share)
         tables.append(recorded(arguments.folder / f"{name}.csv", trials, study.rows_of))
     rows = pd.concat(tables, ignore_index=True)
-    page = Page("intervals-table.md", "Intervals on surfaces as they are measured", "intervals")
+    of_these = tuple(arguments.studies)
+    page = Page(*PAGES.get(of_these, PAGES[*OF_THE_PAGE,]))
     page.say(
         "Held: share of the printed intervals that hold the truth. Silent: share for which no "
         "interval is printed, because the data break an assumption. Half width: median factor from "
@@ -54,7 +59,7 @@ def main():
     beside = "A map or a scan does not show what lies beside it."
     page.say(f"\nFewer than nine in ten hold for: {', '.join(misses(rows))}. {beside}")
     written(rows, STUDIES, page)
-    if (arguments.studies, share, quarters) == ([*OF_THE_PAGE], 1.0, []):
+    if of_these in PAGES and share == 1.0 and not quarters:
         page.save()
 
 

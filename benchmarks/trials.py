@@ -27,6 +27,7 @@ MADE = {
     "part": (96, 2, 5, (4, 12), SHORTEST),
     "mine": (64, 1, 5, (3, 12), ()),
     "seal": (64, 1, 3, (4, 12), (4.0, 8.0)),
+    "leak": (96, 1, 4, (3, 12), SHORTEST),
     "scan": (256, 1, 2, (20, 60), ()),
     "fit": (128, 4, 2, (4, 12), ()),
 }
@@ -137,15 +138,15 @@ def summary(rows):
     ends = printed[["truth", "value", "low", "high"]]
     with np.errstate(divide="ignore", invalid="ignore"):
         truth, value, low, high = (ends if is_linear else np.log(ends)).to_numpy().T
-        off = truth - value
+        off, width = (np.where(a == b, 0.0, a - b) for a, b in ((truth, value), (high, low)))
         used = np.where(off < 0, -off / (value - low), off / (high - value))
-    needed = np.quantile(np.nan_to_num(used, posinf=np.inf), 0.95)
+        needed = np.nan_to_num(np.quantile(np.nan_to_num(used, posinf=np.inf), 0.95), nan=np.inf)
     shown = (lambda each: each) if is_linear else np.exp
     held = (printed.low <= printed.truth) & (printed.truth <= printed.high)
     return told | {
         "held": f"{held.mean():.0%}",
         "silent": f"{1 - len(printed) / len(known):.0%}",
-        "half width": f"{np.median(shown((high - low) / 2)):.2f}",
+        "half width": f"{np.median(shown(width / 2)):.2f}",
         "too wide": f"{1 / needed:.1f}" if needed else "–",
         "off by": f"{np.median(shown(abs(off))):.3f}",
         "mean error": f"{off.mean():+.3f}" if is_linear else "–",

@@ -22,12 +22,13 @@ from trials import (
 import roughline as rl
 from roughline.assessment.assumptions import broken
 from roughline.assessment.larger_surface import larger_surface, roll_offs_along_a_side
-from roughline.assessment.tiles import Beyond, coarsened, TiledCurves, tiles_of
+from roughline.assessment.tiles import Beyond, TiledCurves, coarsened, tiles_of
 
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 COUNTS = (2, 3, 5, 10)
 DRAWS = 12
 LOADS = (0.002, 0.01, 0.05, 0.2, 0.5, 0.8)  # contact area fractions of the tiled maps, about
+OPEN = (0.01, 0.1, 0.2, 0.3, 0.36)  # up to near sealing
 MAPS = 3  # of each parent
 SEALED_FROM = (
     0.05,
@@ -44,11 +45,9 @@ def pressed(surface, pressures, **given):
     return rl.press(surface, E_star=E_STAR, forces=forces, periodic=True, throw=False, **given)
 
 
-def asked(surface, pressures, joint, **given):
-    loads = [f"{each:.9g} Pa" for each in pressures]
-    return rl.Question(
-        surface, MATERIALS, ask=rl.Joint(joint) if joint else (), loads=loads, fields=False, **given
-    )
+def asked(surface, pressures, joint, *more, **given):
+    loads, ask = [f"{each:.9g} Pa" for each in pressures], [rl.Joint(joint)] if joint else []
+    return rl.Question(surface, MATERIALS, ask=[*ask, *more], loads=loads, fields=False, **given)
 
 
 def larger_rows(kind, option, seed):
@@ -68,15 +67,38 @@ def larger_rows(kind, option, seed):
         yield from answered(result, truths, lambda answer: answer.values)
 
 
-def answered(result, truths, value_of, name="{}"):
+def answered(result, truths, value_of, name="{}", loads=WANTED):
     """The intervals of some answers at all loads, and what is true."""
     said = "; ".join(result.warnings)
     for key, truth in truths.items():
         answer = result.answers[key]
-        none = [math.nan] * len(WANTED)
+        none = [math.nan] * len(loads)
         ends = [none if each is None else each for each in (answer.low, answer.high)]
-        for load, *each in zip(WANTED, truth, value_of(answer), *ends, strict=True):
+        for load, *each in zip(loads, truth, value_of(answer), *ends, strict=True):
             yield row(name.format(key), load, *each, said)
+
+
+def leak_rows(kind, option, seed):
+    """Maps of a part and what flows through their gap, and what flows through the whole part's."""
+    bar = None if option == "elastic" else 0.2
+    make, rng = make_of("leak", kind, seed)
+    parent = parent_of(kind, make, rng)
+    pressures, given = pressures_of(parent, bar, OPEN), hardness_of(parent, bar)
+    measures = [rl.hydraulic_aperture("x"), rl.hydraulic_aperture("y"), rl.MEAN_GAP]
+    truth = pressed(parent, pressures, measures=measures, **given)
+    truths = {name: each.values for name, each in truth.measured.items()}
+    for _ in range(MAPS):
+        question = asked(
+            piece_of(parent, make, rng),
+            pressures,
+            parent.area,
+            rl.Fluid("water"),
+            elastic=bar is None,
+            grid_error=True,
+            **given,
+        )
+        result = rl.assess(question)
+        yield from answered(result, truths, lambda answer: answer.values, loads=OPEN)
 
 
 def part_rows(kind, option, seed):
@@ -211,6 +233,17 @@ LARGER = Study(
     "maps. The truth is the whole joint on 1024 x 1024 points.",
     tuple(KINDS),
     ("elastic", "yielding"),
+)
+LEAK = Study(
+    leak_rows,
+    "What flows through a part, from one map",
+    "Maps of 96 x 96 pixels, each with its own tilt, are asked for a joint of 4 x 4 maps and a "
+    "fluid in its gap. The truth is the whole part, periodic, on the grid of its maps: hydraulic "
+    "apertures both ways, zero where it is sealed, and the mean gap. Loads are contact area "
+    "fractions, about.",
+    tuple(KINDS),
+    ("elastic", "yielding"),
+    groups=("load", "kind"),
 )
 PART = Study(
     part_rows,
