@@ -2,14 +2,17 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of, piece_of
+from roughline.assessment.larger_measure import LargerMeasure
 from roughline.assessment.larger_surface import larger_surface
-from roughline.assessment.tiles import Beyond, Tiles
+from roughline.assessment.tiles import Beyond, TiledCurves, Tiles
+from roughline.contact.measures import MEAN_GAP, Measured
 
 MATERIALS = "E=200 GPa nu=0.3, E=200 GPa nu=0.3"
 SEEN, NOT_SEEN = Beyond(6.0), Beyond(None)
@@ -62,6 +65,54 @@ def test_full_contact_of_a_tile_leaves_no_upper_end():
     low, high = tiles.beyond(SEEN)
     assert np.isinf(high).tolist() == [False, True, True]
     assert np.isfinite(low).tolist() == [True, True, False]
+
+
+def measure_of(whole, halves, quarters, own=(0.9, 1.1)):
+    """A measure under one load, of a map, its halves and its quarters, with ends of the grid."""
+
+    def curve(value):
+        return SimpleNamespace(
+            measured={"mean_gap": Measured(MEAN_GAP.quantity, np.array([float(value)]))}
+        )
+
+    tiled = TiledCurves(curve(whole), list(map(curve, halves)), list(map(curve, quarters)), 64)
+    ends = [np.array([float(whole) * each]) for each in own]
+    return LargerMeasure.of(Measured(MEAN_GAP.quantity, np.array([float(whole)]), *ends), tiled)
+
+
+def test_a_measure_scatters_as_its_tiles_do():
+    """Tiles that are alike leave what the grid does; others are combined with that."""
+    alike = measure_of(2, [2] * 4, [2] * 16).of_larger(SEEN)
+    assert [alike.low[0], alike.high[0]] == pytest.approx([1.8, 2.2])
+    rng = np.random.default_rng(6)
+    quarters = 2 * np.exp(0.3 * rng.normal(size=16))
+    apart = measure_of(2, [1.8, 2.2, 2.0, 2.0], quarters).of_larger(SEEN)
+    assert 0.5 < apart.low[0] < 1.8
+    assert 2.2 < apart.high[0] < 4
+
+
+def test_sealed_tiles_open_an_interval_towards_zero_and_not_to_infinity():
+    some = measure_of(1, [1.2, 0.8, 1, 0], [0] * 6 + [1.5] * 10).of_larger(SEEN)
+    assert 0 < some.low[0] < 0.5
+    assert 1.1 < some.high[0] < 20
+    most = measure_of(0.2, [1.2, 0, 0, 0], [0] * 12 + [1.5] * 4).of_larger(SEEN)
+    assert most.low[0] == 0
+    sealed = measure_of(0, [0, 0.5, 0, 0], [0] * 10 + [0.4] * 6).of_larger(SEEN)
+    assert sealed.low[0] == sealed.values[0] == 0
+    assert 0 < sealed.high[0] < 5
+
+
+def test_where_map_and_tiles_are_sealed_nothing_but_the_grid_leaves_it_open():
+    closed = measure_of(0, [0] * 4, [0] * 16)
+    assert closed.of_larger(SEEN).high[0] == 0
+    opened = replace(closed, of_map=replace(closed.of_map, high=np.array([0.3])))
+    assert opened.of_larger(SEEN).high[0] == 0.3
+
+
+def test_a_measure_of_a_joint_too_large_to_be_told_of_has_no_interval():
+    found = measure_of(1, [1] * 4, [1] * 16)
+    assert found.of_larger(Beyond(None, 5.0, "seal")).low is None
+    assert found.of_larger(None).high is None
 
 
 def test_a_map_without_roll_off_tells_of_joints_up_to_sixteen_times_as_long():

@@ -7,6 +7,8 @@ import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
+import numpy as np
+
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.kinds import nominal_area
@@ -45,7 +47,12 @@ def remarks_of_part(
     warnings = own if len(maps) > 1 else {name: each.warnings for name, each in results.items()}
     notes = {name: each.notes for name, each in results.items()}
     return (
-        [*of_part, *_differences_in_kind(results), *_once(warnings)],
+        [
+            *of_part,
+            *_sealed_in_some(results, answers),
+            *_differences_in_kind(results),
+            *_once(warnings),
+        ],
         [*_what_is_averaged(maps, is_joint), *agreement, *_once(notes)],
     )
 
@@ -86,6 +93,23 @@ def _differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
             + (f", or the area of the joint ({called('rl.Joint')})" if kinds == {True} else "")
         )
     return found
+
+
+def _sealed_in_some(
+    results: Mapping[str, Assessment], answers: Mapping[str, PartAnswer]
+) -> list[str]:
+    """Say where some maps are sealed and others leak, of which there is no mean."""
+    if (answer := answers.get("hydraulic_aperture")) is None:
+        return []
+    values = np.stack([each.values for each in answer.of_maps])
+    for load in np.flatnonzero((values == 0).any(axis=0) & (values > 0).any(axis=0)):
+        sealed = [name for name, value in zip(results, values[:, load], strict=True) if value == 0]
+        heading = next(iter(results.values())).headings[load]
+        return [
+            f"under {heading}, {listed(sealed)} let nothing through, and other maps do: what leaks "
+            "has no mean over them there, and hangs on the leakiest places; press more maps"
+        ]
+    return []
 
 
 def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[str]:
