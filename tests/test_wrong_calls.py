@@ -700,7 +700,7 @@ def test_a_wrong_call_is_refused_in_one_line(names, call):
         ("rl.plot.topography('map.nc')", "rl.read(file) makes one of a file"),
         ("rl.SelfAffine(hurst=0.8, rms_height='1 um')", "a number without a unit is needed"),
         ("rl.SelfAffine(0.8)", "SelfAffine takes its arguments by name: hurst=,"),
-        ("rl.press(surface)", "press needs E_star=, the contact modulus"),
+        ("rl.press(surface)", "pressing needs E_star=, the contact modulus"),
         ("rl.facing(surface, surface, second=surface)", "facing is given second= twice"),
     ],
 )

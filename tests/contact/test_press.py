@@ -147,8 +147,11 @@ def test_an_impossible_modulus_is_refused(surface, line, E_star):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({}, "press needs E_star=, the contact modulus, which rl.contact_modulus(first, second)"),
-        ({"periodic": True}, "press needs E_star=, the contact modulus"),
+        (
+            {},
+            "pressing needs E_star=, the contact modulus, which rl.contact_modulus(first, second)",
+        ),
+        ({"periodic": True}, "pressing needs E_star=, the contact modulus"),
         ({"half_space": rl.Homogeneous(1.0), "E_star": 1.0}, "leave E_star out"),
         ({"half_space": rl.Homogeneous(1.0), "periodic": False}, "leave periodic out"),
         ({"half_space": 1.0}, "half_space is 1.0; an rl.HalfSpace is needed, such as"),

@@ -28,7 +28,7 @@ def given_half_space(
     if half_space is None:
         if E_star is None:
             raise InputError(
-                f"press needs {called('E_star')}, the contact modulus, which "
+                f"pressing needs {called('E_star')}, the contact modulus, which "
                 "rl.contact_modulus(first, second) "
                 "gives of two materials; give it, or half_space="
             )

@@ -27,7 +27,6 @@ Sides = Literal["periodic", "closed"]
 
 _AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
 _NARROW = 0.25  # of the width: what is wider is no single channel
-_PATH_NEEDED = "a finite number of at least 0 is needed"
 _BYTES = 110  # that an open cell takes for each doubling of a side
 _STEEP = 0.3  # slope of the gap beyond which Reynolds' equation is no longer good
 _HIGH = 0.1  # hydraulic aperture over the shorter side beyond which it is not either
@@ -318,7 +317,8 @@ def flow(
 
 def checked_free_path(given: Any) -> float:
     """A mean free path; refused where it is negative or not finite."""
-    return between("mean_free_path", given, 0.0, sys.float_info.max, _PATH_NEEDED)
+    needed = "a finite number of at least 0 is needed"
+    return between("mean_free_path", given, 0.0, sys.float_info.max, needed)
 
 
 def _solved(gap: Real, along: Along, sizes: tuple[float, float], sides: Sides, path: float) -> Flow:
@@ -326,7 +326,8 @@ def _solved(gap: Real, along: Along, sizes: tuple[float, float], sides: Sides, p
     from roughline.fluid.network import Network  # here because compiled loops load slowly
 
     turned, length, width = (gap, *sizes) if along == "x" else (gap.T, *sizes[::-1])
-    from_inlet, from_outlet = components(turned > 0, sides)
+    periodic = sides == "periodic"
+    from_inlet, from_outlet = components(turned > 0, periodic)
     through = from_inlet & from_outlet
     points = int(through.sum())
     refuse_beyond_memory(
@@ -336,7 +337,7 @@ def _solved(gap: Real, along: Along, sizes: tuple[float, float], sides: Sides, p
     )
     cells = np.where(through, turned**2 * (turned + 6 * path), 0.0)
     ratio = (length / turned.shape[0]) / (width / turned.shape[1])
-    network = Network(cells, 1 / ratio, ratio, sides == "periodic")
+    network = Network(cells, 1 / ratio, ratio, periodic)
     pressures = network.pressures() if points else np.zeros((2, *cells.shape))
     forward, across = _rates(network, pressures)
     pressure = np.where(through, pressures[0], np.where(from_inlet, 1.0, np.nan))
@@ -381,14 +382,14 @@ def _checked_gap(given: Any) -> Real:
     return gap
 
 
-def components(open_cells: Mask, sides: Sides) -> tuple[Mask, Mask]:
+def components(open_cells: Mask, periodic: bool) -> tuple[Mask, Mask]:
     """Cells from which a path leads to the inlet, and cells from which one leads to the outlet."""
     # here because it loads slowly
     from scipy.ndimage import label
 
     parts: Integers
     parts, count = label(open_cells)
-    if sides == "periodic":
+    if periodic:
         parts = _joined_across(parts, count)
     inlet, outlet = (np.isin(parts, border[border > 0]) for border in (parts[0], parts[-1]))
     return inlet, outlet

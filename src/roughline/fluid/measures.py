@@ -13,7 +13,7 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
-from roughline.fluid.flow import Along, Sides, checked_free_path, flow
+from roughline.fluid.flow import Along, checked_free_path, flow
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,7 @@ def _found(fields: Fields, along: Along, path: float) -> _Found:
     """Let a fluid of some mean free path [length] through the gap under a load."""
     known = _FOUND.setdefault(fields, {})
     if (along, path) not in known:
-        sides: Sides = "periodic" if fields.is_periodic else "closed"
-        through = flow(fields, fields.sizes, along=along, sides=sides, mean_free_path=path)
+        through = flow(fields, along=along, mean_free_path=path)
         known[along, path] = _Found()
         if through.converged:
             mean = float(through.gap.mean())

@@ -29,7 +29,7 @@ from roughline.computing.compiled import compiled
 from roughline.computing.cores import available_cores
 from roughline.computing.linear_algebra import on_one_thread
 
-INLET, OUTLET = 0, 1  # numbers of these two among the faces
+_INLET, _OUTLET = 0, 1  # numbers of these two among the faces
 
 _LARGEST = 16  # cells a side of the rectangles that are condensed cell by cell
 
@@ -125,7 +125,7 @@ class _Dissection:
         nx, ny = network.cells.shape
         open_cells = network.cells > 0
         along = np.arange((nx + 1) * ny).reshape(nx + 1, ny) + 2
-        along[0], along[-1] = INLET, OUTLET
+        along[0], along[-1] = _INLET, _OUTLET
         across = np.arange(nx * (ny + 1)).reshape(nx, ny + 1) + 2 + along.size
         across[:, -1] = across[:, 0]  # one and the same where the plane is periodic
         open_along = np.ones(along.shape, bool)
@@ -162,7 +162,7 @@ class _Dissection:
             blocks, new = map(list, zip(*pool.map(_joined, pairs), strict=True))
             steps += chain.from_iterable(new)
         of_faces = np.zeros((2 + self.along.size + self.across.size, 2))
-        of_faces[INLET, 0] = of_faces[OUTLET, 1] = 1
+        of_faces[_INLET, 0] = of_faces[_OUTLET, 1] = 1
         for step in reversed(steps):
             step.descend(of_faces)
         pressures = np.zeros((2, *self.network.cells.shape))
@@ -252,7 +252,7 @@ def _assembled(
             j += 1
         if j < others.size and others[j] == face:
             both += 1
-            between += face > OUTLET
+            between += face > _OUTLET
     numbers = np.empty(faces.size + others.size - both, faces.dtype)
     places, of_second = np.empty_like(faces), np.empty_like(others)
     i = j = inner = 0
@@ -262,7 +262,7 @@ def _assembled(
         in_second = i == faces.size or (j < others.size and others[j] <= faces[i])
         face = faces[i] if in_first else others[j]
         place = outer
-        if in_first and in_second and face > OUTLET:
+        if in_first and in_second and face > _OUTLET:
             place = inner
             inner += 1
         else:

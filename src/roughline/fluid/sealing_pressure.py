@@ -23,7 +23,7 @@ from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
-from roughline.fluid.flow import Along, Sides, components
+from roughline.fluid.flow import Along, components
 from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -209,10 +209,10 @@ class _Search:
 
 def _percolates(fields: Fields, along: Along | Literal["both"]) -> float:
     """One where a path leads through the gap, else zero."""
-    sides: Sides = "periodic" if fields.is_periodic else "closed"
     is_open = ~fields.contact
     for each in ("x", "y") if along == "both" else (along,):
-        from_inlet, from_outlet = components(is_open if each == "x" else is_open.T, sides)
+        rows = is_open if each == "x" else is_open.T
+        from_inlet, from_outlet = components(rows, fields.is_periodic)
         if (from_inlet & from_outlet).any():
             return 1.0
     return 0.0
