@@ -46,7 +46,7 @@ def read_keywords(text):
             found.append((keyword.upper(), [each.upper() for each in parameters], []))
         else:
             parts = [part.strip() for part in line.split(",")]
-            assert len(parts) == 2
+            assert len(parts) == (1 if "PRESSURE-OVERCLOSURE=LINEAR" in found[-1][1] else 2)
             assert all(len(part) <= 20 for part in parts)  # CalculiX reads no more
             found[-1][2].append([float(part) for part in parts])
     return [(keyword, parameters, np.array(data)) for keyword, parameters, data in found]
@@ -120,18 +120,22 @@ def test_a_plain_table_has_every_column_with_its_interval(pressed, tmp_path):
     assert "E_star" in text
 
 
-def test_calculix_takes_conductance_over_pressure_without_a_parameter(pressed, tmp_path):
+def test_calculix_takes_a_table_and_a_line_with_conductance_over_pressure(pressed, tmp_path):
     text = rl.export_table(pressed, f"calculix:{tmp_path / 'joint.inp'}").read_text()
-    interaction, behaviour, conductance = read_keywords(text)
-    assert interaction[:2] == ("SURFACE INTERACTION", ["NAME=ROUGH_JOINT"])
-    assert not interaction[2].size
-    assert behaviour[:2] == ("SURFACE BEHAVIOR", ["PRESSURE-OVERCLOSURE=TABULAR"])
-    assert conductance[:2] == ("GAP CONDUCTANCE", [])
+    keywords = read_keywords(text)
+    assert [each[:2] for each in keywords] == [
+        ("SURFACE INTERACTION", ["NAME=ROUGH_JOINT"]),
+        ("SURFACE BEHAVIOR", ["PRESSURE-OVERCLOSURE=TABULAR"]),
+        ("SURFACE INTERACTION", ["NAME=ROUGH_JOINT_WITH_HEAT"]),
+        ("SURFACE BEHAVIOR", ["PRESSURE-OVERCLOSURE=LINEAR"]),
+        ("GAP CONDUCTANCE", []),
+    ]
     pressure, overclosure, _, heat, _ = exact(pressed)
-    over_closure, over_pressure = behaviour[2].T, conductance[2].T
-    assert over_closure == pytest.approx(np.array([pressure, overclosure]), rel=CLOSE)
-    assert over_pressure == pytest.approx(np.array([heat, pressure]), rel=CLOSE)
-    assert (np.diff(behaviour[2], axis=0) > 0).all()
+    table, slope, conductance = (keywords[i][2] for i in (1, 3, 4))
+    assert table == pytest.approx(np.stack([pressure, overclosure], axis=1), rel=CLOSE)
+    assert (np.diff(table, axis=0) > 0).all()
+    assert slope == pytest.approx(pressure[-1] / overclosure[-1], rel=CLOSE)
+    assert conductance == pytest.approx(np.stack([heat, pressure], axis=1), rel=CLOSE)
 
 
 def test_abaqus_takes_both_conductances_over_pressure(pressed, tmp_path):

@@ -274,23 +274,41 @@ def _csv(table: _JointTable, remarks: Sequence[str]) -> list[str]:
 
 
 def _calculix(table: _JointTable, remarks: Sequence[str]) -> list[str]:
-    """A surface interaction for CalculiX: conductance over pressure, and none for current."""
+    """Surface interactions for CalculiX: one of the table, and one that lets heat through."""
+    overclosure, pressure = table.of_overclosure(_LEAST_STEP)
     own = [
         "For CalculiX. Beyond the last line it keeps pressure and conductance constant: press the "
-        "map further than the model will be."
+        "map further than the model will be.",
+        "ROUGH_JOINT is for a contact pair with TYPE=NODE TO SURFACE: in contact from surface to "
+        "surface CalculiX takes the pressure of a table as zero.",
     ]
-    if (near := table.overclosure.size - table.of_overclosure(_LEAST_STEP)[0].size) > 0:
+    if (near := table.overclosure.size - overclosure.size) > 0:
         own.append(
             f"{near} of the overclosures are left out, which are within "
             f"{_LEAST_STEP:g} of the one before: CalculiX does not tell such apart."
         )
     if _CURRENT in table.columns:
         own.append("It has no electrical contact, so that conductance is left out.")
-    interaction = "*SURFACE INTERACTION,NAME=ROUGH_JOINT"
-    behaviour = "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TABULAR"
-    conductances = {_HEAT: "*GAP CONDUCTANCE"}
-    keywords = [*_comments("** ", [*remarks, *own]), interaction, behaviour]
-    return [*keywords, *_cards(table, conductances, _LEAST_STEP)]
+    lines = [
+        "*SURFACE INTERACTION,NAME=ROUGH_JOINT",
+        "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TABULAR",
+        *_pairs((overclosure, pressure)),
+    ]
+    if (conductance := table.of_pressure(_HEAT)) is not None:
+        own.append(
+            "ROUGH_JOINT_WITH_HEAT is for a contact pair with TYPE=SURFACE TO SURFACE: under a "
+            "table of pressures CalculiX lets no heat through. Its pressure is in proportion to "
+            "the overclosure, up to the last load. Where forces are given, pressure and "
+            "conductance are right all the same, and the overclosure is not."
+        )
+        lines += [
+            "*SURFACE INTERACTION,NAME=ROUGH_JOINT_WITH_HEAT",
+            "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR",
+            _number(table.pressure[-1] / table.overclosure[-1]),
+            "*GAP CONDUCTANCE",
+            *_pairs(conductance),
+        ]
+    return [*_comments("** ", [*remarks, *own]), *lines]
 
 
 def _abaqus(table: _JointTable, remarks: Sequence[str]) -> list[str]:
@@ -300,17 +318,12 @@ def _abaqus(table: _JointTable, remarks: Sequence[str]) -> list[str]:
         _HEAT: "*Gap Conductance, pressure",
         _CURRENT: "*Gap Electrical Conductance, pressure",
     }
-    return [
+    lines = [
         *_comments("** ", [*remarks, own]),
         "*Surface Interaction, name=ROUGH_JOINT",
         "*Surface Behavior, pressure-overclosure=TABULAR",
-        *_cards(table, conductances),
+        *_pairs(table.of_overclosure()),
     ]
-
-
-def _cards(table: _JointTable, conductances: Mapping[str, str], least: float = 0.0) -> list[str]:
-    """Pressures with overclosures, then, under their keywords, conductances with pressures."""
-    lines = _pairs(table.of_overclosure(least))
     for heading, keyword in conductances.items():
         if (found := table.of_pressure(heading)) is not None:
             lines += [keyword, *_pairs(found)]
@@ -323,7 +336,8 @@ def _moose(table: _JointTable, remarks: Sequence[str]) -> list[str]:
         "For MOOSE, to be included in an input file. Beyond the ends a function keeps its last "
         "value. A material takes one over the contact pressure: type = "
         "CoupledValueFunctionMaterial, function = thermal_contact_conductance, v = "
-        "contact_pressure, prop_name = gap_conductance."
+        "contact_pressure, prop_name = gap_conductance. Another gives the derivative over the "
+        "temperature, gap_conductance_dT, which is 0."
     )
     lines = [*_comments("# ", [*remarks, own]), "[Functions]"]
     named = {
