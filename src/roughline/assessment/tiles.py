@@ -67,6 +67,9 @@ class Tiles:
     whole: Real  # (loads,)
     halves: Real  # of tiles half as long as the map, (2, 2, loads)
     quarters: Real  # (4, 4, loads)
+    either_way: bool = False
+    """Whether steps may go on to either side where there is no roll-off: longer waves open a gap,
+    and the border of a map, whose opposite sides do not fit, keeps it open too."""
 
     def steps(self, beyond: Beyond) -> Ends:
         """Both ends of the mean difference between the larger surface and maps of this size.
@@ -79,6 +82,8 @@ class Tiles:
         first, last = self._first_and_last()
         if beyond.roll_offs is None:
             further = [beyond.doublings * first, beyond.doublings * last]
+            if self.either_way:
+                further += [-each for each in further]
         else:
             further = [last, _DECAY * first]
         none = np.zeros_like(first)
@@ -143,6 +148,7 @@ class Tiles:
             over([each.whole for each in tiles]),
             over([each.halves for each in tiles]),
             over([each.quarters for each in tiles]),
+            all(each.either_way for each in tiles),
         )
 
 
@@ -173,7 +179,7 @@ class TiledCurves:
             parts = (
                 np.log(each + floor) for each in (values.whole, values.halves, values.quarters)
             )
-            return Tiles(*parts), floor
+            return Tiles(*parts, either_way=True), floor
 
     def _tiles(self, of: Callable[[Curve, int], Real]) -> Tiles:
         halves, quarters = (
