@@ -50,6 +50,10 @@ def test_a_law_of_each_node_is_taken_to_the_half_grid_and_the_quarters(surface):
     elastic = rl.sealing_pressure(surface, half_space=half_space)
     assert found.on_quarters[:3] == pytest.approx(elastic.on_quarters[:3], rel=0.02)
     assert found.on_quarters[3] < 0.1 * surface.rms_slope
+    half = rl.sealing_pressure(
+        surface.coarsened(), half_space=half_space, law=UnevenHardness(hardness[::2, ::2])
+    )
+    assert found.on_half == pytest.approx(half.value, rel=0.01)
     curve = rl.press(surface, half_space=half_space, law=law, forces=[0.02])
     low, high = rl.reopening(curve, interval=True).interval
     assert 0 <= low < high <= 1
