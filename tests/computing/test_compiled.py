@@ -12,8 +12,8 @@ from roughline.computing import compiled
 PROGRAM = """
 import time, roughline as rl
 rl.press(rl.Surface([[0.0, 1.0], [0.5, 0.2]], (1, 1)), E_star=1.0, forces=[0.1])
-from roughline.halfspace.operators.grid_nodes import list_rows
-stats = list_rows.stats
+from roughline.halfspace.operators.grid_nodes import _list_rows
+stats = _list_rows.stats
 print(sum(stats.cache_hits.values()), sum(stats.cache_misses.values()))
 """
 
