@@ -7,6 +7,7 @@ import re
 import shutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -34,14 +35,16 @@ class Study:
     # returns the panels that the lab shows
     panels: Callable[[], Sequence[StudyPanel]] | None = None
 
+    @cached_property
     def page(self) -> str:
-        """Return the page as Markdown."""
+        """The page as Markdown."""
         text = (self.folder / "text.md").read_text(encoding="utf-8")
         return filled(text, {"verdicts": self.verdicts(), **self.told()})
 
+    @cached_property
     def summary(self) -> StudySummary:
-        """Return the study in short, for the lab."""
-        title, answer, *_ = self.page().split("\n\n")
+        """The study in short, for the lab."""
+        title, answer, *_ = self.page.split("\n\n")
         table = self.verdicts()
         panels = self.panels() if self.panels else ()
         return StudySummary(
@@ -50,7 +53,7 @@ class Study:
 
     def publish(self) -> None:
         """Write the page and its figures into ``docs``, and into the package what the lab shows."""
-        name, text = self.folder.name, self.page()  # data that are refused leave all as it is
+        name, text = self.folder.name, self.page  # data that are refused leave all as it is
         folder = DOCS / "figures" / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -62,7 +65,7 @@ class Study:
         if self.panels:
             # five digits are more than a figure shows
             rounded = json.loads(
-                json.dumps(asdict(self.summary())), parse_float=lambda x: float(f"{float(x):.5g}")
+                json.dumps(asdict(self.summary)), parse_float=lambda x: float(f"{float(x):.5g}")
             )
             kept = json.dumps(rounded, ensure_ascii=False, indent=0) + "\n"
             SUMMARIES.mkdir(exist_ok=True)

@@ -77,8 +77,8 @@ def test_the_law_of_self_affine_spectra_is_off_for_those_of_two_rings():
     for one in rings():
         assert 2 * own < over_law(one).low
     lowest, highest = (f(over_law(one).value for one in rings()) for f in (min, max))
-    assert f"lie {lowest:.1%} to {highest:.1%} above this line" in STUDY.summary().answer
-    assert "Among self-affine spectra" in STUDY.summary().answer
+    assert f"lie {lowest:.1%} to {highest:.1%} above this line" in STUDY.summary.answer
+    assert "Among self-affine spectra" in STUDY.summary.answer
 
 
 def test_the_page_of_the_science_quotes_the_study():
@@ -89,7 +89,7 @@ def test_the_page_of_the_science_quotes_the_study():
 
 
 def test_the_page_is_that_of_the_data():
-    assert (DOCS / "area.md").read_text("utf-8") == STUDY.page(), AGAIN
+    assert (DOCS / "area.md").read_text("utf-8") == STUDY.page, AGAIN
 
 
 def test_no_load_is_left_out():

@@ -102,7 +102,7 @@ def test_means_that_do_not_cover_the_window_give_no_exponent():
 
 
 def test_the_page_is_that_of_the_data():
-    assert (DOCS / "averaging.md").read_text("utf-8") == STUDY.page(), AGAIN
+    assert (DOCS / "averaging.md").read_text("utf-8") == STUDY.page, AGAIN
 
 
 def test_the_data_are_those_of_the_published_study():
@@ -120,7 +120,7 @@ def test_the_data_are_those_of_the_published_study():
 
 def test_sentences_without_numbers_are_true_too():
     # "its interval is the narrowest of all at D_f = ..., and at most 6% wider elsewhere"
-    said = re.search(r"narrowest of all at D_f = (.*?), and at most (\d+)% wider", STUDY.page())
+    said = re.search(r"narrowest of all at D_f = (.*?), and at most (\d+)% wider", STUDY.page)
     for one in DIMENSIONS:
         found = [exponent("surfaces", USUAL["surfaces"], each, one) for each in choices()]
         force = exponent("surfaces", USUAL["surfaces"], FORCE, one)

@@ -51,7 +51,7 @@ def main_samples():
 
 
 def test_the_page_is_that_of_the_data():
-    assert (DOCS / "correlations.md").read_text("utf-8") == STUDY.page(), AGAIN
+    assert (DOCS / "correlations.md").read_text("utf-8") == STUDY.page, AGAIN
 
 
 def test_the_data_are_those_of_the_plan():

@@ -131,7 +131,7 @@ def test_gamma_is_not_told_where_heavier_loads_may_show_more():
 
 
 def test_the_page_is_that_of_the_data():
-    assert (DOCS / "finite_size.md").read_text("utf-8") == STUDY.page(), AGAIN
+    assert (DOCS / "finite_size.md").read_text("utf-8") == STUDY.page, AGAIN
 
 
 def test_no_load_is_left_out_silently():
@@ -193,7 +193,7 @@ def test_perssons_stiffness_is_that_of_the_mean_gap():
 
 def cells(section, column):
     """The numbers of a column of a table of the page, without intervals, by Hurst and size."""
-    text = STUDY.page().split(f"## {section}\n")[1].split("\n## ")[0]
+    text = STUDY.page.split(f"## {section}\n")[1].split("\n## ")[0]
     lines = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|")]
     head, _, *rows = ([each.strip() for each in line] for line in lines)
     place = head.index(column)
@@ -203,7 +203,7 @@ def cells(section, column):
 
 def test_the_answer_is_what_the_tables_say():
     """Where the exponent nears 1: every cell lies in the range that is told of its kind."""
-    page, lead = STUDY.page(), STUDY.summary().answer
+    page, lead = STUDY.page, STUDY.summary.answer
     near = cells("Periodic surfaces", "near 1, p λ_r/(E* h)")
     assert len(near) == len(HURSTS) * len(SIZES[BAND])
     told = {}
