@@ -176,10 +176,10 @@ class TiledCurves:
         means = [values.whole, _mean(values.halves), _mean(values.quarters)]
         floor = _FLOOR * np.fmax.reduce(means)
         with np.errstate(divide="ignore"):
-            parts = (
+            whole, halves, quarters = (
                 np.log(each + floor) for each in (values.whole, values.halves, values.quarters)
             )
-            return Tiles(*parts, either_way=True), floor
+        return Tiles(whole, halves, quarters, either_way=True), floor
 
     def _tiles(self, of: Callable[[Curve, int], Real]) -> Tiles:
         halves, quarters = (
