@@ -49,6 +49,8 @@ def survives(mutant: Mutant, copy: Path) -> bool:
 def main(folder: str, *words: str) -> None:
     """Try all mutants, or those of files whose names hold one of the words."""
     copy = Path(folder) / "src" / "roughline"
+    if copy.resolve() == PACKAGE.resolve():
+        raise SystemExit(f"{folder} holds the package itself: name another folder for its copy")
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     tried = [each for each in mutants() if not words or any(word in each.file for word in words)]

@@ -102,6 +102,14 @@ def test_sealed_tiles_open_an_interval_towards_zero_and_not_to_infinity():
     assert 0 < sealed.high[0] < 5
 
 
+def test_without_a_roll_off_a_gap_may_go_on_to_either_side():
+    """It grows from tiles to the map, and the border that keeps the map open falls away as well."""
+    growing = measure_of(2, [1.5] * 4, [1] * 16).tiles
+    seen, not_seen = growing.steps(SEEN), growing.steps(NOT_SEEN)
+    assert seen[0][0] == 0 < seen[1][0]
+    assert not_seen[0][0] == -not_seen[1][0] < 0
+
+
 def test_where_map_and_tiles_are_sealed_nothing_but_the_grid_leaves_it_open():
     closed = measure_of(0, [0] * 4, [0] * 16)
     assert closed.of_larger(SEEN).high[0] == 0

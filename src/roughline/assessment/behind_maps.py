@@ -70,9 +70,8 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     law = _law_of(same)
     roll_offs = None if law is None else roll_offs_of(law)
     area = float(np.mean([each.area for each in surfaces]))
-    beyond = beyond_gap = Beyond.of(roll_offs, area, first.question.joint)
-    if (seal := first.question.seal) is not None:
-        beyond_gap = Beyond.of(roll_offs, area, seal.area, "seal")
+    beyond = Beyond.of(roll_offs, area, first.question.joint)
+    beyond_gap = Beyond.of(roll_offs, area, *first.question.whole_of_gap)
     tiles = [each.tiles for each in larger if each.tiles is not None]
     nothing = np.zeros(first.asked.size)
     alike = Differences((nothing, nothing), (nothing, nothing))

@@ -100,17 +100,15 @@ class Case:
     @cached_property
     def beyond(self) -> Beyond:
         """The larger surface that the map is a piece of."""
-        body, joint = self.body, self.question.joint
+        body = self.body
         roll_offs = roll_offs_along_a_side(body) if isinstance(body, Surface) else None
-        return Beyond.of(roll_offs, nominal_area(body), joint)
+        return Beyond.of(roll_offs, nominal_area(body), self.question.joint)
 
     @property
     def beyond_gap(self) -> Beyond:
         """The same for what flows in the gap: of a seal, if one is given."""
-        seal = self.question.seal
-        if seal is None:
-            return self.beyond
-        return Beyond.of(self.beyond.roll_offs, nominal_area(self.body), seal.area, "seal")
+        whole = self.question.whole_of_gap
+        return Beyond.of(self.beyond.roll_offs, nominal_area(self.body), *whole)
 
     @cached_property
     def moments(self) -> Moments | None:

@@ -102,14 +102,15 @@ def _sealed_in_some(
     if (answer := answers.get("hydraulic_aperture")) is None:
         return []
     values = np.stack([each.values for each in answer.of_maps])
-    for load in np.flatnonzero((values == 0).any(axis=0) & (values > 0).any(axis=0)):
-        sealed = [name for name, value in zip(results, values[:, load], strict=True) if value == 0]
-        heading = next(iter(results.values())).headings[load]
-        return [
-            f"under {heading}, {listed(sealed)} let nothing through, and other maps do: what leaks "
-            "has no mean over them there, and hangs on the leakiest places; press more maps"
-        ]
-    return []
+    loads = np.flatnonzero((values == 0).any(axis=0) & (values > 0).any(axis=0))
+    if not loads.size:
+        return []
+    sealed = [name for name, each in zip(results, values[:, loads[0]], strict=True) if each == 0]
+    heading = next(iter(results.values())).headings[loads[0]]
+    return [
+        f"under {heading}, {listed(sealed)} let nothing through, and other maps do: what leaks has "
+        "no mean over them there, and hangs on the leakiest places; press more maps"
+    ]
 
 
 def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[str]:

@@ -39,7 +39,7 @@ from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.reading import Reading
 from roughline.engineering.materials import Material
 from roughline.engineering.pair import MaterialPair, contact_modulus
-from roughline.engineering.sealing import ATMOSPHERE, Sealing, SealShape
+from roughline.engineering.sealing import ATMOSPHERE, Sealing
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole
 from roughline.errors.public import public
@@ -223,14 +223,15 @@ class Question:
             fluid,
             self._asked(Inlet, lambda asked: asked.pressure),
             ATMOSPHERE if outlet is None else outlet,
-            self.seal,
+            self._asked(Seal, lambda asked: asked.shape),
             self.flow_along,
         )
 
     @property
-    def seal(self) -> SealShape | None:
-        """Face of the seal that the fluid crosses."""
-        return self._asked(Seal, lambda asked: asked.shape)
+    def whole_of_gap(self) -> tuple[float | None, Literal["joint", "seal"]]:
+        """Nominal area of what the gap belongs to [m²], the seal or else the joint, and which."""
+        seal = self._asked(Seal, lambda asked: asked.shape)
+        return (self.joint, "joint") if seal is None else (seal.area, "seal")
 
     @property
     def flow_along(self) -> Literal["x", "y", "both"]:

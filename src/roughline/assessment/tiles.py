@@ -77,7 +77,8 @@ class Tiles:
         It is due to waves that a map does not hold, and to its border. The steps from quarters to
         halves and from halves to the map show how it goes on. Where there is a roll-off, each
         further step is half the one before, so that all of them together are as large as the last
-        one. Without a roll-off each further step may be as large as the larger of these two.
+        one. Without a roll-off each further step may be as large as the larger of these two, and
+        `either_way` on the other side as well.
         """
         first, last = self._first_and_last()
         if beyond.roll_offs is None:

@@ -12,10 +12,7 @@ import numpy as np
 
 from roughline.computing.fft import half_spectrum, synthesise
 from roughline.computing.summary import summary
-from roughline.contact.arguments import (
-    given_half_space,
-    given_law,
-)
+from roughline.contact.arguments import given_half_space, given_law
 from roughline.contact.fields import Fields
 from roughline.contact.grid_error import steepening_of
 from roughline.contact.measures import Measure
