@@ -30,12 +30,7 @@ DRAWS = 12
 LOADS = (0.002, 0.01, 0.05, 0.2, 0.5, 0.8)  # contact area fractions of the tiled maps, about
 OPEN = (0.01, 0.1, 0.2, 0.3, 0.36)  # up to near sealing
 MAPS = 3  # of each parent
-SEALED_FROM = (
-    0.05,
-    0.15,
-    0.3,
-    0.42,
-)  # contact area fractions from which loads are taken off, about
+SEALED_FROM = (0.05, 0.15, 0.3, 0.42)  # contact from which loads are taken off, about
 MOST_POINTS = 600  # along a side of a measured map
 
 
