@@ -113,7 +113,7 @@ def test_the_flow_is_that_of_the_load_that_is_shown(rough, tmp_path):
     pressed = rl.assess(replace(asked, ask=[rl.Fluid("water")]))
     along_x, along_y = pressed.flows
     assert (along_x.along, along_y.along) == ("x", "y")
-    assert along_x.permeance == rl.flow(pressed.fields, along="x").permeance
+    assert along_x.permeance == rl.flow(pressed.fields_of_gap, along="x").permeance
     titles = [axes.get_title() for axes in flow_figure(pressed).axes]
     for each in pressed.flows:
         assert any(engineering(each.hydraulic_aperture, "m", 3) in title for title in titles)
@@ -128,6 +128,25 @@ def test_the_flow_is_that_of_the_load_that_is_shown(rough, tmp_path):
     of_one = rl.assess(replace(asked, ask=[rl.Fluid("water"), rl.FlowAlong("y")]))
     assert [each.permeance for each in of_one.flows] == [along_y.permeance]
     assert len([axes for axes in flow_figure(of_one).axes if axes.axison]) == 2  # and its scale
+
+
+def test_the_flow_that_is_shown_is_the_one_that_is_answered(rough, tmp_path):
+    """A map that was cut out leaks as a part of a larger surface, in the answer and the picture."""
+    cut_out = replace(rl.read(rough), is_cut_out=True)
+    asked = rl.Question(cut_out, ("steel", "copper"), loads=["10 N", "1 N"])
+    pressed = rl.assess(replace(asked, ask=rl.Fluid("water")))
+    assert pressed.fields_of_gap is not pressed.fields
+    largest = pressed.asked[pressed.largest]
+    for flow in pressed.flows:
+        assert flow.sides == "periodic"
+        answered = pressed.measured[f"hydraulic_aperture_{flow.along}"].values[largest]
+        assert flow.hydraulic_aperture == answered
+    (section, _), _ = write_fields(pressed, tmp_path)
+    assert "repeated on all sides" in section.pictures[0].caption
+    repeated = rl.assess(replace(asked, ask=[rl.Fluid("water"), rl.Joint("1 cm^2")]))
+    assert repeated.fields_of_gap is repeated.fields
+    (section, _), _ = write_fields(repeated, tmp_path)
+    assert "repeated on all sides" not in section.pictures[0].caption
 
 
 def test_apertures_stand_over_force_with_theories_of_flow_alone():

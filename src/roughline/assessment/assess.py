@@ -17,7 +17,7 @@ from roughline.assessment.notes import notes_of
 from roughline.assessment.question import Question
 from roughline.assessment.scatter import elastic_answers, scatter_of
 from roughline.assessment.slip import slip_at_largest_load
-from roughline.assessment.solution import solution_of, solution_of_scan
+from roughline.assessment.solution import fields_of_gap, solution_of, solution_of_scan
 from roughline.assessment.variants import Curves, Stopped, Way, press_all, variants_of
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
@@ -80,6 +80,7 @@ def assess_body(
         hardness_scatter=scatter,
         larger=taken(solution.larger, asked),
         measured=solution.measured,
+        fields_of_gap=fields_of_gap(case, curves),
         closing=solution.closing,
         theories=_theories(question, case.body, solution.curve),
         partial_slip=slip_at_largest_load(case, curves),

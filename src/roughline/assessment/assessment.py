@@ -64,6 +64,9 @@ class Assessment:
     measured : mapping of str to Measured
         What answers need from the fields of every load, over the loads of the curve; of the map
         pressed periodically where answers are about the surface that it was cut out of.
+    fields_of_gap : Fields or None
+        Of one load, in the contact that `measured` is of; None if they were not asked for, or the
+        load was not solved.
     closing : Closing or None
         At which mean pressure the gap of the map seals, and how far the load may be taken off, if
         that was asked for.
@@ -90,6 +93,7 @@ class Assessment:
     hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
     larger: LargerSurface | None = None
     measured: Mapping[str, Measured] = field(default_factory=dict)
+    fields_of_gap: Fields | None = None
     closing: Closing | None = None
     theories: Sequence[TheoryCurve] = ()
     partial_slip: PartialSlip | None = None
@@ -138,11 +142,11 @@ class Assessment:
 
     @cached_property
     def flows(self) -> Sequence[Flow]:
-        """What flows through the gap of the fields, a flow for each direction that is asked for.
+        """What flows through the gap of `fields_of_gap`, for each direction that is asked for.
 
         There are none without a fluid or without fields.
         """
-        fields, sealing = self.fields, self.question.sealing
+        fields, sealing = self.fields_of_gap, self.question.sealing
         if fields is None or sealing is None:
             return ()
         return [

@@ -55,6 +55,7 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
             )
     if announce is None or not (large or case.loads.count >= _MANY):
         return
+    keeps_fields = ("as asked",) if case.question.sealing is None else ("as asked", "interface")
     fields = [0] if case.question.fields else False
 
     def cost_of(each: Variant) -> Estimate:
@@ -62,7 +63,7 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
             each.shape,
             n_loads=case.loads.count,
             periodic=each.is_periodic,
-            fields=fields if each.purpose == "as asked" else False,
+            fields=fields if each.purpose in keeps_fields else False,
             yielding=yielding,
             area_fraction=share,
         )

@@ -122,8 +122,10 @@ class LoadCase:
     def under_forces_of(self, curve: Curve) -> LoadCase:
         """The same under the forces of a curve that were solved, and that the body bears."""
         borne = self.borne(curve)
-        forces = curve.force[borne].tolist()
-        return replace(self, forces=forces, depths=[], n_loads=None, among=borne)
+        forces, numbers = curve.force[borne].tolist(), np.cumsum(borne) - 1
+        fields = [int(numbers[load]) for load in self.fields if borne[load]]
+        others = replace(self, forces=forces, depths=[], n_loads=None, fields=fields)
+        return replace(others, among=borne)
 
     def of_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
         """Some of the same loads on a body of another hardness, without the grid's errors.

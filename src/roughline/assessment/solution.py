@@ -19,6 +19,7 @@ from roughline.assessment.uncertainty import change, intervals_of
 from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Intervals
 from roughline.engineering.sealing import Closing
@@ -106,8 +107,7 @@ def measured_of(
 
     These are what the grid and the other filling of missing points leave open.
     """
-    if case.is_repeated_for_interface:
-        name = periodic(name)
+    name = _measured_on(case, name)
     curve, other = curves.get(name), curves.get(filled_otherwise(name))
     if curve is None:
         return {}
@@ -115,6 +115,17 @@ def measured_of(
         return {key: replace(each, low=None, high=None) for key, each in curve.measured.items()}
     moved = curve.measured if other is None else other.measured
     return {key: _beside(each, moved[key].values) for key, each in curve.measured.items()}
+
+
+def fields_of_gap(case: Case, curves: Curves) -> Fields | None:
+    """Fields of one load of the contact that the measures of the body as asked are of."""
+    curve = curves.get(_measured_on(case, Way.AS_ASKED))
+    return None if curve is None else next(filter(None, curve.fields), None)
+
+
+def _measured_on(case: Case, name: str) -> str:
+    """Name of the variant whose gap answers for a variant: itself, or the same periodically."""
+    return periodic(name) if case.is_repeated_for_interface else name
 
 
 def _beside(measured: Measured, other: Real) -> Measured:

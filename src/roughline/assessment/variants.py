@@ -136,8 +136,8 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
                 curves = {**done, variant.name: case.spread(stop.curve)}
                 raise Stopped(Curves(curves, stopped=variant.name)) from stop
         if curve is not None:
-            # fields and dents are large, and only those of the first are looked at
-            done[variant.name] = replace(curve, fields=(), dents=()) if done else curve
+            # dents are large, and only those of the first are looked at
+            done[variant.name] = replace(curve, dents=()) if done else curve
         before += here
     if progress is not None:
         progress(total, total)
@@ -283,7 +283,9 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
         return curves.get(periodic(Way.AS_ASKED)) if first.converged.any() else None
     if first is None or curve is None or not first.borne(curve).any():
         return None
-    loads = replace(first.under_forces_of(curve), fields=(), periodic=True, levelled=True)
+    loads = replace(first.under_forces_of(curve), periodic=True, levelled=True)
+    if case.question.sealing is None:
+        loads = replace(loads, fields=())  # nobody looks into its gap
     return replace(loads, measures=case.measures)
 
 

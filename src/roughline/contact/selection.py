@@ -11,6 +11,7 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 
 _UNSOLVED = {"status": int(Status.INTERRUPTED)}  # of quantities that cannot be NaN; others are 0
@@ -23,6 +24,9 @@ def at_loads(curve: Curve, loads: Indices) -> Curve:
 
 def among_loads(curve: Curve, solved: Mask) -> Curve:
     """Extend a curve to all loads, of which only these were solved: NaN at the others."""
+    kept: list[Fields | None] = [None] * solved.size
+    for load, fields_of_load in zip(np.flatnonzero(solved), curve.fields, strict=False):
+        kept[load] = fields_of_load
 
     def spread(name: str, values: Any) -> Any:
         unknown = np.nan if values.dtype.kind == "f" else _UNSOLVED.get(name, 0)
@@ -30,7 +34,7 @@ def among_loads(curve: Curve, solved: Mask) -> Curve:
         found[solved] = values
         return found
 
-    return _at_others(curve, spread)
+    return replace(_at_others(curve, spread), fields=tuple(kept) if curve.fields else ())
 
 
 def _at_others(curve: Curve, taken: Callable[[str, Any], Any]) -> Curve:

@@ -56,11 +56,19 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
         files += save(flow_figure(assessment), folder, "flow")
         of_flow = Section(
             f"Where the fluid goes at {force}",
-            pictures=[Picture(files[2], "Flow", f"{_OF_FLOW} {assessment.flows[0].sides}.")],
+            pictures=[Picture(files[2], "Flow", _of_flow(assessment))],
             behind="where it goes, and where it is throttled",
         )
         sections.insert(0, of_flow)
     return sections, files
+
+
+def _of_flow(assessment: Assessment) -> str:
+    """Say what the pictures of the flow show."""
+    text = f"{_OF_FLOW} {assessment.flows[0].sides}."
+    if assessment.fields_of_gap is not assessment.fields:
+        text += " The map is pressed repeated on all sides here, as for the answers about its gap."
+    return text
 
 
 def flow_figure(assessment: Assessment) -> Figure:

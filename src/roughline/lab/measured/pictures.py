@@ -190,11 +190,11 @@ def contact_drawing(result: Assessment) -> Drawing:
         arrays[name] = thinned(values).T * factor
         largest = float(np.nanmax(values, initial=0.0)) * factor
         units[name] = {"unit": prefixed, "range": [0, largest or 1.0]}
-    if result.question.sealing is not None:
-        through = _flow(result, fields)
+    if result.flows:  # along the leakier of the directions that are asked
+        through = max(result.flows, key=lambda each: each.hydraulic_aperture)
         map_of_flow = flux_map(through)
         arrays["flux"] = thinned(map_of_flow.values).T
-        units["flux"] = _in_sides(map_of_flow, body.header["sizes"], through.along)
+        units["flux"] = _in_sides(map_of_flow, body.header["sizes"], through)
     header = {
         **body.header,
         "load": f"corrected area {area_in_words(result, shown)} at {force}",
@@ -205,19 +205,14 @@ def contact_drawing(result: Assessment) -> Drawing:
     return Drawing(header, body.arrays | arrays)
 
 
-def _flow(result: Assessment, fields: rl.Fields) -> rl.Flow:
-    """The flow under the load that is drawn, along the leakier of the directions that are asked."""
-    assert result.question.sealing is not None
-    flows = [rl.flow(fields, along=along) for along in result.question.sealing.directions]
-    return max(flows, key=lambda each: each.hydraulic_aperture)
-
-
-def _in_sides(drawn: Map, sizes: Sequence[float], along: str) -> dict[str, Any]:
+def _in_sides(drawn: Map, sizes: Sequence[float], flow: rl.Flow) -> dict[str, Any]:
     """How the map of a flow is drawn, with its ring in the units of the axes."""
     ring: list[list[float]] = [[], []]
     if drawn.ring is not None:
         ring = [[share * side] for share, side in zip(drawn.ring, sizes, strict=True)]
-    caption = f"{drawn.caption}; {'from left to right' if along == 'x' else 'upwards'}"
+    caption = f"{drawn.caption}; {'from left to right' if flow.along == 'x' else 'upwards'}"
+    if flow.sides == "periodic":
+        caption += ", the map repeated on all sides"
     look = {**drawn.look, "caption": caption, "ring": {"x": ring[0], "y": ring[1]}}
     return {**look, "unit": "", "range": [drawn.low, drawn.high]}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -214,8 +215,8 @@ def loads_of(said: Said) -> list[str]:
 
 
 def _loads(text: str) -> list[str]:
-    """Loads with semicolons between."""
-    loads = [part.strip() for part in text.split(";") if part.strip()]
+    """Loads with semicolons, or commas and spaces, between."""
+    loads = [part.strip() for part in re.split(r";|,\s", text) if part.strip()]
     for load in loads:
         if not 0 < load_in_newtons(load, 1.0) < math.inf:
             raise ControlError(f'load is "{load[:40]}"; give positive ones', "loads")
