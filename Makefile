@@ -149,7 +149,7 @@ averaging: $(VENV)/installed
 	$(BIN)/python -m studies publish averaging
 
 published: $(VENV)/installed
-	$(BIN)/python -m studies publish paper correlations area averaging finite_size
+	$(BIN)/python -m studies publish paper correlations area averaging finite_size sealing
 
 # The errors against exact solutions that the handbook tells, from the tests' own run.
 validation: $(VENV)/installed

@@ -50,7 +50,8 @@ sphinx_gallery_conf = {
 }
 
 WIDE = (
-    *("paper", "trust", "averaging", "area", "finite_size", "correlations", "engineering"),
+    *("paper", "trust", "averaging", "area", "finite_size", "sealing", "correlations"),
+    "engineering",
     *(
         "peers-table",
         "speed-table",

@@ -91,9 +91,10 @@ def confidence_of_each(cases: int, level: float = 0.95) -> float:
 
 
 def spread(values: Iterable[float], form: str = ".2f") -> str:
-    """Write the smallest and the largest of some values."""
+    """Write the smallest and the largest of some values, once where they are written alike."""
     every = list(values)
-    return f"{min(every):{form}} to {max(every):{form}}"
+    smallest, largest = f"{min(every):{form}}", f"{max(every):{form}}"
+    return smallest if smallest == largest else f"{smallest} to {largest}"
 
 
 def cell(estimate: IntervalEstimate, form: str = ".2f", to: str = "-") -> str:

@@ -20,6 +20,7 @@ SHOWN = 0.8
 _OF_PERSSON = [name for name, (kind, _) in THEORIES.items() if kind != OF_GAPS]
 _DASHES = ("dashed", "dotted", "dashdot")
 _AREA_LABEL, _AREAS = "A / A_0 at sealing", (0.35, 0.6)
+_APERTURES = (0.0, 2.5)  # in rms heights
 
 
 def sealing_figure(data: Data) -> Figure:
@@ -61,8 +62,8 @@ def _draw_leaks(axes: Axes, data: Data) -> None:
         axes.fill_between(load, low, high, color=colour, alpha=0.2, linewidth=0)
     for name, style in zip(_OF_PERSSON, _DASHES, strict=True):
         axes.semilogx(*theory_apertures(name), color="0.3", linestyle=style, label=name)
-    axes.set(xlabel=r"$p\,/\,(E^*\nabla h)$", ylabel=r"$u_h\,/\,h$", ylim=(0, 2.2))
-    axes.legend(loc="lower left", fontsize=6)
+    axes.set(xlabel=r"$p\,/\,(E^*\nabla h)$", ylabel=r"$u_h\,/\,h$", ylim=_APERTURES)
+    axes.legend(loc="upper right", fontsize=6)
 
 
 def apertures(data: Data, hardness: float) -> tuple[Real, Real, Real, Real]:
@@ -114,4 +115,4 @@ def _leaks(data: Data) -> StudyPanel:
         load, value = (each.tolist() for each in theory_apertures(name))
         curves.append(StudyCurve(name, load, value, dash=dash))
     title = f"Hydraulic aperture over the pressure, Hurst {SHOWN:g}"
-    return StudyPanel(title, "p / (E* ∇h)", "u_h / h", (0.004, 0.2), (0.0, 2.2), curves)
+    return StudyPanel(title, "p / (E* ∇h)", "u_h / h", (0.004, 0.2), _APERTURES, curves)

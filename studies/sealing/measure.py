@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -18,15 +18,16 @@ import numpy as np
 import roughline as rl
 from roughline.computing.arrays import Real
 from roughline.statistics import bootstrap
-from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
+from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate, Resampled
 from studies.judged import Found
-from studies.sealing.body import DIRECTIONS, PEAKS, Case
+from studies.sealing.body import DIRECTIONS, FRACTIONS, PEAKS, Case
 from studies.sealing.run import COUNTS, FINE_CELLS, FINE_WAVES, Body, body_of
 
 OF_GAPS = "of gaps"
 """Name of the effective medium of the gaps that a body has, not of those of Persson's theory."""
 LARGEST, SMALLEST = max(COUNTS), min(COUNTS)
 """Roll-off waves along a side of the bodies that are judged, and of those beside them."""
+_WRITTEN = 1e-4  # of a number, at most: what the digits leave open that are written
 _HALVES = 2.0  # an error that halves with the spacing is twice the difference of two grids
 
 
@@ -106,9 +107,19 @@ class Data:
         return fine.beside(self.sample(FINE_WAVES, hurst, hardness))
 
 
-def mean(values: Real, confidence: float = 0.95) -> IntervalEstimate:
-    """Return a mean over bodies with its interval."""
-    return bootstrap.means(values).interval_estimate(confidence)
+def mean(values: Real, confidence: float = 0.95, step: float = 0.0) -> IntervalEstimate:
+    """Return a mean over bodies with its interval; values are known to a step."""
+    return _known_to(bootstrap.means(values), step, values.size).interval_estimate(confidence)
+
+
+def _known_to(found: Resampled, step: float, bodies: int) -> Resampled:
+    """Return a mean with what the steps of its values leave open in all errors.
+
+    Without it, resamples of equal values have none, and tell nothing of the mean.
+    """
+    left_open = step / math.sqrt(12 * bodies)
+    error, errors = (np.hypot(each, left_open) for each in (found.error, found.errors))
+    return replace(found, error=error, errors=errors)
 
 
 def at_sealing(data: Data, waves: int, hurst: float, hardness: float, confidence: float) -> Found:
@@ -141,7 +152,7 @@ def ratio(first: Real, second: Real, confidence: float = 0.95) -> IntervalEstima
         return NO_ESTIMATE
     pairs = np.column_stack([first, second])
     logarithm = bootstrap.sum_of_log_means(pairs, np.array([1.0, -1.0]))
-    return logarithm.interval_estimate(confidence).exp()
+    return _known_to(logarithm, _WRITTEN, first.size).interval_estimate(confidence).exp()
 
 
 @cache
@@ -209,4 +220,6 @@ def tightening(one: Sample, peak: float, confidence: float = 0.95) -> IntervalEs
 
 def until_open(one: Sample, confidence: float = 0.95) -> IntervalEstimate:
     """Return the share of a load beyond sealing that may be taken off until a channel opens."""
-    return mean(1 - one.values(f"opens_{PEAKS[-1]:g}"), confidence)
+    opens, steps = one.values(f"opens_{PEAKS[-1]:g}"), np.array([1.0, *FRACTIONS, 0.0])
+    places = np.searchsorted(-steps, -opens)  # of the load under which a channel is open
+    return mean(1 - opens, confidence, step=float(np.mean(steps[places - 1] - steps[places])))

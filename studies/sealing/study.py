@@ -90,6 +90,7 @@ def told(found: Data) -> dict[str, object]:
         "hardness": {"weak": WEAK, "mostly": MOSTLY, "full": FULL},
         "plastic": _by_kind(found, lambda one: mean(one.of_both("plastic")), ".0%"),
         "area": _by_kind(found, lambda one: mean(one.of_both("area")), ".3f"),
+        "cells": _by_kind(found, lambda one: mean(one.of_both("cells")), ".3f"),
         "taken_off": _by_kind(found, lambda one: taken_off(one, BELOW[-1]), ".0%"),
         "tenfold": TENFOLD,
         "compared": COMPARED,

@@ -20,9 +20,8 @@ STYLE = (
 def test_tables_do_not_run_out_of_the_page():
     api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     reader = MarkdownIt("commonmark").enable("table")
-    assert {"paper.md", "area.md", "averaging.md", "correlations.md", "finite_size.md"} <= {
-        p.name for p in PAGES
-    }
+    studies = ("area", "averaging", "correlations", "finite_size", "paper", "sealing")
+    assert {f"{name}.md" for name in studies} <= {p.name for p in PAGES}
     with api.sync_playwright() as playwright:
         if chromium_of(playwright) is None:
             pytest.skip(WANTED)

@@ -6,9 +6,10 @@ from roughline.paper.studies import StudySummary, study_summaries
 from studies.area.study import STUDY as AREA
 from studies.averaging.study import STUDY as AVERAGING
 from studies.finite_size.study import STUDY as FINITE_SIZE
+from studies.sealing.study import STUDY as SEALING
 
 AGAIN = "what the lab shows is not what the study found any more: run make published"
-STUDIES = {each.folder.name: each for each in (AREA, AVERAGING, FINITE_SIZE)}
+STUDIES = {each.folder.name: each for each in (AREA, AVERAGING, FINITE_SIZE, SEALING)}
 
 
 @pytest.mark.parametrize("name", STUDIES)

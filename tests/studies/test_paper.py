@@ -17,6 +17,7 @@ from studies.correlations.measure import version as version_of_correlations
 from studies.finite_size.samples import REDUCED as FINITE_SIZE
 from studies.paper import study
 from studies.paper.study import ENSEMBLES, PLAN, computing_of, refuse_another_plan
+from studies.sealing.study import data as of_sealing
 
 
 def test_the_data_are_those_of_the_plan():
@@ -38,6 +39,7 @@ def test_pages_name_the_version_of_the_data_and_not_that_of_the_program():
         "studies/paper/README.md": f"roughline {computed} from the plan",
         "docs/area.md": f"computed with roughline {AREA.version}.",
         "docs/finite_size.md": f"computed with roughline {FINITE_SIZE.version}.",
+        "docs/sealing.md": f"computed with roughline {of_sealing().version}.",
         "docs/averaging.md": f"computed with roughline {computed}.",
         "docs/correlations.md": f"(these data: version {version_of_correlations()})",
     }

@@ -203,7 +203,7 @@ def test_the_text_and_the_figures_are_those_of_data(as_said):
     table = claims_table({"Verdict": claims(as_said)})
     text = (STUDY.folder / "text.md").read_text("utf-8")
     page = filled(text, {"verdicts": table, **told(as_said)})
-    assert "closes where 0.420 to 0.42" in page
+    assert "closes where 0.420 of the nominal area" in page
     assert "nan" not in page
     figure, panels = study.sealing_figure(as_said), study.panels(as_said)
     assert len(figure.axes) == len(panels) == 2
