@@ -164,10 +164,11 @@ def _elastic_bodies_retrace(data: Data) -> Claim:
 
 
 def _much_may_be_taken_off(data: Data, hardness: float) -> Claim:
+    said_by = "here" if hardness == ELASTIC else "Pérez-Ràfols and others"
     return _of_peaks(
         data,
         "A large part of the load, more than half, may be taken off until ten times as much leaks "
-        f"(Pérez-Ràfols and others): {KINDS[hardness]}",
+        f"({said_by}): {KINDS[hardness]}",
         "share of the load",
         hardness,
         taken_off,
