@@ -76,7 +76,7 @@ def run(scenario, *, lasting, limits=LIMITS):
         asyncio.get_running_loop().set_exception_handler(lambda _, said: errors.append(said))
         lane = Lane(limits, lasting=lasting)
         try:
-            await scenario(lane, Asker(lane))
+            await asyncio.wait_for(scenario(lane, Asker(lane)), timeout=120)
         finally:
             pids = lane.pids
             await lane.close()
