@@ -12,7 +12,7 @@ from roughline.statistics.verdict import Verdict
 from studies.sealing import study
 from studies.sealing.body import ELASTIC, FULL, LOADS, MEDIA, MOSTLY, PEAKS, WEAK, Case, measured
 from studies.sealing.claims import claims
-from studies.sealing.measure import Data, plastic_factor, theory_of
+from studies.sealing.measure import Data, mean, plastic_factor, ratio, theory_of
 from studies.sealing.run import COUNTS, HARDNESSES, HURSTS, planned, run
 from studies.sealing.study import STUDY, claims_table, told
 from studies.study import DOCS, filled
@@ -197,6 +197,17 @@ def test_a_factor_of_leaks_comes_back_with_its_interval(as_said):
         assert found.low <= found.value <= found.high
         assert found.value == pytest.approx(FACTOR[FULL])
     assert plastic_factor(as_said, 16, 0.5, FULL, LOADS[-1]) is None
+
+
+def test_values_that_are_nearly_all_equal_have_an_interval():
+    """Resamples without the one that differs have no error of their own."""
+    one = np.ones(30)
+    other = one.copy()
+    other[3] += 1e-4
+    found = ratio(one, other)
+    assert 1 - 1e-4 < found.low < found.value < found.high < 1 + 1e-4
+    stepped = mean(other, step=0.03)
+    assert 0.003 < stepped.high - stepped.low < 0.03
 
 
 def test_the_text_and_the_figures_are_those_of_data(as_said):
