@@ -33,7 +33,7 @@ SECTIONS = {
     "Contact": (
         *("press", "press_scan", "Curve", "Fields", "Distribution", "Patches", "Measure"),
         *("MEAN_GAP", "Status", "estimate", "Estimate", "set_threads", "theory"),
-        *("effective_medium", "compare", "Comparison", "trust_map"),
+        *("effective_medium", "stickiness", "compare", "Comparison", "trust_map"),
     ),
     "The fluid in the gap": (
         *(

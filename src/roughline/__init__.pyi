@@ -79,6 +79,7 @@ from roughline.statistics.averages import relative_difference as relative_differ
 from roughline.statistics.power_law import PowerLaw as PowerLaw
 from roughline.statistics.power_law import fit_power_law as fit_power_law
 from roughline.statistics.window import find_window as find_window
+from roughline.theories.adhesion import stickiness as stickiness
 from roughline.theories.bruggeman import effective_medium as effective_medium
 from roughline.theories.theory import theory as theory
 from roughline.topography.body import Line as Line

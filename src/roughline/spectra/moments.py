@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any, get_args
 
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum, waves_of
 from roughline.spectra.lattice import ContinuumSpectrum, LatticeSpectrum, lattice_waves
 from roughline.spectra.leakage import RING_HALF_WIDTH
@@ -28,6 +30,23 @@ class Bands:
 
     q: Real  # ascending [1 / length]
     power: Real  # <h²> of the waves at each; their sum is that of the roughness [length²]
+
+
+def refuse_no_roughness(given: Any) -> None:
+    """Refuse what is neither a surface nor a spectrum."""
+    if not isinstance(given, get_args(SurfaceOrSpectrum)):
+        refuse("roughness", given, "a Surface or a spectrum is needed")
+
+
+def of_the_continuum(roughness: SurfaceOrSpectrum) -> str:
+    """What to add to a validity where integrals differ from the surfaces of a SelfAffine."""
+    difference = roughness.difference_from_surfaces() if isinstance(roughness, SelfAffine) else ""
+    return (
+        f"; of the continuum, with {difference} of the surfaces that this spectrum generates: take "
+        "spectrum.lattice(n) for those"
+        if difference
+        else ""
+    )
 
 
 def bands(roughness: SurfaceOrSpectrum) -> Bands:

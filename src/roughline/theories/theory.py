@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,8 +16,7 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import one_of, positive, refuse
 from roughline.errors.public import public
-from roughline.spectra.moments import SurfaceOrSpectrum
-from roughline.spectra.self_affine import SelfAffine
+from roughline.spectra.moments import SurfaceOrSpectrum, of_the_continuum, refuse_no_roughness
 from roughline.theories.bruggeman import bruggeman, check_threshold
 from roughline.theories.bush_gibson_thomas import bush_gibson_thomas
 from roughline.theories.critical_junction import critical_junction
@@ -84,8 +82,7 @@ def theory(
     [0.014  0.0003]
     """
     one_of("name", name, THEORIES)
-    if not isinstance(roughness, get_args(SurfaceOrSpectrum)):
-        refuse("roughness", roughness, "a Surface or a spectrum is needed")
+    refuse_no_roughness(roughness)
     positive("E_star", E_star, "a positive, finite contact modulus is needed")
     pressures = np.atleast_1d(np.asarray(pressure, dtype=np.float64))
     if not ((pressures > 0) & np.isfinite(pressures)).all():
@@ -99,10 +96,4 @@ def theory(
             )
         check_threshold(threshold)
         curve = _OF_FLOW[name](roughness, E_star, pressures, threshold)
-    if isinstance(roughness, SelfAffine) and (difference := roughness.difference_from_surfaces()):
-        validity = (
-            f"{curve.validity}; of the continuum, with {difference} of the surfaces that this "
-            "spectrum generates: take spectrum.lattice(n) for those"
-        )
-        return replace(curve, validity=validity)
-    return curve
+    return replace(curve, validity=curve.validity + of_the_continuum(roughness))
