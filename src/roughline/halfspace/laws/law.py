@@ -71,6 +71,18 @@ class ContactLaw(ABC):
     def scaled(self, pressure: float, length: float) -> ContactLaw:
         """Return the law in other units of pressures and gaps, given in the old ones."""
 
+    def between(self, separation: Real, compliance: float) -> ContactLaw:
+        """Return the law for the bodies at hand, in its units.
+
+        Parameters
+        ----------
+        separation : ndarray, shape (nx, ny)
+            Distance of the untouched bodies at first touch. [length]
+        compliance : float
+            Displacement of a node by the pressure on it alone, over that. [length / pressure]
+        """
+        return self
+
     def on(self, take: Callable[[Real], Real]) -> ContactLaw:
         """Return the law on another grid.
 
