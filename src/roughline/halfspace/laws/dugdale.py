@@ -14,6 +14,7 @@ from roughline.errors import InputError
 from roughline.halfspace.laws.law import ContactLaw, Solved
 
 _SETTLED = 1e-6  # change of the shares of the pull, from which on they are those of the gap
+_PAST, _NEAR = 6, 0.1
 _WIDTH = 1.8  # of half the ramp, over what the pull on a cell displaces it: then ramps are stable
 
 
@@ -58,6 +59,8 @@ class Dugdale(ContactLaw):
     range: float
     ramp: Real | float = 0.0
     share: Real | float = 0.0
+    doubt: float = 0.0
+    past: tuple[tuple[Real, Real], ...] = ()
     memory: ClassVar[Literal["none", "dents", "path"]] = "path"
     only_pushes: ClassVar[bool] = False
 
@@ -114,9 +117,35 @@ class Dugdale(ContactLaw):
     def then(self, contact: Solved) -> Dugdale | None:
         """Move the shares of the pull to those of the gap, until they no longer change."""
         share = np.clip((self.range + self.ramp - contact.gap) / (2 * self.ramp), 0.0, 1.0)
-        settled = np.abs(share - self.share).max() <= _SETTLED
-        return None if settled else replace(self, share=share)
+        doubt = float(np.abs(share - self.share).max())
+        if doubt <= _SETTLED:
+            return None
+        past = (*self.past, (self.share + np.zeros_like(share), share))[-_PAST:]
+        if doubt < _NEAR and len(past) > 1:
+            share = _extrapolated(past)
+        return replace(self, share=share, doubt=doubt, past=past if doubt < _NEAR else ())
+
+    def start(self, value: float, last: float | None, largest: float | None) -> Dugdale:
+        """Forget how the law was found under the load before."""
+        return replace(self, past=(), doubt=0.3)
+
+    def beyond_doubt(self) -> Dugdale:
+        """Return the law without doubt."""
+        return replace(self, doubt=0.0)
 
     def scales(self, pressure: Real, displacement: Real) -> tuple[float, float]:
         """Compare gaps with the range, as bodies that pull may displace each other by nothing."""
         return float(np.abs(pressure).mean()), self.range
+
+
+def _extrapolated(past: tuple[tuple[Real, Real], ...]) -> Real:
+    """Return the shares at which those taken and those that follow would be the same (Anderson)."""
+    moving = np.zeros(past[0][0].shape, bool)
+    for taken, following in past:
+        moving |= taken != following
+    changes = np.array([(following - taken)[moving] for taken, following in past])
+    values = np.array([following[moving] for _, following in past])
+    steps, *_ = np.linalg.lstsq(np.diff(changes, axis=0).T, changes[-1], rcond=1e-10)
+    share = past[-1][1].copy()
+    share[moving] = np.clip(values[-1] - steps @ np.diff(values, axis=0), 0.0, 1.0)
+    return share

@@ -49,6 +49,7 @@ class ContactLaw(ABC):
         Whether no pressure is negative, so that nodes that lie too far apart cannot touch.
     """
 
+    doubt: float = 0.0
     memory: ClassVar[Literal["none", "dents", "path"]] = "none"
     only_pushes: ClassVar[bool] = True
 
@@ -155,6 +156,10 @@ class ContactLaw(ABC):
             finite pressures, they are infinite on all nodes.
         """
         return None
+
+    def beyond_doubt(self) -> ContactLaw:
+        """Return the law without doubt."""
+        return self
 
     def scales(self, pressure: Real, displacement: Real) -> tuple[float, float]:
         """Return with what pressures and gaps are compared in the residuals.

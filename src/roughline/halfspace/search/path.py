@@ -30,6 +30,7 @@ from roughline.halfspace.search.tangent import Response, Tangent, response
 from roughline.halfspace.search.turns import Turns
 from roughline.halfspace.search.window import Window
 
+_OF_DOUBT, _ROUGHEST = 0.03, 1e-2  # to such a part of a law's doubt its contact is solved, at most
 _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
 
@@ -102,19 +103,26 @@ class _Path:
         """
         law, spent = self._problem.law.start(load.value, self._before, self._largest), 0
         while True:
-            found, contact = self._settled(load, law, spent)
+            # while the law is in doubt, its contact need not be known better
+            rtol = max(self._method.rtol, min(_OF_DOUBT * law.doubt, _ROUGHEST))
+            method = replace(self._method, rtol=rtol)
+            found, contact = self._settled(load, law, spent, method)
             # that bodies yield shows before their elastic contact is found
             told = contact.outcome is Outcome.CONVERGED or law.memory == "dents"
             following = contact.problem.law.then(contact) if told else None
+            if following is None and rtol > self._method.rtol and told:
+                following = contact.problem.law.beyond_doubt()
             if following is None:
                 return found, contact
             law, spent = following, found.convolutions
             if np.isfinite(contact.force):  # else there is nothing to start from
-                self._start = contact.contact_set
+                self._start = _under(following, contact)
 
-    def _settled(self, load: Load, law: ContactLaw, spent: int) -> tuple[Contact, Contact]:
+    def _settled(
+        self, load: Load, law: ContactLaw, spent: int, method: Method
+    ) -> tuple[Contact, Contact]:
         """Solve the contact by a law, in the window in which bodies can touch."""
-        problem, most = self._problem.obeying(law), self._method.max_iterations
+        problem, most = self._problem.obeying(law), method.max_iterations
         if contact := _known(problem, load, for_first_time=self._furthest is None):
             return contact, contact
         if load.force is not None:
@@ -124,7 +132,7 @@ class _Path:
         window = Window.of(problem, load, self._start)
         self._start = window.inside(self._start)
         while True:
-            method = replace(self._method, max_iterations=max(1, most - spent))
+            method = replace(method, max_iterations=max(1, most - spent))
             turns = Turns(window.bodies, load, self._start, method)
             self._start = None
             found = turns.contact()
@@ -165,6 +173,14 @@ class _Path:
         self._followed = contact.nodes, answer
         tangent = answer.loading if load.value > solved.load.value else answer.unloading
         self._start = _predicted(contact, tangent, load)
+
+
+def _under(law: ContactLaw, contact: Contact) -> ContactSet:
+    """Return a contact as the start under another law: nodes that pull are at its lower bound."""
+    low = Bounds.of(law, contact.nodes).low
+    pressure = np.where(contact.pulling, low, contact.pressure)
+    bears = pressure != 0
+    return ContactSet(contact.nodes[bears], pressure[bears], contact.depth)
 
 
 def _attainable(force: float, law: ContactLaw, cell_area: float) -> float:
