@@ -65,8 +65,9 @@ from roughline.fluid.sealing_pressure import SealingPressure as SealingPressure
 from roughline.fluid.sealing_pressure import sealing_pressure as sealing_pressure
 from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
-from roughline.halfspace.laws.law import ContactLaw as ContactLaw
 from roughline.halfspace.laws.dugdale import Dugdale as Dugdale
+from roughline.halfspace.laws.exponential import Exponential as Exponential
+from roughline.halfspace.laws.law import ContactLaw as ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral as Unilateral
 from roughline.halfspace.laws.yielding import Yielding as Yielding
 from roughline.report.finite_elements import export_table as export_table

@@ -49,7 +49,7 @@ def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variab
         fill,
         meaning or quantity.long_name,
         of_lines=quantity.of_lines,
-        of_yielding=quantity.of_yielding,
+        of_yielding="dents" in quantity.memories,
         averaged=averaged,
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -52,8 +53,8 @@ class Curve:
         Exact k = dF/dd on further loading: points at the hardness carry no additional load.
         [force / length]
     area_fraction : ndarray, shape (loads,), or None
-        Real over nominal contact area: the share of the points whose pressure is above zero. None
-        for a line: the contact area of the reduced model does not predict that of the surface.
+        Real over nominal contact area: the share of the points that touch, which under bodies that
+        only push are those whose pressure is above zero. None for a line: the contact area of the reduced model does not predict that of the surface.
     area_fraction_corrected : ndarray, shape (loads,), or None
         The same, less the area that whole cells add along the outline of the contact
         (Yastrebov, Anciaux and Molinari 2017). Under a summit this is a few per cent. On a plateau,
@@ -96,7 +97,19 @@ class Curve:
         Largest permanent indentation of the surface so far. [length]
     work, dissipated_work : ndarray, shape (loads,), or None
         Work done by the load since first touch, less the work returned on unloading; and the
-        part of it dissipated by the indentations, the hardness times their volume. [energy]
+        part of it dissipated. Indentations dissipate the hardness times their volume. Bodies that
+        stick dissipate where they jump: their work is the sum of the force over the depths, by
+        the trapezoidal rule between the loads, and what is not stored is dissipated. [energy]
+    pulling_fraction : ndarray, shape (loads,), or None
+        Area across whose gap bodies pull each other over the nominal area; points count by their
+        share of the largest pull. [1]
+    on_approach : ndarray of bool, shape (loads,), or None
+        Whether the bodies came nearer from the load before. Where they stick, this is the branch.
+    pull_off_force, pull_off_depth : float
+        Largest pull of bodies that stick, negative, and its depth: of depths on retreat, the least
+        force that a larger one follows; of forces that pull more than the contact bears, that at
+        which it comes off, to the tolerance. NaN where there is none, and where the grid does not
+        resolve the pull. [force] and [length]
     residual_of : sequence of str
         What the largest residual of each load is of, such as "the gap within the contact". Empty
         for a line.
@@ -142,6 +155,10 @@ class Curve:
     indentation: Real | None = None
     work: Real | None = None
     dissipated_work: Real | None = None
+    pulling_fraction: Real | None = None
+    on_approach: Mask | None = None
+    pull_off_force: float = math.nan
+    pull_off_depth: float = math.nan
     residual_of: Sequence[str] = field(default=(), repr=False)
     warnings: Sequence[str] = ()
     measured: Mapping[str, Measured] = field(default_factory=dict, repr=False)
@@ -267,13 +284,15 @@ class Curve:
             "length_units": unit_of("length", self.unit),
             **self.settings,
         }
+        if not math.isnan(self.pull_off_force):
+            attrs |= {"pull_off_force": self.pull_off_force, "pull_off_depth": self.pull_off_depth}
         if self.warnings:
             attrs["warnings"] = "; ".join(self.warnings)
         return xarray.Dataset(variables, attrs=attrs).swap_dims(load=self.control.removesuffix("s"))
 
     def _values(self, quantity: Quantity) -> NDArray[Any] | None:
         """Return a quantity as files hold it, or None if this curve does not have it."""
-        if quantity.of_yielding and (self.law is None or self.law.memory != "dents"):
+        if not quantity.is_left_by("none" if self.law is None else self.law.memory):
             return None
         if quantity.dims == OVER_LOADS:
             values: NDArray[Any] | None = getattr(self, quantity.name)

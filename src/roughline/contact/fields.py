@@ -29,9 +29,11 @@ class Fields:
     gap : ndarray, shape (nx, ny)
         Distance of the two bodies. [length]
     contact : ndarray of bool, shape (nx, ny)
-        Where they touch: where the pressure is above zero.
+        Where they touch: unless bodies stick, where the pressure is above zero.
     plastic : ndarray of bool, shape (nx, ny)
         Where the pressure is at the hardness.
+    pulling : ndarray of bool, shape (nx, ny)
+        Where bodies that stick pull each other across a gap.
     indentation : ndarray, shape (nx, ny)
         Permanent indentation: how much lower the surface is than before any load. [length]
     sizes : tuple of float
@@ -45,6 +47,7 @@ class Fields:
     gap: Real
     contact: Mask
     plastic: Mask
+    pulling: Mask
     indentation: Real
     sizes: tuple[float, float]
     is_periodic: bool

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Sequence, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -150,10 +150,15 @@ def _curve(
 ) -> Curve:
     """Put the results of all loads together, without fields."""
     values = _columns(results)
+    if law.memory == "path":
+        stored = np.array([result.stored_work for result in results])
+        values |= _along_the_path(values["depth"], values["force"], stored)
     # the prescribed value is returned unchanged; its error is part of the residual
     prescribed = values[loads.control.removesuffix("s")]
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
     shares = np.array([result.border_share for result in results])
+    scaled = ScaledSurface.of(surface, half_space, loads)
+    law_there = law.scaled(scaled.pressure, scaled.height)
     at_the_border = (
         _jump_warnings(surface)
         if half_space.periodic
@@ -182,7 +187,9 @@ def _curve(
             *grave_effects(surface),
             *tilt_warnings(surface),
             *at_the_border,
+            *law_there.remarks(scaled.separation()),
         ),
+        **_pull_off(results, values, law_there),
         residual_of=tuple(result.residual_of for result in results),
         surface=surface,
         dents=tuple(result.dents for result in results) if law.memory == "dents" else (),
@@ -221,10 +228,14 @@ class _LoadResult:
     indentation: float = math.nan
     work: float = math.nan
     dissipated_work: float = math.nan
+    pulling_fraction: float = math.nan
+    on_approach: bool = False
+    stored_work: float = math.nan  # that bodies give back if they come apart slowly
     border_share: float = math.nan  # of the force
     fields: Fields | None = None  # if they are kept
     measures: Sequence[float] = ()
     dents: Indentation | None = None  # if the surface is indented
+    pull_off: tuple[float, float] | None = None  # depth and force, if bodies came off
 
     @classmethod
     def of(
@@ -244,6 +255,9 @@ class _LoadResult:
         worst, of = contact.residuals.worst, contact.residuals.worst_is_of
         if contact.outcome is Outcome.UNKNOWN_SURFACE:
             return cls(Status.UNKNOWN_SURFACE)
+        if contact.outcome is Outcome.PULLED_OFF:
+            pull = contact.depth * scaled.height, contact.force * scaled.force
+            return cls(Status.PULLED_OFF, convolutions=contact.convolutions, pull_off=pull)
         if response is None:
             return cls(Status[contact.outcome.name], worst, of, contact.convolutions)
         if not response.converged:
@@ -257,6 +271,7 @@ class _LoadResult:
             dissipated, indented = scaled.cell_area * float(work.sum()), float(dents.depth.max())
         fields = _fields(contact, scaled, dents) if with_fields or measures else None
         k = scaled.force / scaled.height
+        stored = _elastic_energy(contact) + _energy_of_pull(contact)
         return cls(
             status=Status.CONVERGED,
             residual=worst,
@@ -272,8 +287,10 @@ class _LoadResult:
             area_fraction_most=(cells + most - overstated) / nodes,
             plastic_fraction=float(contact.plastic.sum()) / cells if cells else 0.0,
             indentation=indented,
-            work=_elastic_energy(contact) * scaled.force * scaled.height + dissipated,
+            work=stored * scaled.force * scaled.height + dissipated,
             dissipated_work=dissipated,
+            stored_work=stored * scaled.force * scaled.height,
+            pulling_fraction=_pulling_nodes(contact) / nodes,
             border_share=_border_share(contact),
             fields=fields if with_fields else None,
             measures=[] if fields is None else [each.of(fields) for each in measures],
@@ -290,6 +307,44 @@ def _columns(results: Sequence[_LoadResult]) -> dict[str, Any]:
         for each in dataclasses.fields(_LoadResult)
         if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
     }
+
+
+def _along_the_path(depth: Real, force: Real, stored: Real) -> dict[str, Any]:
+    """Return what depends on the loads before: the branch, and the work that is dissipated.
+
+    Bodies come to the first load without a jump, as far as is known. Loads that were not solved are
+    passed over.
+    """
+    known = np.flatnonzero(np.isfinite(depth))
+    nearer = np.zeros(depth.size, bool)
+    work = np.full(depth.size, np.nan)
+    if known.size:
+        nearer[known] = np.diff(depth[known], prepend=-np.inf) >= 0
+        middle = (force[known][1:] + force[known][:-1]) / 2
+        done = np.cumsum(middle * np.diff(depth[known]))
+        work[known] = stored[known[0]] + np.concatenate([[0.0], done])
+    return {"on_approach": nearer, "work": work, "dissipated_work": work - stored}
+
+
+def _pull_off(
+    results: Sequence[_LoadResult], values: Mapping[str, Any], law: ContactLaw
+) -> dict[str, float]:
+    """Return the largest pull and its depth, by their names, where the grid resolves them.
+
+    Bodies come off at a load on retreat after which they pull less, or between two forces.
+    """
+    if law.only_pushes or not law.resolves_pull_off:
+        return {}
+    pulls = [each.pull_off for each in results if each.pull_off is not None]
+    known = np.flatnonzero(np.isfinite(values["depth"]))
+    force, depth = values["force"][known], values["depth"][known]
+    nearer = values["on_approach"][known]
+    passed = ~nearer[:-1] & ~nearer[1:] & (force[1:] >= force[:-1]) & (force[:-1] < 0)
+    pulls += [(depth[i], force[i]) for i in np.flatnonzero(passed)]
+    if not pulls:
+        return {}
+    depth_of_least, least = min(pulls, key=lambda each: each[1])
+    return {"pull_off_force": float(least), "pull_off_depth": float(depth_of_least)}
 
 
 def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tuple[float, float]:
@@ -317,6 +372,20 @@ def _elastic_energy(contact: Contact) -> float:
     return 0.5 * cell_area * float(contact.pressure @ displacement)
 
 
+def _energy_of_pull(contact: Contact) -> float:
+    """Energy of the pull across gaps, in the units of the contact."""
+    law = contact.problem.law
+    if law.only_pushes:
+        return 0.0
+    return law.energy(contact) * contact.problem.operator.cell_area * contact.separation.size
+
+
+def _pulling_nodes(contact: Contact) -> float:
+    """Number of the nodes that pull, each as the share of the largest pull that it bears."""
+    pulling = contact.pressure[contact.pulling]
+    return float(pulling.sum()) / -contact.problem.law.largest_pull if pulling.size else 0.0
+
+
 def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
     """Return where the surface is lower than it was untouched."""
     lower = contact.separation - scaled.separation()
@@ -327,10 +396,11 @@ def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
 def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) -> Fields:
     shape = contact.gap.shape
     pressure = np.zeros(shape)
-    touching, plastic = np.zeros((2, *shape), dtype=bool)
+    touching, plastic, pulling = np.zeros((3, *shape), dtype=bool)
     pressure.flat[contact.nodes] = contact.pressure * scaled.pressure
     touching.flat[contact.nodes] = ~contact.pulling
     plastic.flat[contact.nodes] = contact.plastic
+    pulling.flat[contact.nodes] = contact.pulling
     displacement = contact.gap - contact.separation
     displacement += contact.depth
     displacement *= scaled.height
@@ -343,6 +413,7 @@ def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) 
         gap=contact.gap * scaled.height,
         contact=touching,
         plastic=plastic,
+        pulling=pulling,
         indentation=indentation,
         sizes=scaled.surface.sizes,
         is_periodic=scaled.half_space.periodic,

@@ -265,9 +265,10 @@ def _measured(
         for name in curve.measured
     }
     steeper: Mapping[str, Measured] = {}
-    if steepening > 1 and any((each == 0).any() for each in grids.values()):
+    assert curve.law is not None
+    pushed = curve.law.only_pushes
+    if pushed and steepening > 1 and any((each == 0).any() for each in grids.values()):
         # pressures and gaps of the steeper surface, in units so many times larger
-        assert curve.law is not None
         law = curve.law.scaled(steepening, steepening)
         steeper = _pressed_again(curve, surface, law, press, 1 / steepening).measured
     found = {}

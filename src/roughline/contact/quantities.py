@@ -39,7 +39,8 @@ class Quantity:
     dims: tuple[str, ...] = OVER_LOADS  # what it extends over: the loads, or the loads and the grid
     dtype: str = "f8"  # NumPy's name of the type of its values
     of_lines: bool = True  # whether the reduced model gives it
-    of_yielding: bool = False  # whether files hold it only where a hardness was given
+    # what a contact law must leave (its ``memory``) for files to hold it; empty: anything
+    memories: tuple[str, ...] = ()
     # name of the attribute of a curve or of its fields, where it is not that in files
     attribute: str = ""
 
@@ -50,6 +51,10 @@ class Quantity:
     def unit_in(self, length_unit: str | None) -> str | None:
         """Return the unit where lengths have this one; None for a flag."""
         return None if self.dimension is None else unit_of(self.dimension, length_unit)
+
+    def is_left_by(self, memory: str) -> bool:
+        """Whether files hold it of a contact law that leaves "none", "dents" or the "path"."""
+        return not self.memories or memory in self.memories
 
     def attributes(self, length_unit: str | None) -> dict[str, str]:
         """Return its attributes in files: ``units`` and ``long_name``, as far as it has them."""
@@ -75,7 +80,9 @@ def unit_of(dimension: str, length_unit: str | None) -> str:
 
 
 _of_surfaces = partial(Quantity, of_lines=False)
-_of_yielding = partial(Quantity, of_lines=False, of_yielding=True)
+_of_yielding = partial(Quantity, of_lines=False, memories=("dents",))
+_of_sticking = partial(Quantity, of_lines=False, memories=("path",))
+_of_both = partial(Quantity, of_lines=False, memories=("dents", "path"))
 _on_the_grid = partial(Quantity, of_lines=False, dims=_ON_THE_GRID)
 
 _DECLARED = (
@@ -168,7 +175,7 @@ _DECLARED = (
         long_name="largest permanent indentation",
         column=17,
     ),
-    _of_yielding(
+    _of_both(
         "work",
         "W",
         "energy",
@@ -176,13 +183,30 @@ _DECLARED = (
         long_name="work done by the load",
         column=18,
     ),
-    _of_yielding(
+    _of_both(
         "dissipated_work",
         "",
         "energy",
-        "part of the work that the permanent indentations dissipated",
-        long_name="work dissipated by indentation",
+        "part of the work that permanent indentations, or jumps of bodies that stick, dissipated",
+        long_name="work dissipated by indentation or by jumps",
         column=19,
+    ),
+    _of_sticking(
+        "pulling_fraction",
+        "",
+        "1",
+        "area across whose gap the bodies pull each other, over the nominal area",
+        long_name="area that pulls across a gap over nominal area",
+        column=23,
+    ),
+    _of_sticking(
+        "on_approach",
+        "",
+        None,
+        "whether the bodies came nearer from the load before, the branch of bodies that stick",
+        long_name="1 on approach, 0 on retreat",
+        column=24,
+        dtype="?",
     ),
     Quantity(
         "residual",
@@ -237,7 +261,7 @@ _DECLARED = (
         "1 where the pressure is at the hardness, else 0",
         column=20,
         dtype="?",
-        of_yielding=True,
+        memories=("dents",),
     ),
     _on_the_grid(
         "indentation_field",
@@ -245,8 +269,17 @@ _DECLARED = (
         "length",
         "permanent indentation: how much lower the surface is than before any load",
         column=21,
-        of_yielding=True,
+        memories=("dents",),
         attribute="indentation",
+    ),
+    _on_the_grid(
+        "pulling",
+        "",
+        "1",
+        "1 where the bodies pull each other across a gap, else 0",
+        column=25,
+        dtype="?",
+        memories=("path",),
     ),
 )
 

@@ -14,6 +14,7 @@ class Status(enum.IntEnum):
     NO_TANGENT = 3
     INTERRUPTED = 4
     UNKNOWN_SURFACE = 5
+    PULLED_OFF = 6
 
     @property
     def reason(self) -> str:
@@ -26,4 +27,5 @@ class Status(enum.IntEnum):
             Status.INTERRUPTED: "not solved: interrupted before",
             Status.UNKNOWN_SURFACE: "not solved: the surface as a larger load before "
             "them left it is not known",
+            Status.PULLED_OFF: "pulled off: no contact bears so large a pull",
         }[self]

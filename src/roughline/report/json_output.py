@@ -52,7 +52,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
             **{
                 quantity.name: getattr(curve, quantity.name)
                 for quantity in IN_JSON
-                if curve.hardness is not None or not quantity.of_yielding
+                if quantity.is_left_by("none" if curve.law is None else curve.law.memory)
             },
             "status": [Status(value).name.lower() for value in curve.status],
         },

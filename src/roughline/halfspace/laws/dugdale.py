@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import ClassVar, Literal
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.halfspace.laws.law import ContactLaw, Solved
+from roughline.halfspace.laws.adhesive import Adhesive
+from roughline.halfspace.laws.law import ContactLaw
 
-_SETTLED = 1e-6  # change of the shares of the pull, from which on they are those of the gap
-_PAST, _NEAR = 6, 0.1
-_WIDTH = 1.8  # of half the ramp, over what the pull on a cell displaces it: then ramps are stable
+# Half of the ramp over what the pull on a cell displaces it: so a cell at the edge of the reach has
+# one place, and does not jump between two (benchmarks/pull_off.py).
+_WIDTH = 1.8
 
 
 @dataclass(frozen=True, eq=False)
-class Dugdale(ContactLaw):
+class Dugdale(Adhesive):
     """Elastic bodies that pull each other with a pressure w / h_0 up to a range h_0 [1]_ [2]_.
 
     Where the bodies touch, the pressure is above -w / h_0; where the gap is between zero and h_0,
     it is -w / h_0; beyond, it is zero. The order of loads matters: bodies that come nearer jump
-    together, and hold each other where they did not pull before.
+    together, and bodies that go apart hold each other where they did not pull before.
 
     On a grid the pull ends over a ramp about h_0, across which the share of a cell within reach
     falls from one to zero. Half of it is what the gap changes across half a cell, or, where that is
-    more, a cell's displacement by the pull on it. So the edge of the reach moves through cells, and
+    more, what the pull on a cell displaces it. So the edge of the reach moves through cells, and
     does not jump from one to the next. The work of adhesion is that of the law.
 
     Attributes
@@ -45,7 +44,7 @@ class Dugdale(ContactLaw):
     Raises
     ------
     InputError
-        If work or range are not positive and finite.
+        If work or range are not positive and finite, or where the grid does not resolve the range.
 
     References
     ----------
@@ -53,99 +52,60 @@ class Dugdale(ContactLaw):
        100-104 (1960).
     .. [2] D. Maugis, "Adhesion of spheres: the JKR-DMT transition using a Dugdale model", J. Colloid
        Interface Sci. 150, 243-269 (1992).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> x = np.linspace(-1.7, 1.7, 64)
+    >>> sphere = rl.Surface(-(x[:, None] ** 2 + x**2) / 2, sizes=(3.4, 3.4))
+    >>> law = rl.Dugdale(work_of_adhesion=1 / np.pi, range=2 / np.pi)
+    >>> curve = rl.press(sphere, E_star=0.75, law=law, depths=[0.5, 0.0, -0.5, -0.7])
+    >>> print(curve.force.round(2))
+    [-0.87 -1.44 -1.6  -1.49]
     """
 
-    work_of_adhesion: float
-    range: float
     ramp: Real | float = 0.0
-    share: Real | float = 0.0
-    doubt: float = 0.0
-    past: tuple[tuple[Real, Real], ...] = ()
-    memory: ClassVar[Literal["none", "dents", "path"]] = "path"
-    only_pushes: ClassVar[bool] = False
-
-    def __post_init__(self) -> None:
-        for name, what in (("work_of_adhesion", "work of an area"), ("range", "length")):
-            if not 0 < getattr(self, name) < math.inf:
-                raise InputError(
-                    f"{name} is {getattr(self, name)!r}; a positive, finite {what} is needed: "
-                    "bodies that do not stick are rl.Unilateral()"
-                )
-
-    @property
-    def pull(self) -> float:
-        """Tension within the range, w / h_0. [pressure]"""
-        return self.work_of_adhesion / self.range
-
-    def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
-        """Return the share of the pull that nodes bear, and that they may bear any pressure."""
-        low = -self.pull * self.share
-        if isinstance(low, np.ndarray):
-            low = low.ravel() if nodes is None else low.ravel()[nodes]
-        return low, math.inf
 
     def scaled(self, pressure: float, length: float) -> Dugdale:
         """Return the law in other units."""
-        work, reach = self.work_of_adhesion / (pressure * length), self.range / length
-        return replace(self, work_of_adhesion=work, range=reach, ramp=self.ramp / length)
+        scaled = super().scaled(pressure, length)
+        assert isinstance(scaled, Dugdale)
+        return replace(scaled, ramp=self.ramp / length)
 
     def on(self, take: Callable[[Real], Real]) -> Dugdale:
         """Return the law on another grid."""
-        fields = {
-            name: take(value)
-            for name in ("ramp", "share")
-            if isinstance(value := getattr(self, name), np.ndarray)
-        }
-        return replace(self, **fields)
+        taken = super().on(take)
+        assert isinstance(taken, Dugdale)
+        return replace(taken, ramp=take(self.ramp) if isinstance(self.ramp, np.ndarray) else 0.0)
 
-    def between(self, separation: Real, compliance: float) -> Dugdale:
+    def between(self, separation: Real, compliance: float) -> ContactLaw:
         """Return the law for bodies: their ramps are those of the slopes and of the grid."""
-        steepness = sum(np.abs(np.gradient(separation, axis=axis)) for axis in (0, 1)) / 2
-        ramp = np.maximum(steepness, _WIDTH * self.pull * compliance)
-        return replace(self, ramp=np.minimum(ramp, self.range))
-
-    def refuse(
-        self, control: str, values: Real, heights: Real, area: float, mean_is_free: bool
-    ) -> None:
-        """Refuse forces, under which bodies that stick have two depths or none."""
-        if control == "forces":
+        law = super().between(separation, compliance)
+        if not isinstance(law, Dugdale):
+            return law
+        least = _WIDTH * self.largest_pull * compliance
+        if least > self.range:
             raise InputError(
-                "forces do not say where bodies that stick are: under a pull they have two depths, "
-                "or none; give depths"
+                f"is too short for the grid: the pull w / h_0 would end within a cell. Give at "
+                f"least {np.sqrt(least / self.range):.2g} times as much, with the same work, or a "
+                "finer grid",
+                "range",
             )
+        steepness = sum(np.abs(np.gradient(separation, axis=axis)) for axis in (0, 1)) / 2
+        return replace(self, ramp=np.clip(steepness, least, self.range))
 
-    def then(self, contact: Solved) -> Dugdale | None:
-        """Move the shares of the pull to those of the gap, until they no longer change."""
-        share = np.clip((self.range + self.ramp - contact.gap) / (2 * self.ramp), 0.0, 1.0)
-        doubt = float(np.abs(share - self.share).max())
-        if doubt <= _SETTLED:
-            return None
-        past = (*self.past, (self.share + np.zeros_like(share), share))[-_PAST:]
-        if doubt < _NEAR and len(past) > 1:
-            share = _extrapolated(past)
-        return replace(self, share=share, doubt=doubt, past=past if doubt < _NEAR else ())
+    def share_at(self, gap: Real) -> Real:
+        """Return one up to the ramp, and zero beyond it."""
+        return np.clip((self.range + self.ramp - gap) / (2 * self.ramp), 0.0, 1.0)
 
-    def start(self, value: float, last: float | None, largest: float | None) -> Dugdale:
-        """Forget how the law was found under the load before."""
-        return replace(self, past=(), doubt=0.3)
+    @property
+    def flattest(self) -> Real | float:
+        """The width of the ramp. [length]"""
+        return 2 * self.ramp
 
-    def beyond_doubt(self) -> Dugdale:
-        """Return the law without doubt."""
-        return replace(self, doubt=0.0)
-
-    def scales(self, pressure: Real, displacement: Real) -> tuple[float, float]:
-        """Compare gaps with the range, as bodies that pull may displace each other by nothing."""
-        return float(np.abs(pressure).mean()), self.range
-
-
-def _extrapolated(past: tuple[tuple[Real, Real], ...]) -> Real:
-    """Return the shares at which those taken and those that follow would be the same (Anderson)."""
-    moving = np.zeros(past[0][0].shape, bool)
-    for taken, following in past:
-        moving |= taken != following
-    changes = np.array([(following - taken)[moving] for taken, following in past])
-    values = np.array([following[moving] for _, following in past])
-    steps, *_ = np.linalg.lstsq(np.diff(changes, axis=0).T, changes[-1], rcond=1e-10)
-    share = past[-1][1].copy()
-    share[moving] = np.clip(values[-1] - steps @ np.diff(values, axis=0), 0.0, 1.0)
-    return share
+    def work_beyond(self, gap: Real) -> Real:
+        """Return the part of the range that is left to open, over the range."""
+        gap = np.maximum(gap, 0.0)
+        open_ = np.minimum(gap, self.range - self.ramp) / self.range
+        return 1 - open_ - (1 - self.share_at(gap) ** 2) * self.ramp / self.range

@@ -47,11 +47,14 @@ class ContactLaw(ABC):
         starts from the one before.
     only_pushes : bool
         Whether no pressure is negative, so that nodes that lie too far apart cannot touch.
+    follows_gaps : bool
+        Whether bounds depend on gaps, so that a law and its contact are led to each other by what
+        :meth:`then` returns. Only then is :meth:`misfit` asked.
     """
 
-    doubt: float = 0.0
     memory: ClassVar[Literal["none", "dents", "path"]] = "none"
     only_pushes: ClassVar[bool] = True
+    follows_gaps: ClassVar[bool] = False
 
     @abstractmethod
     def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
@@ -157,9 +160,46 @@ class ContactLaw(ABC):
         """
         return None
 
-    def beyond_doubt(self) -> ContactLaw:
-        """Return the law without doubt."""
-        return self
+    def misfit(self, contact: Solved) -> float:
+        """Return by how much gaps differ, at most, from those that go with this law's bounds.
+
+        Parameters
+        ----------
+        contact : Solved
+            The contact that obeys this law, in the law's units.
+
+        Returns
+        -------
+        float
+            [length]
+        """
+        return 0.0
+
+    def energy(self, contact: Solved) -> float:
+        """Return the energy of a pull, which is zero where bodies are far apart.
+
+        Parameters
+        ----------
+        contact : Solved
+            The contact that obeys this law, in the law's units.
+
+        Returns
+        -------
+        float
+            The mean over the nodes, zero or negative. [pressure * length]
+        """
+        return 0.0
+
+    def remarks(self, separation: Real) -> tuple[str, ...]:
+        """Return what users must know of a law for the bodies at hand, in its units.
+
+        Parameters
+        ----------
+        separation : ndarray, shape (nx, ny)
+            Distance of the untouched bodies at first touch, in units in which E* is 1 and a cell
+            has unit area. [length]
+        """
+        return ()
 
     def scales(self, pressure: Real, displacement: Real) -> tuple[float, float]:
         """Return with what pressures and gaps are compared in the residuals.
@@ -178,6 +218,16 @@ class ContactLaw(ABC):
         """
         moved = displacement if self.only_pushes else np.abs(displacement)
         return float(np.abs(pressure).mean()), float(moved.max())
+
+    @property
+    def largest_pull(self) -> float:
+        """Largest tension that a node bears across a gap. [pressure]"""
+        return -float(np.min(self.bounds(None)[0]))
+
+    @property
+    def resolves_pull_off(self) -> bool:
+        """Whether the grid resolves what pulls, where E* is 1 and a cell has unit area."""
+        return True
 
     def largest_force(self, area: float) -> float:
         """Return the force under which the mean pressure on an area is the upper bound. [force]"""

@@ -29,10 +29,17 @@ class Unilateral(ContactLaw):
     ) -> None:
         """Refuse pulls, and depths beyond full contact where that is rigid."""
         super().refuse(control, values, heights, area, mean_is_free)
-        if control == "depths" and mean_is_free:
-            full_contact, depth = float(np.mean(heights.max() - heights)), values.max()
-            if not depth < full_contact:
-                raise InputError(
-                    f"depth {depth:g} is beyond reach: the periodic half-space is in full contact "
-                    f"at {full_contact:g}, whatever the force; give smaller depths, or forces"
-                )
+        refuse_beyond_full_contact(control, values, heights, mean_is_free)
+
+
+def refuse_beyond_full_contact(
+    control: str, values: Real, heights: Real, mean_is_free: bool
+) -> None:
+    """Refuse depths at which all nodes touch, where that is rigid."""
+    if control == "depths" and mean_is_free:
+        full_contact, depth = float(np.mean(heights.max() - heights)), values.max()
+        if not depth < full_contact:
+            raise InputError(
+                f"depth {depth:g} is beyond reach: the periodic half-space is in full contact "
+                f"at {full_contact:g}, whatever the force; give smaller depths, or forces"
+            )

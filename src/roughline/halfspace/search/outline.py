@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
+from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.search.problem import Contact
 
 # Gap beyond the outline over (pressure within it times spacing over E*). On a summit it is of order
@@ -39,6 +40,7 @@ def overstated_cells(
     shape = contact.separation.shape
     touching = np.zeros(shape, dtype=bool)
     touching.flat[contact.nodes[~contact.pulling]] = True
+    above = contact.pressure - Bounds.of(contact.problem.law, contact.nodes).low
     pairs, summits = 0, 0.0
     for axis in (0, 1):
         for step in (1, -1):
@@ -49,11 +51,11 @@ def overstated_cells(
             beyond, _ = _neighbours(outline, shape, axis, step, periodic)
             within, loaded_too = _neighbours(outline, shape, axis, -step, periodic)
             at, gap = np.searchsorted(contact.nodes, outline), contact.gap_at(beyond)
-            edge = contact.pressure[at]
+            edge = above[at]
             loaded_too &= touching.flat[within]
             rising = np.zeros(edge.size, dtype=bool)
             inner = np.searchsorted(contact.nodes, within[loaded_too])
-            rising[loaded_too] = edge[loaded_too] > contact.pressure[inner] * (1 + 1e-6)
+            rising[loaded_too] = edge[loaded_too] > above[inner] * (1 + 1e-6)
             rising |= contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
             smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
             steep = (rising | ~loaded_too) & (gap > smooth)

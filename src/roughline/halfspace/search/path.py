@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import zip_longest
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.search.by_depths import under_force
 from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.problem import (
     Contact,
@@ -30,7 +30,9 @@ from roughline.halfspace.search.tangent import Response, Tangent, response
 from roughline.halfspace.search.turns import Turns
 from roughline.halfspace.search.window import Window
 
-_OF_DOUBT, _ROUGHEST = 0.03, 1e-2  # to such a part of a law's doubt its contact is solved, at most
+# Part of a law's misfit to which its contact is solved while they are led to each other, and the
+# largest such tolerance.
+_OF_MISFIT, _ROUGHEST = 0.03, 1e-2
 _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
 
@@ -38,9 +40,14 @@ def solve_path(
     problem: Problem, loads: Sequence[Load], method: Method
 ) -> Iterator[tuple[Contact, Response | None]]:
     """Solve the contact under each load in turn; each meets the surfaces that the last one left."""
-    path = _Path(problem, method)
-    for load, next_load in zip_longest(loads, loads[1:]):
-        yield path.under(load, next_load)
+    path = Path(problem, method)
+    for load in loads:
+        if load.force is None or problem.law.only_pushes:
+            yield path.under(load)
+        else:
+            found = under_force(path, load.force, method.rtol)
+            path = found.path
+            yield found.contact, found.response
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,21 +59,31 @@ class _Solved:
     response: Response | None
 
 
-class _Path:
+class Path:
     """The contact along a path of loads."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         self._problem = problem
         self._method = method
-        self._start: ContactSet | None = None  # of the next search, which takes it
+        self._last: _Solved | None = None  # until the next search
+        self._start: ContactSet | None = None  # of the search, which takes it
         self._followed: tuple[Indices, Response] | None = None  # nodes and tangents that led to it
         self._before: float | None = None  # the load before
         self._largest: float | None = None
         self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
         self._unknown_below = -np.inf  # the largest load that was not solved
 
-    def under(self, load: Load, next_load: Load | None) -> tuple[Contact, Response | None]:
-        """Return the contact under a load, and prepare the next."""
+    @property
+    def last(self) -> _Solved | None:
+        """The last load and its contact."""
+        return self._last
+
+    def under(self, load: Load) -> tuple[Contact, Response | None]:
+        """Return the contact under the next load."""
+        last, self._last = self._last, None
+        if last is not None:
+            self._prepare(load, last)
+        del last  # no contact is held while the next is solved
         if load.value < self._unknown_below:
             return _unsearched(self._problem, load, Outcome.UNKNOWN_SURFACE), None
         if self._furthest is not None and load.value > self._furthest.load.value:
@@ -76,8 +93,7 @@ class _Path:
             solved = self._furthest = replace(self._furthest, contact=contact)
         else:
             solved = self._solved(load)
-        self._before = load.value
-        self._prepare(next_load, solved)
+        self._before, self._last = load.value, solved
         return solved.contact, solved.response
 
     def _solved(self, load: Load) -> _Solved:
@@ -102,16 +118,21 @@ class _Path:
         Return the contact in a window, and the same on the grid.
         """
         law, spent = self._problem.law.start(load.value, self._before, self._largest), 0
+        rtol = _ROUGHEST if law.follows_gaps else self._method.rtol
         while True:
-            # while the law is in doubt, its contact need not be known better
-            rtol = max(self._method.rtol, min(_OF_DOUBT * law.doubt, _ROUGHEST))
-            method = replace(self._method, rtol=rtol)
+            method = replace(self._method, rtol=max(rtol, self._method.rtol))
             found, contact = self._settled(load, law, spent, method)
+            law, fits = contact.problem.law, True
+            if law.follows_gaps and contact.outcome is Outcome.CONVERGED:
+                misfit = law.misfit(contact) / contact.length_scale
+                residuals = replace(contact.residuals, misfit=misfit)
+                found, contact = (replace(each, residuals=residuals) for each in (found, contact))
+                rtol, fits = min(_OF_MISFIT * misfit, _ROUGHEST), misfit <= self._method.rtol
             # that bodies yield shows before their elastic contact is found
             told = contact.outcome is Outcome.CONVERGED or law.memory == "dents"
-            following = contact.problem.law.then(contact) if told else None
-            if following is None and rtol > self._method.rtol and told:
-                following = contact.problem.law.beyond_doubt()
+            following = law.then(contact) if told and not (fits and law.follows_gaps) else None
+            if following is None and method.rtol > self._method.rtol and told:
+                following = law  # whose contact is now to be known well
             if following is None:
                 return found, contact
             law, spent = following, found.convolutions
@@ -157,10 +178,10 @@ class _Path:
         )
         return loading, unloading
 
-    def _prepare(self, load: Load | None, solved: _Solved) -> None:
+    def _prepare(self, load: Load, solved: _Solved) -> None:
         """Choose the contact from which the next load starts, if any, and follow its tangent."""
         self._start = self._followed = None
-        if load is None or solved.response is None:
+        if solved.response is None:
             return
         if self._problem.law.memory == "dents":
             if load.value <= solved.load.value:
@@ -221,6 +242,7 @@ def _unsearched(problem: Problem, load: Load, outcome: Outcome, loaded: int = 0)
         pulling=nowhere,
         looked_at=None,
         gaps=np.zeros(loaded) if loaded else problem.separation.ravel() - depth,
+        length_scale=1.0,
         residuals=Residuals(gap=largest),
         outcome=outcome,
         convolutions=0,
@@ -233,8 +255,9 @@ def _predicted(contact: Contact, tangent: Tangent, load: Load) -> ContactSet | N
         change = tangent.stiffness * (load.value - contact.depth)
     else:
         change = load.force - contact.force
-    # where the force changes by more than itself, coarser grids guess better than the tangent
-    if not (tangent.stiffness > 0 and abs(change) < abs(contact.force)):
+    # where the force changes by more than nodes bear, coarser grids guess better than the tangent
+    borne = contact.problem.grid.cell_area * float(np.abs(contact.pressure).sum())
+    if not (tangent.stiffness > 0 and abs(change) < borne):
         return None
     pressure = contact.pressure + change * tangent.pressure_per_force
     loaded = pressure > 0

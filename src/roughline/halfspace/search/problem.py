@@ -33,6 +33,7 @@ class Outcome(enum.Enum):
     STALLED = "stalled"
     MAX_ITERATIONS = "max_iterations"
     UNKNOWN_SURFACE = "unknown_surface"
+    PULLED_OFF = "pulled_off"
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,6 +178,8 @@ class Residuals:
     load: float = 0.0
     # spacing of numbers at the depth, over the length scale: smaller gaps are lost in it
     rounding: float = 0.0
+    # largest misfit of a law that follows gaps, over the length scale
+    misfit: float = 0.0
 
     @property
     def worst(self) -> float:
@@ -198,6 +201,7 @@ class Residuals:
             "pressure above the hardness",
             "the force",
             "the rounding of the depth",
+            "the pull across gaps",
         )[int(np.argmax(astuple(self)))]
 
 
@@ -218,6 +222,7 @@ class Contact:
     # the nodes that can touch, and the neighbours of the contact; None: all of the grid
     looked_at: GridNodes | None
     gaps: Real  # there [length]
+    length_scale: float  # with which gaps are compared [length]
     residuals: Residuals
     outcome: Outcome
     convolutions: int  # spent on this load

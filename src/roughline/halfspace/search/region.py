@@ -276,6 +276,7 @@ class Trial:
             pulling=~(self.touching | self.plastic)[loaded],
             looked_at=operator.nodes,
             gaps=self.gap,
+            length_scale=self.length_scale,
             residuals=self.residuals,
             outcome=outcome,
             convolutions=convolutions,

@@ -1,0 +1,218 @@
+"""A force on bodies that stick, found by a search over depths.
+
+Under one pull such bodies have two depths or none. So the path is followed by depths, from the last
+contact towards the force: nearer where that is larger, apart where it is less. The first contact
+with the force is that of slow bodies under it. On the way apart the force has a least value, the
+pull-off. Beyond it no contact bears the pull, and the bodies come apart.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughline.halfspace.search.problem import Contact, Load, Outcome
+
+if TYPE_CHECKING:
+    from roughline.halfspace.search.path import Path
+    from roughline.halfspace.search.tangent import Response
+
+_FASTER = 2.0  # by which a step to the next depth may be longer than the one before
+_NARROWINGS = 60  # of an interval of depths, at most
+_STEPS = 400  # apart, at most
+_LEAST_FORCE = 12  # narrowings about the least force, which is flat there
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """A path after a depth, and the contact there."""
+
+    path: Path
+    contact: Contact
+    response: Response | None
+
+    @property
+    def depth(self) -> float:
+        """Approach since first touch. [length]"""
+        return self.contact.depth
+
+    @property
+    def force(self) -> float:
+        """Total force. [force]"""
+        return self.contact.force
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether the contact and its stiffness were found."""
+        return self.response is not None and self.response.converged
+
+    @property
+    def is_apart(self) -> bool:
+        """Whether the bodies neither touch nor pull each other."""
+        return not self.contact.nodes.size
+
+    @property
+    def borne(self) -> float:
+        """Sum of the forces on all nodes. [force]"""
+        cell_area = self.contact.problem.grid.cell_area
+        return cell_area * float(np.abs(self.contact.pressure).sum())
+
+    @property
+    def stiffness(self) -> float:
+        """Stiffness at a given reach of the pull, which no branch exceeds. [force / length]"""
+        assert self.response is not None
+        return self.response.loading.stiffness
+
+
+def under_force(path: Path, force: float, rtol: float) -> State:
+    """Return the path after a force, and the contact under it.
+
+    Where bodies that do not touch are to be pulled they are first brought to rest without a force.
+    """
+    search = _Search(force, rtol)
+    last = path.last
+    state = None if last is None else State(path, last.contact, last.response)
+    if state is None or not state.is_solved or state.is_apart:
+        first = _Search(max(force, 0.0), rtol)
+        state = first.nearer(first.at(path, 0.0))
+        search.convolutions += first.convolutions
+    if state.is_solved and not search.is_at(state):
+        state = search.nearer(state) if state.force < force else search.apart(state)
+    return search.told(state)
+
+
+class _Search:
+    """The search for a force over depths, from one side."""
+
+    def __init__(self, force: float, rtol: float) -> None:
+        self.convolutions = 0
+        self._force = force
+        self._rtol = rtol
+
+    def at(self, path: Path, depth: float) -> State:
+        """Follow a path to a depth."""
+        path = copy(path)
+        contact, response = path.under(Load(depth=depth))
+        self.convolutions += contact.convolutions
+        return State(path, contact, response)
+
+    def is_at(self, state: State) -> bool:
+        """Whether a contact bears the force."""
+        return abs(state.force - self._force) <= self._rtol * state.borne
+
+    def told(self, state: State) -> State:
+        """Return a state with what the search took, and by how much it misses the force."""
+        contact = replace(state.contact, convolutions=self.convolutions)
+        if state.is_solved and contact.outcome is Outcome.CONVERGED:
+            off = abs(state.force - self._force) / state.borne if state.borne else 0.0
+            contact = replace(contact, residuals=replace(contact.residuals, load=off))
+            if off > self._rtol:
+                contact = replace(contact, outcome=Outcome.STALLED)
+        outcome = contact.outcome
+        response = state.response if outcome is Outcome.CONVERGED else None
+        return State(state.path, contact, response)
+
+    def nearer(self, state: State) -> State:
+        """Bring bodies nearer until they bear the force."""
+        before: State | None = None
+        while state.is_solved and not self.is_at(state) and state.force < self._force:
+            step = self._step(before, state)
+            before, state = state, self.at(state.path, state.depth + step)
+        if before is None or not state.is_solved or self.is_at(state):
+            return state
+        return self._between(before, state)
+
+    def apart(self, state: State) -> State:
+        """Take bodies apart until they bear the force, or come off."""
+        before, least, step = state, state, 0.0
+        for _ in range(_STEPS):
+            wanted = -self._step(before if before is not state else None, state)
+            step = wanted if not step else min(max(wanted, step / _FASTER), _FASTER * step)
+            beyond = self.at(state.path, state.depth - step)
+            if not beyond.is_solved or self.is_at(beyond):
+                return beyond
+            if beyond.force < self._force:
+                return self._between(state, beyond)
+            if beyond.force >= state.force:
+                lowest = self._least(before, state, beyond)
+                if lowest.is_solved and lowest.force <= self._force:
+                    return lowest if self.is_at(lowest) else self._between(before, lowest)
+                least = min(least, lowest, key=lambda each: each.force)
+            if beyond.is_apart:
+                off = replace(least.contact, outcome=Outcome.PULLED_OFF)
+                return State(beyond.path, off, None)
+            before, state = state, beyond
+        return replace(state, contact=replace(state.contact, outcome=Outcome.STALLED))
+
+    def _step(self, before: State | None, state: State) -> float:
+        """Return the change of depth that leads to the force, as far as the last ones tell."""
+        missing = self._force - state.force
+        if not state.stiffness > 0:  # nothing touches yet
+            return float(np.sign(missing)) * state.contact.length_scale
+        step = missing / state.stiffness
+        if before is None or state.depth == before.depth:
+            return step
+        slope = (state.force - before.force) / (state.depth - before.depth)
+        return missing / slope if slope > state.stiffness / 4 else 4 * step
+
+    def _between(self, start: State, end: State) -> State:
+        """Narrow an interval of depths, whose ends bear less and more, down to the force.
+
+        Each trial starts from the end from which the bodies came.
+        """
+        low, high, side = start.force - self._force, end.force - self._force, 0
+        for _ in range(_NARROWINGS):
+            depth = (start.depth * high - end.depth * low) / (high - low)
+            trial = self.at(start.path, depth)
+            if not trial.is_solved or self.is_at(trial):
+                return trial
+            off = trial.force - self._force
+            if (off < 0) == (start.force < self._force):
+                start, low = trial, off
+                high, side = (high / 2, 1) if side == 1 else (high, 1)
+            else:
+                end, high = trial, off
+                low, side = (low / 2, -1) if side == -1 else (low, -1)
+        return min(start, end, key=lambda each: abs(each.force - self._force))
+
+    def _least(self, nearer: State, middle: State, farther: State) -> State:
+        """Narrow an interval of depths down to the least force in it."""
+        for _ in range(_LEAST_FORCE):
+            depth = _lowest_of_parabola(nearer, middle, farther)
+            trial = self.at((nearer if depth > middle.depth else middle).path, depth)
+            if not trial.is_solved:
+                return middle
+            gained = middle.force - trial.force
+            if depth > middle.depth:
+                if gained > 0:
+                    middle, farther = trial, middle
+                else:
+                    nearer = trial
+            elif gained > 0:
+                nearer, middle = middle, trial
+            else:
+                farther = trial
+            if abs(gained) <= self._rtol * middle.borne:
+                break
+        return middle
+
+
+def _lowest_of_parabola(nearer: State, middle: State, farther: State) -> float:
+    """Return the depth of the least force of a parabola through three states, well within them.
+
+    Where the parabola does not tell, it is the middle of the wider part.
+    """
+    right, left = nearer.depth - middle.depth, middle.depth - farther.depth
+    wider = middle.depth + (right / 2 if right > left else -left / 2)
+    if not (right > 0 and left > 0):
+        return wider
+    up, down = (nearer.force - middle.force) / right, (middle.force - farther.force) / left
+    bent = (up - down) / (right + left)
+    least = 0.05 * (right + left)
+    lowest = middle.depth + (bent * right - up) / (2 * bent) if bent > 0 else middle.depth
+    if abs(lowest - middle.depth) < 0.2 * least:
+        return wider
+    return min(max(lowest, farther.depth + least), nearer.depth - least)
