@@ -46,6 +46,7 @@ class Adhesive(ContactLaw):
     share: Real | float = 0.0
     rounds: tuple[tuple[Real, Real], ...] = ()  # last shares, and those that followed from gaps
     near: float = _NEAR  # change of the shares below which they are extrapolated
+    misfit: float = 0.0
     memory: ClassVar[Literal["none", "dents", "path"]] = "path"
     only_pushes: ClassVar[bool] = False
     follows_gaps: ClassVar[bool] = True
@@ -111,22 +112,18 @@ class Adhesive(ContactLaw):
     def then(self, contact: Solved) -> Adhesive:
         """Take the shares of the gap, or, near their end, those at which rounds would end."""
         share = self.share_at(contact.gap)
-        change = float(np.abs(share - self.share).max())
+        changes = np.abs(share - self.share)
+        change, misfit = float(changes.max()), float((self.flattest * changes).max())
+        followed = replace(self, share=share, rounds=(), misfit=misfit)
         if change >= self.near:
-            near = _NEAR if change > _NEAR else self.near
-            return replace(self, share=share, rounds=(), near=near)
+            return replace(followed, near=_NEAR if change > _NEAR else self.near)
         if len(self.rounds) > 1:
-            taken, followed = self.rounds[-1]
-            before = float(np.abs(followed - taken).max())
+            taken, plain = self.rounds[-1]
+            before = float(np.abs(plain - taken).max())
             if change > _NEARER * before:
-                return replace(self, share=followed, rounds=(), near=before / 3)
+                return replace(followed, share=plain, near=before / 3)
         rounds = (*self.rounds, (self.share + np.zeros_like(share), share))[-_ROUNDS:]
-        return replace(self, share=_extrapolated(rounds), rounds=rounds)
-
-    def misfit(self, contact: Solved) -> float:
-        """Return by how much the gaps differ from those of the shares that nodes bear."""
-        change = np.abs(self.share_at(contact.gap) - self.share)
-        return float((self.flattest * change).max())
+        return replace(followed, share=_extrapolated(rounds), rounds=rounds)
 
     def energy(self, contact: Solved) -> float:
         """Return minus the work that is left to separate the nodes."""

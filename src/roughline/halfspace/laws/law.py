@@ -49,9 +49,13 @@ class ContactLaw(ABC):
         Whether no pressure is negative, so that nodes that lie too far apart cannot touch.
     follows_gaps : bool
         Whether bounds depend on gaps, so that a law and its contact are led to each other by what
-        :meth:`then` returns. Only then is :meth:`misfit` asked.
+        :meth:`then` returns.
+    misfit : float
+        Of a law that follows gaps, and that follows a contact: by how much the gaps of that differ
+        at most from those that go with the bounds which it obeyed. [length]
     """
 
+    misfit: float = 0.0
     memory: ClassVar[Literal["none", "dents", "path"]] = "none"
     only_pushes: ClassVar[bool] = True
     follows_gaps: ClassVar[bool] = False
@@ -159,21 +163,6 @@ class ContactLaw(ABC):
             finite pressures, they are infinite on all nodes.
         """
         return None
-
-    def misfit(self, contact: Solved) -> float:
-        """Return by how much gaps differ, at most, from those that go with this law's bounds.
-
-        Parameters
-        ----------
-        contact : Solved
-            The contact that obeys this law, in the law's units.
-
-        Returns
-        -------
-        float
-            [length]
-        """
-        return 0.0
 
     def energy(self, contact: Solved) -> float:
         """Return the energy of a pull, which is zero where bodies are far apart.

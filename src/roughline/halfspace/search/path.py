@@ -120,19 +120,19 @@ class Path:
         law, spent = self._problem.law.start(load.value, self._before, self._largest), 0
         rtol = _ROUGHEST if law.follows_gaps else self._method.rtol
         while True:
-            method = replace(self._method, rtol=max(rtol, self._method.rtol))
+            method = self._method.to(rtol) if law.follows_gaps else self._method
             found, contact = self._settled(load, law, spent, method)
-            law, fits = contact.problem.law, True
-            if law.follows_gaps and contact.outcome is Outcome.CONVERGED:
-                misfit = law.misfit(contact) / contact.length_scale
-                residuals = replace(contact.residuals, misfit=misfit)
-                found, contact = (replace(each, residuals=residuals) for each in (found, contact))
-                rtol, fits = min(_OF_MISFIT * misfit, _ROUGHEST), misfit <= self._method.rtol
+            law = contact.problem.law
             # that bodies yield shows before their elastic contact is found
             told = contact.outcome is Outcome.CONVERGED or law.memory == "dents"
-            following = law.then(contact) if told and not (fits and law.follows_gaps) else None
-            if following is None and method.rtol > self._method.rtol and told:
-                following = law  # whose contact is now to be known well
+            following = law.then(contact) if told else None
+            if following is not None and following.follows_gaps:
+                misfit = following.misfit / contact.length_scale
+                rtol = min(_OF_MISFIT * misfit, _ROUGHEST)
+                if misfit <= self._method.rtol:  # the law fits, and its contact is to be known well
+                    following = None if method.rtol == self._method.rtol else law
+                    residuals = replace(contact.residuals, misfit=misfit)
+                    found, contact = (replace(x, residuals=residuals) for x in (found, contact))
             if following is None:
                 return found, contact
             law, spent = following, found.convolutions

@@ -23,6 +23,7 @@ from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 # epsilons of F / (E* side) on grids of 8 to 10^6 points. Rounded pressures displace most in the
 # longest wave, so the side is the shorter one.
 _ROUNDINGS = 2.0
+_SINGLE_SERVES = 1e-4  # tolerances from here on; its rounding of gaps is 3e-6
 _DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
 
 
@@ -128,6 +129,16 @@ class Method:
     def certificate(self) -> Precision:
         """Precision of the residuals that are returned."""
         return "float32" if self.precision == "float32" else "float64"
+
+    def to(self, rtol: float) -> Method:
+        """Return the method for a start of such an error, or for its own tolerance.
+
+        Single precision serves while it is large, and hides it where it is small.
+        """
+        precision = self.precision
+        if precision == "mixed":
+            precision = "float32" if rtol >= _SINGLE_SERVES else "float64"
+        return replace(self, rtol=max(rtol, self.rtol), precision=precision)
 
     def resolution(self, grid: Grid) -> float:
         """Rounding of displacements over the force, over the tolerance. [length / force]"""
