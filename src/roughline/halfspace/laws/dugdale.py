@@ -13,8 +13,8 @@ from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.halfspace.laws.law import ContactLaw
 
 # Half of the ramp over what the pull on a cell displaces it: so a cell at the edge of the reach has
-# one place, and does not jump between two (benchmarks/pull_off.py).
-_WIDTH = 1.8
+# one place, and a circle on cells pulls as a circle does (benchmarks/pull_off.py).
+_WIDTH = 4.0
 
 
 @dataclass(frozen=True, eq=False)
