@@ -64,7 +64,7 @@ def test_files_hold_the_declared_variables(curve, line_curve, yielding_curve):
             each
             for each in IN_FILES
             if (one is not line_curve or each.of_lines)
-            and (one is yielding_curve or not each.of_yielding)
+            and each.is_left_by("none" if one.law is None else one.law.memory)
         ]
         assert list(data.variables) == [each.name for each in expected]
         for each in expected:

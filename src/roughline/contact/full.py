@@ -12,7 +12,7 @@ import numpy as np
 
 from roughline._version import __version__
 from roughline.computing import linear_algebra
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.loads import Loads
@@ -150,9 +150,11 @@ def _curve(
 ) -> Curve:
     """Put the results of all loads together, without fields."""
     values = _columns(results)
+    values["on_approach"] = _comes_nearer(values["depth"])
     if law.memory == "path":
         stored = np.array([result.stored_work for result in results])
-        values |= _along_the_path(values["depth"], values["force"], stored)
+        values["work"] = _work_done(values["depth"], values["force"], stored)
+        values["dissipated_work"] = values["work"] - stored
     # the prescribed value is returned unchanged; its error is part of the residual
     prescribed = values[loads.control.removesuffix("s")]
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
@@ -309,21 +311,24 @@ def _columns(results: Sequence[_LoadResult]) -> dict[str, Any]:
     }
 
 
-def _along_the_path(depth: Real, force: Real, stored: Real) -> dict[str, Any]:
-    """Return what depends on the loads before: the branch, and the work that is dissipated.
+def _comes_nearer(depth: Real) -> Mask:
+    """Return at which loads bodies have come nearer since the load before that was solved."""
+    nearer, known = np.zeros(depth.size, bool), np.isfinite(depth)
+    nearer[known] = np.diff(depth[known], prepend=-np.inf) >= 0
+    return nearer
 
-    Bodies come to the first load without a jump, as far as is known. Loads that were not solved are
-    passed over.
+
+def _work_done(depth: Real, force: Real, stored: Real) -> Real:
+    """Return the work that the loads have done, by the trapezoidal rule between those solved.
+
+    Bodies come to the first load without a jump, as far as is known.
     """
-    known = np.flatnonzero(np.isfinite(depth))
-    nearer = np.zeros(depth.size, bool)
-    work = np.full(depth.size, np.nan)
-    if known.size:
-        nearer[known] = np.diff(depth[known], prepend=-np.inf) >= 0
+    known, work = np.isfinite(depth), np.full(depth.size, np.nan)
+    if known.any():
         middle = (force[known][1:] + force[known][:-1]) / 2
         done = np.cumsum(middle * np.diff(depth[known]))
-        work[known] = stored[known[0]] + np.concatenate([[0.0], done])
-    return {"on_approach": nearer, "work": work, "dissipated_work": work - stored}
+        work[known] = stored[known][0] + np.concatenate([[0.0], done])
+    return work
 
 
 def _pull_off(
