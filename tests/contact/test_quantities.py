@@ -34,6 +34,12 @@ def yielding_curve(surface):
     return rl.press(surface, E_star=1.0, hardness=5.0, forces=forces, **errors)
 
 
+@pytest.fixture(scope="module")
+def sticking_curve(surface):
+    law = rl.Dugdale(work_of_adhesion=0.1, range=0.5)
+    return rl.press(surface, E_star=1.0, law=law, forces=[0.3, 0.1], fields=True)
+
+
 def test_a_curve_has_what_is_declared_and_no_more(curve):
     def arrays(result):
         return {
@@ -57,8 +63,8 @@ def test_values_have_the_declared_type(curve, line_curve, quantity):
     assert (getattr(line_curve, quantity.name) is not None) == quantity.of_lines
 
 
-def test_files_hold_the_declared_variables(curve, line_curve, yielding_curve):
-    for one in (curve, line_curve, yielding_curve):
+def test_files_hold_the_declared_variables(curve, line_curve, yielding_curve, sticking_curve):
+    for one in (curve, line_curve, yielding_curve, sticking_curve):
         data = one.to_dataset()
         expected = [
             each
@@ -115,5 +121,5 @@ def test_json_gives_results_and_no_fields():
         *("area_fraction", "area_fraction_corrected", "stiffness_error"),
         *("unloading_stiffness_error", "area_fraction_error"),
         *("plastic_fraction", "indentation", "work", "dissipated_work"),
-        *("residual", "resolved", "status"),
+        *("pulling_fraction", "on_approach", "residual", "resolved", "status"),
     ]

@@ -53,8 +53,9 @@ class Curve:
         Exact k = dF/dd on further loading: points at the hardness carry no additional load.
         [force / length]
     area_fraction : ndarray, shape (loads,), or None
-        Real over nominal contact area: the share of the points that touch, which under bodies that
-        only push are those whose pressure is above zero. None for a line: the contact area of the reduced model does not predict that of the surface.
+        Real over nominal contact area: the share of the points that touch, which are those whose
+        pressure is above zero, unless bodies stick. None for a line: the contact area of the
+        reduced model does not predict that of the surface.
     area_fraction_corrected : ndarray, shape (loads,), or None
         The same, less the area that whole cells add along the outline of the contact
         (Yastrebov, Anciaux and Molinari 2017). Under a summit this is a few per cent. On a plateau,

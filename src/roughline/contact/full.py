@@ -166,6 +166,7 @@ def _curve(
         if half_space.periodic
         else _border_warnings(surface, values["force"], shares)
     )
+    pull_off_depth, pull_off_force = _pull_off(results, values, law_there)
     return Curve(
         **values,
         half_space=half_space,
@@ -191,7 +192,8 @@ def _curve(
             *at_the_border,
             *law_there.remarks(scaled.separation()),
         ),
-        **_pull_off(results, values, law_there),
+        pull_off_depth=pull_off_depth,
+        pull_off_force=pull_off_force,
         residual_of=tuple(result.residual_of for result in results),
         surface=surface,
         dents=tuple(result.dents for result in results) if law.memory == "dents" else (),
@@ -333,23 +335,21 @@ def _work_done(depth: Real, force: Real, stored: Real) -> Real:
 
 def _pull_off(
     results: Sequence[_LoadResult], values: Mapping[str, Any], law: ContactLaw
-) -> dict[str, float]:
-    """Return the largest pull and its depth, by their names, where the grid resolves them.
+) -> tuple[float, float]:
+    """Return the depth and the force of the largest pull; NaN unless the grid resolves them.
 
     Bodies come off at a load on retreat after which they pull less, or between two forces.
     """
+    unknown = math.nan, math.nan
     if law.only_pushes or not law.resolves_pull_off:
-        return {}
+        return unknown
     pulls = [each.pull_off for each in results if each.pull_off is not None]
     known = np.flatnonzero(np.isfinite(values["depth"]))
     force, depth = values["force"][known], values["depth"][known]
     nearer = values["on_approach"][known]
     passed = ~nearer[:-1] & ~nearer[1:] & (force[1:] >= force[:-1]) & (force[:-1] < 0)
-    pulls += [(depth[i], force[i]) for i in np.flatnonzero(passed)]
-    if not pulls:
-        return {}
-    depth_of_least, least = min(pulls, key=lambda each: each[1])
-    return {"pull_off_force": float(least), "pull_off_depth": float(depth_of_least)}
+    pulls += zip(depth[:-1][passed].tolist(), force[:-1][passed].tolist(), strict=True)
+    return min(pulls, key=lambda each: each[1]) if pulls else unknown
 
 
 def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tuple[float, float]:

@@ -50,8 +50,8 @@ class Dugdale(Adhesive):
     ----------
     .. [1] D. S. Dugdale, "Yielding of steel sheets containing slits", J. Mech. Phys. Solids 8,
        100-104 (1960).
-    .. [2] D. Maugis, "Adhesion of spheres: the JKR-DMT transition using a Dugdale model", J. Colloid
-       Interface Sci. 150, 243-269 (1992).
+    .. [2] D. Maugis, "Adhesion of spheres: the JKR-DMT transition using a Dugdale model", J.
+       Colloid Interface Sci. 150, 243-269 (1992).
 
     Examples
     --------
