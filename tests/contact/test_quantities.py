@@ -37,7 +37,7 @@ def yielding_curve(surface):
 @pytest.fixture(scope="module")
 def sticking_curve(surface):
     law = rl.Dugdale(work_of_adhesion=0.1, range=0.5)
-    return rl.press(surface, E_star=1.0, law=law, forces=[0.3, 0.1], fields=True)
+    return rl.press(surface, E_star=1.0, law=law, forces=[0.3, 0.1], fields=True, grid_error=True)
 
 
 def test_a_curve_has_what_is_declared_and_no_more(curve):

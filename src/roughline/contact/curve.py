@@ -111,6 +111,8 @@ class Curve:
         force that a larger one follows; of forces that pull more than the contact bears, that at
         which it comes off, to the tolerance. NaN where there is none, and where the grid does not
         resolve the pull. [force] and [length]
+    pull_off_force_error : float
+        Estimated discretisation error of `pull_off_force`, if asked for. [force]
     residual_of : sequence of str
         What the largest residual of each load is of, such as "the gap within the contact". Empty
         for a line.
@@ -160,6 +162,7 @@ class Curve:
     on_approach: Mask | None = None
     pull_off_force: float = math.nan
     pull_off_depth: float = math.nan
+    pull_off_force_error: float = math.nan
     residual_of: Sequence[str] = field(default=(), repr=False)
     warnings: Sequence[str] = ()
     measured: Mapping[str, Measured] = field(default_factory=dict, repr=False)
@@ -287,6 +290,8 @@ class Curve:
         }
         if not math.isnan(self.pull_off_force):
             attrs |= {"pull_off_force": self.pull_off_force, "pull_off_depth": self.pull_off_depth}
+        if not math.isnan(self.pull_off_force_error):
+            attrs["pull_off_force_error"] = self.pull_off_force_error
         if self.warnings:
             attrs["warnings"] = "; ".join(self.warnings)
         return xarray.Dataset(variables, attrs=attrs).swap_dims(load=self.control.removesuffix("s"))

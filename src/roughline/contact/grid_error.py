@@ -122,7 +122,20 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
     assert law is not None
     grids = _Grids.of(surface)
     laws = grids.laws(law)
-    coarser = [press(*each) for each in zip(grids.coarser, [loads] * 3, laws, strict=True)]
+    try:
+        coarser = [press(*each) for each in zip(grids.coarser, [loads] * 3, laws, strict=True)]
+    except InputError as error:
+        if law.only_pushes:
+            raise
+        unknown, said = np.full(k.shape, np.nan), f"no grid error: on a coarser grid {error}"
+        return replace(
+            curve,
+            warnings=(*curve.warnings, said),
+            stiffness_error=unknown,
+            unloading_stiffness_error=unknown,
+            area_fraction_error=unknown,
+        )
+    pull_offs = np.array([each.pull_off_force for each in coarser])
     steepening = grids.steepening
     softer = _softer(grids, steepening, coarser[1], laws[1], partial(press, measures=()))
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
@@ -139,6 +152,7 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
             unloading_stiffness_error=_times(k_u, of_k_u),
             area_fraction_error=_times(area, of_area),
             measured=_measured(curve, surface, coarser, steepening, press),
+            pull_off_force_error=float(_between(pull_offs, curve.pull_off_force)),
         )
 
 
