@@ -64,10 +64,9 @@ class Adhesive(ContactLaw):
     def share_at(self, gap: Real) -> Real:
         """Return the share of the largest pull across gaps."""
 
-    @property
     @abstractmethod
-    def flattest(self) -> Real | float:
-        """Least change of a gap over that of its share, at each node. [length]"""
+    def gap_between(self, share: Real, other: Real | float) -> Real:
+        """Return the difference of the gaps that go with shares. [length]"""
 
     @abstractmethod
     def work_beyond(self, gap: Real) -> Real:
@@ -113,8 +112,8 @@ class Adhesive(ContactLaw):
         """Take the shares of the gap, or, near their end, those at which rounds would end."""
         share = self.share_at(contact.gap)
         changes = np.abs(share - self.share)
-        change, misfit = float(changes.max()), float((self.flattest * changes).max())
-        followed = replace(self, share=share, rounds=(), misfit=misfit)
+        change, misfit = float(changes.max()), self.gap_between(share, self.share)
+        followed = replace(self, share=share, rounds=(), misfit=float(misfit.max()))
         if change >= self.near:
             return replace(followed, near=_NEAR if change > _NEAR else self.near)
         if len(self.rounds) > 1:

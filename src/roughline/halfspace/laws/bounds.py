@@ -67,12 +67,17 @@ class Bounds:
 
         They are scaled, or, towards an upper bound, moved up by the same part of what each has
         left to it, so none reaches it. Where the nodes at a bound alone would carry too much, all
-        are scaled down.
+        are scaled down. Where nodes pull, those between the bounds are moved alike, or all if
+        there are none.
         """
         pressure = np.minimum(pressure, self.high)
         touching = self.touching(pressure)
         rest = total - float(pressure[~touching].sum())
         now = float(pressure[touching].sum())
+        if (rest < 0 or not touching.any()) and np.any(self.low):
+            follow = touching if touching.any() else np.ones_like(touching)
+            pressure[follow] += (total - float(pressure.sum())) / int(follow.sum())
+            return pressure
         if rest < 0:
             return pressure * (total / float(pressure.sum()))
         if not touching.any():

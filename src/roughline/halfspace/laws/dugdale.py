@@ -92,17 +92,17 @@ class Dugdale(Adhesive):
                 "finer grid",
                 "range",
             )
-        steepness = sum(np.abs(np.gradient(separation, axis=axis)) for axis in (0, 1)) / 2
-        return replace(self, ramp=np.clip(steepness, least, self.range))
+        sides = [axis for axis in (0, 1) if separation.shape[axis] > 1]
+        steepness = sum(np.abs(np.gradient(separation, axis=axis)) for axis in sides) / 2
+        return replace(self, ramp=np.clip(steepness + np.zeros_like(separation), least, self.range))
 
     def share_at(self, gap: Real) -> Real:
         """Return one up to the ramp, and zero beyond it."""
         return np.clip((self.range + self.ramp - gap) / (2 * self.ramp), 0.0, 1.0)
 
-    @property
-    def flattest(self) -> Real | float:
-        """The width of the ramp. [length]"""
-        return 2 * self.ramp
+    def gap_between(self, share: Real, other: Real | float) -> Real:
+        """Return the part of the ramp between them."""
+        return 2 * self.ramp * np.abs(share - other)
 
     def work_beyond(self, gap: Real) -> Real:
         """Return the part of the range that is left to open, over the range."""

@@ -9,6 +9,8 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.halfspace.laws.adhesive import Adhesive
 
+_LEAST = 1e-7  # share of the largest pull, from which on pulls are told apart
+
 
 @dataclass(frozen=True, eq=False)
 class Exponential(Adhesive):
@@ -44,10 +46,10 @@ class Exponential(Adhesive):
         """Return exp(-g / rho)."""
         return np.exp(-np.maximum(gap, 0.0) / self.range)
 
-    @property
-    def flattest(self) -> float:
-        """Change of the gap over that of the share where bodies all but touch. [length]"""
-        return self.range
+    def gap_between(self, share: Real, other: Real | float) -> Real:
+        """Return rho times the difference of their logarithms; the least ones count as alike."""
+        logs = [np.log(np.maximum(each, _LEAST)) for each in (share, other)]
+        return self.range * np.abs(logs[0] - logs[1])
 
     def work_beyond(self, gap: Real) -> Real:
         """Return exp(-g / rho)."""

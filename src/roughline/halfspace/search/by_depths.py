@@ -8,6 +8,7 @@ pull-off. Beyond it no contact bears the pull, and the bodies come apart.
 
 from __future__ import annotations
 
+import math
 from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -23,6 +24,11 @@ if TYPE_CHECKING:
 _FASTER = 2.0  # by which a step to the next depth may be longer than the one before
 _NARROWINGS = 60  # of an interval of depths, at most
 _STEPS = 400  # apart, at most
+_CLOSE = 1e-2  # a part of what nodes bear by which a force may be missed that is then given itself
+_JUMP = 1e-5  # of the scale of lengths: as closely the depth is found at which bodies come off
+_SHORTER = 8.0
+_HARDLY = 3e-7  # of the largest pull on all of the bodies
+_FROM_FULL_CONTACT = 1e-3  # of the scale of lengths, the first step apart
 _LEAST_FORCE = 12  # narrowings about the least force, which is flat there
 
 
@@ -51,8 +57,13 @@ class State:
 
     @property
     def is_apart(self) -> bool:
-        """Whether the bodies neither touch nor pull each other."""
-        return not self.contact.nodes.size
+        """Whether the bodies neither touch nor pull each other by more than rounding."""
+        return not (self.stiffness > 0 or self.borne > _HARDLY * self.contact.problem.pull)
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the bodies are in full contact, which is rigid where the mean is free."""
+        return math.isinf(self.stiffness)
 
     @property
     def borne(self) -> float:
@@ -77,10 +88,10 @@ def under_force(path: Path, force: float, rtol: float) -> State:
     state = None if last is None else State(path, last.contact, last.response)
     if state is None or not state.is_solved or state.is_apart:
         first = _Search(max(force, 0.0), rtol)
-        state = first.nearer(first.at(path, 0.0))
+        state = first.nearer(path, None)
         search.convolutions += first.convolutions
     if state.is_solved and not search.is_at(state):
-        state = search.nearer(state) if state.force < force else search.apart(state)
+        state = search.nearer(path, state) if state.force < force else search.apart(state)
     return search.told(state)
 
 
@@ -107,7 +118,8 @@ class _Search:
         """Return a state with what the search took, and by how much it misses the force."""
         contact = replace(state.contact, convolutions=self.convolutions)
         if state.is_solved and contact.outcome is Outcome.CONVERGED:
-            off = abs(state.force - self._force) / state.borne if state.borne else 0.0
+            error = abs(state.force - self._force)
+            off = error / state.borne if error else 0.0
             contact = replace(contact, residuals=replace(contact.residuals, load=off))
             if off > self._rtol:
                 contact = replace(contact, outcome=Outcome.STALLED)
@@ -115,8 +127,23 @@ class _Search:
         response = state.response if outcome is Outcome.CONVERGED else None
         return State(state.path, contact, response)
 
-    def nearer(self, state: State) -> State:
-        """Bring bodies nearer until they bear the force."""
+    def given(self, path: Path) -> State:
+        """Follow a path to the force itself."""
+        path = copy(path)
+        contact, response = path.under(Load(force=self._force))
+        self.convolutions += contact.convolutions
+        return State(path, contact, response)
+
+    def nearer(self, path: Path, state: State | None) -> State:
+        """Bring bodies nearer until they bear the force.
+
+        More pull brings them nearer under a force as at a depth, so the force itself may be given.
+        Depths are for where that is not solved.
+        """
+        found = self.given(path)
+        if found.is_solved:
+            return found
+        state = state or self.at(path, 0.0)
         before: State | None = None
         while state.is_solved and not self.is_at(state) and state.force < self._force:
             step = self._step(before, state)
@@ -127,31 +154,48 @@ class _Search:
 
     def apart(self, state: State) -> State:
         """Take bodies apart until they bear the force, or come off."""
-        before, least, step = state, state, 0.0
+        if self._stays_rigid(state):
+            return self.given(state.path)
+        before, least = state, state
+        step = -self._step(None, state)
         for _ in range(_STEPS):
-            wanted = -self._step(before if before is not state else None, state)
-            step = wanted if not step else min(max(wanted, step / _FASTER), _FASTER * step)
             beyond = self.at(state.path, state.depth - step)
             if not beyond.is_solved or self.is_at(beyond):
                 return beyond
             if beyond.force < self._force:
                 return self._between(state, beyond)
-            if beyond.force >= state.force:
+            if beyond.is_apart and step > _JUMP * state.contact.length_scale:
+                step /= _SHORTER
+                continue
+            passed = beyond.force >= state.force
+            if passed and state.force < 0:
                 lowest = self._least(before, state, beyond)
                 if lowest.is_solved and lowest.force <= self._force:
                     return lowest if self.is_at(lowest) else self._between(before, lowest)
                 least = min(least, lowest, key=lambda each: each.force)
             if beyond.is_apart:
                 off = replace(least.contact, outcome=Outcome.PULLED_OFF)
-                return State(beyond.path, off, None)
+                return State(beyond.path.from_apart(), off, None)
             before, state = state, beyond
+            wanted = math.inf if passed else -self._step(before, state)
+            step = min(max(wanted, step / _FASTER), _FASTER * step)
         return replace(state, contact=replace(state.contact, outcome=Outcome.STALLED))
+
+    def _stays_rigid(self, state: State) -> bool:
+        """Whether no node of full contact would pull more than it can under the force."""
+        if not state.is_rigid:
+            return False
+        problem, pressure = state.contact.problem, state.contact.pressure
+        even = (self._force - state.force) / (problem.grid.cell_area * pressure.size)
+        return float(pressure.min()) + even > -problem.law.largest_pull
 
     def _step(self, before: State | None, state: State) -> float:
         """Return the change of depth that leads to the force, as far as the last ones tell."""
         missing = self._force - state.force
-        if not state.stiffness > 0:  # nothing touches yet
-            return float(np.sign(missing)) * state.contact.length_scale
+        if not state.stiffness > 0:  # nothing touches
+            return math.copysign(state.contact.length_scale, missing)
+        if state.is_rigid:
+            return math.copysign(_FROM_FULL_CONTACT * state.contact.length_scale, missing)
         step = missing / state.stiffness
         if before is None or state.depth == before.depth:
             return step
@@ -170,6 +214,8 @@ class _Search:
             if not trial.is_solved or self.is_at(trial):
                 return trial
             off = trial.force - self._force
+            if abs(off) <= _CLOSE * trial.borne and (found := self.given(start.path)).is_solved:
+                return found
             if (off < 0) == (start.force < self._force):
                 start, low = trial, off
                 high, side = (high / 2, 1) if side == 1 else (high, 1)

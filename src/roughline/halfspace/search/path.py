@@ -63,7 +63,7 @@ class Path:
     """The contact along a path of loads."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
-        self._problem = problem
+        self._untouched = self._problem = problem
         self._method = method
         self._last: _Solved | None = None  # until the next search
         self._start: ContactSet | None = None  # of the search, which takes it
@@ -77,6 +77,10 @@ class Path:
     def last(self) -> _Solved | None:
         """The last load and its contact."""
         return self._last
+
+    def from_apart(self) -> Path:
+        """Return the path of bodies that have come apart, and remember nothing."""
+        return Path(self._untouched, self._method)
 
     def under(self, load: Load) -> tuple[Contact, Response | None]:
         """Return the contact under the next load."""
@@ -118,11 +122,15 @@ class Path:
         Return the contact in a window, and the same on the grid.
         """
         law, spent = self._problem.law.start(load.value, self._before, self._largest), 0
-        rtol = _ROUGHEST if law.follows_gaps else self._method.rtol
+        rtol, single = _ROUGHEST if law.follows_gaps else self._method.rtol, True
         while True:
-            method = self._method.to(rtol) if law.follows_gaps else self._method
+            method = self._method.to(rtol, single) if law.follows_gaps else self._method
             found, contact = self._settled(load, law, spent, method)
             law = contact.problem.law
+            lost = contact.outcome is Outcome.STALLED and method.precision == "float32"
+            if lost and self._method.precision == "mixed":
+                single, spent = False, found.convolutions
+                continue
             # that bodies yield shows before their elastic contact is found
             told = contact.outcome is Outcome.CONVERGED or law.memory == "dents"
             following = law.then(contact) if told else None
@@ -255,9 +263,11 @@ def _predicted(contact: Contact, tangent: Tangent, load: Load) -> ContactSet | N
         change = tangent.stiffness * (load.value - contact.depth)
     else:
         change = load.force - contact.force
-    # where the force changes by more than nodes bear, coarser grids guess better than the tangent
+    # Where the force changes by more than nodes bear, coarser grids guess better than the tangent,
+    # but in full contact that pulls there is nothing to guess.
     borne = contact.problem.grid.cell_area * float(np.abs(contact.pressure).sum())
-    if not (tangent.stiffness > 0 and abs(change) < borne):
+    stays = np.isinf(tangent.stiffness) and not contact.problem.law.only_pushes
+    if not (tangent.stiffness > 0 and (abs(change) < borne or stays)):
         return None
     pressure = contact.pressure + change * tangent.pressure_per_force
     loaded = pressure > 0

@@ -92,6 +92,11 @@ class Problem:
         """Depth at which the surfaces touch, as they are now. [length]"""
         return float(self.separation.min())
 
+    @property
+    def pull(self) -> float:
+        """Force with which the bodies would pull each other as much as they can. [force]"""
+        return self.law.largest_pull * self.grid.cell_area * self.separation.size
+
     def reach(self, depth: float) -> float:
         """Return how near, beyond the least separation, bodies are that can touch. [length]
 
@@ -130,14 +135,15 @@ class Method:
         """Precision of the residuals that are returned."""
         return "float32" if self.precision == "float32" else "float64"
 
-    def to(self, rtol: float) -> Method:
+    def to(self, rtol: float, single: bool) -> Method:
         """Return the method for a start of such an error, or for its own tolerance.
 
-        Single precision serves while it is large, and hides it where it is small.
+        Single precision, where it is allowed, serves while the error is large, and hides it where
+        it is small.
         """
         precision = self.precision
         if precision == "mixed":
-            precision = "float32" if rtol >= _SINGLE_SERVES else "float64"
+            precision = "float32" if single and rtol >= _SINGLE_SERVES else "float64"
         return replace(self, rtol=max(rtol, self.rtol), precision=precision)
 
     def resolution(self, grid: Grid) -> float:

@@ -179,7 +179,7 @@ class Trial:
         force, borne = (cell_area * float(each.sum()) for each in (pressure, np.abs(pressure)))
         # 1. The scales. Where a flat body bears evenly hardly anything moves: there a gap is
         # compared with what rounding leaves of displacements, over the tolerance.
-        pressure_scale, length_scale = 1.0, abs(approach)
+        pressure_scale, length_scale = 1.0, abs(approach) or 1.0
         if borne > 0:
             displacement = gap[places] + approach - (region.separation[places] - problem.touch)
             pressure_scale, length_scale = problem.law.scales(pressure, displacement)
@@ -201,7 +201,7 @@ class Trial:
             penetration=-least_gap / length_scale if least_gap < least_on_contact else 0.0,
             tension=below / pressure_scale,
             excess=above / pressure_scale,
-            load=0.0 if load.force is None else abs(force - load.force) / borne,
+            load=0.0 if load.force is None else _part(abs(force - load.force), borne),
             rounding=float(np.spacing(abs(approach))) / length_scale,
         )
         return cls(
@@ -281,6 +281,11 @@ class Trial:
             outcome=outcome,
             convolutions=convolutions,
         )
+
+
+def _part(error: float, borne: float) -> float:
+    """Return an error over the sum of all forces; infinite where there are none."""
+    return error / borne if borne else math.inf if error else 0.0
 
 
 def _level(displaced: Real, pressure: Real, touching: Mask) -> float:
