@@ -1,0 +1,284 @@
+"""Bodies of revolution and waves that stick to an elastic half-space.
+
+References
+----------
+.. [1] K. L. Johnson, K. Kendall and A. D. Roberts, "Surface energy and the contact of elastic
+   solids", Proc. R. Soc. Lond. A 324, 301-313 (1971).
+.. [2] D. Maugis, "Adhesion of spheres: the JKR-DMT transition using a Dugdale model", J. Colloid
+   Interface Sci. 150, 243-269 (1992), eqs. 6.8 to 6.13.
+.. [3] R. S. Bradley, "The cohesive force between solid surfaces and the surface energy of solids",
+   Phil. Mag. 13, 853-862 (1932).
+.. [4] M. Heß, *Über die exakte Abbildung ausgewählter dreidimensionaler Kontakte auf Systeme mit
+   niedrigerer räumlicher Dimension*, Cuvillier (2011); V. L. Popov and M. Heß, *Method of
+   Dimensionality Reduction in Contact Mechanics and Friction*, Springer (2015), ch. 4.
+.. [5] K. Kendall, "The adhesion and surface energy of elastic solids", J. Phys. D 4, 1186-1195
+   (1971).
+.. [6] K. L. Johnson, "The adhesion of two elastic bodies with slightly wavy surfaces", Int. J.
+   Solids Struct. 32, 423-430 (1995).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, pi, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from roughline.exact import westergaard
+from roughline.exact._checks import Real, positive
+from roughline.exact.indenters import PowerLawIndenter
+
+_LARGEST_REACH = 1e4  # c / a up to which a pull-off is sought
+_TRIALS = 400  # ratios c / a between which the least force is narrowed down
+
+
+def bradley_pull_off(radius_of_curvature: float, work_of_adhesion: float) -> float:
+    """Least force -2 pi w R on a rigid sphere, whatever the law of its pull [3]_. [force]
+
+    Parameters
+    ----------
+    radius_of_curvature : float
+        R. [length]
+    work_of_adhesion : float
+        w. [energy / length²]
+    """
+    positive(radius_of_curvature=radius_of_curvature, work_of_adhesion=work_of_adhesion)
+    return -2 * pi * work_of_adhesion * radius_of_curvature
+
+
+def punch_pull_off(radius: float, work_of_adhesion: float, E_star: float) -> float:
+    """Least force -sqrt(8 pi E* w a³) on a flat disc, in the limit of a short range [5]_. [force]
+
+    Parameters
+    ----------
+    radius : float
+        a. [length]
+    work_of_adhesion : float
+        w. [energy / length²]
+    E_star : float
+        Contact modulus. [pressure]
+    """
+    positive(radius=radius, work_of_adhesion=work_of_adhesion, E_star=E_star)
+    return -sqrt(8 * pi * E_star * work_of_adhesion * radius**3)
+
+
+@dataclass(frozen=True)
+class StickingIndenter:
+    """Indenter c r^n that sticks in the limit of a short range, by Heß's rule [4]_.
+
+    In the reduction method the springs at the edge of the contact let go when they are pulled by
+    Delta l = sqrt(2 pi a w / E*). A paraboloid so gives JKR [1]_.
+
+    Attributes
+    ----------
+    indenter : PowerLawIndenter
+        The body and E*.
+    work_of_adhesion : float
+        w. [energy / length²]
+
+    Raises
+    ------
+    ValueError
+        If the work is not positive.
+    """
+
+    indenter: PowerLawIndenter
+    work_of_adhesion: float
+
+    def __post_init__(self) -> None:
+        positive(work_of_adhesion=self.work_of_adhesion)
+
+    def elongation(self, radius: ArrayLike) -> Real:
+        """Delta l of the springs at the edge. [length]"""
+        positive(radius=radius)
+        a, E_star = np.asarray(radius), self.indenter.E_star
+        return np.sqrt(2 * pi * a * self.work_of_adhesion / E_star)
+
+    def depth(self, radius: ArrayLike) -> Real:
+        """Depth d = g(a) - Delta l. [length]"""
+        return self.indenter.depth(radius) - self.elongation(radius)
+
+    def force(self, radius: ArrayLike) -> Real:
+        """Force without adhesion, less 2 E* a Delta l. [force]"""
+        a, E_star = np.asarray(radius), self.indenter.E_star
+        return self.indenter.force(self.indenter.depth(a)) - 2 * E_star * a * self.elongation(a)
+
+    @property
+    def pull_off_radius(self) -> float:
+        """Contact radius at which dF/da = 0: the force is least. [length]
+
+        Of g = kappa c x^n the condition is 2 n kappa c a^(n - 1/2) = 3 sqrt(2 pi w / E*).
+        """
+        return self._radius(3 / (2 * self.indenter.exponent))
+
+    @property
+    def lift_off_radius(self) -> float:
+        """Contact radius at which dd/da = 0: the body comes off at a given depth. [length]
+
+        Of g = kappa c x^n the condition is 2 n kappa c a^(n - 1/2) = sqrt(2 pi w / E*).
+        """
+        return self._radius(1 / (2 * self.indenter.exponent))
+
+    @property
+    def pull_off_force(self) -> float:
+        """Least force; of a paraboloid -(3/2) pi w R. [force]"""
+        return float(self.force(self.pull_off_radius))
+
+    def _radius(self, part: float) -> float:
+        """Contact radius at which kappa c a^(n - 1/2) is a part of sqrt(2 pi w / E*)."""
+        body = self.indenter
+        moved = sqrt(2 * pi * self.work_of_adhesion / body.E_star)
+        return float(
+            (part * moved / (body.stretch * body.coefficient)) ** (1 / (body.exponent - 0.5))
+        )
+
+
+@dataclass(frozen=True)
+class MaugisSphere:
+    """Sphere that is pulled evenly, with w / h_0, up to a range h_0 [2]_.
+
+    Its states are told by m = c / a, the radius of the reach over that of the contact. Forces are
+    pi w R and lengths those of JKR times the functions of m and of the transition parameter.
+
+    Attributes
+    ----------
+    radius_of_curvature : float
+        R. [length]
+    work_of_adhesion : float
+        w. [energy / length²]
+    range : float
+        h_0. [length]
+    E_star : float
+        Contact modulus. [pressure]
+
+    Raises
+    ------
+    ValueError
+        If any of them is not positive.
+    """
+
+    radius_of_curvature: float
+    work_of_adhesion: float
+    range: float
+    E_star: float
+
+    def __post_init__(self) -> None:
+        positive(
+            radius_of_curvature=self.radius_of_curvature,
+            work_of_adhesion=self.work_of_adhesion,
+            range=self.range,
+            E_star=self.E_star,
+        )
+
+    @property
+    def transition(self) -> float:
+        """Maugis's lambda = 2 sigma_0 (R / (pi w K²))^(1/3), K = 4 E* / 3. [1]"""
+        w, K = self.work_of_adhesion, 4 * self.E_star / 3
+        return float(2 * w / self.range * np.cbrt(self.radius_of_curvature / (pi * w * K**2)))
+
+    @property
+    def unit_of_radii(self) -> float:
+        """(pi w R² / K)^(1/3). [length]"""
+        K = 4 * self.E_star / 3
+        return float(np.cbrt(pi * self.work_of_adhesion * self.radius_of_curvature**2 / K))
+
+    def radius(self, reach_ratio: float) -> float:
+        """Contact radius a where the reach is m times as wide, by eq. 6.8. [length]"""
+        from scipy.optimize import brentq  # here because it loads slowly
+
+        mu, angle = _of_ratio(reach_ratio)
+        first = self.transition / 2 * (mu + (reach_ratio**2 - 2) * angle)
+        second = 4 / 3 * self.transition**2 * (mu * angle - reach_ratio + 1)
+        largest = 1 / sqrt(first)
+        found = brentq(lambda a: first * a**2 + second * a - 1, 0, largest, xtol=1e-15, rtol=1e-14)
+        return float(found * self.unit_of_radii)
+
+    def force(self, reach_ratio: float) -> float:
+        """Force, eq. 6.10. [force]"""
+        mu, angle = _of_ratio(reach_ratio)
+        a = self.radius(reach_ratio) / self.unit_of_radii
+        found = a**3 - self.transition * a**2 * (mu + reach_ratio**2 * angle)
+        return float(found * pi * self.work_of_adhesion * self.radius_of_curvature)
+
+    def depth(self, reach_ratio: float) -> float:
+        """Depth, eq. 6.12. [length]"""
+        mu, _ = _of_ratio(reach_ratio)
+        a = self.radius(reach_ratio) / self.unit_of_radii
+        unit = self.unit_of_radii**2 / self.radius_of_curvature
+        return float((a**2 - 4 / 3 * a * self.transition * mu) * unit)
+
+    def pull_off_ratio(self) -> float:
+        """Ratio m at which the force is least."""
+        from scipy.optimize import minimize_scalar  # here because it loads slowly
+
+        ratios = 1 + np.geomspace(1e-4, _LARGEST_REACH, _TRIALS)
+        least = int(np.argmin([self.force(m) for m in ratios]))
+        ends = ratios[max(least - 1, 0)], ratios[min(least + 1, _TRIALS - 1)]
+        return float(
+            minimize_scalar(
+                self.force, bounds=ends, method="bounded", options={"xatol": 1e-9 * ends[1]}
+            ).x
+        )
+
+    @property
+    def pull_off_force(self) -> float:
+        """Least force. [force]"""
+        return self.force(self.pull_off_ratio())
+
+    def at_depth(self, depth: float) -> float:
+        """Ratio m on the branch that is stable at a given depth.
+
+        Raises
+        ------
+        ValueError
+            If the sphere has no contact at this depth.
+        """
+        from scipy.optimize import brentq  # here because it loads slowly
+
+        ratios = 1 + np.geomspace(1e-6, _LARGEST_REACH, 4 * _TRIALS)
+        depths = np.array([self.depth(m) for m in ratios])
+        lowest = int(depths.argmin())
+        if not depths[lowest] <= depth <= depths[0]:
+            raise ValueError(
+                f"depth is {depth:g}; from {depths[lowest]:g} to {depths[0]:g} is known"
+            )
+        return float(brentq(lambda m: self.depth(m) - depth, ratios[0], ratios[lowest]))
+
+
+def _of_ratio(reach_ratio: float) -> tuple[float, float]:
+    """Return sqrt(m² - 1) and its arc tangent."""
+    if not 1 < reach_ratio < inf:
+        raise ValueError(f"reach_ratio is {reach_ratio}; a finite number above 1 is needed")
+    mu = sqrt((reach_ratio - 1) * (reach_ratio + 1))
+    return mu, float(np.arctan(mu))
+
+
+def wave_mean_pressure(
+    half_width: Real,
+    amplitude: float,
+    wavelength: float,
+    work_of_adhesion: float,
+    E_star: float,
+) -> Real:
+    """Mean pressure of a wave that sticks, in the limit of a short range [6]_. [pressure]
+
+    ``p* (sin²(pi a / lambda) - alpha sqrt(tan(pi a / lambda)))`` with p* the pressure of full
+    contact and ``alpha² = 2 w lambda / (pi² E* Delta²)``.
+
+    Parameters
+    ----------
+    half_width : ndarray
+        a of the contact, below lambda / 2. [length]
+    amplitude, wavelength : float
+        Delta and lambda of Delta cos(2 pi x / lambda). [length]
+    work_of_adhesion : float
+        w. [energy / length²]
+    E_star : float
+        Contact modulus. [pressure]
+    """
+    positive(work_of_adhesion=work_of_adhesion)
+    pushed = westergaard.mean_pressure(half_width, amplitude, wavelength, E_star)
+    full = westergaard.full_contact_pressure(amplitude, wavelength, E_star)
+    alpha = np.sqrt(2 * work_of_adhesion * wavelength / (pi**2 * E_star * amplitude**2))
+    return pushed - full * alpha * np.sqrt(np.tan(pi * half_width / wavelength))

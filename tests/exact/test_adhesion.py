@@ -1,0 +1,128 @@
+"""Exact solutions of bodies that stick: published values, limits, and each by another."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+from roughline.exact import adhesion, indenters
+
+# Least forces over pi w R (Maugis 1992), to the digits given.
+PULL_OFF = {
+    0.05: -1.98144,
+    0.1: -1.95059,
+    0.2: -1.88047,
+    0.5: -1.71825,
+    1.0: -1.60073,
+    2.0: -1.53460,
+    5.0: -1.50635,
+}
+
+
+def sphere(transition, R=1.0, w=1 / math.pi, E_star=0.75):
+    """A sphere of this transition parameter."""
+    K = 4 * E_star / 3
+    pull = transition / 2 * np.cbrt(math.pi * w * K**2 / R)
+    return adhesion.MaugisSphere(R, w, w / pull, E_star)
+
+
+@pytest.mark.parametrize(("transition", "force"), PULL_OFF.items())
+def test_the_pull_off_of_maugis(transition, force):
+    body = sphere(transition)
+    assert body.transition == pytest.approx(transition, rel=1e-12)
+    assert body.pull_off_force == pytest.approx(force, abs=6e-6)
+
+
+def test_the_limits_of_long_and_short_ranges():
+    """Bradley's and JKR's, and how fast they are reached."""
+    long = [-2 - sphere(t).pull_off_force for t in (0.02, 0.01)]
+    assert all(each < 0 for each in long)
+    assert long[1] > long[0] > -0.02
+    short = [sphere(t).pull_off_force + 1.5 for t in (5.0, 10.0, 20.0)]
+    assert all(each < 0 for each in short)
+    assert short[1] / short[2] == pytest.approx(4, rel=0.25)  # as 1 / lambda²
+
+
+def test_units_do_not_matter():
+    one, other = sphere(0.7), sphere(0.7, R=3e-6, w=0.05, E_star=4e7)
+    unit = math.pi * 0.05 * 3e-6
+    assert other.pull_off_force == pytest.approx(one.pull_off_force * unit, rel=1e-10)
+
+
+def test_a_sphere_of_short_range_is_jkr():
+    R, w, E_star = 1.0, 1 / math.pi, 0.75
+    jkr = adhesion.StickingIndenter(indenters.paraboloid(R, E_star), w)
+    assert jkr.pull_off_force == pytest.approx(-1.5 * math.pi * w * R, rel=1e-12)
+    a = jkr.lift_off_radius
+    assert a**3 == pytest.approx(1 / 6, rel=1e-12)
+    assert jkr.force(a) == pytest.approx(-5 / 6, rel=1e-12)
+    body = sphere(200.0)
+    m = body.at_depth(-0.3)
+    radius = body.radius(m)
+    assert jkr.depth(radius) == pytest.approx(-0.3, abs=3e-3)
+    assert jkr.force(radius) == pytest.approx(body.force(m), abs=3e-3)
+
+
+@pytest.mark.parametrize("n", [1.0, 2.0, 3.5])
+def test_the_least_force_of_an_indenter_is_where_its_radius_says(n):
+    body = adhesion.StickingIndenter(indenters.PowerLawIndenter(n, 0.8, 2.0), 0.03)
+    a = body.pull_off_radius
+    found = minimize_scalar(body.force, bounds=(a / 5, 5 * a), method="bounded")
+    assert found.fun == pytest.approx(body.pull_off_force, rel=1e-9)
+    deepest = minimize_scalar(body.depth, bounds=(a / 100, 5 * a), method="bounded")
+    assert deepest.x == pytest.approx(body.lift_off_radius, rel=1e-4)
+
+
+@pytest.mark.parametrize("n", [1.0, 2.0, 3.5])
+def test_the_force_does_the_work_of_the_energies(n):
+    """dF/dd along the branch: F = dU/dd of the elastic energy less w times the area."""
+    body = adhesion.StickingIndenter(indenters.PowerLawIndenter(n, 0.8, 2.0), 0.03)
+    a = np.linspace(1.2, 1.2 + 1e-4, 3) * body.pull_off_radius
+
+    def energy(radius):
+        # elastic: line of springs, each E* dx, pressed by g(a) - g(x) and pulled by Delta l
+        x = np.linspace(0, radius, 20001)
+        u = body.depth(radius) - body.indenter.stretch * 0.8 * x**n
+        return 2 * 2.0 * np.trapezoid(u**2, x) / 2 - 0.03 * math.pi * radius**2
+
+    change = energy(a[2]) - energy(a[0])
+    assert change == pytest.approx(
+        body.force(a[1]) * (body.depth(a[2]) - body.depth(a[0])), rel=1e-5
+    )
+
+
+def test_a_disc_is_pulled_off_as_kendall_has_it():
+    a, w, E_star = 0.3, 0.02, 5.0
+    # at the pull-off, the springs of the disc are elongated by Delta l: F = 2 E* a Delta l
+    elongation = math.sqrt(2 * math.pi * a * w / E_star)
+    assert adhesion.punch_pull_off(a, w, E_star) == pytest.approx(-2 * E_star * a * elongation)
+
+
+def test_a_wave_of_little_work_is_westergaards():
+    from roughline.exact import westergaard
+
+    a = np.linspace(0.05, 0.4, 5)
+    pushed = westergaard.mean_pressure(a, 0.01, 1.0, 2.0)
+    sticks = adhesion.wave_mean_pressure(a, 0.01, 1.0, 1e-16, 2.0)
+    assert sticks == pytest.approx(pushed, rel=1e-4)
+    # near the crest it is a cylinder that sticks: F = pi E* a² / (4 R) - sqrt(2 pi E* a w)
+    R, w, small = 1.0 / (4 * math.pi**2 * 0.01), 1e-9, np.array([1e-3])
+    line = math.pi * 2.0 * small**2 / (4 * R) - np.sqrt(2 * math.pi * 2.0 * small * w)
+    assert adhesion.wave_mean_pressure(small, 0.01, 1.0, w, 2.0) == pytest.approx(line, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: adhesion.MaugisSphere(1.0, 0.0, 1.0, 1.0),
+        lambda: adhesion.StickingIndenter(indenters.paraboloid(1.0, 1.0), -1.0),
+        lambda: sphere(1.0).force(1.0),
+        lambda: sphere(1.0).at_depth(-1e3),
+        lambda: adhesion.punch_pull_off(1.0, np.nan, 1.0),
+        lambda: adhesion.bradley_pull_off(np.inf, 1.0),
+    ],
+)
+def test_what_is_no_such_body_is_refused(wrong):
+    with pytest.raises(ValueError, match="needed|known"):
+        wrong()
