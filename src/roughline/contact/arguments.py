@@ -78,9 +78,14 @@ def given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> Con
             "give one of the two"
         )
     if isinstance(body, Line):
+        reason = (
+            "the springs of a Line only push"
+            if law.only_pushes
+            else "springs stick as bodies of revolution do, whose contact is one disc, and a rough "
+            "line has many contacts, whose sizes are not those of the surface"
+        )
         raise InputError(
-            "law belongs to the full model; the springs of a Line only push: leave it out, or "
-            "press a Surface"
+            f"law belongs to the full model; {reason}: leave it out, or press a Surface"
         )
     return law
 

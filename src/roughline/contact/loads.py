@@ -24,6 +24,7 @@ _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fra
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
+_LARGEST_CYCLE = 0.5  # of the mean separation, the largest depth of bodies that stick
 _LARGEST_YIELDING = 0.5  # of the force under which all of the area yields
 _BYTES_PER_LOAD = 1000  # of what a load gives
 _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few points touch early
@@ -89,7 +90,10 @@ def surface_loads(
         law.refuse(loads.control, loads.values, surface.heights, surface.area, free)
     else:
         _refuse_constant(surface, given)
-        loads = _spaced_loads(given, *_range_of_forces(surface, half_space, law))
+        if law.only_pushes:
+            loads = _spaced_loads(given, *_range_of_forces(surface, half_space, law))
+        else:
+            loads = _cycle(surface, half_space, law, given)
     _refuse_beyond_precision(surface, half_space.E_star, loads, rtol, single)
     return loads
 
@@ -112,6 +116,27 @@ def _range_of_forces(
     return float(half_space.disc_stiffness(float(radius)) * separation[few]), highest
 
 
+def _cycle(surface: Surface, half_space: HalfSpace, law: ContactLaw, given: GivenLoads) -> Loads:
+    """Return even depths of bodies that stick, from out of reach to a large one, and back.
+
+    At the largest one the bodies would overlap by half of their mean separation. On the way back no
+    contact is drawn out further than a flat disc that is as wide as all of that contact, when the
+    springs of its line let go.
+    """
+    n_loads = _counted(given)
+    separation = surface.heights.max() - surface.heights
+    deepest = _LARGEST_CYCLE * float(separation.mean())
+    within = np.count_nonzero(separation < deepest + law.reach) * surface.area / separation.size
+    radius = float(np.sqrt(within / np.pi))
+    work = law.largest_pull * law.reach  # at least that of adhesion
+    drawn = float(np.sqrt(2 * np.pi * radius * work / half_space.E_star))
+    first, last = -law.reach, -law.reach - drawn
+    nearer = round(1 + (n_loads - 1) * (deepest - first) / (2 * deepest - first - last))
+    nearer = min(max(nearer, 2), n_loads - 1)
+    there = np.linspace(first, deepest, nearer)
+    return Loads("depths", np.append(there, np.linspace(deepest, last, n_loads - nearer + 1)[1:]))
+
+
 def _checked_loads(given: GivenLoads) -> Loads:
     depths, forces = given.depths, given.forces
     if (depths is None) == (forces is None):
@@ -131,12 +156,18 @@ def _checked_loads(given: GivenLoads) -> Loads:
 
 
 def _spaced_loads(given: GivenLoads, lowest: float, highest: float) -> Loads:
+    n_loads = _counted(given)
+    lowest = min(lowest, _LARGEST_FIRST * highest)
+    return Loads("forces", np.geomspace(lowest, highest, n_loads))
+
+
+def _counted(given: GivenLoads) -> int:
+    """Return the number of loads that are to be spaced."""
     if given.depths is not None or given.forces is not None:
         raise InputError("n_loads given together with depths or forces; give one of the three")
     n_loads = checked_count("n_loads", given.n_loads, 2)
     refuse_beyond_memory(_BYTES_PER_LOAD * n_loads, f"n_loads = {n_loads}", "give fewer loads")
-    lowest = min(lowest, _LARGEST_FIRST * highest)
-    return Loads("forces", np.geomspace(lowest, highest, n_loads))
+    return n_loads
 
 
 def _refuse_constant(body: Body, given: GivenLoads) -> None:
@@ -155,7 +186,7 @@ def _refuse_beyond_precision(
     A flat body has no heights to compare its loads with: they are compared with each other.
     """
     if surface.rms_height == 0:
-        unit, name = float(np.abs(loads.values).max()), "of the largest load"
+        unit, name = float(np.abs(loads.values).max()) or 1.0, "of the largest load"
     elif loads.control == "forces":
         unit, name = surface.rms_height * E_star * surface.length, "E* h L"
     else:
@@ -169,7 +200,7 @@ def _refuse_beyond_precision(
             f"{'single' if single else 'double'} precision cannot resolve gaps to rtol = {rtol:g}; "
             f"give at most {rtol / rounding:.0g} {name}, or a larger rtol"
         )
-    if reach[least] < _SMALLEST_REACH:
+    if 0 < reach[least] < _SMALLEST_REACH:
         raise InputError(
             f"{loads.control}[{least}] is {reach[least]:.1g} {name}, too small to "
             f"differ from zero; give at least {_SMALLEST_REACH:g} {name}"

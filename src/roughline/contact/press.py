@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Literal
@@ -74,13 +75,19 @@ def press(
         elastic. Short for ``law=rl.Yielding(hardness)``. [pressure]
     law : ContactLaw, optional
         What pressure and gap obey at a point. Default: :class:`~roughline.Unilateral`, bodies that
-        neither stick nor overlap.
+        neither stick nor overlap; :class:`~roughline.Dugdale` and :class:`~roughline.Exponential`
+        stick.
     depths, forces : array_like, shape (loads,), optional
         Depths since first touch of the untouched surface [length] or total forces [force]. They may
         rise and fall: each load finds the surface as the last one left it. The order of loads does
-        not matter for elastic bodies. A zero after other loads unloads the bodies fully.
+        not matter for elastic bodies that only push. A zero after other loads unloads the bodies
+        fully. Bodies that stick may be pulled: depths and forces may be negative, and a force is
+        that of the first stable contact on the way to it. A pull that no contact bears takes them
+        apart.
     n_loads : int, optional
-        Number of forces, log-spaced from about ten springs or cells in contact to saturation.
+        Number of forces, log-spaced from about ten springs or cells in contact to saturation. Of
+        bodies that stick, depths of a whole cycle: from out of reach to half of the mean
+        separation, and back until no contact can be left.
     periodic : bool, optional
         Repeat the surface periodically; default: no. Depths then count the approach of the mean
         planes, k is the stiffness of the interface alone and is infinite in full contact.
@@ -247,10 +254,17 @@ def _failure_message(curve: Curve) -> str:
             which = ", ".join(map(str, failed[:5])) + (", ..." if failed.size > 5 else "")
             count = f"{failed.size} of {curve.status.size} loads (number {which})"
             parts.append(f"{count} {status.reason}")
+            if status is Status.PULLED_OFF and not math.isnan(curve.pull_off_force):
+                parts[-1] += (
+                    f"; the largest is {-curve.pull_off_force:.4g}, at depth "
+                    f"{curve.pull_off_depth:.4g}"
+                )
             if status in (Status.STALLED, Status.MAX_ITERATIONS):
                 worst = failed[curve.residual[failed].argmax()]
                 residual, of = curve.residual[worst], curve.residual_of[worst]
                 parts[-1] += f"; worst residual {residual:.1e}, that of {of}"
-    limited = (curve.status == Status.MAX_ITERATIONS).any()
-    advice = "raise max_iterations or rtol" if limited else "raise rtol"
+    statuses = set(curve.status[~curve.converged].tolist())
+    advice = "raise max_iterations or rtol" if Status.MAX_ITERATIONS in statuses else "raise rtol"
+    if statuses == {Status.PULLED_OFF}:
+        advice = "give smaller pulls, or depths"
     return "; ".join(parts) + f": {advice}, or take throw=False to keep the rest"

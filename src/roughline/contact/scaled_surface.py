@@ -32,7 +32,7 @@ class ScaledSurface:
         """Choose the units."""
         height = surface.rms_height
         if height == 0:  # a flat punch has no heights: its depth, at least roughly, gives the unit
-            height = float(np.abs(loads.values).max())
+            height = float(np.abs(loads.values).max()) or surface.length
             if loads.control == "forces":
                 height /= half_space.E_star * surface.length
         dx, dy = surface.spacing

@@ -73,6 +73,11 @@ class Adhesive(ContactLaw):
         """Return the work to separate nodes from a gap on, over w. [1]"""
 
     @property
+    @abstractmethod
+    def reach(self) -> float:
+        """Gap beyond which nothing is pulled. [length]"""
+
+    @property
     def largest_pull(self) -> float:
         """Tension of nodes that all but touch, w / h_0. [pressure]"""
         return self.work_of_adhesion / self.range
@@ -135,7 +140,7 @@ class Adhesive(ContactLaw):
     @property
     def zone(self) -> float:
         """Width of the zone that pulls about a contact, in units of E*: w / (pi sigma_0²)."""
-        return self.work_of_adhesion / (math.pi * self.largest_pull**2)
+        return self.range / (math.pi * self.largest_pull) if self.largest_pull else math.inf
 
     def remarks(self, separation: Real) -> tuple[str, ...]:
         """Say where the grid does not resolve the pull, and where all of the bodies is pulled."""

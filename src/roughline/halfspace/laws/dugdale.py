@@ -96,6 +96,11 @@ class Dugdale(Adhesive):
         steepness = sum(np.abs(np.gradient(separation, axis=axis)) for axis in sides) / 2
         return replace(self, ramp=np.clip(steepness + np.zeros_like(separation), least, self.range))
 
+    @property
+    def reach(self) -> float:
+        """Twice the range, which no ramp goes beyond. [length]"""
+        return 2 * self.range
+
     def share_at(self, gap: Real) -> Real:
         """Return one up to the ramp, and zero beyond it."""
         return np.clip((self.range + self.ramp - gap) / (2 * self.ramp), 0.0, 1.0)

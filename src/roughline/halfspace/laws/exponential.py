@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,6 +42,11 @@ class Exponential(Adhesive):
     .. [2] M. H. Müser et al., "Meeting the Contact-Mechanics Challenge", Tribol. Lett. 65, 118
        (2017).
     """
+
+    @property
+    def reach(self) -> float:
+        """Gap with the least share that is told from none. [length]"""
+        return -math.log(_LEAST) * self.range
 
     def share_at(self, gap: Real) -> Real:
         """Return exp(-g / rho)."""

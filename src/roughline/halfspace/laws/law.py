@@ -209,6 +209,11 @@ class ContactLaw(ABC):
         return float(np.abs(pressure).mean()), float(moved.max())
 
     @property
+    def reach(self) -> float:
+        """Gap beyond which nothing is pulled. [length]"""
+        return 0.0
+
+    @property
     def largest_pull(self) -> float:
         """Largest tension that a node bears across a gap. [pressure]"""
         return -float(np.min(self.bounds(None)[0]))

@@ -1,0 +1,256 @@
+"""What holds of all bodies that stick, whatever their surfaces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from random_cases import cases
+
+FORCE = 1e-5  # over the largest: rounds end where gaps are right to the tolerance
+LAWS = [rl.Dugdale, rl.Exponential]
+
+
+def surface(seed=1, n=32, hurst=0.7, sizes=(1.0, 1.0)):
+    made = rl.SelfAffine(hurst=hurst, rms_height=0.02).surface(n, seed)
+    return rl.Surface(made.heights, sizes)
+
+
+def law_for(body, law=rl.Dugdale, reach=0.3, zone=6.0, E_star=1.0):
+    """A law whose range is a part of the rms height, and whose zone has so many cells."""
+    h_0 = reach * body.rms_height
+    return law(E_star * h_0**2 / (np.pi * zone * np.sqrt(body.area / body.heights.size)), h_0)
+
+
+def there_and_back(body, law, count=12):
+    """Depths from out of reach to a third of the mean separation, and the same ones back."""
+    deepest = 0.35 * float((body.heights.max() - body.heights).mean())
+    steps = np.linspace(-2.2 * law.range, deepest, count)
+    return np.concatenate([steps, steps[-2::-1]])
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("seed", range(3))
+def test_a_cycle_never_gives_work(law, seed, periodic):
+    """On the way apart bodies hold each other where they did not pull on the way nearer."""
+    body = surface(seed)
+    of_body = law_for(body, law)
+    depths = there_and_back(body, of_body)
+    curve = rl.press(body, E_star=1.0, periodic=periodic, law=of_body, depths=depths, fields=True)
+    count = depths.size // 2 + 1
+    nearer, apart = curve.force[:count], curve.force[count - 1 :][::-1]
+    largest = np.abs(curve.force).max()
+    assert (apart <= nearer + FORCE * largest).all()
+    assert np.trapezoid(nearer - apart, depths[:count]) >= -FORCE * largest * of_body.range
+    assert curve.on_approach.tolist() == [True] * count + [False] * (count - 1)
+    assert (curve.stiffness >= 0).all()
+
+    def reached(i):
+        return curve.fields[i].pressure != 0 if law is rl.Dugdale else curve.fields[i].contact
+
+    for i in range(1, count):  # the reach grows on the way nearer, and shrinks on the way apart
+        assert (reached(i) >= reached(i - 1)).all()
+    for i in range(count, depths.size):
+        assert (reached(i) <= reached(i - 1)).all()
+    for i in range(count):  # and is wider at each depth on the way apart
+        assert (reached(depths.size - 1 - i) >= reached(i)).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_cycle_from_out_of_reach_and_back_dissipates_what_it_encloses(law):
+    body = surface(4)
+    of_body = law_for(body, law, reach=0.15)
+    curve = rl.press(body, E_star=1.0, law=of_body, n_loads=120)
+    count = int(curve.on_approach.sum())
+    assert curve.depth[0] == pytest.approx(curve.depth[: count - 1].min())
+    assert 0 < count < 120
+    assert abs(curve.force[-1]) <= FORCE * curve.force.max()
+    enclosed = np.trapezoid(curve.force, curve.depth)
+    assert curve.dissipated_work[-1] == pytest.approx(enclosed, rel=1e-3)
+    assert enclosed > 0
+    assert curve.pull_off_force == pytest.approx(curve.force.min(), rel=0.05)
+    assert curve.pull_off_force < 0
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_stored_work_is_what_force_does_where_nothing_jumps(law):
+    """The energies of bodies and of the pull change by F dd, and nothing is dissipated."""
+    body = surface(2, n=16)
+    of_body = law_for(body, law, reach=1.0, zone=60.0)  # a wide, weak pull
+    deepest = 0.3 * float((body.heights.max() - body.heights).mean())
+    curve = rl.press(
+        body, E_star=1.0, law=of_body, depths=np.linspace(0.0, deepest, 200), rtol=1e-9
+    )
+    assert np.abs(curve.dissipated_work).max() < 2e-4 * curve.work.max()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_units_do_not_matter(law):
+    body, length, pressure = surface(5), 3e-7, 4e9
+    of_body = law_for(body, law)
+    other_body = rl.Surface(body.heights * length, (length, length))
+    other_law = law(of_body.work_of_adhesion * length * pressure, of_body.range * length)
+    depths = there_and_back(body, of_body, 6)
+    one = rl.press(body, E_star=1.0, law=of_body, depths=depths)
+    other = rl.press(other_body, E_star=pressure, law=other_law, depths=depths * length)
+    unit = pressure * length**2
+    largest = np.abs(one.force).max()
+    assert other.force / unit == pytest.approx(one.force, abs=FORCE * largest)
+    assert other.pulling_fraction == pytest.approx(one.pulling_fraction, abs=FORCE)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_heights_work_and_range_scale_together(law):
+    """Heights and range times s, work times s²: pressures and forces times s."""
+    body, s = surface(6), 3.0
+    of_body = law_for(body, law)
+    higher = rl.Surface(body.heights * s, body.sizes)
+    stronger = law(of_body.work_of_adhesion * s**2, of_body.range * s)
+    depths = there_and_back(body, of_body, 6)
+    one = rl.press(body, E_star=1.0, law=of_body, depths=depths)
+    other = rl.press(higher, E_star=1.0, law=stronger, depths=depths * s)
+    assert other.force / s == pytest.approx(one.force, abs=FORCE * np.abs(one.force).max())
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("law", LAWS)
+def test_without_work_they_are_elastic_bodies_to_the_bit(law, periodic):
+    body = surface(7)
+    depths = np.linspace(0.1, 0.4, 3) * float((body.heights.max() - body.heights).mean())
+    elastic = rl.press(body, E_star=1.0, periodic=periodic, depths=depths, fields=True)
+    forces = elastic.force
+    for loads in ({"depths": depths}, {"forces": forces}):
+        plain = rl.press(body, E_star=1.0, periodic=periodic, fields=True, **loads)
+        none = rl.press(
+            body, E_star=1.0, periodic=periodic, law=law(1e-300, 0.01), fields=True, **loads
+        )
+        for name in ("force", "depth", "stiffness", "area_fraction", "residual"):
+            assert (getattr(none, name) == getattr(plain, name)).all(), name
+        for ours, theirs in zip(none.fields, plain.fields, strict=True):
+            assert (ours.pressure == theirs.pressure).all()
+    work = [1e-9, 1e-7]
+    off = [
+        np.abs(
+            rl.press(body, E_star=1.0, periodic=periodic, law=law(w, 0.01), depths=depths).force
+            / forces
+            - 1
+        ).max()
+        for w in work
+    ]
+    assert off[0] < off[1] / 50  # it comes to nothing evenly
+
+
+def test_forces_are_those_of_depths():
+    body = surface(8)
+    of_body = law_for(body, reach=0.4)
+    forces = np.array([2.0, 0.5, 0.0, -0.5, 1.0]) * 1e-4
+    by_force = rl.press(body, E_star=1.0, law=of_body, forces=forces, rtol=1e-8)
+    by_depth = rl.press(body, E_star=1.0, law=of_body, depths=by_force.depth, rtol=1e-8)
+    assert (by_force.force == forces).all()
+    assert by_depth.force == pytest.approx(forces, abs=1e-7 * 2e-4)
+    assert by_depth.stiffness == pytest.approx(by_force.stiffness, rel=1e-6)
+
+
+def test_a_pull_beyond_the_largest_is_told():
+    body = surface(8)
+    of_body = law_for(body, reach=0.4)
+    with pytest.raises(rl.ConvergenceError) as refused:
+        rl.press(body, E_star=1.0, law=of_body, forces=[1e-4, -1.0, 2e-4])
+    said, curve = str(refused.value), refused.value.curve
+    assert "\n" not in said
+    assert "pulled off" in said
+    assert f"the largest is {-curve.pull_off_force:.4g}, at depth" in said
+    assert curve.status.tolist() == [0, 6, 0]  # they touch again
+    again = rl.press(body, E_star=1.0, law=of_body, forces=[2e-4])
+    assert curve.depth[2] == pytest.approx(again.depth[0], rel=1e-6)
+    near, beyond = curve.pull_off_force * np.array([0.999, 1.001])
+    found = rl.press(body, E_star=1.0, law=of_body, forces=[1e-4, near, beyond], throw=False)
+    assert found.status.tolist() == [0, 0, 6]
+    depths = np.linspace(float(found.depth[1]), -4 * of_body.range, 30)
+    apart = rl.press(body, E_star=1.0, law=of_body, depths=[float(curve.depth[0]), *depths])
+    assert apart.force.min() >= curve.pull_off_force * (1 + 1e-4)
+
+
+@pytest.mark.parametrize(
+    ("law", "said"),
+    [
+        (lambda: rl.Dugdale(0.0, 1.0), "work_of_adhesion is 0.0; a positive, finite"),
+        (lambda: rl.Dugdale(-1.0, 1.0), "work_of_adhesion is -1.0; a positive, finite"),
+        (lambda: rl.Dugdale(np.nan, 1.0), "work_of_adhesion is nan; a positive, finite"),
+        (lambda: rl.Exponential(1.0, np.inf), "range is inf; a positive, finite length"),
+        (lambda: rl.Exponential(1.0, 0.0), "range is 0.0; a positive, finite length"),
+    ],
+)
+def test_what_is_no_pull_is_refused(law, said):
+    with pytest.raises(rl.InputError, match=said) as refused:
+        law()
+    assert "\n" not in str(refused.value)
+
+
+def test_what_the_grid_does_not_resolve_is_refused_or_told():
+    body = surface(9)
+    with pytest.raises(rl.InputError, match="range is too short for the grid.*at least") as refused:
+        rl.press(body, E_star=1.0, law=law_for(body, zone=0.5), depths=[0.01])
+    assert "\n" not in str(refused.value)
+    poorly = rl.press(
+        body, E_star=1.0, law=law_for(body, zone=1.8), forces=[0.0, -1.0], throw=False
+    )
+    assert "1.8 cells" in poorly.warnings[-1]
+    assert "no pull-off is given" in poorly.warnings[-1]
+    assert np.isnan(poorly.pull_off_force)
+    fairly = rl.press(
+        body, E_star=1.0, law=law_for(body, zone=3.0), forces=[0.0, -1.0], throw=False
+    )
+    assert "3 cells" in fairly.warnings[-1]
+    assert fairly.pull_off_force < 0
+    far = law_for(body, reach=20.0, zone=1e4)
+    assert (
+        "larger than all heights" in rl.press(body, E_star=1.0, law=far, depths=[0.0]).warnings[-1]
+    )
+
+
+def test_a_line_does_not_stick():
+    line = rl.Line(np.arange(8.0) % 3, length=1.0)
+    with pytest.raises(rl.InputError, match="law.*bodies of revolution") as refused:
+        rl.press(line, E_star=1.0, law=rl.Dugdale(1.0, 1.0), depths=[0.1])
+    assert "\n" not in str(refused.value)
+    with pytest.raises(rl.InputError, match="law and hardness"):
+        rl.press(surface(), E_star=1.0, law=rl.Dugdale(1.0, 1.0), hardness=1.0, depths=[0.1])
+
+
+def test_random_problems_are_certified_or_refused():
+    from random_problems import E_STAR, random_problem
+
+    solved, loads, refused = 0, 0, []
+    for seed in range(cases(2000, share=50)):
+        rng = np.random.default_rng(seed)
+        problem = random_problem(rng, largest=60)
+        body, ((control, values),) = problem.surface, problem.loads.items()
+        values = np.asarray(values)
+        height = body.rms_height or float(np.abs(values).max()) or 1.0
+        reach = height * 10 ** rng.uniform(-2, 1)
+        cell = np.sqrt(body.area / body.heights.size)
+        work = E_STAR * reach**2 / (np.pi * 10 ** rng.uniform(0, 3) * cell)
+        law = LAWS[int(rng.integers(2))](work, reach)
+        if control == "depths":
+            back = values[::-1] * rng.uniform(0, 1)
+            values = np.concatenate([values, -reach * rng.uniform(0, 5, 3), back])
+        else:
+            pulls = -0.01 * work / reach * body.area * rng.uniform(0, 1, 2)
+            values = np.concatenate([values, values[::-1] * rng.uniform(-1, 1), pulls])
+        half_space = rl.Homogeneous(E_STAR, periodic=problem.periodic)
+        try:
+            curve = rl.press(body, half_space=half_space, law=law, throw=False, **{control: values})
+        except rl.InputError as error:
+            refused.append(str(error))
+            continue
+        good = curve.converged
+        assert (curve.residual[good] <= 1e-6).all(), seed
+        assert np.isfinite(curve.force[good]).all(), seed
+        assert np.isnan(curve.force[~good]).all(), seed
+        told = good | (curve.status == rl.Status.PULLED_OFF)
+        solved, loads = solved + int(told.sum()), loads + told.size
+    assert solved > 0.97 * loads
+    assert all("too short for the grid" in said and "\n" not in said for said in refused)
