@@ -99,6 +99,17 @@ def test_a_disc_is_pulled_off_as_kendall_has_it():
     assert adhesion.punch_pull_off(a, w, E_star) == pytest.approx(-2 * E_star * a * elongation)
 
 
+def test_a_disc_of_short_range_is_kendalls_and_of_a_long_one_is_pulled_evenly():
+    a, w, E_star = 0.3, 0.02, 5.0
+    kendall = adhesion.punch_pull_off(a, w, E_star)
+    off = [1 - adhesion.ranged_punch_pull_off(a, w, h, E_star) / kendall for h in (4e-4, 2e-4)]
+    assert 0 < off[1] < 1e-3
+    assert off[0] / off[1] == pytest.approx(4, rel=0.05)  # as the width of the zone
+    assert adhesion.ranged_punch_pull_off(a, w, 0.5, E_star) == pytest.approx(
+        -math.pi * a**2 * w / 0.5
+    )
+
+
 def test_a_wave_of_little_work_is_westergaards():
     from roughline.exact import westergaard
 

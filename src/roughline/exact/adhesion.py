@@ -63,6 +63,44 @@ def punch_pull_off(radius: float, work_of_adhesion: float, E_star: float) -> flo
     return -sqrt(8 * pi * E_star * work_of_adhesion * radius**3)
 
 
+def ranged_punch_pull_off(
+    radius: float, work_of_adhesion: float, longest: float, E_star: float
+) -> float:
+    """Least force on a flat disc that is pulled evenly, with w / h_0, up to a range h_0. [force]
+
+    A ring about the disc r < c that still touches bears -sigma_0, as the ring of
+    :class:`~roughline.exact.yielding.YieldingDisc` bears H. In the reduction method the line of the
+    disc carries E* d for x < c and 2 sigma_0 sqrt(a² - x²) beyond, so the gap at the rim is
+    ``d - (2 / pi) (d arcsin(c / a) + (2 sigma_0 / E*) (a - c))``. Where it is h_0, or where nothing
+    touches, the disc comes off.
+
+    Parameters
+    ----------
+    radius : float
+        a. [length]
+    work_of_adhesion : float
+        w. [energy / length²]
+    longest : float
+        h_0. [length]
+    E_star : float
+        Contact modulus. [pressure]
+    """
+    from scipy.optimize import brentq  # here because it loads slowly
+
+    positive(radius=radius, work_of_adhesion=work_of_adhesion, longest=longest, E_star=E_star)
+    pull = work_of_adhesion / longest
+
+    def gap_at_rim(c: float) -> float:
+        depth = 2 * pull / E_star * sqrt(radius**2 - c**2)
+        moved = depth * np.arcsin(c / radius) + 2 * pull / E_star * (radius - c)
+        return float(depth - 2 / pi * moved)
+
+    if gap_at_rim(0.0) <= longest:
+        return -pi * radius**2 * pull
+    c = brentq(lambda c: gap_at_rim(c) - longest, 0.0, radius)
+    return -2 * pull * (radius**2 * np.arccos(c / radius) + c * sqrt(radius**2 - c**2))
+
+
 @dataclass(frozen=True)
 class StickingIndenter:
     """Indenter c r^n that sticks in the limit of a short range, by Heß's rule [4]_.

@@ -164,11 +164,12 @@ class _Search:
                 return beyond
             if beyond.force < self._force:
                 return self._between(state, beyond)
-            if beyond.is_apart and step > _JUMP * state.contact.length_scale:
+            is_least = state.force <= least.force
+            if is_least and beyond.is_apart and step > _JUMP * state.contact.length_scale:
                 step /= _SHORTER
                 continue
             passed = beyond.force >= state.force
-            if passed and state.force < 0:
+            if passed and is_least and state.force < 0:
                 lowest = self._least(before, state, beyond)
                 if lowest.is_solved and lowest.force <= self._force:
                     return lowest if self.is_at(lowest) else self._between(before, lowest)

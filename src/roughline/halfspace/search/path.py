@@ -138,7 +138,7 @@ class Path:
                 misfit = following.misfit / contact.length_scale
                 rtol = min(_OF_MISFIT * misfit, _ROUGHEST)
                 if misfit <= self._method.rtol:  # the law fits, and its contact is to be known well
-                    following = None if method.rtol == self._method.rtol else law
+                    following = None if method.rtol <= self._method.rtol else law
                     residuals = replace(contact.residuals, misfit=misfit)
                     found, contact = (replace(x, residuals=residuals) for x in (found, contact))
             if following is None:

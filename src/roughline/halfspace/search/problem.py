@@ -24,6 +24,7 @@ from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 # longest wave, so the side is the shorter one.
 _ROUNDINGS = 2.0
 _SINGLE_SERVES = 1e-4  # tolerances from here on; its rounding of gaps is 3e-6
+_CLOSER = 0.1  # of its tolerance: as well are contacts solved from which a law is extrapolated
 _DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
 
 
@@ -136,7 +137,7 @@ class Method:
         return "float32" if self.precision == "float32" else "float64"
 
     def to(self, rtol: float, single: bool) -> Method:
-        """Return the method for a start of such an error, or for its own tolerance.
+        """Return the method for such a tolerance, which may be somewhat less than its own.
 
         Single precision, where it is allowed, serves while the error is large, and hides it where
         it is small.
@@ -144,7 +145,7 @@ class Method:
         precision = self.precision
         if precision == "mixed":
             precision = "float32" if single and rtol >= _SINGLE_SERVES else "float64"
-        return replace(self, rtol=max(rtol, self.rtol), precision=precision)
+        return replace(self, rtol=max(rtol, _CLOSER * self.rtol), precision=precision)
 
     def resolution(self, grid: Grid) -> float:
         """Rounding of displacements over the force, over the tolerance. [length / force]"""
