@@ -127,14 +127,7 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
     except InputError as error:
         if law.only_pushes:
             raise
-        unknown, said = np.full(k.shape, np.nan), f"no grid error: on a coarser grid {error}"
-        return replace(
-            curve,
-            warnings=(*curve.warnings, said),
-            stiffness_error=unknown,
-            unloading_stiffness_error=unknown,
-            area_fraction_error=unknown,
-        )
+        return _unknown(curve, error)
     pull_offs = np.array([each.pull_off_force for each in coarser])
     steepening = grids.steepening
     softer = _softer(grids, steepening, coarser[1], laws[1], partial(press, measures=()))
@@ -154,6 +147,18 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
             measured=_measured(curve, surface, coarser, steepening, press),
             pull_off_force_error=float(_between(pull_offs, curve.pull_off_force)),
         )
+
+
+def _unknown(curve: Curve, error: InputError) -> Curve:
+    """Say of a curve why its errors are not known."""
+    unknown = np.full(curve.depth.shape, np.nan)
+    return replace(
+        curve,
+        warnings=(*curve.warnings, f"no grid error: on a coarser grid {error}"),
+        stiffness_error=unknown,
+        unloading_stiffness_error=unknown,
+        area_fraction_error=unknown,
+    )
 
 
 def steepening_of(surface: Surface) -> float:

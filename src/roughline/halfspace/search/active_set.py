@@ -37,13 +37,11 @@ from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.operators.grid_nodes import Precision
 from roughline.halfspace.search.carriers import Carriers, merged
 from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
-from roughline.halfspace.search.problem import Load, Method, Outcome
+from roughline.halfspace.search.problem import SINGLE_ABOVE, Load, Method, Outcome
 from roughline.halfspace.search.region import Region, Trial
 
 AIM = 0.3
 """Of the tolerance, at which conjugate gradients aim so that a certificate is not just missed."""
-SINGLE_ABOVE = 1e-4
-"""Single precision serves while errors are above this part of what moves; its own are 1e-7."""
 # After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
 # tolerance before nodes are exchanged. After twice as many, nodes are exchanged one by one.
 _PATIENCE = 8

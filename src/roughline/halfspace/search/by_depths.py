@@ -9,27 +9,35 @@ pull-off. Beyond it no contact bears the pull, and the bodies come apart.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
 from roughline.halfspace.search.problem import Contact, Load, Outcome
-
-if TYPE_CHECKING:
-    from roughline.halfspace.search.path import Path
-    from roughline.halfspace.search.tangent import Response
+from roughline.halfspace.search.tangent import Response
 
 _FASTER = 2.0  # by which a step to the next depth may be longer than the one before
-_NARROWINGS = 60  # of an interval of depths, at most
-_STEPS = 400  # apart, at most
-_CLOSE = 1e-2  # a part of what nodes bear by which a force may be missed that is then given itself
-_JUMP = 1e-5  # of the scale of lengths: as closely the depth is found at which bodies come off
-_SHORTER = 8.0
-_HARDLY = 3e-7  # of the largest pull on all of the bodies
-_FROM_FULL_CONTACT = 1e-3  # of the scale of lengths, the first step apart
-_LEAST_FORCE = 12  # narrowings about the least force, which is flat there
+_MOST_TRIALS = 100
+_LOOKS = 8  # steps across an interval with a least force
+# A part of what nodes bear: a force that is missed by no more is then given itself, and what bears
+# no more beside another state has come off.
+_CLOSE = 1e-2
+# Of the scale of lengths: the first step out of full contact, and how closely the depth is found at
+# which bodies come off by a jump.
+_FINE = 1e-5
+
+
+class Path(Protocol):
+    """A path of loads, which goes on from a copy of itself."""
+
+    def under(self, load: Load) -> tuple[Contact, Response | None]:
+        """Return the contact under the next load."""
+
+    def from_apart(self) -> Path:
+        """Return the path of bodies that have come apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,10 +63,9 @@ class State:
         """Whether the contact and its stiffness were found."""
         return self.response is not None and self.response.converged
 
-    @property
-    def is_apart(self) -> bool:
-        """Whether the bodies neither touch nor pull each other by more than rounding."""
-        return not (self.stiffness > 0 or self.borne > _HARDLY * self.contact.problem.pull)
+    def has_come_off(self, before: State) -> bool:
+        """Whether bodies no longer touch, and hardly pull each other beside another state."""
+        return not self.stiffness > 0 and self.borne <= _CLOSE * before.borne
 
     @property
     def is_rigid(self) -> bool:
@@ -78,15 +85,28 @@ class State:
         return self.response.loading.stiffness
 
 
-def under_force(path: Path, force: float, rtol: float) -> State:
+def under_forces(
+    path: Path, loads: Sequence[Load], rtol: float
+) -> Iterator[tuple[Contact, Response | None]]:
+    """Solve the contact under each force in turn."""
+    last: tuple[Contact, Response | None] | None = None
+    for load in loads:
+        assert load.force is not None
+        found = _under_force(path, last, load.force, rtol)
+        path, last = found.path, (found.contact, found.response)
+        yield last
+
+
+def _under_force(
+    path: Path, last: tuple[Contact, Response | None] | None, force: float, rtol: float
+) -> State:
     """Return the path after a force, and the contact under it.
 
     Where bodies that do not touch are to be pulled they are first brought to rest without a force.
     """
     search = _Search(force, rtol)
-    last = path.last
-    state = None if last is None else State(path, last.contact, last.response)
-    if state is None or not state.is_solved or state.is_apart:
+    state = None if last is None else State(path, *last)
+    if state is None or not state.is_solved or not state.contact.nodes.size:
         first = _Search(max(force, 0.0), rtol)
         state = first.nearer(path, None)
         search.convolutions += first.convolutions
@@ -158,15 +178,19 @@ class _Search:
             return self.given(state.path)
         before, least = state, state
         step = -self._step(None, state)
-        for _ in range(_STEPS):
+        for _ in range(_MOST_TRIALS):
             beyond = self.at(state.path, state.depth - step)
             if not beyond.is_solved or self.is_at(beyond):
                 return beyond
             if beyond.force < self._force:
                 return self._between(state, beyond)
             is_least = state.force <= least.force
-            if is_least and beyond.is_apart and step > _JUMP * state.contact.length_scale:
-                step /= _SHORTER
+            if (
+                is_least
+                and beyond.has_come_off(state)
+                and step > _FINE * state.contact.length_scale
+            ):
+                step /= _FASTER**3
                 continue
             passed = beyond.force >= state.force
             if passed and is_least and state.force < 0:
@@ -174,7 +198,7 @@ class _Search:
                 if lowest.is_solved and lowest.force <= self._force:
                     return lowest if self.is_at(lowest) else self._between(before, lowest)
                 least = min(least, lowest, key=lambda each: each.force)
-            if beyond.is_apart:
+            if beyond.has_come_off(least):
                 off = replace(least.contact, outcome=Outcome.PULLED_OFF)
                 return State(beyond.path.from_apart(), off, None)
             before, state = state, beyond
@@ -196,7 +220,7 @@ class _Search:
         if not state.stiffness > 0:  # nothing touches
             return math.copysign(state.contact.length_scale, missing)
         if state.is_rigid:
-            return math.copysign(_FROM_FULL_CONTACT * state.contact.length_scale, missing)
+            return math.copysign(_FINE * state.contact.length_scale, missing)
         step = missing / state.stiffness
         if before is None or state.depth == before.depth:
             return step
@@ -209,7 +233,7 @@ class _Search:
         Each trial starts from the end from which the bodies came.
         """
         low, high, side = start.force - self._force, end.force - self._force, 0
-        for _ in range(_NARROWINGS):
+        for _ in range(_MOST_TRIALS):
             depth = (start.depth * high - end.depth * low) / (high - low)
             trial = self.at(start.path, depth)
             if not trial.is_solved or self.is_at(trial):
@@ -226,8 +250,19 @@ class _Search:
         return min(start, end, key=lambda each: abs(each.force - self._force))
 
     def _least(self, nearer: State, middle: State, farther: State) -> State:
-        """Narrow an interval of depths down to the least force in it."""
-        for _ in range(_LEAST_FORCE):
+        """Narrow an interval of depths down to the least force in it.
+
+        That of a rough body falls and rises many times, so it is looked at in even steps first.
+        """
+        states = [nearer]
+        for depth in np.linspace(nearer.depth, farther.depth, _LOOKS + 1)[1:-1]:
+            states.append(self.at(states[-1].path, float(depth)))
+            if not states[-1].is_solved:
+                return middle
+        states.append(farther)
+        least = min(range(1, _LOOKS), key=lambda i: states[i].force)
+        nearer, middle, farther = states[least - 1 : least + 2]
+        for _ in range(_MOST_TRIALS):
             depth = _lowest_of_parabola(nearer, middle, farther)
             trial = self.at((nearer if depth > middle.depth else middle).path, depth)
             if not trial.is_solved:

@@ -15,7 +15,7 @@ import numpy as np
 from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
-from roughline.halfspace.search.by_depths import under_force
+from roughline.halfspace.search.by_depths import under_forces
 from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.problem import (
     Contact,
@@ -41,13 +41,10 @@ def solve_path(
 ) -> Iterator[tuple[Contact, Response | None]]:
     """Solve the contact under each load in turn; each meets the surfaces that the last one left."""
     path = Path(problem, method)
-    for load in loads:
-        if load.force is None or problem.law.only_pushes:
-            yield path.under(load)
-        else:
-            found = under_force(path, load.force, method.rtol)
-            path = found.path
-            yield found.contact, found.response
+    if problem.law.only_pushes or loads[0].force is None:
+        yield from map(path.under, loads)
+    else:
+        yield from under_forces(path, loads, method.rtol)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,11 +69,6 @@ class Path:
         self._largest: float | None = None
         self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
         self._unknown_below = -np.inf  # the largest load that was not solved
-
-    @property
-    def last(self) -> _Solved | None:
-        """The last load and its contact."""
-        return self._last
 
     def from_apart(self) -> Path:
         """Return the path of bodies that have come apart, and remember nothing."""
@@ -126,6 +118,8 @@ class Path:
         while True:
             method = self._method.to(rtol, single) if law.follows_gaps else self._method
             found, contact = self._settled(load, law, spent, method)
+            if contact.outcome is Outcome.STALLED and contact.residuals.worst <= self._method.rtol:
+                found, contact = (replace(x, outcome=Outcome.CONVERGED) for x in (found, contact))
             law = contact.problem.law
             lost = contact.outcome is Outcome.STALLED and method.precision == "float32"
             if lost and self._method.precision == "mixed":
@@ -136,7 +130,7 @@ class Path:
             following = law.then(contact) if told else None
             if following is not None and following.follows_gaps:
                 misfit = following.misfit / contact.length_scale
-                rtol = min(_OF_MISFIT * misfit, _ROUGHEST)
+                rtol = min(_OF_MISFIT * max(misfit, self._method.rtol), _ROUGHEST)
                 if misfit <= self._method.rtol:  # the law fits, and its contact is to be known well
                     following = None if method.rtol <= self._method.rtol else law
                     residuals = replace(contact.residuals, misfit=misfit)

@@ -23,8 +23,8 @@ from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 # epsilons of F / (E* side) on grids of 8 to 10^6 points. Rounded pressures displace most in the
 # longest wave, so the side is the shorter one.
 _ROUNDINGS = 2.0
-_SINGLE_SERVES = 1e-4  # tolerances from here on; its rounding of gaps is 3e-6
-_CLOSER = 0.1  # of its tolerance: as well are contacts solved from which a law is extrapolated
+SINGLE_ABOVE = 1e-4
+"""Single precision serves while errors are above this part of what moves; its own are 1e-7."""
 _DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
 
 
@@ -93,11 +93,6 @@ class Problem:
         """Depth at which the surfaces touch, as they are now. [length]"""
         return float(self.separation.min())
 
-    @property
-    def pull(self) -> float:
-        """Force with which the bodies would pull each other as much as they can. [force]"""
-        return self.law.largest_pull * self.grid.cell_area * self.separation.size
-
     def reach(self, depth: float) -> float:
         """Return how near, beyond the least separation, bodies are that can touch. [length]
 
@@ -144,8 +139,8 @@ class Method:
         """
         precision = self.precision
         if precision == "mixed":
-            precision = "float32" if single and rtol >= _SINGLE_SERVES else "float64"
-        return replace(self, rtol=max(rtol, _CLOSER * self.rtol), precision=precision)
+            precision = "float32" if single and rtol >= SINGLE_ABOVE else "float64"
+        return replace(self, rtol=rtol, precision=precision)
 
     def resolution(self, grid: Grid) -> float:
         """Rounding of displacements over the force, over the tolerance. [length / force]"""

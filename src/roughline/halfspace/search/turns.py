@@ -13,9 +13,17 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.halfspace.operators.grid_nodes import Precision
-from roughline.halfspace.search.active_set import AIM, SINGLE_ABOVE, Search
+from roughline.halfspace.search.active_set import AIM, Search
 from roughline.halfspace.search.carriers import Carriers
-from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Outcome, Problem
+from roughline.halfspace.search.problem import (
+    SINGLE_ABOVE,
+    Contact,
+    ContactSet,
+    Load,
+    Method,
+    Outcome,
+    Problem,
+)
 from roughline.halfspace.search.region import REACH, Region, Trial
 
 _GAIN = 2e-3  # of residuals by a search near the contact, and what its operator leaves, about
