@@ -22,7 +22,7 @@ from roughline.engineering import formulas, leak
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
-from roughline.exact import flow, indenters, mdr, punch, westergaard
+from roughline.exact import adhesion, flow, indenters, mdr, punch, westergaard
 from roughline.units import decimal
 
 SECTIONS = {
@@ -49,7 +49,8 @@ SECTIONS = {
         *("reopening", "Reopening"),
     ),
     "Half-spaces and contact laws": (
-        *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding"),
+        *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding", "Dugdale"),
+        "Exponential",
     ),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
@@ -81,6 +82,7 @@ GALLERY = (
     "two_rough_bodies",
     "conductance",
     "loading_and_unloading",
+    "branches_of_adhesion",
     "where_the_fluid_goes",
     "leak_over_load",
     "ultrasound",
@@ -141,7 +143,7 @@ def page_of_names() -> str:
         _summary("Formulas of a leak", "roughline.engineering.leak", _functions(leak)),
         *(
             _summary(f"Exact solutions: {_title(module)}", module.__name__, _public(module))
-            for module in (punch, indenters, mdr, westergaard, flow)
+            for module in (punch, indenters, mdr, westergaard, adhesion, flow)
         ),
     ]
     return "\n".join(parts)

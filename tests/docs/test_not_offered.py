@@ -19,7 +19,6 @@ SECTIONS = dict(
     re.findall(r"^## ([^:\n]+):?[^\n]*\n(.*?)(?=^## |\Z)", PAGE, re.DOTALL | re.MULTILINE)
 )
 SUBJECTS = {
-    "Adhesion": ("JKR", "pull-off", "Adhesion", "Tamaas"),
     "Coatings and layers": ("finite thickness", "thin films", "ContactMechanics"),
     "Rubber and creep": ("viscoelastic", "relaxation", "Tamaas"),
     "Friction": ("sliding", "hysteresis", "ASPHER"),
@@ -33,7 +32,7 @@ SUBJECTS = {
 }
 """Subjects of the page, with the words by which their readers search."""
 OFFERED = re.compile(
-    r"adhes|dugdale|maugis|layer|coat|thickness|viscoel|relax|creep"
+    r"layer|coat|thickness|viscoel|relax|creep"
     r"|lubric|wear|archard|temperature|heating|impact|damping|anisotrop|hardening"
     r"|slid",
     re.IGNORECASE,

@@ -163,7 +163,11 @@ def _label(curve: Curve, name: str, values: Real) -> tuple[str, float]:
 
 def name_of(quantity: str) -> str:
     """Name a quantity over the loads in words, with its symbol."""
-    known = [each for each, declared in QUANTITIES.items() if declared.dims == OVER_LOADS]
+    known = [
+        name
+        for name, declared in QUANTITIES.items()
+        if declared.dims == OVER_LOADS and declared.dimension is not None
+    ]
     if quantity not in known:
         raise InputError(
             f"there is no quantity {quantity!r} over the loads; allowed are {', '.join(known)}"

@@ -62,7 +62,7 @@ class Dugdale(Adhesive):
     >>> law = rl.Dugdale(work_of_adhesion=1 / np.pi, range=2 / np.pi)
     >>> curve = rl.press(sphere, E_star=0.75, law=law, depths=[0.5, 0.0, -0.5, -0.7])
     >>> print(curve.force.round(2))
-    [-0.87 -1.44 -1.6  -1.49]
+    [-0.84 -1.36 -1.55 -1.5 ]
     """
 
     ramp: Real | float = 0.0

@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
-from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.search.problem import Contact
 
 # Gap beyond the outline over (pressure within it times spacing over E*). On a summit it is of order
@@ -40,7 +39,7 @@ def overstated_cells(
     shape = contact.separation.shape
     touching = np.zeros(shape, dtype=bool)
     touching.flat[contact.nodes[~contact.pulling]] = True
-    above = contact.pressure - Bounds.of(contact.problem.law, contact.nodes).low
+    above = contact.pressure - contact.problem.law.bounds(contact.nodes)[0]
     pairs, summits = 0, 0.0
     for axis in (0, 1):
         for step in (1, -1):
