@@ -34,7 +34,7 @@ _TRIALS = 400  # ratios c / a between which the least force is narrowed down
 
 
 def bradley_pull_off(radius_of_curvature: float, work_of_adhesion: float) -> float:
-    """Least force -2 pi w R on a rigid sphere, whatever the law of its pull [3]_. [force]
+    """Least force -2 pi w R on a rigid sphere, whatever the law of its pull (Bradley). [force]
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def bradley_pull_off(radius_of_curvature: float, work_of_adhesion: float) -> flo
 
 
 def punch_pull_off(radius: float, work_of_adhesion: float, E_star: float) -> float:
-    """Least force -sqrt(8 pi E* w a³) on a flat disc, in the limit of a short range [5]_. [force]
+    """Least force -sqrt(8 pi E* w a³) on a flat disc, in the limit of a short range. [force]
 
     Parameters
     ----------
@@ -103,10 +103,10 @@ def ranged_punch_pull_off(
 
 @dataclass(frozen=True)
 class StickingIndenter:
-    """Indenter c r^n that sticks in the limit of a short range, by Heß's rule [4]_.
+    """Indenter c r^n that sticks in the limit of a short range, by Heß's rule.
 
     In the reduction method the springs at the edge of the contact let go when they are pulled by
-    Delta l = sqrt(2 pi a w / E*). A paraboloid so gives JKR [1]_.
+    Delta l = sqrt(2 pi a w / E*). A paraboloid so gives JKR.
 
     Attributes
     ----------
@@ -174,7 +174,7 @@ class StickingIndenter:
 
 @dataclass(frozen=True)
 class MaugisSphere:
-    """Sphere that is pulled evenly, with w / h_0, up to a range h_0 [2]_.
+    """Sphere that is pulled evenly, with w / h_0, up to a range h_0 (Maugis).
 
     Its states are told by m = c / a, the radius of the reach over that of the contact. Forces are
     pi w R and lengths those of JKR times the functions of m and of the transition parameter.
@@ -299,7 +299,7 @@ def wave_mean_pressure(
     work_of_adhesion: float,
     E_star: float,
 ) -> Real:
-    """Mean pressure of a wave that sticks, in the limit of a short range [6]_. [pressure]
+    """Mean pressure of a wave that sticks, in the limit of a short range (Johnson). [pressure]
 
     ``p* (sin²(pi a / lambda) - alpha sqrt(tan(pi a / lambda)))`` with p* the pressure of full
     contact and ``alpha² = 2 w lambda / (pi² E* Delta²)``.
