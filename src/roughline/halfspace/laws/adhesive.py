@@ -18,6 +18,8 @@ from roughline.halfspace.laws.unilateral import Unilateral, refuse_beyond_full_c
 # Shares are extrapolated from so many rounds where they change by less than the first number. Where
 # they do not come nearer then, by the third at least, no end is near: bodies slide to a jump.
 _NEAR, _ROUNDS, _NEARER = 0.1, 6, 0.9
+# Where they change by so much of the last change, they go up to so many times as far.
+_SLIDES, _FASTEST = 0.8, 8.0
 _IS_RESOLVED, _IS_POORLY = 4.0, 2.0  # cells of the pulling zone
 
 
@@ -46,6 +48,10 @@ class Adhesive(ContactLaw):
     share: Real | float = 0.0
     rounds: tuple[tuple[Real, Real], ...] = ()  # last shares, and those that followed from gaps
     near: float = _NEAR  # change of the shares below which they are extrapolated
+    plain: Real | float = 0.0  # shares that followed from the last gap
+    factor: float = 1.0  # by which the shares went further than these
+    change: float = 0.0  # of the shares by the last round, and what they moved by
+    moved: Real | float = 0.0
     misfit: float = 0.0
     memory: ClassVar[Literal["none", "dents", "path"]] = "path"
     only_pushes: ClassVar[bool] = False
@@ -111,23 +117,33 @@ class Adhesive(ContactLaw):
 
     def start(self, value: float, last: float | None, largest: float | None) -> Adhesive:
         """Forget the rounds of the load before, but not its shares."""
-        return replace(self, rounds=(), near=_NEAR)
+        return replace(self, rounds=(), near=_NEAR, factor=1.0, change=0.0)
 
     def then(self, contact: Solved) -> Adhesive:
-        """Take the shares of the gap, or, near their end, those at which rounds would end."""
+        """Take the shares of the gap, or others on the way to where rounds end."""
         share = self.share_at(contact.gap)
-        changes = np.abs(share - self.share)
-        change, misfit = float(changes.max()), self.gap_between(share, self.share)
-        followed = replace(self, share=share, rounds=(), misfit=float(misfit.max()))
+        moved = share - self.share
+        change, misfit = float(np.abs(moved).max()), self.gap_between(share, self.share)
+        plain = replace(
+            self, share=share, rounds=(), misfit=float(misfit.max()), change=change, moved=moved
+        )
+        onwards = float(np.vdot(moved, self.moved + np.zeros_like(moved))) > 0
+        if self.factor > 1 and not onwards:  # shares went beyond an end
+            return replace(plain, share=self.plain, factor=1.0, change=0.0)
         if change >= self.near:
-            return replace(followed, near=_NEAR if change > _NEAR else self.near)
+            factor = min(self.factor, 1.0)
+            if change > _SLIDES * self.change > 0:  # as fast as before: shares slide, or swing
+                factor = min(2 * self.factor, _FASTEST) if onwards else factor / 2
+            there = np.clip(self.share + factor * moved, 0.0, 1.0)
+            near = _NEAR if change > _NEAR else self.near
+            return replace(plain, share=there, plain=share, factor=factor, near=near)
         if len(self.rounds) > 1:
-            taken, plain = self.rounds[-1]
-            before = float(np.abs(plain - taken).max())
+            taken, followed = self.rounds[-1]
+            before = float(np.abs(followed - taken).max())
             if change > _NEARER * before:
-                return replace(followed, share=plain, near=before / 3)
+                return replace(plain, share=followed, near=before / 3, change=0.0)
         rounds = (*self.rounds, (self.share + np.zeros_like(share), share))[-_ROUNDS:]
-        return replace(followed, share=_extrapolated(rounds), rounds=rounds)
+        return replace(plain, share=_extrapolated(rounds), rounds=rounds, factor=1.0)
 
     def energy(self, contact: Solved) -> float:
         """Return minus the work that is left to separate the nodes."""
