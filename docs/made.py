@@ -83,6 +83,7 @@ GALLERY = (
     "conductance",
     "loading_and_unloading",
     "branches_of_adhesion",
+    "when_roughness_kills_adhesion",
     "where_the_fluid_goes",
     "leak_over_load",
     "ultrasound",

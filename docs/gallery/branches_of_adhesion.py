@@ -11,28 +11,32 @@ from matplotlib import pyplot
 
 import roughline as rl
 
-spectrum = rl.SelfAffine(hurst=0.8, length=1e-6, rms_height=2e-9, q_roll=2.5e7, q_high=2e8)
+spectrum = rl.SelfAffine(hurst=0.8, length=1e-6, rms_height=4e-9, q_roll=2.5e7, q_high=5e7)
 made = spectrum.surface(128, rng=4)
 surface = rl.Surface(made.heights, made.sizes, unit="m")
+law = rl.Dugdale(work_of_adhesion=0.05, range=6e-9)  # J/m², m
+curve = rl.press(surface, E_star=0.2e9, law=law, n_loads=80, fields=True)
 
-figure, (left, right) = pyplot.subplots(1, 2, figsize=(8, 3.4), layout="constrained")
-for w in (0.005, 0.02, 0.05):  # J/m²
-    law = rl.Dugdale(work_of_adhesion=w, range=2e-9)
-    curve = rl.press(surface, E_star=2e9, law=law, n_loads=80, fields=True)
-    left.plot(curve.depth * 1e9, curve.force * 1e9, label=f"w = {w * 1e3:.0f} mJ/m²")
-    print(
-        f"w = {w * 1e3:2.0f} mJ/m²: pull-off {-curve.pull_off_force * 1e9:5.1f} nN, "
-        f"dissipated {curve.dissipated_work[-1] / (w * surface.area):.2f} w A"
-    )
-left.set(xlabel="depth (nm)", ylabel="force (nN)", xlim=(-8, None))
-left.axhline(0, color="0.7", lw=0.8, zorder=0)
-left.legend(frameon=False)
+figure, axes = pyplot.subplots(1, 3, figsize=(9, 3), layout="constrained")
+nearer = curve.on_approach
+for branch, name in ((nearer, "on approach"), (~nearer, "on retreat")):
+    axes[0].plot(curve.depth[branch] * 1e9, curve.force[branch] * 1e6, label=name)
+axes[0].set(xlabel="depth (nm)", ylabel="force (µN)", xlim=(-20, None))
+axes[0].legend(frameon=False)
+# dark: they touch; light: they pull each other across a gap
+depth = curve.depth[np.nanargmin(curve.force)]
+for branch, axis, name in ((nearer, axes[1], "approach"), (~nearer, axes[2], "retreat")):
+    load = np.flatnonzero(branch)[np.abs(curve.depth[branch] - depth).argmin()]
+    fields = curve.fields[load]
+    shown = fields.contact + 0.4 * fields.pulling
+    axis.imshow(shown.T, origin="lower", cmap="Blues", vmin=0, vmax=1)
+    axis.set(xticks=[], yticks=[], title=f"{curve.depth[load] * 1e9:.1f} nm, {name}")
 
 # %%
-# Where they touch (dark), and where they pull across a gap (light), at the largest pull.
+# What the cycle costs, and the largest pull, beside that of the work of adhesion on all of the
+# nominal area.
 
-least = int(np.nanargmin(curve.force))
-fields = curve.fields[least]
-right.imshow((fields.contact + 0.4 * fields.pulling).T, origin="lower", cmap="Blues", vmin=0)
-right.set(xticks=[], yticks=[], title=f"F = {curve.force[least] * 1e9:.1f} nN")
-pyplot.show()
+print(f"dissipated: {curve.dissipated_work[-1] / (law.work_of_adhesion * surface.area):.2f} w A")
+print(
+    f"pull-off: {-curve.pull_off_force * 1e6:.2f} µN of {law.largest_pull * surface.area * 1e6:.0f}"
+)

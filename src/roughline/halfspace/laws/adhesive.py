@@ -16,10 +16,9 @@ from roughline.halfspace.laws.law import ContactLaw, Solved
 from roughline.halfspace.laws.unilateral import Unilateral, refuse_beyond_full_contact
 
 # Shares are extrapolated from so many rounds where they change by less than the first number. Where
-# they do not come nearer then, by the third at least, no end is near: bodies slide to a jump.
-_NEAR, _ROUNDS, _NEARER = 0.1, 6, 0.9
-# Where they change by so much of the last change, they go up to so many times as far.
-_SLIDES, _FASTEST = 0.8, 8.0
+# a change is so large a part of the one before, no end is near: bodies slide to a jump, and shares
+# go up to so many times as far.
+_NEAR, _ROUNDS, _NEARER, _FASTEST = 0.1, 6, 0.9, 8.0
 _IS_RESOLVED, _IS_POORLY = 4.0, 2.0  # cells of the pulling zone
 
 
@@ -132,7 +131,7 @@ class Adhesive(ContactLaw):
             return replace(plain, share=self.plain, factor=1.0, change=0.0)
         if change >= self.near:
             factor = min(self.factor, 1.0)
-            if change > _SLIDES * self.change > 0:  # as fast as before: shares slide, or swing
+            if change > _NEARER * self.change > 0:  # as fast as before: shares slide, or swing
                 factor = min(2 * self.factor, _FASTEST) if onwards else factor / 2
             there = np.clip(self.share + factor * moved, 0.0, 1.0)
             near = _NEAR if change > _NEAR else self.near
