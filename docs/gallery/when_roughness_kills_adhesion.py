@@ -28,8 +28,9 @@ for height in heights:
 criteria = rl.stickiness(surface, 1.0, WORK, RANGE).criteria
 figure, axes = plt.subplots(layout="constrained")
 axes.loglog(heights, pulls, "o-", color="black", label="full model")
-for each, number in zip(criteria, np.transpose(numbers), strict=True):
+for i, each in enumerate(criteria):
+    number = [one[i] for one in numbers]
     ends = np.exp(np.interp(0.0, np.log(number), np.log(heights)))
-    axes.axvline(ends, linestyle="--", label=f"{each.name}: sticky below")
+    axes.axvline(ends, color=f"C{i}", linestyle="--", label=f"{each.name}: sticky below")
 axes.set(xlabel="rms height", ylabel=r"pull-off pressure / ($w/h_0$)")
 axes.legend()
