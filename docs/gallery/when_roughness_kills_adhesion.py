@@ -31,6 +31,6 @@ axes.loglog(heights, pulls, "o-", color="black", label="full model")
 for i, each in enumerate(criteria):
     number = [one[i] for one in numbers]
     ends = np.exp(np.interp(0.0, np.log(number), np.log(heights)))
-    axes.axvline(ends, color=f"C{i}", linestyle="--", label=f"{each.name}: sticky below")
+    axes.axvline(ends, color=f"C{i}", linestyle=(3 * i, (3, 6)), label=f"{each.name}: sticky below")
 axes.set(xlabel="rms height", ylabel=r"pull-off pressure / ($w/h_0$)")
 axes.legend()
