@@ -19,6 +19,7 @@ SECTIONS = dict(
     re.findall(r"^## ([^:\n]+):?[^\n]*\n(.*?)(?=^## |\Z)", PAGE, re.DOTALL | re.MULTILINE)
 )
 SUBJECTS = {
+    "Adhesion on the command line and in the lab": ("JKR", "pull-off", "Adhesion", "Tamaas"),
     "Coatings and layers": ("finite thickness", "thin films", "ContactMechanics"),
     "Rubber and creep": ("viscoelastic", "relaxation", "Tamaas"),
     "Friction": ("sliding", "hysteresis", "ASPHER"),
