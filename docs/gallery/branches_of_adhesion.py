@@ -33,10 +33,6 @@ for branch, axis, name in ((nearer, axes[1], "approach"), (~nearer, axes[2], "re
     axis.set(xticks=[], yticks=[], title=f"{curve.depth[load] * 1e9:.1f} nm, {name}")
 
 # %%
-# What the cycle costs, and the largest pull, beside that of the work of adhesion on all of the
-# nominal area.
+# What the cycle costs, over the work of adhesion on all of the nominal area.
 
-print(f"dissipated: {curve.dissipated_work[-1] / (law.work_of_adhesion * surface.area):.2f} w A")
-print(
-    f"pull-off: {-curve.pull_off_force * 1e6:.2f} µN of {law.largest_pull * surface.area * 1e6:.0f}"
-)
+print(f"{curve.dissipated_work[-1] / (law.work_of_adhesion * surface.area):.2f} w A")
