@@ -99,8 +99,8 @@ class Curve:
     work, dissipated_work : ndarray, shape (loads,), or None
         Work done by the load since first touch, less the work returned on unloading; and the
         part of it dissipated. Indentations dissipate the hardness times their volume. Bodies that
-        stick dissipate where they jump: their work is the sum of the force over the depths, by
-        the trapezoidal rule between the loads, and what is not stored is dissipated. [energy]
+        stick dissipate where they jump: their work is the integral of the force over the depths, by
+        cubics between the loads, and what is not stored is dissipated. [energy]
     pulling_fraction : ndarray, shape (loads,), or None
         Area across whose gap bodies pull each other over the nominal area; points count by their
         share of the largest pull. [1]
