@@ -146,7 +146,7 @@ def assert_same_pressures(surface, hardness, force, pressure, tolerance, *, peri
 @pytest.mark.parametrize("work", [4e-6, 1e-6])
 @pytest.mark.parametrize("law", [rl.Exponential, rl.Dugdale])
 def test_tamaas_finds_the_same_contact_that_sticks(law, work):
-    """By an exponential law to the tolerance; Dugdale's ends over a ramp here, and at once there."""
+    """By an exponential law to the tolerance; Dugdale's ends over a ramp here and not there."""
     tm = pytest.importorskip("tamaas")
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-3, q_roll=8 * np.pi, q_high=24 * np.pi)
     smooth, reach = spectrum.surface(N, 3), 5e-4
