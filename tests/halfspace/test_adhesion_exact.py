@@ -56,6 +56,13 @@ def test_the_pull_off_is_within_half_a_per_cent_at_forty_cells():
     assert rate < -1.5
 
 
+@pytest.mark.slow
+def test_two_ranges_extrapolate_to_jkr():
+    """As the square of the range, which halves from the first to the second."""
+    first, second = (pulled_off(t, 144, 3.45).pull_off_force for t in (1.0, 2.0))
+    assert (4 * second - first) / 3 == pytest.approx(-1.5, rel=0.01)
+
+
 @pytest.mark.parametrize("transition", [0.2, 0.5, 1.0])
 def test_force_and_radii_are_maugiss_on_both_branches(transition):
     exact, side = maugis(transition), 1.2 * SPHERES[transition][0]
