@@ -1,9 +1,11 @@
 """Pull-off of spheres beside Maugis's, and the price of a pulled load: ``make pull-off``.
 
 The first table is of `docs/adhesion.md`. The second has times of one run: the same surface pressed
-with and without a pull, under the same depths.
+with and without a pull, under the same depths. Tamaas 2.9 takes part with an exponential pull,
+where it is installed.
 """
 
+import importlib.util
 import time
 
 import numpy as np
@@ -70,6 +72,41 @@ def prices(points=512):
             )
 
 
+def beside_tamaas(points):
+    """The first load of a periodic surface that sticks by an exponential law, of both."""
+    import tamaas as tm
+
+    body = rl.SelfAffine(
+        hurst=0.8, rms_height=1e-3, q_roll=8 * np.pi, q_high=2 * np.pi * points / 8
+    ).surface(points, rng=3)
+    law, force, seconds = rl.Exponential(2e-6, 5e-4), 3e-3, []
+    for of_body in (None, law):
+        start = time.perf_counter()
+        curve = rl.press(body, E_star=1.0, periodic=True, law=of_body, forces=[force], fields=True)
+        seconds.append(time.perf_counter() - start)
+    model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [points, points])
+    model.E, model.nu = 1.0, 0.0
+    sides = tm.PolonskyKeerRey.gap, tm.PolonskyKeerRey.pressure
+    solver = tm.PolonskyKeerRey(model, np.array(body.heights), 1e-8, *sides)
+    pull = tm.ExponentialAdhesionFunctional(np.array(body.heights))
+    pull.setParameters({"rho": law.range, "surface_energy": law.work_of_adhesion})
+    solver.addFunctionalTerm(pull)
+    solver.setMaxIterations(20000)
+    solver.setDumpFrequency(10**6)
+    start = time.perf_counter()
+    solver.solve(force)
+    seconds.append(time.perf_counter() - start)
+    off = np.abs(np.array(model.traction) - curve.fields[0].pressure).max()
+    plain, pulled, theirs = seconds
+    print(
+        f"exponential, {points}²: plain {plain:.2f} s, pulled {pulled:.2f} s, Tamaas {theirs:.1f} s; "
+        f"pressures differ by {off / curve.fields[0].pressure.max():.0e}"
+    )
+
+
 if __name__ == "__main__":
     spheres()
     prices()
+    if importlib.util.find_spec("tamaas"):
+        for points in (128, 256, 512):
+            beside_tamaas(points)
