@@ -99,7 +99,7 @@ def beside_tamaas(points):
     off = np.abs(np.array(model.traction) - curve.fields[0].pressure).max()
     plain, pulled, theirs = seconds
     print(
-        f"exponential, {points}²: plain {plain:.2f} s, pulled {pulled:.2f} s, Tamaas {theirs:.1f} s; "
+        f"exponential, {points}²: plain {plain:.2f}, pulled {pulled:.2f}, Tamaas {theirs:.1f} s, "
         f"pressures differ by {off / curve.fields[0].pressure.max():.0e}"
     )
 
