@@ -232,11 +232,12 @@ def _refuse_beyond_memory(
         half_space.periodic,
         max(kept, measured),  # measures are taken from the fields of one load at a time
         yielding=law.memory == "dents",
+        sticking=law.follows_gaps,
         several=loads.values.size > 1,
     )
     if fits_into_memory(memory(area_fraction=1.0)):
         return
-    share = expected_area_fraction(surface, half_space, loads, law)
+    share = 1.0 if law.follows_gaps else expected_area_fraction(surface, half_space, loads, law)
     refuse_beyond_memory(
         memory(area_fraction=share),
         f"pressing {surface.shape[0]} x {surface.shape[1]} points"

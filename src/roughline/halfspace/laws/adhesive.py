@@ -116,7 +116,7 @@ class Adhesive(ContactLaw):
 
     def start(self, value: float, last: float | None, largest: float | None) -> Adhesive:
         """Forget the rounds of the load before, but not its shares."""
-        return replace(self, rounds=(), near=_NEAR, factor=1.0, change=0.0)
+        return replace(self, rounds=(), near=_NEAR, factor=1.0, change=0.0, plain=0.0, moved=0.0)
 
     def then(self, contact: Solved) -> Adhesive:
         """Take the shares of the gap, or others on the way to where rounds end."""

@@ -136,6 +136,11 @@ class Path:
                     residuals = replace(contact.residuals, misfit=misfit)
                     found, contact = (replace(x, residuals=residuals) for x in (found, contact))
             if following is None:
+                if law.follows_gaps:  # how it was led to the gap is of no more use
+                    law = law.start(load.value, self._before, self._largest)
+                    found, contact = (
+                        replace(x, problem=x.problem.obeying(law)) for x in (found, contact)
+                    )
                 return found, contact
             law, spent = following, found.convolutions
             if np.isfinite(contact.force):  # else there is nothing to start from
