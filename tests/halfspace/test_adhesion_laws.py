@@ -216,6 +216,9 @@ def test_what_the_grid_does_not_resolve_is_refused_or_told():
     assert "1.8 cells" in poorly.warnings[-1]
     assert "no pull-off is given" in poorly.warnings[-1]
     assert np.isnan(poorly.pull_off_force)
+    assert poorly.settings["pulling_zone_cells"] == pytest.approx(1.8)
+    assert poorly.settings["law"] == "Dugdale"
+    assert poorly.settings["range"] == law_for(body, zone=1.8).range
     fairly = rl.press(
         body, E_star=1.0, law=law_for(body, zone=3.0), forces=[0.0, -1.0], throw=False
     )

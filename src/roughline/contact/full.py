@@ -26,8 +26,6 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.kept import working_memory
 from roughline.halfspace.laws.law import ContactLaw
-from roughline.halfspace.laws.unilateral import Unilateral
-from roughline.halfspace.laws.yielding import Yielding
 from roughline.halfspace.search.outline import overstated_cells
 from roughline.halfspace.search.path import solve_path
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
@@ -183,7 +181,8 @@ def _curve(
             "max_iterations": method.max_iterations,
             "precision": method.precision,
             **({} if isinstance(half_space, Homogeneous) else {"half_space": repr(half_space)}),
-            **_in_words(law),
+            **law.settings,
+            **law_there.resolution,
             **as_body(surface.settings),
         },
         warnings=(
@@ -201,13 +200,6 @@ def _curve(
         law=law,
         control=loads.control,
     )
-
-
-def _in_words(law: ContactLaw) -> dict[str, str | float]:
-    """Return what settings tell of a law; that of elastic bodies goes without saying."""
-    if isinstance(law, Unilateral):
-        return {}
-    return {"hardness": law.hardness} if isinstance(law, Yielding) else {"law": type(law).__name__}
 
 
 @dataclass(frozen=True, eq=False)

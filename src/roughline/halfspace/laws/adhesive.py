@@ -87,6 +87,17 @@ class Adhesive(ContactLaw):
         """Tension of nodes that all but touch, w / h_0. [pressure]"""
         return self.work_of_adhesion / self.range
 
+    @property
+    def settings(self) -> dict[str, str | float]:
+        """Its name, the work of adhesion and the range."""
+        numbers = {"work_of_adhesion": self.work_of_adhesion, "range": self.range}
+        return {**super().settings, **numbers}
+
+    @property
+    def resolution(self) -> dict[str, float]:
+        """Cells across the zone that pulls about a contact."""
+        return {"pulling_zone_cells": self.zone}
+
     def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
         """Return the share of the pull that nodes bear, and that they may bear any pressure."""
         low = -self.largest_pull * self.share

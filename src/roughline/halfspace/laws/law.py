@@ -219,6 +219,16 @@ class ContactLaw(ABC):
         return -float(np.min(self.bounds(None)[0]))
 
     @property
+    def settings(self) -> dict[str, str | float]:
+        """What is told of the law with a result: its name, and its numbers by theirs."""
+        return {"law": type(self).__name__}
+
+    @property
+    def resolution(self) -> dict[str, float]:
+        """How well the grid resolves it, where E* is 1 and a cell has unit area."""
+        return {}
+
+    @property
     def resolves_pull_off(self) -> bool:
         """Whether the grid resolves what pulls, where E* is 1 and a cell has unit area."""
         return True

@@ -16,6 +16,11 @@ from roughline.halfspace.laws.law import ContactLaw
 class Unilateral(ContactLaw):
     """Bodies that neither stick to each other nor overlap: p >= 0, gap >= 0 and p gap = 0."""
 
+    @property
+    def settings(self) -> dict[str, str | float]:
+        """Nothing, as such bodies go without saying."""
+        return {}
+
     def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
         """Return that pressures only push, and may be of any size."""
         return 0.0, math.inf

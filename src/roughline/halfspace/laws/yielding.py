@@ -57,6 +57,11 @@ class Yielding(ContactLaw):
                 "without a hardness are rl.Unilateral()"
             )
 
+    @property
+    def settings(self) -> dict[str, str | float]:
+        """The hardness. [pressure]"""
+        return {"hardness": self.hardness}
+
     def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
         """Return zero and the hardness, which elastic bodies do not have."""
         return 0.0, math.inf if self.is_elastic else self.hardness
