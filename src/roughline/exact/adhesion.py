@@ -1,19 +1,14 @@
-"""Bodies of revolution and waves that stick to an elastic half-space.
+"""Spheres of every range, discs and waves that stick to an elastic half-space.
 
 References
 ----------
-.. [1] K. L. Johnson, K. Kendall and A. D. Roberts, "Surface energy and the contact of elastic
-   solids", Proc. R. Soc. Lond. A 324, 301-313 (1971).
-.. [2] D. Maugis, "Adhesion of spheres: the JKR-DMT transition using a Dugdale model", J. Colloid
+.. [1] D. Maugis, "Adhesion of spheres: the JKR-DMT transition using a Dugdale model", J. Colloid
    Interface Sci. 150, 243-269 (1992), eqs. 6.8 to 6.13.
-.. [3] R. S. Bradley, "The cohesive force between solid surfaces and the surface energy of solids",
+.. [2] R. S. Bradley, "The cohesive force between solid surfaces and the surface energy of solids",
    Phil. Mag. 13, 853-862 (1932).
-.. [4] M. Heß, *Über die exakte Abbildung ausgewählter dreidimensionaler Kontakte auf Systeme mit
-   niedrigerer räumlicher Dimension*, Cuvillier (2011); V. L. Popov and M. Heß, *Method of
-   Dimensionality Reduction in Contact Mechanics and Friction*, Springer (2015), ch. 4.
-.. [5] K. Kendall, "The adhesion and surface energy of elastic solids", J. Phys. D 4, 1186-1195
+.. [3] K. Kendall, "The adhesion and surface energy of elastic solids", J. Phys. D 4, 1186-1195
    (1971).
-.. [6] K. L. Johnson, "The adhesion of two elastic bodies with slightly wavy surfaces", Int. J.
+.. [4] K. L. Johnson, "The adhesion of two elastic bodies with slightly wavy surfaces", Int. J.
    Solids Struct. 32, 423-430 (1995).
 """
 
@@ -23,13 +18,11 @@ from dataclasses import dataclass
 from math import inf, pi, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from roughline.exact import westergaard
 from roughline.exact._checks import Real, positive
-from roughline.exact.indenters import PowerLawIndenter
 
-_LARGEST_REACH = 1e4  # c / a up to which a pull-off is sought
+_SMALLEST_ZONE, _LARGEST_REACH = 1e-7, 1e4  # c / a - 1 between which states are sought
 _TRIALS = 400  # ratios c / a between which the least force is narrowed down
 
 
@@ -102,77 +95,6 @@ def ranged_punch_pull_off(
 
 
 @dataclass(frozen=True)
-class StickingIndenter:
-    """Indenter c r^n that sticks in the limit of a short range, by Heß's rule.
-
-    In the reduction method the springs at the edge of the contact let go when they are pulled by
-    Delta l = sqrt(2 pi a w / E*). A paraboloid so gives JKR.
-
-    Attributes
-    ----------
-    indenter : PowerLawIndenter
-        The body and E*.
-    work_of_adhesion : float
-        w. [energy / length²]
-
-    Raises
-    ------
-    ValueError
-        If the work is not positive.
-    """
-
-    indenter: PowerLawIndenter
-    work_of_adhesion: float
-
-    def __post_init__(self) -> None:
-        positive(work_of_adhesion=self.work_of_adhesion)
-
-    def elongation(self, radius: ArrayLike) -> Real:
-        """Delta l of the springs at the edge. [length]"""
-        positive(radius=radius)
-        a, E_star = np.asarray(radius), self.indenter.E_star
-        return np.sqrt(2 * pi * a * self.work_of_adhesion / E_star)
-
-    def depth(self, radius: ArrayLike) -> Real:
-        """Depth d = g(a) - Delta l. [length]"""
-        return self.indenter.depth(radius) - self.elongation(radius)
-
-    def force(self, radius: ArrayLike) -> Real:
-        """Force without adhesion, less 2 E* a Delta l. [force]"""
-        a, E_star = np.asarray(radius), self.indenter.E_star
-        return self.indenter.force(self.indenter.depth(a)) - 2 * E_star * a * self.elongation(a)
-
-    @property
-    def pull_off_radius(self) -> float:
-        """Contact radius at which dF/da = 0: the force is least. [length]
-
-        Of g = kappa c x^n the condition is 2 n kappa c a^(n - 1/2) = 3 sqrt(2 pi w / E*).
-        """
-        return self._radius(3 / (2 * self.indenter.exponent))
-
-    @property
-    def lift_off_radius(self) -> float:
-        """Contact radius at which dd/da = 0: the body comes off at a given depth. [length]
-
-        Of g = kappa c x^n the condition is 2 n kappa c a^(n - 1/2) = sqrt(2 pi w / E*).
-        """
-        return self._radius(1 / (2 * self.indenter.exponent))
-
-    @property
-    def pull_off_force(self) -> float:
-        """Least force; of a paraboloid -(3/2) pi w R. [force]"""
-        return float(self.force(self.pull_off_radius))
-
-    def _radius(self, part: float) -> float:
-        """Contact radius at which kappa c a^(n - 1/2) is a part of sqrt(2 pi w / E*)."""
-        body = self.indenter
-        moved = sqrt(2 * pi * self.work_of_adhesion / body.E_star)
-        return float(
-            (part * moved / (body.stretch * body.coefficient)) ** (1 / (body.exponent - 0.5))
-        )
-
-
-@dataclass(frozen=True)
 class MaugisSphere:
     """Sphere that is pulled evenly, with w / h_0, up to a range h_0 (Maugis).
 
@@ -222,15 +144,11 @@ class MaugisSphere:
         return float(np.cbrt(pi * self.work_of_adhesion * self.radius_of_curvature**2 / K))
 
     def radius(self, reach_ratio: float) -> float:
-        """Contact radius a where the reach is m times as wide, by eq. 6.8. [length]"""
-        from scipy.optimize import brentq  # here because it loads slowly
-
+        """Contact radius a where the reach is m times as wide, the root of eq. 6.8. [length]"""
         mu, angle = _of_ratio(reach_ratio)
-        first = self.transition / 2 * (mu + (reach_ratio**2 - 2) * angle)
-        second = 4 / 3 * self.transition**2 * (mu * angle - reach_ratio + 1)
-        largest = 1 / sqrt(first)
-        found = brentq(lambda a: first * a**2 + second * a - 1, 0, largest, xtol=1e-15, rtol=1e-14)
-        return float(found * self.unit_of_radii)
+        square = self.transition / 2 * (mu + (reach_ratio**2 - 2) * angle)
+        linear = 4 / 3 * self.transition**2 * (mu * angle - reach_ratio + 1)
+        return 2 / (linear + sqrt(linear**2 + 4 * square)) * self.unit_of_radii
 
     def force(self, reach_ratio: float) -> float:
         """Force, eq. 6.10. [force]"""
@@ -250,7 +168,7 @@ class MaugisSphere:
         """Ratio m at which the force is least."""
         from scipy.optimize import minimize_scalar  # here because it loads slowly
 
-        ratios = 1 + np.geomspace(1e-4, _LARGEST_REACH, _TRIALS)
+        ratios = 1 + np.geomspace(_SMALLEST_ZONE, _LARGEST_REACH, _TRIALS)
         least = int(np.argmin([self.force(m) for m in ratios]))
         ends = ratios[max(least - 1, 0)], ratios[min(least + 1, _TRIALS - 1)]
         return float(
@@ -274,7 +192,7 @@ class MaugisSphere:
         """
         from scipy.optimize import brentq  # here because it loads slowly
 
-        ratios = 1 + np.geomspace(1e-6, _LARGEST_REACH, 4 * _TRIALS)
+        ratios = 1 + np.geomspace(_SMALLEST_ZONE, _LARGEST_REACH, 4 * _TRIALS)
         depths = np.array([self.depth(m) for m in ratios])
         lowest = int(depths.argmin())
         if not depths[lowest] <= depth <= depths[0]:
