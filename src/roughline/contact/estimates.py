@@ -31,7 +31,6 @@ _BYTES_NEAR_CONTACT = 210
 _BYTES_OF_MUCH_CONTACT = 70, 18  # on each point, and for each node in contact
 _BYTES_OF_FIELDS = {False: 26, True: 30}  # of one load, elastic and yielding
 _BYTES_OF_STICKING = 700  # shares of the pull, their last rounds, and nodes that all bear them
-_TIMES_OF_STICKING = 8.0  # as long as bodies that only push, about
 _BYTES_OF_YIELD = 28  # where several loads leave a surface behind
 _BYTES_OF_DENTS = 30  # and for each node in contact
 _MARGIN = 1.15  # times as much, so that what is told covers what was measured
@@ -76,7 +75,6 @@ def estimate(
     periodic: bool = False,
     fields: bool | Sequence[int] = False,
     yielding: bool = False,
-    sticking: bool = False,
     area_fraction: float | None = None,
 ) -> Estimate:
     """Estimate what pressing a surface with the full model will cost.
@@ -96,8 +94,6 @@ def estimate(
         for :func:`press`.
     yielding : bool, optional
         Whether the surface is pressed with a hardness, which takes more memory.
-    sticking : bool, optional
-        Whether the bodies stick, which takes several times as much memory and time.
     area_fraction : float, optional
         Largest share of the surface that will be in contact, from 0 to 1; nodes in contact take
         most of the memory where there are many. Default: up to saturation of a free surface (0.2),
@@ -122,7 +118,6 @@ def estimate(
     """
     shape, n_loads = checked_shape(shape), checked_count("n_loads", n_loads, 1)
     periodic, yielding = flag("periodic", periodic), flag("yielding", yielding)
-    sticking = flag("sticking", sticking)
     kept = kept_loads(fields, n_loads)
     if area_fraction is not None:
         share = "a share of the surface from 0 to 1 is needed"
@@ -132,13 +127,12 @@ def estimate(
         periodic,
         len(kept),
         yielding=yielding,
-        sticking=sticking,
         several=n_loads > 1,
         area_fraction=area_fraction,
     )
     memory = _PROCESS_BYTES + _BYTES_OF_HEIGHTS * shape[0] * shape[1] + pressing
     seconds = _SECONDS_AT_LEAST + _CONVOLUTIONS * _convolution_seconds(shape, periodic)
-    return Estimate(memory, n_loads * seconds * (_TIMES_OF_STICKING if sticking else 1.0))
+    return Estimate(memory, n_loads * seconds)
 
 
 def _convolution_seconds(shape: tuple[int, int], periodic: bool) -> float:

@@ -149,11 +149,7 @@ def _curve(
 ) -> Curve:
     """Put the results of all loads together, without fields."""
     values = _columns(results)
-    values["on_approach"] = _comes_nearer(values["depth"])
-    if law.memory == "path":
-        stored = np.array([result.stored_work for result in results])
-        values["work"] = _work_done(values["depth"], values["force"], stored)
-        values["dissipated_work"] = values["work"] - stored
+    values |= _along_the_path(values["depth"], values["force"], results, law)
     # the prescribed value is returned unchanged; its error is part of the residual
     prescribed = values[loads.control.removesuffix("s")]
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
@@ -304,6 +300,18 @@ def _columns(results: Sequence[_LoadResult]) -> dict[str, Any]:
         for each in dataclasses.fields(_LoadResult)
         if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
     }
+
+
+def _along_the_path(
+    depth: Real, force: Real, results: Sequence[_LoadResult], law: ContactLaw
+) -> dict[str, Any]:
+    """Return what depends on the loads before: the branch, and the work of bodies that stick."""
+    nearer = {"on_approach": _comes_nearer(depth)}
+    if law.memory != "path":
+        return nearer
+    stored = np.array([result.stored_work for result in results])
+    work = _work_done(depth, force, stored)
+    return {**nearer, "work": work, "dissipated_work": work - stored}
 
 
 def _comes_nearer(depth: Real) -> Mask:
