@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage leak-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off permeance lab-benchmark fuzz study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
+.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage leak-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off layers permeance lab-benchmark fuzz study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -100,6 +100,9 @@ flow-benchmark: $(VENV)/installed
 
 pull-off: $(VENV)/installed
 	$(BIN)/python benchmarks/pull_off.py
+
+layers: $(VENV)/installed
+	$(BIN)/python benchmarks/layers.py
 
 permeance: $(VENV)/installed
 	$(BIN)/python benchmarks/permeance.py

@@ -22,16 +22,29 @@ from roughline.engineering import formulas, leak
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
-from roughline.exact import adhesion, flow, indenters, mdr, punch, westergaard
+from roughline.exact import adhesion, flow, indenters, lines, mdr, punch, westergaard
 from roughline.units import decimal
 
 SECTIONS = {
-    "Bodies": ("Surface", "Line", "read", "write", "Preparation", "prepared", "facing"),
+    "Bodies": (
+        *("Surface", "Line", "Profile", "read", "write", "Preparation", "prepared", "facing"),
+    ),
     "Spectra and roughness": (
         *("SelfAffine", "isotropic_spectrum", "profile_spectrum", "fit_self_affine", "roughness"),
     ),
     "Contact": (
-        *("press", "press_scan", "Curve", "Fields", "Distribution", "Patches", "Measure"),
+        *(
+            "press",
+            "press_scan",
+            "press_creep",
+            "Creep",
+            "CreepCurve",
+            "Curve",
+            "Fields",
+            "Distribution",
+            "Patches",
+            "Measure",
+        ),
         *("MEAN_GAP", "Status", "estimate", "Estimate", "set_threads", "theory"),
         *("effective_medium", "stickiness", "compare", "Comparison", "trust_map"),
     ),
@@ -49,15 +62,15 @@ SECTIONS = {
         *("reopening", "Reopening"),
     ),
     "Half-spaces and contact laws": (
-        *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding", "Dugdale"),
-        "Exponential",
+        *("HalfSpace", "Homogeneous", "Layered", "TwoBodies", "ContactLaw", "Unilateral"),
+        *("Yielding", "Dugdale", "Exponential", "JKR"),
     ),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
         *("Joint", "Friction", "Ultrasound", "Theories", "History", "Unloading", "WholeCurve"),
-        *("Fluid", "Inlet", "Outlet", "Seal", "FlowAlong", "Closure"),
-        *("export_table", "PartAssessment", "material", "Material", "contact_modulus", "Rule"),
-        "rules",
+        *("Adhesion", "Fluid", "Inlet", "Outlet", "Seal", "FlowAlong", "Closure"),
+        *("export_table", "PartAssessment", "material", "Material", "Coated", "contact_modulus"),
+        *("Rule", "rules"),
     ),
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (
@@ -84,8 +97,10 @@ GALLERY = (
     "loading_and_unloading",
     "branches_of_adhesion",
     "when_roughness_kills_adhesion",
+    "rubber_over_time",
     "where_the_fluid_goes",
     "leak_over_load",
+    "thin_gasket",
     "ultrasound",
     "partial_slip",
     "theories",
@@ -144,7 +159,7 @@ def page_of_names() -> str:
         _summary("Formulas of a leak", "roughline.engineering.leak", _functions(leak)),
         *(
             _summary(f"Exact solutions: {_title(module)}", module.__name__, _public(module))
-            for module in (punch, indenters, mdr, westergaard, adhesion, flow)
+            for module in (punch, indenters, lines, mdr, westergaard, adhesion, flow)
         ),
     ]
     return "\n".join(parts)

@@ -2,6 +2,7 @@
 
 from roughline import plot as plot
 from roughline._version import __version__ as __version__
+from roughline.assessment.asked import Adhesion as Adhesion
 from roughline.assessment.asked import Closure as Closure
 from roughline.assessment.asked import FlowAlong as FlowAlong
 from roughline.assessment.asked import Fluid as Fluid
@@ -27,22 +28,27 @@ from roughline.computing.fft import set_threads as set_threads
 from roughline.contact.comparison.models import Comparison as Comparison
 from roughline.contact.comparison.models import compare as compare
 from roughline.contact.comparison.trust import trust_map as trust_map
+from roughline.contact.creep import Creep as Creep
 from roughline.contact.curve import Curve as Curve
 from roughline.contact.distribution import Distribution as Distribution
 from roughline.contact.estimates import Estimate as Estimate
 from roughline.contact.estimates import estimate as estimate
 from roughline.contact.fields import Fields as Fields
+from roughline.contact.jkr import JKR as JKR
 from roughline.contact.measures import MEAN_GAP as MEAN_GAP
 from roughline.contact.measures import Measure as Measure
 from roughline.contact.patches import Patches as Patches
 from roughline.contact.press import press as press
+from roughline.contact.press_creep import CreepCurve as CreepCurve
+from roughline.contact.press_creep import press_creep as press_creep
 from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
 from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
 from roughline.contact.status import Status as Status
+from roughline.engineering.coated import Coated as Coated
 from roughline.engineering.fluids import Gas as Gas
 from roughline.engineering.fluids import Liquid as Liquid
 from roughline.engineering.fluids import fluid_of as fluid_of
-from roughline.engineering.materials import Material as Material
+from roughline.engineering.material import Material as Material
 from roughline.engineering.materials import material as material
 from roughline.engineering.pair import contact_modulus as contact_modulus
 from roughline.engineering.rule import Rule as Rule
@@ -64,7 +70,9 @@ from roughline.fluid.reopening import reopening as reopening
 from roughline.fluid.sealing_pressure import SealingPressure as SealingPressure
 from roughline.fluid.sealing_pressure import sealing_pressure as sealing_pressure
 from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
+from roughline.halfspace.elasticity.half_space import TwoBodies as TwoBodies
 from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
+from roughline.halfspace.elasticity.layered import Layered as Layered
 from roughline.halfspace.laws.dugdale import Dugdale as Dugdale
 from roughline.halfspace.laws.exponential import Exponential as Exponential
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw
@@ -90,4 +98,5 @@ from roughline.topography.files.netcdf import write as write
 from roughline.topography.files.read import read as read
 from roughline.topography.preparation import Preparation as Preparation
 from roughline.topography.preparation import prepared as prepared
+from roughline.topography.profile import Profile as Profile
 from roughline.topography.two_bodies import facing as facing

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.engineering.formulas import constriction_of_disc, electrical_resistance
+from roughline.engineering.formulas import electrical_resistance
 
 # harder than any contact pressure here, so that nothing yields
 FIRST = "E=210 GPa nu=0.3 hardness=1000 GPa resistivity=1e-7 ohm m conductivity=50 W/m/K"
@@ -122,7 +122,7 @@ def test_what_is_left_out_of_a_joint_is_told_with_its_size(part):
         rl.assess(rl.Question(piece, PAIR, loads=load, ask=rl.Joint(2e-8)))
         for load in ("1 mN", "10 N")
     )
-    disc = constriction_of_disc(2e-8, light.curve.E_star)
+    disc = 2 * light.curve.E_star * math.sqrt(2e-8 / math.pi)
     radius = math.sqrt(2e-8 / math.pi)
     assert electrical_resistance(disc, light.curve.E_star, RESISTIVITIES) == pytest.approx(
         sum(RESISTIVITIES) / (4 * radius)

@@ -214,7 +214,7 @@ def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface):
     result = asked(surface, rl.Closure(), elastic=False, grid_error=True)
     seals = result.answers["sealing_pressure"]
     assert (seals.values == seals.values[0]).all()
-    found = result.closing.pressure
+    found = result.sought.closing.pressure
     assert found.low < seals.values[0] < found.high
     assert seals.low[0] < found.low
     assert found.high < seals.high[0]
@@ -234,7 +234,7 @@ def test_ctrl_c_while_it_is_sought_keeps_the_curve(surface, monkeypatch):
     def stop(*_given, **_named):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("roughline.assessment.closing.sealing_pressure", stop)
+    monkeypatch.setattr("roughline.assessment.sought.sealing_pressure", stop)
     result = asked(surface, rl.Closure())
     assert result.interrupted
     assert "sealing_pressure" not in result.answers

@@ -250,7 +250,7 @@ def test_without_the_periodic_half_space_the_interface_is_not_known(
     def press(*arguments, progress, **named):
         def stop(done, total):
             progress(done, total)
-            if named["periodic"] == (half == "periodic"):
+            if named["half_space"].periodic == (half == "periodic"):
                 raise KeyboardInterrupt
 
         return original(*arguments, progress=stop, **named)

@@ -42,7 +42,7 @@ def test_a_mistake_in_a_command_is_one_line(invoke, arguments, told):
 
 
 @pytest.mark.parametrize(
-    "option", ["--adhesion", "--creep", "--coating", "--viscoelastic", "--wear", "--lubricant"]
+    "option", ["--creep", "--coating", "--viscoelastic", "--wear", "--lubricant"]
 )
 def test_what_is_not_offered_is_said_to_be_so(invoke, option):
     code, _, errors = invoke("press", "x", option, "1")

@@ -6,6 +6,9 @@ import multiprocessing
 import os
 import subprocess
 import sys
+import threading
+import tracemalloc
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -15,7 +18,7 @@ import roughline as rl
 from roughline.computing import fft, memory
 from roughline.computing.cores import available_cores
 from roughline.contact.curve import Curve
-from roughline.contact.estimates import expected_area_fraction
+from roughline.contact.estimates import bytes_of_layers, expected_area_fraction, memory_for
 from roughline.contact.loads import Loads
 
 FRACTAL = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 1)
@@ -72,6 +75,46 @@ def test_an_estimate_covers_the_memory_of_the_whole_process(n, periodic, hardnes
         area_fraction=share,
     )
     assert peak < told.memory < 1.35 * peak
+
+
+LAYERS = {
+    "soft": rl.Layered(1.0, 0.49, 0.3, 1e3, 0.3),
+    "thin": rl.Layered(1.0, 0.49, 0.02, math.inf),
+    "hard": rl.Layered(1.0, 0.3, 0.02, 0.1, 0.3),
+    "plate": rl.Layered(1.0, 0.3, 0.02, 1e-2, 0.3),
+}
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("kind", LAYERS)
+def test_what_layers_take_in_addition_is_known_before(kind, periodic):
+    """By all arrays that are held at once, under light loads and heavy ones."""
+    half_space, slow = replace(LAYERS[kind], periodic=periodic), kind == "plate"
+    n, shares = (192, [0.1]) if slow else (512, [1e-3, 0.1, 1.0])
+    surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=12.0).surface(n, 7)
+    most = rl.press(surface, half_space=half_space, n_loads=2, throw=False).force[-1]
+    beside = bytes_of_layers(half_space, surface.shape, surface.spacing)
+    assert (beside > 0) == (not periodic or kind == "plate")
+    for force in most * np.array(shares):
+        curves, loads = [], {"half_space": half_space, "forces": [force]}
+        tracemalloc.start()
+        # a thread keeps memory of its own for the next press
+        alone = threading.Thread(target=lambda: curves.append(rl.press(surface, **loads)))  # noqa: B023
+        alone.start()
+        alone.join()
+        held = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        told = memory_for(
+            surface.shape,
+            periodic,
+            0,
+            several=False,
+            area_fraction=curves[0].area_fraction[0],
+            of_layers=beside,
+        )
+        assert 0.4 * told < held < 1.1 * told
+        if not periodic and force == most * 1e-3:
+            assert held > told - 1.15 * beside * surface.heights.size
 
 
 def test_an_estimate_counts_the_loads_whose_fields_are_kept():

@@ -57,6 +57,34 @@ def test_contact_mechanics_finds_the_same_contact(surface, periodic):
         assert curve.depth[i] == pytest.approx(depth, rel=1e-5)
 
 
+@pytest.mark.parametrize("thickness", [0.02, 0.2])
+@pytest.mark.parametrize("poisson", [0.3, 0.49])
+@pytest.mark.parametrize("share", [1e-2, 1e-1])
+def test_contact_mechanics_finds_the_same_contact_on_a_layer(surface, thickness, poisson, share):
+    """Of Young's modulus one, on a rigid base; even pressure displaces there as it does here."""
+    cm = pytest.importorskip("ContactMechanics", minversion="1.8")
+    from ContactMechanics.Factory import make_system
+    from SurfaceTopography import Topography
+
+    shape, sizes = (N, N), (1.0, 1.0)
+    layer = {"thickness": thickness, "poisson": poisson}
+    half_space = rl.Layered(1.0, base_young=np.inf, periodic=True, **layer)
+    theirs = cm.PeriodicFFTElasticHalfSpace(shape, 1.0, sizes, **layer)
+    system = make_system(
+        substrate=theirs,
+        surface=Topography(np.array(surface.heights), sizes, periodic=True),
+    )
+    full = rl.press(surface, half_space=half_space, n_loads=2, throw=False).force[-1]
+    force = share * full
+    curve = rl.press(surface, half_space=half_space, forces=[force], fields=True)
+    result = system.minimize_proxy(external_force=force, pentol=1e-10, maxiter=20000)
+    assert result.success
+    pressure, fields = np.asarray(result.jac)[:N, :N] * N**2, curve.fields[0]
+    assert np.count_nonzero(pressure > 0) / N**2 == curve.area_fraction[0]
+    assert np.abs(fields.pressure - pressure).max() <= 1e-5 * pressure.max()
+    assert curve.depth[0] == pytest.approx(surface.heights.max() + result.offset, rel=1e-5)
+
+
 @pytest.mark.parametrize(
     "engine",
     [
@@ -173,3 +201,40 @@ def test_tamaas_finds_the_same_contact_that_sticks(law, work):
         assert np.array_equal(theirs > 0, ours > 0) or law is rl.Dugdale
         most = 1e-6 if law is rl.Exponential else 0.03
         assert np.abs(ours - theirs).max() <= most * theirs.max()
+
+
+def test_adhesion_finds_the_same_contact_there_and_back():
+    """Exponential law, deeper and back; their minimum of the energy at a depth, from the last."""
+    pytest.importorskip("Adhesion")
+    cm = pytest.importorskip("ContactMechanics")
+    from Adhesion.Interactions import Exponential
+    from Adhesion.System import BoundedSmoothContactSystem, make_system
+    from SurfaceTopography import Topography
+
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-3, q_roll=8 * np.pi, q_high=24 * np.pi)
+    smooth, work, reach = spectrum.surface(N, 3), 4e-6, 5e-4
+    depths = np.array([0.3, 0.9, 1.5, 2.5, 1.5, 0.9, 0.3]) * smooth.rms_height
+    law = rl.Exponential(work, reach)
+    curve = rl.press(smooth, E_star=1.0, periodic=True, law=law, depths=depths, fields=True)
+    system = make_system(
+        interaction=Exponential(work, reach),
+        surface=Topography(np.array(smooth.heights), (1.0, 1.0), periodic=True),
+        substrate=cm.PeriodicFFTElasticHalfSpace((N, N), 1.0, (1.0, 1.0)),
+        system_class=BoundedSmoothContactSystem,
+    )
+    strict = {"gtol": 1e-12, "ftol": 1e-18, "maxiter": 20000, "maxcor": 50}
+    displacement = np.zeros((N, N))
+    for depth, force, fields in zip(depths, curve.force, curve.fields, strict=True):
+        # there, even pressure displaces as much as the longest wave does
+        raised = np.array(smooth.heights) - smooth.heights.max() + depth + force / np.pi
+        result = system.minimize_proxy(
+            offset=raised.max() - smooth.heights.max(),
+            initial_displacements=np.maximum(displacement, raised),
+            lbounds="auto",
+            options=strict,
+        )
+        assert result.success
+        displacement = np.array(system.disp)
+        pressure = -np.asarray(system.substrate.force) * N**2
+        assert np.array_equal(pressure > 0, fields.pressure > 0)
+        assert np.abs(fields.pressure - pressure).max() <= 1e-5 * pressure.max()

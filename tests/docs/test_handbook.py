@@ -36,7 +36,9 @@ def test_no_two_pages_differ_in_capitals_alone():
 
 def test_a_name_without_a_section_is_refused(monkeypatch):
     monkeypatch.delitem(made.SECTIONS, "Bodies")
-    with pytest.raises(ValueError, match=r"SECTIONS in made.py lacks Line, Preparation, Surface"):
+    with pytest.raises(
+        ValueError, match=r"SECTIONS in made.py lacks Line, Preparation, Profile, Surface"
+    ):
         made.page_of_names()
 
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from halfspace.test_foreign_half_space import Coated, OnRigidBase
+from halfspace.test_foreign_half_space import Coating, OnRigidBase
 from halfspace.test_foreign_law import RangedPull, UnevenHardness
 
-STIFF_COATING = Coated(1.0, -1.5, 0.02, periodic=True)
-SOFT_COATING = Coated(1.0, 0.7, 0.02, periodic=True)
+STIFF_COATING = Coating(1.0, -1.5, 0.02, periodic=True)
+SOFT_COATING = Coating(1.0, 0.7, 0.02, periodic=True)
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import pytest
 
+import roughline as rl
 from roughline.halfspace.elasticity.kernel import love
 
 _ROUNDING = 1e-12  # of what is compared with zero, over the largest of its kind
@@ -63,6 +65,38 @@ class Body:
         response = np.fft.ifft2(2 / (self.E_star * magnitude)).real
         i, j = ((each[:, None] - each) % n for each, n in zip(index, shape, strict=True))
         return response[i, j]
+
+
+@dataclass(frozen=True)
+class BodyOn(Body):
+    """Heights over any half-space, by its kernel or by its waves."""
+
+    half_space: rl.HalfSpace | None = None
+
+    @classmethod
+    def of(cls, surface: rl.Surface, half_space: rl.HalfSpace) -> BodyOn:
+        """Put a surface over a half-space."""
+        given = surface.heights, surface.sizes, half_space.E_star, half_space.periodic
+        return cls(*given, half_space)
+
+    def matrix(self) -> np.ndarray:
+        """Displacements under unit pressures on single nodes."""
+        shape = self.heights.shape
+        spacing = tuple(size / n for size, n in zip(self.sizes, shape, strict=True))
+        i, j = (each.ravel()[:, np.newaxis] - each.ravel() for each in np.indices(shape))
+        if self.periodic:
+            return np.fft.ifft2(eigenvalues(self.half_space, shape, spacing)).real[i, j]
+        table = np.empty(shape)
+        self.half_space.kernel(0, spacing, table)
+        return table[abs(i), abs(j)]
+
+
+def eigenvalues(half_space, shape, spacing) -> np.ndarray:
+    """Displacement over pressure of all waves of a periodic grid; zero where it has no bound."""
+    q = [2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(shape, spacing, strict=True)]
+    with np.errstate(divide="ignore"):
+        found = half_space.spectrum(np.hypot(q[0][:, np.newaxis], q[1]))
+    return np.where(np.isfinite(found), found, 0.0)
 
 
 class DenseContact:
@@ -182,3 +216,25 @@ class DenseContact:
             where[wrong & to_free] = BETWEEN
             where[wrong & to_low] = LOW
             where[wrong & to_high] = HIGH
+
+
+def assert_contacts_are_dense(curve, dense, depths):
+    """Compare contacts at depths, with their fields, with those of a dense solution."""
+    for i, depth in enumerate(depths):
+        _, pressure = dense.at_depth(dense.body.separation, depth, 0.0, np.inf)
+        found, contact = curve.fields[i], pressure > 0
+        assert np.abs(found.pressure.ravel() - pressure).max() <= 1e-6 * pressure.max()
+        np.testing.assert_array_equal(found.contact.ravel(), contact)
+        assert curve.stiffness[i] == pytest.approx(dense.stiffness(contact), rel=1e-6)
+
+
+def assert_history_is_dense(curve, history, forces):
+    """Compare contacts of bodies that yield, with their fields, with a dense history of forces."""
+    for i, each in enumerate(forces):
+        state, found = history.press(each), curve.fields[i]
+        scale = max(float(state.pressure.max()), 1e-300)
+        assert np.abs(found.pressure.ravel() - state.pressure).max() <= 1e-6 * scale
+        np.testing.assert_array_equal(found.contact.ravel(), state.contact)
+        np.testing.assert_array_equal(found.plastic.ravel(), state.plastic)
+        assert curve.depth[i] == pytest.approx(state.depth, rel=1e-6)
+        assert curve.unloading_stiffness[i] == pytest.approx(state.unloading_stiffness, rel=1e-6)

@@ -7,6 +7,7 @@ import pytest
 
 import roughline as rl
 from roughline.exact import adhesion
+from roughline.exact.pulled_sphere import PulledSphere
 
 # A sphere in the units of JKR: pi w R = 1, lengths over (pi w R² / K)^(1/3) = 1, K = 4 E* / 3 = 1.
 E_STAR, WORK = 0.75, 1 / np.pi
@@ -87,6 +88,23 @@ def test_force_and_radii_are_maugiss_on_both_branches(transition):
     assert touching < 0.25 * cell  # of the outline, in cells
     assert reach < 0.15 * cell
     assert force < off[36][0] / 2
+
+
+def test_a_sphere_jumps_in_at_its_range_and_is_let_go_later():
+    """It is pulled across a gap after that, and on the way back where it was not before."""
+    transition = 0.5
+    reach = 2 * WORK / transition
+    exact = PulledSphere(1.0, WORK, reach, E_STAR)
+    let_go = float(exact.depth(exact.smallest_reach))
+    between, pulled = (let_go - reach) / 2, np.array([-0.97, -0.9, -0.97]) * reach
+    depths = np.array([1.05 * let_go, between, *pulled, between, 1.05 * let_go])
+    law = rl.Dugdale(WORK, reach)
+    force = rl.press(sphere(128, 4.0), E_star=E_STAR, law=law, depths=depths).force
+    there = np.array([float(exact.force(exact.reach(depth))) for depth in depths[2:6]])
+    # the ramp lets a few cells be pulled before the range is reached
+    assert abs(force[:2]).max() < 1e-3 * abs(there).min()
+    np.testing.assert_allclose(force[2:6], there, rtol=5e-3)
+    assert force[6] == 0
 
 
 def test_the_limit_of_a_long_range_is_bradleys_for_every_pull():

@@ -273,3 +273,37 @@ def test_random_problems_are_certified_or_refused():
         solved, loads = solved + int(told.sum()), loads + told.size
     assert solved > 0.97 * loads
     assert all("too short for the grid" in said and "\n" not in said for said in refused)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("law", LAWS)
+def test_nearly_smooth_bodies_touch_everywhere_without_a_load(law, periodic):
+    body = rl.Surface(0.02 * surface(n=32).heights, sizes=(1.0, 1.0))
+    sticky = law(work_of_adhesion=0.01, range=0.2)
+    forces = [1e-3, 0.0, -1e-3, 1e-3, 0.0]
+    curve = rl.press(body, E_star=1.0, periodic=periodic, law=sticky, forces=forces)
+    first = rl.press(body, E_star=1.0, periodic=periodic, law=sticky, forces=[0.0])
+    assert (curve.area_fraction == 1).all()
+    assert first.depth == pytest.approx(curve.depth[1], rel=1e-6)
+    assert first.area_fraction == 1
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("rms_height", [0.001, 0.1, 1.0])
+def test_a_pull_after_any_load_finds_the_dip_of_the_branch_on_retreat(law, periodic, rms_height):
+    """Weakly and strongly sticking surfaces, from full contact too."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=rms_height, q_roll=12, q_high=50)
+    body, sticky = spectrum.surface(32, rng=1), law(work_of_adhesion=0.2, range=0.4)
+    pressed = {"E_star": 1.0, "periodic": periodic, "law": sticky}
+    under = rl.press(body, **pressed, forces=[0.05, 0.5, -1.0], throw=False)
+    assert under.status[-1] == rl.Status.PULLED_OFF
+    apart = under.pull_off_depth + np.linspace(0.2, -0.2, 81)
+    deepest = under.depth[1]
+    if under.area_fraction[1] == 1 and periodic:
+        deepest *= 1 - 1e-6
+    apart = [each for each in apart if each < deepest]
+    drawn = rl.press(body, **pressed, depths=[deepest, *apart])
+    assert under.pull_off_force < 0
+    assert drawn.force.min() >= under.pull_off_force * (1 + 1e-3)
+    assert drawn.force.min() <= under.pull_off_force * (1 - 0.05)

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from halfspace.dense_contact import Body, DenseContact
+from halfspace.dense_contact import BodyOn, DenseContact, eigenvalues
 from halfspace.dense_hardness import History
 
 
 @dataclass(frozen=True)
-class Coated(rl.HalfSpace):
+class Coating(rl.HalfSpace):
     """Waves are displaced by 2 / (E* q) (1 - share exp(-2 q thickness)), as if by a coating.
 
     The term of the coating is the displacement by a force at the depth of twice the thickness. The
@@ -38,9 +38,6 @@ class Coated(rl.HalfSpace):
 
     def in_units(self, pressure, length):
         return replace(self, E_star=self.E_star / pressure, thickness=self.thickness / length)
-
-    def disc_stiffness(self, radius):
-        return 2 * self.E_star * radius / (1 - self.share * np.exp(-2 * self.thickness / radius))
 
     def _deep(self, x, y, dx, dy):
         """Integral of 1 / (pi E* distance) over a cell, seen from below its plane."""
@@ -71,39 +68,6 @@ class OnRigidBase(rl.HalfSpace):
     def in_units(self, pressure, length):
         return OnRigidBase(self.E_star / pressure, self.thickness / length)
 
-    def disc_stiffness(self, radius):
-        return 2 * self.E_star * radius / np.tanh(self.thickness / radius)
-
-
-@dataclass(frozen=True)
-class ForeignBody(Body):
-    """A dense matrix for one of these half-spaces."""
-
-    half_space: rl.HalfSpace | None = None
-
-    @classmethod
-    def of(cls, surface, half_space):
-        return cls(
-            surface.heights, surface.sizes, half_space.E_star, half_space.periodic, half_space
-        )
-
-    def matrix(self):
-        shape = self.heights.shape
-        spacing = [size / n for size, n in zip(self.sizes, shape, strict=True)]
-        i, j = (each.ravel()[:, np.newaxis] - each.ravel() for each in np.indices(shape))
-        if self.periodic:
-            return np.fft.ifft2(eigenvalues(self.half_space, shape, spacing)).real[i, j]
-        own = self.half_space
-        return super().matrix() - own.share * own._deep(i * spacing[0], j * spacing[1], *spacing)
-
-
-def eigenvalues(half_space, shape, spacing):
-    """Displacement over pressure of all waves of a periodic grid; zero where it has no bound."""
-    q = [2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(shape, spacing, strict=True)]
-    with np.errstate(divide="ignore"):
-        found = half_space.spectrum(np.hypot(q[0][:, np.newaxis], q[1]))
-    return np.where(np.isfinite(found), found, 0.0)
-
 
 def surface(shape, seed, sizes=(1.0, 0.7)):
     heights = rl.SelfAffine(hurst=0.7, rms_height=0.02).surface(256, seed).heights
@@ -113,7 +77,7 @@ def surface(shape, seed, sizes=(1.0, 0.7)):
 
 RTOL = 1e-9  # so that pressures hold to 1e-6
 
-COATED = [Coated(2.0, share, thickness) for share in (0.7, -1.5) for thickness in (0.02, 0.2)]
+COATED = [Coating(2.0, share, thickness) for share in (0.7, -1.5) for thickness in (0.02, 0.2)]
 PERIODIC = [*(replace(each, periodic=True) for each in COATED), OnRigidBase(2.0, 0.1)]
 ALL = [*COATED, *PERIODIC]
 
@@ -122,7 +86,7 @@ ALL = [*COATED, *PERIODIC]
 @pytest.mark.parametrize("control", ["forces", "depths"])
 def test_contacts_are_those_of_the_dense_solution(half_space, control):
     body = surface((24, 17), seed=3)
-    dense = DenseContact(ForeignBody.of(body, half_space))
+    dense = DenseContact(BodyOn.of(body, half_space))
     separation = dense.body.separation
     height = float(separation.mean())
     values = height * np.array([0.1, 0.4, 0.9] if control == "depths" else [0.01, 0.1, 0.5])
@@ -142,7 +106,7 @@ def test_contacts_are_those_of_the_dense_solution(half_space, control):
 @pytest.mark.parametrize("half_space", ALL, ids=str)
 def test_histories_with_a_hardness_are_those_of_the_dense_solution(half_space):
     body, hardness = surface((20, 24), seed=5), 0.15
-    history = History(ForeignBody.of(body, half_space), hardness)
+    history = History(BodyOn.of(body, half_space), hardness)
     forces = [0.002, 0.03, 0.01, 0.045, 0.0, 0.02]
     given = {"forces": forces, "hardness": hardness, "rtol": RTOL}
     curve = rl.press(body, half_space=half_space, fields=True, **given)
@@ -179,7 +143,7 @@ LARGE = [
     each
     for thickness in (0.003, 0.03, 0.3)
     for share in (0.7, -1.5)
-    for each in (Coated(2.0, share, thickness), Coated(2.0, share, thickness, periodic=True))
+    for each in (Coating(2.0, share, thickness), Coating(2.0, share, thickness, periodic=True))
 ]
 
 
@@ -201,7 +165,7 @@ def test_large_contacts_are_found_in_few_turns(half_space):
 
 def test_where_an_even_pressure_displaces_full_contact_yields_further():
     half_space, body = OnRigidBase(2.0, 0.1), surface((16, 22), seed=2)
-    dense = DenseContact(ForeignBody.of(body, half_space))
+    dense = DenseContact(BodyOn.of(body, half_space))
     separation = dense.body.separation
     depth = 5 * float(separation.max())
     _, pressure = dense.at_depth(separation, depth, 0.0, np.inf)
@@ -232,18 +196,18 @@ def test_a_half_space_that_is_none_is_refused_in_one_line():
     body = surface((16, 16), seed=1)
     free = replace(PERIODIC[0], periodic=False)
 
-    class WithoutKernel(Coated):
+    class WithoutKernel(Coating):
         kernel = rl.HalfSpace.kernel
 
-    class Negative(Coated):
+    class Negative(Coating):
         def spectrum(self, q):
             return -super().spectrum(q)
 
-    class AsThickInAllUnits(Coated):
+    class AsThickInAllUnits(Coating):
         def in_units(self, pressure, length):
             return replace(self, E_star=self.E_star / pressure)
 
-    class Unknown(Coated):
+    class Unknown(Coating):
         def kernel(self, first, spacing, rows):
             rows[:] = np.nan
 

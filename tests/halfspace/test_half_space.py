@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.halfspace.elasticity.half_space import Repeated
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.convolution import displacement_field
@@ -115,3 +116,37 @@ def test_modes_taken_in_even_and_odd_halves_displace_as_all_at_once(shape, monke
         halves = operator.displacement(pressure, sources, where)
         assert halves == pytest.approx(whole, abs=ROUNDING * abs(whole).max())
         assert (halves != whole).any()
+
+
+def test_what_is_repeated_is_displaced_from_its_mean_as_its_free_one_is_by_waves():
+    free = rl.Layered(1.0, 0.4, 0.7, np.inf) + rl.Homogeneous(3.0)
+    for each in (free, free.first):
+        found = Repeated(each)
+        assert found.periodic
+        assert found.mean_is_free
+        assert (found.E_star, found.disc_stiffness(2.0)) == (each.E_star, each.disc_stiffness(2.0))
+        q = np.array([0.1, 1.0, 10.0])
+        assert (found.spectrum(q) == each.spectrum(q)).all()
+        operator = on_grid(found, SHAPE, SPACING)
+        assert np.abs(displacement_field(operator, np.ones(SHAPE))).max() < ROUNDING
+        scaled = found.in_units(2.0, 5.0)
+        assert scaled.spectrum(q * 5) == pytest.approx(found.spectrum(q) * 2 / 5, rel=1e-12)
+        with pytest.raises(rl.InputError, match="less than half a cell"):
+            found.refuse((2.0, 0.1))
+    alone = Repeated(rl.Homogeneous(3.0))
+    expected = displacement_field(on_grid(Homogeneous(3.0, True), SHAPE, SPACING), PRESSURE)
+    with np.errstate(divide="ignore"):
+        same = displacement_field(on_grid(alone, SHAPE, SPACING), PRESSURE)
+    assert same == pytest.approx(expected, rel=ROUNDING)
+
+
+def test_waves_feel_the_modulus_of_a_half_space_that_they_displace_as_much():
+    q = np.geomspace(1e-2, 1e3, 30)
+    assert (rl.Homogeneous(3.0).modulus(q) == 3.0).all()
+    layers = rl.Layered(2.0, 0.3, 0.1, 5.0, 0.2)
+    felt = layers.modulus(q)
+    assert felt[-1] == pytest.approx(layers.E_star, rel=1e-9)
+    assert felt[0] == pytest.approx(5.0 / (1 - 0.2**2), rel=1e-2)
+    for wave, modulus in zip(q, felt, strict=True):
+        same = rl.Homogeneous(modulus).spectrum(np.array([wave]))
+        assert same == pytest.approx(layers.spectrum(np.array([wave])), rel=1e-14)

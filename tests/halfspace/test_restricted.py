@@ -83,6 +83,35 @@ def test_it_is_the_exact_operator_to_a_fiftieth_for_any_pressure(shape, spacing,
 
 
 @pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("base_young", [1e-3, 1e-2, 0.1, 10.0, np.inf])
+@pytest.mark.parametrize(("ratio", "thickness"), [(4, 6.0), (4, 100.0), (2, 3.0), (8, 16.0)])
+def test_it_is_as_near_for_layers_that_the_coarse_grid_resolves(
+    ratio, thickness, base_young, periodic
+):
+    """However hard or soft they are: what lies beneath them is smooth on it.
+
+    Free plates far harder than their base are bent by what lies beyond the grid, where its kernel
+    ends.
+    """
+    body = rl.Layered(1.0, 0.3, thickness, base_young, 0.3, periodic)
+    operator = on_grid(body, (64, 64), (1.0, 1.0))
+    exact, split = matrices(operator, (ratio, ratio), contact_nodes((64, 64), 3, 0.08))
+    if operator.mean_is_free:
+        exact, split = (each + operator.spectrum.max() for each in (exact, split))
+    factors = eigh((split + split.T) / 2, exact, eigvals_only=True)
+    plates = {} if periodic else {1e-3: 0.3, 1e-2: 0.06}
+    assert np.abs(factors - 1).max() <= plates.get(base_young, 0.03)
+
+
+def test_coarse_grids_that_resolve_a_layer_are_preferred():
+    """Of a layer that none resolves, any does, and errs more."""
+    for thickness, ratios in ((100.0, (8, 8)), (6.0, (4, 4)), (3.0, (2, 2)), (0.6, (8, 8))):
+        operator = on_grid(rl.Layered(1.0, 0.3, thickness, 0.1), (64, 64), (1.0, 1.0))
+        nodes = GridNodes.of(np.arange(20), (64, 64))
+        assert on(operator, nodes).far.convolution.spacing == ratios
+
+
+@pytest.mark.parametrize("periodic", [False, True])
 def test_coarse_grids_that_threads_share_give_the_same(monkeypatch, periodic):
     operator = on_grid(Homogeneous(1.0, periodic), (96, 64), (1.0, 1.0))
     nodes = GridNodes.of(contact_nodes((96, 64), 3, 0.3), (96, 64))

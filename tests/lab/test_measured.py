@@ -476,6 +476,55 @@ def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
     assert answered["answers"] == list(answer_table(found["result"], with_elastic=True))
 
 
+COATED = {"first": "gold 20 µm on nickel 40 µm on copper", "second": "steel", "loads": "2 MPa"}
+
+
+def test_a_coated_body_is_typed_into_the_control_of_its_material(page, tmp_path, monkeypatch):
+    said = {"example": "ground", **SMALL, **COATED, "elastic": "yes"}
+    header, _ = page.ask("bodies", said, sides=[1e-3, 1e-3])
+    assert header["refused"] == {}
+    rows = dict(header["rows"])
+    assert rows["rough body"].startswith("gold 20 µm on nickel 40 µm on copper: gold (E = 78 GPa")
+    assert any("no tangential stiffness: its ratio to the normal" in n for n in header["notes"])
+    answered, _ = page.ask("answer", said)
+    assert answered["modulus"].startswith("E* of gold and steel, which lie at the surfaces, = ")
+    assert "old 20 µm on nickel 40 µm on copper, against steel under" in answered["lead"]
+    path_of("ground", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    header, _ = page.ask("code", said, which="python")
+    assert "materials=('gold 20 µm on nickel 40 µm on copper', 'steel')" in header["text"]
+    found = {}
+    exec(header["text"], found)
+    assert answered["answers"] == list(answer_table(found["result"], with_elastic=True))
+    header, _ = page.ask("code", said, which="command")
+    words = shlex.split(header["text"])
+    assert words[words.index("--materials") + 1] == f"{COATED['first']}, steel"
+
+
+@pytest.mark.parametrize(
+    ("texts", "at", "message"),
+    [
+        ({"first": "gold on copper"}, "first", '"gold" in the material "gold on copper" is no'),
+        ({"second": "rubber 2 mm on"}, "second", 'ends with "on"'),
+        ({"second": "rubber -2 mm on steel"}, "second", "a positive, finite one is needed"),
+        ({"friction": "0.3"}, "friction", "partial slip (friction) follows from the ratio"),
+    ],
+)
+def test_layers_that_cannot_be_used_are_refused_at_their_control(page, texts, at, message):
+    sentence, where = page.refused("bodies", {**COATED, **texts})
+    assert where == at
+    assert message in sentence
+
+
+def test_layers_thinner_than_half_a_cell_are_refused_where_the_grid_is_known(page):
+    said = {"example": "ground", **SMALL, **COATED, "first": "gold 50 nm on copper"}
+    header, _ = page.ask("bodies", said, sides=[1e-3, 1e-3])
+    assert header["refused"] == {}
+    error, at = page.refusal("answer", said)
+    assert "its layer of gold, 50 nm, is thinner than half a cell of" in error
+    assert at == "first"
+
+
 def test_a_crop_to_where_points_are_known_opens_a_file_that_is_refused_whole(page, tmp_path):
     heights = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, 7).heights.copy()
     heights[32:] = heights[3, 4] = np.nan

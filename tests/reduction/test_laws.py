@@ -91,6 +91,12 @@ def test_on_a_plateau_all_springs_come_at_once():
     assert rl.press(line, E_star=1.0, forces=[3.0, 5.0]).depth == pytest.approx([1.0, 1.5])
 
 
+def test_a_line_whose_load_is_taken_off_is_where_it_first_touches():
+    line = rl.Line([1.0, 0.8, 0.3, 0.0], length=4.0)
+    curve = rl.press(line, E_star=1.0, forces=[3.0, 0.0])
+    assert curve.depth[1] == curve.force[1] == curve.stiffness[1] == 0
+
+
 @pytest.mark.parametrize("decimals", [None, 3])  # rounded: thousands of heights repeat
 def test_a_long_line_equals_the_sort_of_all_its_springs(decimals):
     line = rl.SelfAffine(hurst=0.6, rms_height=1.0).line(2**18, 5)

@@ -11,7 +11,7 @@ from scipy.special import erf, erfinv
 
 import roughline as rl
 from roughline.exact import flow as exact
-from roughline.spectra.moments import moments
+from roughline.spectra.moments import bands, moments
 from roughline.theories.interfacial_separation import separation
 
 SPECTRUM = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=4 * 2 * math.pi, q_high=64 * 2 * math.pi)
@@ -59,6 +59,13 @@ def test_the_medium_lies_between_its_gaps(gaps, threshold, scale, which):
     assert rl.effective_medium(narrower, threshold) <= found * (1 + 1e-9)
 
 
+def test_a_medium_at_its_threshold_hangs_on_its_narrowest_gap():
+    """Half of the interface is far wider, and c / sigma = sigma / c_1 + sigma / c_2 balances."""
+    found = rl.effective_medium(np.array([15.0, 1e-9, 0.0, 1.0]), 0.5)
+    harmonic = 1 / (1 / 15.0**3 + 1)
+    assert found == pytest.approx((1e-27 * harmonic) ** (1 / 6), rel=1e-6)
+
+
 def test_the_medium_seals_at_its_threshold():
     gap = np.ones(100)
     for contact, is_open in ((49, True), (50, False), (100, False)):
@@ -96,7 +103,7 @@ def test_all_separations_make_up_the_mean_gap(roughness, load):
 
     def integrand(s):  # over t = s t of all waves, where A = erf(p / t)
         x = farthest / s
-        u_1 = separation(roughness, 1.0, p, np.array([float(erf(x))]))[0]
+        u_1 = separation(bands(roughness), 1.0, p, np.array([float(erf(x))]))[0]
         return u_1 * 2 / math.sqrt(math.pi) * x / s * math.exp(-(x**2))
 
     # at smaller t the share has rounded to 1, and the waves that long are few

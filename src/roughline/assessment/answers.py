@@ -45,13 +45,15 @@ def answers_of(
         interface = interface.bare if intervals is None else interface
     elif not question.periodic:
         ends = intervals.unloading if intervals else None
-        interface = stiffness_of_the_piece(body, curve, ends)
+        is_layered = bool(question.coated)
+        interface = stiffness_of_the_piece(body, curve, ends, is_layered=is_layered)
     pressed = _pressed(question, question.pair, body, curve, interface, intervals, case.moments)
     found = replace(
         pressed,
         measured=taken(solution.measured, asked),
+        is_repeated=case.is_repeated_for_interface or case.loads.periodic,
         place=solution.place,
-        closing=solution.closing,
+        sought=solution.sought,
         fields=next((each for each in solution.curve.fields if each is not None), None),
     )
     return rules.answers(found)
@@ -84,7 +86,9 @@ def ends_from_many(
     for key, ends in further.measures.items():
         measured[key] = larger.measures[key].widened(ends, with_grid=with_grid)
     given, _ = rules.answers(
-        replace(pressed, measured=measured, closing=result.closing, fields=result.fields)
+        replace(
+            pressed, measured=measured, is_repeated=True, sought=result.sought, fields=result.fields
+        )
     )
     return {key: each.ends for key, each in given.items() if each.ends is not None}
 
@@ -113,4 +117,5 @@ def _pressed(
         hardest=hardness.ends[1] if hardness and isinstance(body, Surface) else None,
         has_depths=bool(question.depths),
         sealing=question.sealing,
+        attraction=question.attraction,
     )

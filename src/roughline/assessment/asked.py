@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeVar, get_args
 
 from roughline.assessment.fields import FIELDS, asked_fields
 from roughline.assessment.given import Parsed, as_si, quantity, several
+from roughline.engineering.attraction import Attraction
 from roughline.engineering.fluids import Gas, Liquid, fluid_of
 from roughline.engineering.sealing import SealShape
 from roughline.errors import InputError
@@ -55,6 +56,22 @@ def _direction(given: Any) -> Literal["x", "y", "both"]:
     """A direction over the map."""
     directions: tuple[Literal["x", "y", "both"], ...] = ("both", "x", "y")
     return one_of("flow_along", given, directions)
+
+
+@public
+@dataclass(frozen=True)
+class Adhesion:
+    """Bodies that stick, asked for what it takes to draw them apart after their largest load.
+
+    Parameters
+    ----------
+    attraction : str, float, Dugdale or Exponential
+        The work of adhesion, the range and the law, such as "50 mJ/m^2 over 2 nm, exponential"; a
+        number is the work. [J/m²] Or a name of the table of works of adhesion, such as "pdms".
+        Without a range, it is the shortest that the grid resolves; without a law, it is Dugdale's.
+    """
+
+    attraction: Parsed[Attraction] = Parsed(Attraction.of)
 
 
 @public
@@ -225,7 +242,8 @@ class Closure:
 
 
 Asked = (
-    Friction
+    Adhesion
+    | Friction
     | Ultrasound
     | Joint
     | Theories

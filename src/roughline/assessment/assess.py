@@ -9,7 +9,6 @@ import numpy as np
 from roughline.assessment.answers import answers_of
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
-from roughline.assessment.closing import closings_of
 from roughline.assessment.cost import Announce, tell_cost
 from roughline.assessment.doubts import warnings_of
 from roughline.assessment.loads import LoadProgress
@@ -18,6 +17,7 @@ from roughline.assessment.question import Question
 from roughline.assessment.scatter import elastic_answers, scatter_of
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import fields_of_gap, solution_of, solution_of_scan
+from roughline.assessment.sought import sought_of
 from roughline.assessment.variants import Curves, Stopped, Way, press_all, variants_of
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
@@ -64,6 +64,7 @@ def assess_body(
         solution = solution_of(case, curves)
         _refuse_all_at_the_hardness(case, solution.curve)
     answers, left_out = answers_of(case, solution)
+    theories, others = _theories(question, case.body, solution.curve)
     scatter, answers, intervals = scatter_of(case, curves, solution, answers)
     asked = case.loads.asked_of(solution.curve)
     result = Assessment(
@@ -75,14 +76,14 @@ def assess_body(
         intervals=intervals,
         interrupted=bool(curves.stopped),
         answers=answers,
-        left_out=left_out,
+        left_out=[*left_out, *others],
         elastic=elastic_answers(case, curves),
         hardness_scatter=scatter,
         larger=taken(solution.larger, asked),
         measured=solution.measured,
         fields_of_gap=fields_of_gap(case, curves),
-        closing=solution.closing,
-        theories=_theories(question, case.body, solution.curve),
+        sought=solution.sought,
+        theories=theories,
         partial_slip=slip_at_largest_load(case, curves),
     )
     warnings = warnings_of(result, case.moments, case.loads.grid_error)
@@ -97,8 +98,8 @@ def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | Non
         curves = press_all(variants, case.loads.count, progress)
     except Stopped as stop:
         return stop.curves
-    closings, is_stopped = closings_of(case, curves)
-    return replace(curves, closings=closings, stopped="closings" if is_stopped else "")
+    sought, is_stopped = sought_of(case, curves)
+    return replace(curves, sought=sought, stopped="sought" if is_stopped else "")
 
 
 def _refuse_all_at_the_hardness(case: Case, curve: Curve) -> None:
@@ -119,12 +120,21 @@ def _with_joint_recorded(curve: Curve, joint: float | None) -> Curve:
     return replace(curve, settings={**settings, "curve_of": "map"})
 
 
-def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]:
-    """Theories at the mean pressures of the loads that were solved, rising, each once."""
+def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[TheoryCurve], list[str]]:
+    """Theories at the mean pressures of the loads that were solved, rising, each once.
+
+    The second result says which are left out, as they do not hold of layers.
+    """
     solved = np.unique(curve.force[curve.converged & (curve.force > 0)])
     if not question.theories or not isinstance(body, Surface) or not solved.size:
-        return []
-    from roughline.theories.theory import theory  # here because it loads slowly
+        return [], []
+    from roughline.theories.theory import theory, why_not  # here because they load slowly
 
-    pressures = solved / body.area
-    return [theory(name, body, curve.E_star, pressures) for name in question.theories]
+    pressures, half_space = solved / body.area, curve.half_space
+    left_out = {name: why_not(name, body, half_space) for name in question.theories}
+    found = [
+        theory(name, body, pressure=pressures, half_space=half_space)
+        for name, why in left_out.items()
+        if not why
+    ]
+    return found, [f"no {name}: {why}" for name, why in left_out.items() if why]

@@ -21,8 +21,8 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
 from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals, taken
+from roughline.engineering.pressed import Sought
 from roughline.engineering.rule import Answer
-from roughline.engineering.sealing import Closing
 from roughline.fluid.flow import Flow, flow
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
@@ -67,9 +67,10 @@ class Assessment:
     fields_of_gap : Fields or None
         Of one load, in the contact that `measured` is of; None if they were not asked for, or the
         load was not solved.
-    closing : Closing or None
-        At which mean pressure the gap of the map seals, and how far the load may be taken off, if
-        that was asked for.
+    sought : Sought
+        What was sought beyond the loads, as far as that was asked for: at which mean pressure the
+        gap of the map seals (``closing``), and what it takes to draw bodies apart that stick
+        (``separation``).
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved, rising, each once.
     partial_slip : PartialSlip or None
@@ -94,7 +95,7 @@ class Assessment:
     larger: LargerSurface | None = None
     measured: Mapping[str, Measured] = field(default_factory=dict)
     fields_of_gap: Fields | None = None
-    closing: Closing | None = None
+    sought: Sought = field(default_factory=Sought)
     theories: Sequence[TheoryCurve] = ()
     partial_slip: PartialSlip | None = None
     warnings: Sequence[str] = ()

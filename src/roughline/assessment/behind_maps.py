@@ -86,7 +86,7 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
         np.stack([each.stiffness.values for each in larger]),
         np.stack([each for each in areas if each is not None]),
         math.sqrt(area),
-        first.curve.E_star,
+        float(first.curve.half_space.modulus(np.array([math.pi / math.sqrt(area)]))[0]),
         1.0 if agree is None else agree.of_places,
     )
     untold = "" if law is None else _longer_waves(same, law)
@@ -95,6 +95,11 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
             f"the maps show no roll-off together, and the joint is {2**beyond.doublings:.3g} times "
             "as long: the longer waves that they lack leave its stiffness open: map areas at least "
             f"1/{2**MOST_DOUBLINGS:g} as long as the joint"
+        )
+    if first.question.coated:
+        untold = (
+            "how maps differ from the part behind them is known of bodies of one material each, "
+            f"and {first.question.coated[0].name} is coated"
         )
     if not untold and not tiles:
         untold = (
@@ -133,9 +138,9 @@ def shared_load(
 
     The stiffness of the interface [N / m] and the area fraction of each map are of shape (maps,
     loads), under the same mean pressure; `side` is that of a map [m]. `of_places` is the share of
-    the variance between maps that belongs to places, and not to chance. The bounds are of the
-    differences of the stiffness's logarithm and of the area's logit: a mean area is not the logit's
-    mean either.
+    the variance between maps that belongs to places, and not to chance; `E_star` is the contact
+    modulus that waves of two sides feel [Pa]. The bounds are of the differences of the stiffness's
+    logarithm and of the area's logit: a mean area is not the logit's mean either.
     """
     s_k, log_k = _scatter_and_middle(np.log, stiffness)
     s_a, logit_a = _scatter_and_middle(logit, area)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from roughline.assessment.assumptions import broken
 from roughline.assessment.kinds import has_spectrum, is_map, nominal_area
 from roughline.assessment.larger_surface import roll_offs_along_a_side
 from roughline.assessment.loads import Hardness, LoadCase, hardness_of
@@ -41,6 +42,8 @@ class Case:
         parts = topographies(question)
         body = pressed_body([each.body for each in parts])
         question.refuse_misfit(body)
+        if isinstance(body, Surface):
+            question.refuse_thin_layers(body)
         loads = LoadCase.of(question, body)
         grid_error = _grid_error_is_estimated(question, loads)
         return cls(question, parts, replace(loads, grid_error=grid_error))
@@ -79,6 +82,14 @@ class Case:
         return body if self.question.joint is not None or is_map(body) else None
 
     @property
+    def tells_of_larger(self) -> bool:
+        """Whether the map tells how the surface that it was cut out of differs from it.
+
+        How far tiles tell of that is known of bodies of one material each.
+        """
+        return not self.question.coated and not broken("larger surface", self.body)
+
+    @property
     def is_repeated_for_interface(self) -> bool:
         """Whether the map is pressed periodically too, for the surface that it was cut out of."""
         return self.map is not None and not self.loads.periodic
@@ -86,14 +97,20 @@ class Case:
     @property
     def measures(self) -> Sequence[Measure]:
         """What rules need from the fields of every load, of the map pressed periodically."""
-        is_answered = self.pair is not None and isinstance(self.body, Surface)
-        return rules.measures(self.question.sealing) if is_answered else ()
+        if self.pair is None or not isinstance(self.body, Surface):
+            return ()
+        return rules.measures(self.pair, self.question.sealing)
 
     @cached_property
     def judged(self) -> Body:
-        """On which the scatter of the hardness is judged: the body, or a large one coarsened."""
+        """On which the scatter of the hardness is judged: the body, or a large one coarsened.
+
+        Half as many points along a side need not resolve a layer.
+        """
         body = self.body
         if not isinstance(body, Surface) or body.heights.size < HALVED_FROM:
+            return body
+        if self.question.coated:
             return body
         return body if body.shape[0] % 2 or body.shape[1] % 2 else body.coarsened()
 

@@ -10,7 +10,7 @@ import numpy as np
 from roughline.assessment.case import Case
 from roughline.assessment.variants import Purpose, Variant
 from roughline.computing.memory import refuse_beyond_memory
-from roughline.contact.arguments import given_half_space, law_of
+from roughline.contact.arguments import law_of
 from roughline.contact.estimates import (
     Estimate,
     duration,
@@ -125,5 +125,5 @@ def _expected_share(case: Case, body: Surface) -> float | None:
     if loads.n_loads is not None:
         return None
     given = Loads("forces" if loads.forces else "depths", np.array(loads.forces or loads.depths))
-    half_space = given_half_space(None, loads.E_star, loads.periodic)
+    half_space = loads.elasticity.half_space(periodic=loads.periodic)
     return expected_area_fraction(body, half_space, given, law_of(loads.hardness))

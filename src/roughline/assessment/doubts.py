@@ -29,6 +29,7 @@ from roughline.units import decimal
 
 _STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
 _STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
+_PRESSED = _STEEP / 2  # mean contact pressure over E*, as on such slopes; on layers it is not
 _WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
 _COUNTS = 1.2  # upper over lower end of what counts as a cause
 
@@ -116,8 +117,18 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[st
             f"{text}: bodies that are strained so far are not linear elastic, and no interval "
             "includes that"
         )
+    pressed = result.answers.get("contact_pressure")
+    if question.coated and pressed is not None:
+        most = float(np.nanmax(pressed.values, initial=0.0)) / question.elasticity.softest
+        if most > _PRESSED:
+            broken.append(
+                f"the mean contact pressure reaches {decimal(most, 2)} times the contact modulus "
+                "of the softest materials: unless a layer of these is too thin to move aside, or "
+                "lies deep, it is strained beyond what is linear elastic, and no interval includes "
+                "that"
+            )
     hardness = None if question.pair is None or result.curve.hardness else question.pair.hardness
-    if hardness is not None and spectrum is not None:  # no summit is given it
+    if hardness is not None and spectrum is not None and not question.coated:  # summits have none
         summits = spectrum.summit_deviation, spectrum.summit_radius
         index = plasticity_index(result.curve.E_star, hardness, summits)
         if index > 1:
@@ -130,6 +141,8 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[st
             "theories assume an isotropic surface, and the rms slope depends on direction: the "
             f"least is {alike:.2f} of the largest"
         )
+    if question.theories and question.attraction is not None:
+        broken.append("theories leave out that the bodies stick")
     return broken + [each.warning for each in result.answers.values() if each.warning]
 
 

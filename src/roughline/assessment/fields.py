@@ -111,7 +111,8 @@ FIELDS: tuple[Field, ...] = (
         name="materials",
         control="",
         word="two materials",
-        help='Both materials, such as "steel,copper" or "E=70 GPa nu=0.33, rigid".',
+        help='Both materials, such as "steel,copper", "E=70 GPa nu=0.33, rigid", or with layers '
+        '"rubber 2 mm on steel, rigid".',
     ),
     _of_bodies(
         name="E_star",
@@ -139,6 +140,14 @@ FIELDS: tuple[Field, ...] = (
         "most the hardness of the softer body; where it is reached, the surface is permanently "
         "indented.",
         choices={"no": (False, "where a hardness is known"), "yes": (True, "elastic")},
+    ),
+    _of_bodies(
+        name="adhesion",
+        of="Adhesion",
+        help="How the bodies attract each other: work of adhesion, range and law, such as "
+        '"50 mJ/m^2", "50 mJ/m^2 over 2 nm, exponential" or "pdms"; adds what it takes to draw '
+        "them apart after the largest load.",
+        otherwise="they only push",
     ),
     _of_loads(
         name="loads",

@@ -10,7 +10,9 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from roughline.engineering.materials import Material, material
+from roughline.engineering.coated import Coated, Solid
+from roughline.engineering.material import Material
+from roughline.engineering.materials import material
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, shown
 from roughline.errors.words import speaking
@@ -108,7 +110,7 @@ def bodies_or_paths(given: Any) -> Body | Path | tuple[Body | Path, ...]:
     return found
 
 
-def pair_of(given: Any) -> tuple[Material, Material]:
+def pair_of(given: Any) -> tuple[Solid, Solid]:
     """Two materials, from themselves, their descriptions, or one text with a comma between."""
     parts = given
     if isinstance(given, str):
@@ -118,15 +120,15 @@ def pair_of(given: Any) -> tuple[Material, Material]:
         refuse(
             "materials",
             given,
-            'give two with a comma between, such as "steel,copper", or "steel,rigid"',
+            'give two with a comma between, such as "steel,copper" or "rubber 2 mm on steel,rigid"',
         )
     first, second = (_material_of(each) for each in parts)
     return first, second
 
 
-def _material_of(given: Any) -> Material:
+def _material_of(given: Any) -> Solid:
     """A material, from itself or from its description."""
-    if isinstance(given, Material):
+    if isinstance(given, Material | Coated):
         return given
     if not isinstance(given, str):
         refuse("materials", given, 'a Material or a text such as "steel" is needed for each body')

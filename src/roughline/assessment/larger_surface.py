@@ -120,7 +120,9 @@ def roll_offs_of(fit: SelfAffineFit) -> float | None:
     return fit.q_roll / fit.q_low if fit.q_roll and fit.shows_roll_off else None
 
 
-def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Interface:
+def stiffness_of_the_piece(
+    body: Body, curve: Curve, interval: Ends | None = None, *, is_layered: bool = False
+) -> Interface:
     """Interface stiffness of a free body as it is, 1 / k_i = 1 / k - 1 / k_s.
 
     Where the stiffness differs from the punch's by less than the grid's error of the punch, the
@@ -131,14 +133,17 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
         saturated, error = curve.E_star * body.length, 0.0
         validity = "of the reduced line alone; waves longer than the scan are missing"
     else:
-        saturated = saturated_stiffness(body, curve.E_star)
+        saturated = saturated_stiffness(body, curve)
         # as a share of k_s, which is a little more
         error = PUNCH_GRID_ERROR / math.sqrt(body.heights.size)
-        validity = (
-            "of this piece alone, a punch with its outline; under the same mean pressure a large "
-            "surface is a fifth less stiff at half contact and a third stiffer at 80 %: press it "
-            "periodically for that"
-        )
+        validity = "of this piece alone, a punch with its outline; "
+        if is_layered:
+            validity += "press it periodically for that of a large surface"
+        else:
+            validity += (
+                "under the same mean pressure a large surface is a fifth less stiff at half "
+                "contact and a third stiffer at 80 %: press it periodically for that"
+            )
     low, high = interval or np.full((2, k.size), np.nan)
     close = k > saturated * (1 - error)
     low = np.where(close, np.fmin(low, k * (1 - error)), low)
@@ -149,11 +154,14 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     return Interface(interface_stiffness(k, saturated), ends if known else None, validity, formula)
 
 
-def saturated_stiffness(surface: Surface, E_star: float) -> float:
-    """Stiffness of the flat punch with the outline and grid of a surface. [N / m]"""
+def saturated_stiffness(surface: Surface, curve: Curve) -> float:
+    """Stiffness of the flat punch with the outline and grid of a surface. [N / m]
+
+    It is pressed into what the curve is of.
+    """
     flat = Surface(np.zeros(surface.shape), surface.sizes, surface.unit, is_cut_out=False)
     depth = math.sqrt(surface.area) * 1e-6
-    return float(press(flat, E_star=E_star, depths=[depth]).stiffness[0])
+    return float(press(flat, half_space=curve.half_space, depths=[depth]).stiffness[0])
 
 
 def larger_surface(

@@ -10,10 +10,14 @@ import numpy as np
 from roughline.assessment.kinds import is_map, nominal_area
 from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
 from roughline.computing.arrays import Indices, Mask
+from roughline.contact.arguments import law_of, sticking_law
 from roughline.contact.curve import Curve
+from roughline.contact.elastic_pair import ElasticPair
+from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.contact.selection import among_loads
+from roughline.engineering.attraction import Attraction
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
@@ -57,7 +61,7 @@ class LoadCase:
     """A body, and the loads and settings under which it is pressed."""
 
     body: Body
-    E_star: float  # [Pa]
+    elasticity: ElasticPair
     forces: list[float]  # in the order in which they are applied [N]
     depths: list[float]  # instead of forces [m]
     n_loads: int | None  # instead of both: forces spaced from first touch to saturation
@@ -66,6 +70,7 @@ class LoadCase:
     grid_error: bool = False
     levelled: bool = False  # without its tilt, which a periodic half-space cannot have
     hardness: float | None = None  # None if both bodies are elastic [Pa]
+    attraction: Attraction | None = None  # of bodies that stick, with its range
     fields: Sequence[int] = ()
     measures: Sequence[Measure] = ()
     rtol: float = 1e-6
@@ -77,8 +82,12 @@ class LoadCase:
         area = nominal_area(body)
         forces, asked = _path(question, question.forces(area))
         depths, asked_depths = _path(question, question.heights())
-        n_loads, hardness = question.n_loads, None
+        n_loads, hardness, attraction = question.n_loads, None, question.attraction
         if isinstance(body, Surface):
+            if attraction is not None:
+                attraction = attraction.on_grid(max(body.spacing), question.elasticity.softest)
+                forces = forces or ([] if depths else _spaced(question, body))
+                n_loads = None
             _refuse_beyond_hardness(question, area)
             known = hardness_of(question)
             hardness = None if known is None else known.value
@@ -87,7 +96,7 @@ class LoadCase:
             n_loads = None
         return cls(
             body,
-            question.modulus,
+            question.elasticity,
             forces,
             depths,
             n_loads,
@@ -95,6 +104,7 @@ class LoadCase:
             asked or asked_depths,
             levelled=question.joint is not None and is_map(body),
             hardness=hardness,
+            attraction=attraction,
         )
 
     @property
@@ -143,14 +153,17 @@ class LoadCase:
 
     def press(self, progress: LoadProgress | None = None) -> Curve:
         """Press the body; loads that fail are marked, and Ctrl-C raises Interrupted."""
+        pull, law = self.attraction, None
+        if pull is not None and pull.range is not None:
+            law = sticking_law(pull.law, pull.work, pull.range)
         return press(
             self.body.detrended() if self.levelled else self.body,
-            E_star=self.E_star,
+            half_space=self.elasticity.half_space(periodic=self.periodic),
             hardness=self.hardness,
+            law=law,
             n_loads=self.n_loads,
             forces=self.forces or None,
             depths=self.depths or None,
-            periodic=self.periodic,
             fields=self.fields if isinstance(self.body, Surface) else False,
             measures=self.measures,
             grid_error=self.grid_error,
@@ -181,6 +194,14 @@ def _with_curve(asked: list[float]) -> list[float]:
     curve = np.geomspace(_LIGHTEST * max(asked), max(asked), _CURVE_LOADS)
     apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
     return sorted({*asked, *apart})
+
+
+def _spaced(question: Question, body: Surface) -> list[float]:
+    """Forces for bodies that stick, those of the same ones if they only push. [N]"""
+    half_space = question.elasticity.half_space(periodic=question.is_repeated)
+    given = GivenLoads(None, None, question.n_loads)
+    loads = surface_loads(body, half_space, given, 1e-6, single=False, law=law_of(None))
+    return [float(each) for each in loads.values]
 
 
 def _forces_of_a_scan(line: Line, E_star: float, count: int) -> list[float]:

@@ -12,6 +12,7 @@ from roughline.assessment.given import has_forces, several
 from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
 from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
+from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pair import MaterialPair
 from roughline.errors.words import called
@@ -32,6 +33,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
         notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
         notes += of_unknown_hardness(pair)
         notes += result.left_out
+        notes += _of_layers(result, pair)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")
     notes += of_each([each.body for each in result.topographies], _filled_spikes_and_effects)
@@ -117,12 +119,78 @@ def of_unknown_hardness(pair: MaterialPair) -> list[str]:
             f"the hardness of {lacking[0]} is not known; that of the other is taken as the softer's"
         ]
     softer = ""
-    if len(lacking) == 1 and not any(map(math.isinf, (pair.first.E, pair.second.E))):
+    if len(lacking) == 1 and not any(
+        map(math.isinf, (pair.first.surface.E, pair.second.surface.E))
+    ):
         softer = ", and it is the softer one, as its modulus is below the other's hardness"
     return [
         f"the hardness of {' and of '.join(lacking)} is not known{softer}, so both bodies are "
         'taken as elastic, whatever the pressure; give it with the material, as "hardness=..."'
     ]
+
+
+def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
+    """Say what a hardness is of coated bodies, and what is not known of them."""
+    if not pair.coated:
+        return []
+    notes, softer, question = [], pair.softer, result.question
+    if isinstance(softer, Coated) and not question.elastic:
+        notes.append(
+            f"the hardness of {softer.name} is that of its top layer, {softer.surface.name}, in "
+            "bulk: one that was measured through a thin layer is of what lies below as well, which "
+            "may yield first"
+        )
+    if pair.hardness is not None and result.curve.hardness is None:
+        notes.append(
+            pair.refuses_layers("plasticity index", "it is of summits of one material each")
+        )
+    if is_map(result.body) or question.joint is not None:
+        bare = [each.symbol for each in result.answers.values() if each.rule.is_of_interface]
+        notes.append(
+            "how far a larger surface may be from its map is known of bodies of one material each: "
+            f"{listed(bare)} come without what the map leaves open of it"
+        )
+    even = question.elasticity.even_compliance
+    if (question.is_repeated or result.larger is not None) and 0 < even < math.inf:
+        pressure = float(np.nanmax(result.curve.force)) / result.area
+        given = engineering(even * pressure, "m"), engineering(pressure, "Pa")
+        notes.append(
+            "depths and stiffness of the periodic contact are those of the interface alone: they "
+            f"leave out by how much even pressure displaces the layers, {given[0]} under {given[1]}"
+        )
+    return notes + _of_currents(result, pair)
+
+
+def _of_currents(result: Assessment, pair: MaterialPair) -> list[str]:
+    """Say what is not known of currents through layers, and what layers add to them."""
+    is_repeated = result.question.is_repeated
+    flows = (("resistivity", "electricity", "Ω m²"), ("conductivity", "heat", "m² K/W"))
+    known = [(each, layers) for each in flows if (layers := pair.resistances(each[0]))]
+    if not known:
+        return []
+    notes = []
+    if result.larger is not None and result.question.joint is None and not is_repeated:
+        notes.append(
+            "currents through layers are solved in the map repeated, so that neither resistance "
+            "nor conductance of the map alone is known: give the joint's area "
+            f"({called('rl.Joint')})"
+        )
+    elif not is_repeated:
+        notes.append(
+            "currents through layers are solved from all of this piece, so that no conductance per "
+            f"area of its interface alone is known: {called('periodic', True)} gives it"
+        )
+    if is_repeated or result.larger is not None:
+        added = [
+            f"{sum(rho * h for each in layers for rho, h in zip(*each, strict=False)):.4g} {unit} "
+            f"of {what}"
+            for (_, what, unit), layers in known
+        ]
+        notes.append(
+            "what spreads from the spots is told: the layers' own resistance to an even current "
+            f"adds {' and '.join(added)}"
+        )
+    return notes
 
 
 def how_far_a_line_serves(question: Question, body: Body) -> tuple[str, bool]:

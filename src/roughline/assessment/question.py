@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args
 
 from roughline.assessment.asked import (
+    Adhesion,
     Asked,
     Closure,
     FlowAlong,
@@ -37,11 +38,13 @@ from roughline.assessment.given import (
 )
 from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.reading import Reading
-from roughline.engineering.materials import Material
+from roughline.contact.elastic_pair import ElasticPair
+from roughline.engineering.attraction import Attraction
+from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.pair import MaterialPair, contact_modulus
 from roughline.engineering.sealing import ATMOSPHERE, Sealing
 from roughline.errors import InputError
-from roughline.errors.checks import number, refuse, whole
+from roughline.errors.checks import number, refuse, shown, whole
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface, sides_of
@@ -95,9 +98,9 @@ class Question:
         What is pressed: a body in metres, or a file with a topography. A line scan (a Line of kind
         "profile") goes through its spectrum to the reduced model. Several are maps of one part,
         each from another place; they are pressed one by one, under the same loads.
-    materials : pair of Material or str, or str, optional
-        Of both bodies: materials or their descriptions, ("steel", "copper"), or one text with a
-        comma between, "steel,copper".
+    materials : pair of Material, Coated or str, or str, optional
+        Of both bodies: materials or their descriptions, ("steel", "gold 0.5 um on copper"), or one
+        text with a comma between, "steel,gold 0.5 um on copper".
     E_star : float or str, optional
         Contact modulus instead of materials; the result is then the curve without answers. [Pa]
     loads : float or str, or sequence of them, optional
@@ -153,7 +156,7 @@ class Question:
     """
 
     body: Parsed[Body | Path | tuple[Body | Path, ...]] = Parsed(bodies_or_paths)
-    materials: Parsed[tuple[Material, Material] | None] = Parsed(pair_of, default=None)
+    materials: Parsed[tuple[Solid, Solid] | None] = Parsed(pair_of, default=None)
     E_star: Parsed[float | None] = Parsed(
         quantity("Pa", "E_star", "a positive, finite contact modulus is needed"), default=None
     )
@@ -191,7 +194,9 @@ class Question:
         self._check_joint()
         self._check_loads()
         self._check_materials()
+        self._check_layers()
         self._check_sealing()
+        self._check_adhesion()
         if self.is_of_several:
             self._check_maps()
         for body in (*self.bodies, self.against):
@@ -201,6 +206,11 @@ class Question:
     def _asked(self, kind: type[_Kind], of: Callable[[_Kind], _Value]) -> _Value | None:
         """A value of what is asked of a kind, if it is."""
         return next((of(each) for each in self.ask if isinstance(each, kind)), None)
+
+    @property
+    def attraction(self) -> Attraction | None:
+        """How the bodies attract each other; None if they only push."""
+        return self._asked(Adhesion, lambda asked: asked.attraction)
 
     @property
     def friction(self) -> float | None:
@@ -293,10 +303,20 @@ class Question:
         return pair.with_hardness(self.hardness)
 
     @property
-    def modulus(self) -> float:
-        """Contact modulus, given or of the materials. [Pa]"""
+    def elasticity(self) -> ElasticPair:
+        """How both bodies give way to pressure: by a modulus that is given, or by the materials."""
         pair = self.pair
-        return self.E_star or math.nan if pair is None else pair.E_star
+        return ElasticPair(self.E_star or math.nan) if pair is None else pair.elasticity
+
+    @property
+    def modulus(self) -> float:
+        """Contact modulus, given or of what lies at both surfaces. [Pa]"""
+        return self.elasticity.E_star
+
+    @property
+    def coated(self) -> list[Coated]:
+        """The bodies that are coated."""
+        return [] if self.pair is None else self.pair.coated
 
     @property
     def name(self) -> str:
@@ -360,8 +380,12 @@ class Question:
             what = "depth {} is {} times the shorter side of the body"
             ratios = [depth / side for depth in depths]
         else:
+            elasticity = self.elasticity
             what = "the mean pressure of load {} is {} times the contact modulus"
-            ratios = [force / area / self.modulus for force in self.forces(area)]
+            if elasticity.is_layered:
+                what = "the mean pressure of load {} strains the layers or their base by about {}"
+            side = math.inf if self.is_repeated else side
+            ratios = [elasticity.strain(force / area, side) for force in self.forces(area)]
         return [
             (ratio, what.format(heading, decimal(ratio, 2)))
             for heading, ratio in zip(self.headings, ratios, strict=False)
@@ -386,8 +410,29 @@ class Question:
         if self.theories and not has_spectrum(body):
             raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
 
+    def refuse_thin_layers(self, surface: Surface) -> None:
+        """Refuse layers that the grid of a surface does not resolve."""
+        for each in self.coated:
+            try:
+                each.elasticity.half_space.refuse(surface.spacing)
+            except InputError:
+                top, thickness = each.layers[0]
+                cell = engineering(max(surface.spacing), "m")
+                raise InputError(
+                    f"{shown(each.name)}: its layer of {top.name}, {engineering(thickness, 'm')}, "
+                    f"is thinner than half a cell of {cell}: leave that layer out, as what lies "
+                    "below is felt alone on such a grid, or press on a finer one",
+                    "materials",
+                ) from None
+
     def _refuse_of_line(self, line: Line) -> None:
         """Refuse what belongs to a surface."""
+        for each in self.coated:
+            raise InputError(
+                f"{shown(each.name)} is coated, and the springs of a line have one modulus: give a "
+                "body of one material, or press a map",
+                "materials",
+            )
         if line.kind == "profile" and (self.periodic or self.grid_error or self.depths):
             raise InputError(
                 "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
@@ -403,6 +448,12 @@ class Question:
             raise InputError(
                 "hardness, history and unload belong to a surface; the reduced model of a line "
                 f"{WITHOUT_YIELD} (rms slopes below 0.8 H / E*): leave {came} out, or press a map"
+            )
+        if self.attraction is not None:
+            raise InputError(
+                f"{called('rl.Adhesion')} belongs to a surface: springs of a line stick as bodies "
+                "of revolution do, which touch in one disc, and a rough line in many; leave it "
+                "out, or press a map"
             )
         if self.sealing is not None or self.finds_closing:
             asked = called("rl.Closure" if self.sealing is None else "rl.Fluid")
@@ -454,12 +505,23 @@ class Question:
         """Refuse two rigid bodies, and answers that need materials without them."""
         materials = called("materials")
         if self.materials is not None:
-            contact_modulus(*self.materials)
+            contact_modulus(*(each.surface for each in self.materials))
         elif self.frequency_in_hertz is not None or self.friction is not None:
             raise InputError(f"reflection and partial slip need two materials ({materials})")
         if (self.E_star is None) == (self.materials is None):
             raise InputError(
                 f"give either a contact modulus ({called('E_star')}) or two materials ({materials})"
+            )
+
+    def _check_layers(self) -> None:
+        """Refuse partial slip of coated bodies."""
+        if self.coated and self.friction is not None:
+            raise InputError(
+                f"partial slip ({called('rl.Friction')}) follows from the ratio of tangential and "
+                f"normal stiffness of bodies of one material each, and {self.coated[0].name} is "
+                f"coated: leave {called('rl.Friction')} out",
+                None,
+                *("friction", "materials"),
             )
 
     def _check_sealing(self) -> None:
@@ -486,6 +548,34 @@ class Question:
                 "pressure is higher",
                 None,
                 *("inlet", "outlet"),
+            )
+
+    def _check_adhesion(self) -> None:
+        """Refuse what is not known of bodies that stick."""
+        if self.attraction is None:
+            return
+        adhesion, pair = called("rl.Adhesion"), self.pair
+        hardness = pair.hardness if self.hardness is None and pair is not None else self.hardness
+        if hardness is not None and hardness < math.inf and not self.elastic:
+            raise InputError(
+                f"bodies that stick ({adhesion}) and also yield are not solved: take them as "
+                f"elastic ({called('elastic', True)}), or leave {adhesion} out",
+                None,
+                *("adhesion", "elastic"),
+            )
+        if self.friction is not None:
+            raise InputError(
+                f"partial slip ({called('rl.Friction')}) of bodies that stick ({adhesion}) is not "
+                "known: leave one of them out",
+                None,
+                *("adhesion", "friction"),
+            )
+        if self.finds_closing:
+            raise InputError(
+                f"{called('rl.Closure')} bisects loads, and bodies that stick ({adhesion}) depend "
+                "on those before: leave one of them out",
+                None,
+                *("adhesion", "sealing_pressure"),
             )
 
     def _check_maps(self) -> None:

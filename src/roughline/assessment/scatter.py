@@ -14,6 +14,7 @@ from roughline.assessment.variants import Curves, Way, periodic
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends, Intervals
+from roughline.engineering.pressed import Sought
 from roughline.engineering.rule import Answer, Limits, within
 from roughline.topography.body import Body
 
@@ -70,8 +71,8 @@ def _of_way(case: Case, curves: Curves, name: str, hardness: float | None, judge
     """Answer the same of a body of another hardness, elastic if None; without intervals."""
     curve = curves.by_name[name]
     larger, measured = larger_behind(case, curves, name), measured_of(case, curves, name)
-    closing = curves.closings.get(name)
-    solution = Solution(curve, None, larger, measured, closing=closing)
+    sought = curves.sought.get(name, Sought())
+    solution = Solution(curve, None, larger, measured, sought=sought)
     return _Way(curve, answers_of(case, solution, body=judged, hardness=hardness)[0])
 
 

@@ -22,7 +22,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Intervals
-from roughline.engineering.sealing import Closing
+from roughline.engineering.pressed import Sought
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Missing
 
@@ -38,7 +38,7 @@ class Solution:
     larger: LargerSurface | None = None  # None where the answers are not about a larger surface
     measured: Mapping[str, Measured] = field(default_factory=dict)
     place: str = ""  # the surface that these are of; empty for the map alone
-    closing: Closing | None = None
+    sought: Sought = field(default_factory=Sought)
     note: str = ""  # what another way to fill missing points changes, if that was tried
 
 
@@ -49,14 +49,14 @@ def solution_of(case: Case, curves: Curves) -> Solution:
     measured = measured_of(case, curves, Way.AS_ASKED, are_known=intervals is not None)
     larger, place = larger_behind(case, curves, Way.AS_ASKED), ""
     if larger is not None and larger.measures:
-        beyond = None if broken("larger surface", case.body) else case.beyond_gap
+        beyond = case.beyond_gap if case.tells_of_larger else None
         of_larger = {key: each.of_larger(beyond) for key, each in larger.measures.items()}
         measured, place = {**measured, **of_larger}, which_surface(case.beyond_gap, "gap")
     if larger is not None and case.question.joint is not None and intervals is not None:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
-    closing = curves.closings.get(Way.AS_ASKED)
-    return Solution(curve, intervals, larger, measured, place, closing, note)
+    sought = curves.sought.get(Way.AS_ASKED, Sought())
+    return Solution(curve, intervals, larger, measured, place, sought, note)
 
 
 def solution_of_scan(case: Case, body: Line) -> Solution:
@@ -66,7 +66,9 @@ def solution_of_scan(case: Case, body: Line) -> Solution:
     """
     second = case.parts[1].body if len(case.parts) > 1 else None
     against = second if isinstance(second, Line) else None
-    scan = press_scan(body, E_star=case.loads.E_star, forces=case.loads.forces, against=against)
+    scan = press_scan(
+        body, E_star=case.loads.elasticity.E_star, forces=case.loads.forces, against=against
+    )
     ends = scan.low, scan.high
     _, is_too_steep = how_far_a_line_serves(case.question, body)
     known = not (is_too_steep or np.isnan(scan.low).any())
@@ -95,7 +97,7 @@ def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None
         names = [each.name for each in case.measures if each.intensive]
         measures = {each: LargerMeasure.of(of_map[each], tiled) for each in names}
         larger = replace(larger, measures=measures)
-    if beyond.is_told and not broken("larger surface", body):
+    if beyond.is_told and case.tells_of_larger:
         return larger
     return replace(larger, stiffness=larger.stiffness.bare, area=None)
 

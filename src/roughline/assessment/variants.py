@@ -25,8 +25,7 @@ from roughline.computing.arrays import Mask
 from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
 from roughline.contact.selection import among_loads, at_loads
-from roughline.engineering.pressed import yields
-from roughline.engineering.sealing import Closing
+from roughline.engineering.pressed import Sought, yields
 from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
@@ -60,7 +59,7 @@ class Curves:
     """Curves of the variants that were pressed, by their names, over the loads of the case."""
 
     by_name: Mapping[str, Curve]  # without the variants that proved needless
-    closings: Mapping[str, Closing] = field(default_factory=dict)  # of variants, if asked for
+    sought: Mapping[str, Sought] = field(default_factory=dict)  # beyond the loads, if asked for
     stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
 
     @property
@@ -178,7 +177,7 @@ def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
         return None
     forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, _UNLOADING_LOADS)
     left = curve.surface_after(largest)
-    return LoadCase(left, curve.E_star, forces.tolist(), [], None, case.loads.periodic)
+    return LoadCase(left, case.loads.elasticity, forces.tolist(), [], None, case.loads.periodic)
 
 
 def _filled_otherwise(case: Case, variant: Variant, body: Surface) -> Variant:
@@ -291,7 +290,7 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
 
 def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
     """The map on fewer points, and its tiles, under the mean pressures of its periodic curve."""
-    if not case.loads.grid_error or min(body.shape) < FEWEST:
+    if not case.loads.grid_error or min(body.shape) < FEWEST or case.question.coated:
         return []
     shape = coarse_shape(body.shape)
 
@@ -306,7 +305,9 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
         loads = case.loads.under_forces_of(curve)
         if not loads.forces:
             return None
-        piece = pieces(count)[i]
+        piece, attraction = pieces(count)[i], loads.attraction
+        if attraction and not attraction.is_resolved(max(piece.spacing), loads.elasticity.softest):
+            return None
         forces = (np.array(loads.forces) / body.area * piece.area).tolist()
         loads = replace(loads, body=piece, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
         measures = [each for each in case.measures if each.intensive]

@@ -14,6 +14,8 @@ from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
+from roughline.contact.arguments import sticking_law
+from roughline.contact.loads import unbearable_pull
 from roughline.contact.press import press
 from roughline.errors import RoughlineError
 
@@ -93,16 +95,26 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
     make = spectrum.line if ensemble.model == "reduced" else spectrum.surface
     body = make(ensemble.n, seed)
     hardness = None if ensemble.hardness_bar is None else ensemble.hardness_bar * body.rms_slope
+    forces, law = np.array(ensemble.force_bars), None
+    if ensemble.work_bar is not None and ensemble.range_bar is not None:
+        law = sticking_law(ensemble.attraction, ensemble.work_bar, ensemble.range_bar)
+        forces = np.append(forces, unbearable_pull(law, 1.0))
     curve = press(
         body,
         E_star=1.0,
         hardness=hardness,
-        forces=np.array(ensemble.force_bars),
+        law=law,
+        forces=forces,
         periodic=ensemble.boundary == "periodic",
         throw=False,
     )
-    of_body = {"rms_slope": body.rms_slope, "highest": body.heights.max() - body.heights.mean()}
+    of_body = {
+        "rms_slope": body.rms_slope,
+        "highest": body.heights.max() - body.heights.mean(),
+        "pull_off_force": curve.pull_off_force,
+    }
+    loads = len(ensemble.force_bars)
     return {
-        name: np.asarray(of_body[name] if name in of_body else getattr(curve, name))
+        name: np.asarray(of_body[name] if name in of_body else getattr(curve, name)[:loads])
         for name in (variable.name for variable in variables_of(ensemble))
     }

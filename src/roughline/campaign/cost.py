@@ -81,7 +81,10 @@ def _memory_of(ensemble: Ensemble) -> int:
     shape = (ensemble.n, ensemble.n)
     periodic, yielding = ensemble.boundary == "periodic", ensemble.hardness_bar is not None
     share = 1.0 if max(ensemble.force_bars) > _SATURATED else None
-    pressing = estimates.memory_for(shape, periodic, 0, yielding=yielding, area_fraction=share)
+    sticking = ensemble.work_bar is not None
+    pressing = estimates.memory_for(
+        shape, periodic, 0, yielding=yielding, sticking=sticking, area_fraction=share
+    )
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
 

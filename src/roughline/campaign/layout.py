@@ -30,7 +30,7 @@ class Variable:
     meaning: str  # for the attributes of the array; everything in a store is dimensionless
     dims: tuple[str, ...] = _DIMENSIONS
     of_lines: bool = True  # whether the reduced model gives it
-    of_yielding: bool = False  # whether only bodies with a hardness have it
+    memories: tuple[str, ...] = ()  # what loads must leave for bodies to have it; empty: anything
     averaged: bool = False  # whether tables of means over the realisations have it
 
     @property
@@ -49,13 +49,13 @@ def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variab
         fill,
         meaning or quantity.long_name,
         of_lines=quantity.of_lines,
-        of_yielding="dents" in quantity.memories,
+        memories=quantity.memories,
         averaged=averaged,
     )
 
 
-def _of_body(name: str, meaning: str) -> Variable:
-    return Variable(name, "f8", np.nan, meaning, _DIMENSIONS[:2])
+def _of_body(name: str, meaning: str, *memories: str) -> Variable:
+    return Variable(name, "f8", np.nan, meaning, _DIMENSIONS[:2], memories=memories)
 
 
 _DECLARED = (
@@ -66,8 +66,9 @@ _DECLARED = (
     _of_curve("unloading_stiffness", "raw stiffness on unloading k_u / (E* L)", averaged=True),
     _of_curve("plastic_fraction", averaged=True),
     _of_curve("indentation", "largest permanent indentation / h", averaged=True),
+    _of_curve("pulling_fraction", averaged=True),
     _of_curve("work", "work done by the load / (E* h² L)", averaged=True),
-    _of_curve("dissipated_work", "work dissipated by indentation / (E* h² L)", averaged=True),
+    _of_curve("dissipated_work", "work dissipated / (E* h² L)", averaged=True),
     _of_curve("status", "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
     _of_curve(
         "resolved",
@@ -75,6 +76,7 @@ _DECLARED = (
     ),
     _of_body("rms_slope", "rms slope L / h of the grid, forward differences"),
     _of_body("highest", "highest point above the mean / h"),
+    _of_body("pull_off_force", "largest pull after the largest load / (E* h L), negative", "path"),
 )
 
 VARIABLES = {variable.name: variable for variable in _DECLARED}
@@ -105,13 +107,13 @@ COORDINATES = (
 def variables_of(ensemble: Ensemble) -> list[Variable]:
     """Return what is kept of an ensemble.
 
-    The reduced model gives no contact area, and elastic bodies no indentation.
+    The reduced model gives no contact area, elastic bodies no indentation, and others no pull.
     """
     return [
         each
         for each in _DECLARED
         if (ensemble.model == "full" or each.of_lines)
-        and (ensemble.hardness_bar is not None or not each.of_yielding)
+        and (not each.memories or ensemble.memory in each.memories)
     ]
 
 

@@ -9,7 +9,9 @@ from typing import Any, Literal
 
 import numpy as np
 
+from roughline.contact.arguments import STICKING, sticking_law
 from roughline.errors import InputError
+from roughline.errors.checks import one_of
 from roughline.spectra.self_affine import SelfAffine
 
 _Model = Literal["full", "reduced"]
@@ -50,6 +52,12 @@ class Ensemble:
     hardness_bar : float or None
         H / (E* g) with g the rms slope of each body, its own :attr:`~roughline.Surface.rms_slope`
         on its grid. None for elastic bodies; infinity becomes None. Full model only.
+    work_bar, range_bar : float or None
+        w L / (E* h²), the work of adhesion, and h_0 / h, the range of the pull, of bodies that
+        stick; None where they only push. Each body is then drawn apart after its largest load.
+        Full model, without a hardness.
+    attraction : {"dugdale", "exponential"}
+        Law of the pull.
 
     Raises
     ------
@@ -68,6 +76,9 @@ class Ensemble:
     roll_off_ratio: float = 1.0
     cutoff_ratio: float | None = None
     hardness_bar: float | None = None
+    work_bar: float | None = None
+    range_bar: float | None = None
+    attraction: str = "dugdale"
 
     def __post_init__(self) -> None:
         refuse = self._refuse
@@ -104,6 +115,7 @@ class Ensemble:
             )
         if self.hardness_bar is not None:
             self._refuse_hardness(self.hardness_bar)
+        self._refuse_adhesion()
 
     def _refuse(self, what: str) -> None:
         raise InputError(f"ensemble {self.name!r}: {what}")
@@ -145,6 +157,38 @@ class Ensemble:
                     f"{most:.3g} here: give smaller force_bars, or a larger hardness_bar"
                 )
 
+    def _refuse_adhesion(self) -> None:
+        """Refuse an adhesion that a plan cannot have."""
+        given = {"work_bar": self.work_bar, "range_bar": self.range_bar}
+        one_of("attraction", self.attraction, tuple(STICKING))
+        if self.work_bar is None and self.range_bar is None:
+            return
+        for name, value in given.items():
+            if value is None or not 0 < value < math.inf:
+                self._refuse(
+                    f"{name} is {value}; bodies that stick need a positive, finite work_bar, "
+                    "w L / (E* h²), and range_bar, h_0 / h"
+                )
+        if self.model == "reduced" or self.hardness_bar is not None:
+            other = "the reduced model" if self.model == "reduced" else "bodies that yield"
+            self._refuse(f"work_bar is {self.work_bar}, and {other} cannot stick: leave it out")
+        assert self.work_bar is not None
+        assert self.range_bar is not None
+        law = sticking_law(self.attraction, self.work_bar, self.range_bar).scaled(1.0, 1 / self.n)
+        if not law.resolves_pull_off:
+            self._refuse(
+                f"the zone that pulls about a contact, n range_bar² / (pi work_bar), is "
+                f"{law.resolution['pulling_zone_cells']:.2g} cells wide, which resolves no "
+                "pull-off: give a larger range_bar, or more points"
+            )
+
+    @property
+    def memory(self) -> Literal["none", "dents", "path"]:
+        """What loads leave in the bodies, as their contact law says."""
+        if self.work_bar is not None:
+            return "path"
+        return "none" if self.hardness_bar is None else "dents"
+
     def spectrum(self, fractal_dimension: float) -> SelfAffine:
         """Return the spectrum of the bodies of one fractal dimension."""
         q_low = 2 * math.pi
@@ -171,6 +215,9 @@ class Ensemble:
         settings["cutoff_ratio"] = self.cutoff_ratio or "grid"
         if self.hardness_bar is None:  # so that stores of elastic bodies are as they always were
             del settings["hardness_bar"]
+        if self.work_bar is None:
+            for name in ("work_bar", "range_bar", "attraction"):
+                del settings[name]
         return settings
 
     @property

@@ -1,7 +1,7 @@
 """Plans in TOML: read and checked as a whole before anything is computed.
 
 A plan has a ``name``, a ``seed`` and tables ``[[ensemble]]``. Lists of points, of roll-off ratios
-or of hardnesses make one ensemble for each combination, named after it.
+or of hardnesses or works of adhesion make one ensemble for each combination, named after it.
 """
 
 from __future__ import annotations
@@ -91,16 +91,21 @@ def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemb
         cutoff_ratio=None,
         boundary="none" if table.get("model") == "reduced" else "free",
         hardness_bar=(math.inf,),
+        work_bar=(None,),
+        range_bar=None,
+        attraction="dugdale",
     )
-    name, several = given.pop("name"), ("points", "roll_off_ratios", "hardness_bar")
-    points, roll_offs, hardnesses = (given.pop(key) for key in several)
-    for n, roll_off, hardness in product(points, roll_offs, hardnesses):
+    name, several = given.pop("name"), ("points", "roll_off_ratios", "hardness_bar", "work_bar")
+    points, roll_offs, hardnesses, works = (given.pop(key) for key in several)
+    for n, roll_off, hardness, work in product(points, roll_offs, hardnesses, works):
         parts = [name]
         parts += [f"n{n}"] if len(points) > 1 else []
         parts += [f"roll{roll_off:g}"] if len(roll_offs) > 1 else []
         yielding = f"hardness{hardness:g}" if hardness < math.inf else "elastic"
         parts += [yielding] if len(hardnesses) > 1 else []
+        parts += [f"work{work:g}"] if len(works) > 1 else []
         own = {"n": n, "seed": seed, "roll_off_ratio": roll_off, "hardness_bar": hardness}
+        own["work_bar"] = work
         yield Ensemble(name="-".join(parts), **own, **given)
 
 
@@ -203,6 +208,9 @@ _ENSEMBLE = {
     "cutoff_ratio": _number,
     "boundary": _text,
     "hardness_bar": _numbers,
+    "work_bar": _numbers,
+    "range_bar": _number,
+    "attraction": _text,
 }
 """Keys of an ensemble, and of what kind each is."""
 
@@ -212,6 +220,8 @@ _MEANT = {
     "n": ("points",),
     "surfaces": ("realisations",),
     "hardness": ("hardness_bar,", "H / (E* times the rms slope)"),
+    "work_of_adhesion": ("work_bar,", "w L / (E* h²), and range_bar"),
+    "range": ("range_bar,", "h_0 / h"),
     "forces": ("force_bars,", "F / (E* h L)"),
     "loads": ("force_bars,", "F / (E* h L)"),
     "periodic": ("boundary", '= "periodic"'),

@@ -175,8 +175,9 @@ def _refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
     """
     if ensemble.name not in root:
         return
-    # of elastic bodies, neither the settings nor what is stored names a hardness
-    wanted = {"hardness_bar": None, **json.loads(json.dumps(ensemble.identity()))}
+    # of elastic bodies that only push, neither the settings nor what is stored names more
+    others = dict.fromkeys(("hardness_bar", "work_bar", "range_bar", "attraction"))
+    wanted = {**others, **json.loads(json.dumps(ensemble.identity()))}
     group = root[ensemble.name]
     stored = group.attrs
     if {key: stored.get(key) for key in wanted} == wanted:

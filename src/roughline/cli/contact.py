@@ -85,7 +85,8 @@ def press_command(
     roughness everywhere and is evenly loaded.
 
     Materials by name: {materials}. Other materials by their values, or by a name with some values
-    changed: E, nu, hardness, resistivity, conductivity, density.
+    changed: E, nu, hardness, resistivity, conductivity, density. Coated ones by their layers, each
+    with its thickness, and what they lie on: "gold 0.5 um on nickel 2 um on copper".
 
     Exit codes: 0; 1 if a load was not solved to the tolerance, or if one of several maps was
     refused (it is named, and listed as refused); 2 for input that cannot be used; 130 after Ctrl-C,
@@ -103,6 +104,8 @@ def press_command(
     roughline press scan.x3p --modulus "110 GPa" --hardness "2 GPa" --load "10 N" --unload
 
     roughline press scan.sur --against other.sur --materials "E=3 GPa nu=0.38, rigid" --load "2 MPa"
+
+    roughline press scan.x3p --materials "rubber 2 mm on steel, rigid" --load "0.1 MPa"
 
     roughline press scan.x3p --materials steel,copper --load "1 MPa" --load "10 MPa" --periodic
     --export-table abaqus:joint.inp

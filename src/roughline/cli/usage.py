@@ -13,8 +13,6 @@ NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered
 """The page on what the program does not do."""
 
 _NOT_DONE = {
-    "adhesion": "adhesion adhesive adhesion-energy work-of-adhesion surface-energy jkr dmt "
-    "pull-off",
     "a layer or coating": "coating coatings coat layer layers layered film thickness substrate",
     "viscoelasticity": "viscoelastic viscoelasticity viscous creep relaxation rubber loss-modulus",
     "sliding and coupled friction": "sliding slip stick-slip shear fretting coupled-friction "
@@ -29,7 +27,11 @@ _NOT_DONE = {
 }
 """What is not done, and words that options would be named by."""
 
-_CALLED = {"--fluid": "leak leaks leakage leak-rate gasket flow permeance gas air gap-conductance"}
+_CALLED = {
+    "--fluid": "leak leaks leakage leak-rate gasket flow permeance gas air gap-conductance",
+    "--adhesion": "adhesive adhesion-energy work-of-adhesion surface-energy jkr dmt pull-off "
+    "pull-range attraction sticking",
+}
 """Options, and other words for what they ask."""
 
 _KINDS = {"int": "a whole number is needed", "float": "a number is needed"}

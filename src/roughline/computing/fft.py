@@ -99,11 +99,20 @@ def fft_along(lines: _ComplexFloats, axis: int, *, forward: bool) -> None:
     ducc0.fft.c2c(lines, axes=(axis,), forward=forward, out=lines, nthreads=1)
 
 
-def cosine_spectrum(quarter: Real) -> None:
-    """Turn an even, periodic array, given as its quarter, into its spectrum in place (DCT-I)."""
+def cosine_spectrum(quarter: Real, periods: tuple[int, int] = (0, 0)) -> None:
+    """Turn an even, periodic array, given as its quarter, into its spectrum in place.
+
+    It is a cosine transform (DCT-I) along even periods, which are taken for granted, and that of
+    the whole period along odd ones.
+    """
 
     def transform(lines: Real, axis: int) -> None:
-        ducc0.fft.dct(lines, axes=(axis,), type=1, out=lines, nthreads=1)
+        if periods[axis] % 2 == 0:
+            ducc0.fft.dct(lines, axes=(axis,), type=1, out=lines, nthreads=1)
+        else:
+            lags = np.arange(periods[axis])
+            whole = np.take(lines, np.minimum(lags, periods[axis] - lags), axis)
+            lines[:] = ducc0.fft.r2c(whole, axes=(axis,), nthreads=1).real
 
     nx, ny = quarter.shape
     share_out_blocks(lambda a, b: transform(quarter[a:b], 1), nx, LINES_AT_A_TIME)

@@ -3,25 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
+from roughline.contact.jkr import JKR
 from roughline.errors import InputError
-from roughline.errors.checks import as_plain, between, flag, is_whole, refuse, several
+from roughline.errors.checks import as_plain, between, is_whole, refuse, several
 from roughline.errors.words import called
-from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.laws.adhesive import Adhesive
+from roughline.halfspace.laws.dugdale import Dugdale
+from roughline.halfspace.laws.exponential import Exponential
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
 from roughline.topography.body import Body, Line
+from roughline.topography.profile import Profile
 
 LARGEST = 1e150  # beyond it, squares leave the range of double precision
 _MOST = 10**9  # loads, points along a side, or iterations
 
 
+STICKING: Mapping[str, type[Adhesive]] = {"dugdale": Dugdale, "exponential": Exponential}
+"""Laws of bodies that stick, by their names."""
+
+
 def given_half_space(
-    half_space: HalfSpace | None, E_star: float | None, periodic: bool | None
+    half_space: HalfSpace | None, E_star: float | None, periodic: Periodic | None
 ) -> HalfSpace:
     """Return the half-space that is given, as it is or by the short forms."""
     needed = "a positive, finite contact modulus from 1e-150 to 1e150 is needed"
@@ -33,7 +42,7 @@ def given_half_space(
                 "gives of two materials; give it, or half_space="
             )
         E_star = between("E_star", E_star, 1 / LARGEST, LARGEST, needed)
-        return Homogeneous(E_star, periodic is not None and flag("periodic", periodic))
+        return Homogeneous(E_star, False if periodic is None else periodic)
     if E_star is not None or periodic is not None:
         short = "periodic" if E_star is None else "E_star"
         raise InputError(
@@ -47,25 +56,16 @@ def given_half_space(
             "an rl.HalfSpace is needed, such as rl.Homogeneous(E_star=1.0, periodic=True)",
         )
     between("half_space.E_star", half_space.E_star, 1 / LARGEST, LARGEST, needed)
-    flag("half_space.periodic", half_space.periodic)
+    given_periodic("half_space.periodic", half_space.periodic)
     return half_space
 
 
-def given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> ContactLaw:
+def given_law(law: ContactLaw | JKR | None, hardness: float | None, body: Body) -> ContactLaw:
     """Return the law that bodies obey; a hardness is short for one, unless it is infinite."""
-    if hardness is not None:
-        needed = "a positive pressure, or none for elastic bodies, is needed"
-        hardness = between("hardness", hardness, math.ulp(0), math.inf, needed)
-        hardness = None if hardness == math.inf else hardness
-    if hardness is not None and isinstance(body, Line):
-        raise InputError(
-            "hardness belongs to the full model; the reduced model of a Line has no yield: leave "
-            "it out, and trust the line only while mean contact pressures stay below about 0.4 "
-            "of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
-        )
+    hardness = _given_hardness(hardness, body)
     if law is None:
         return law_of(hardness)
-    if not isinstance(law, ContactLaw):
+    if not isinstance(law, ContactLaw | JKR):
         refuse(
             "law",
             law,
@@ -80,14 +80,61 @@ def given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> Con
     if isinstance(body, Line):
         reason = (
             "the springs of a Line only push"
-            if law.only_pushes
+            if isinstance(law, ContactLaw) and law.only_pushes
             else "springs stick as bodies of revolution do, whose contact is one disc, and a rough "
             "line has many contacts, whose sizes are not those of the surface"
         )
         raise InputError(
             f"law belongs to the full model; {reason}: leave it out, or press a Surface"
         )
+    if isinstance(law, JKR):
+        raise InputError(
+            "is rl.JKR, which holds where the contact radius is the only length, of a Profile; a "
+            "Surface sticks by rl.Dugdale(work_of_adhesion, range) or rl.Exponential: press with "
+            "two short ranges, the second half as long, and extrapolate as their square",
+            "law",
+        )
     return law
+
+
+def given_stickiness(
+    law: ContactLaw | JKR | None, hardness: float | None, profile: Profile
+) -> JKR | None:
+    """Return how a profile sticks; None if it does not."""
+    _given_hardness(hardness, profile)
+    if law is None or isinstance(law, Unilateral):
+        return None
+    if not isinstance(law, JKR):
+        refuse(
+            "law",
+            law,
+            "the reduction method of a Profile has no yield, and no range of a pull: give "
+            "law=rl.JKR(work_of_adhesion), or press a Surface",
+        )
+    return law
+
+
+def _given_hardness(hardness: float | None, body: Body | Profile) -> float | None:
+    """Return the hardness of bodies; None where they are elastic."""
+    if hardness is None:
+        return None
+    needed = "a positive pressure, or none for elastic bodies, is needed"
+    hardness = between("hardness", hardness, math.ulp(0), math.inf, needed)
+    if hardness == math.inf:
+        return None
+    if isinstance(body, Line | Profile):
+        name = type(body).__name__
+        raise InputError(
+            f"hardness belongs to the full model; the reduced model of a {name} has no yield: "
+            f"leave it out, and trust the {name.lower()} only while mean contact pressures stay "
+            "below about 0.4 of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
+        )
+    return hardness
+
+
+def sticking_law(name: str, work_of_adhesion: float, reach: float) -> ContactLaw:
+    """Return a law of bodies that stick by its name."""
+    return STICKING[name](work_of_adhesion, reach)
 
 
 def checked_count(name: str, value: Any, least: int = -_MOST) -> int:

@@ -18,6 +18,7 @@ from roughline.computing.summary import in_notebook
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
+from roughline.contact.jkr import JKR
 from roughline.contact.measures import Measured
 from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import Status
@@ -50,12 +51,13 @@ class Curve:
     force : ndarray, shape (loads,)
         Total force, compression positive. [force]
     stiffness : ndarray, shape (loads,)
-        Exact k = dF/dd on further loading: points at the hardness carry no additional load.
+        Exact k = dF/dd on further loading: points at the hardness carry no additional load. Of a
+        profile 2 E* a, with the contact radius a.
         [force / length]
     area_fraction : ndarray, shape (loads,), or None
         Real over nominal contact area: the share of the points that touch, which are those whose
-        pressure is above zero, unless bodies stick. None for a line: the contact area of the
-        reduced model does not predict that of the surface.
+        pressure is above zero, unless bodies stick. Of a profile the contact is a disc. None for a
+        line: the contact area of the reduced model does not predict that of the surface.
     area_fraction_corrected : ndarray, shape (loads,), or None
         The same, less the area that whole cells add along the outline of the contact
         (Yastrebov, Anciaux and Molinari 2017). Under a summit this is a few per cent. On a plateau,
@@ -63,8 +65,8 @@ class Curve:
     status : ndarray of int8, shape (loads,)
         A :class:`Status` for each load; where a load did not converge, the other values are NaN.
     resolved : ndarray of bool, shape (loads,)
-        Whether at least ten springs or cells are in contact; with fewer, the grid decides the
-        stiffness.
+        Whether at least ten springs or cells, or radii of a profile, are in contact; with fewer,
+        the grid decides the stiffness.
     residual : ndarray, shape (loads,)
         Largest residual of the returned solution, each relative to its scale as :func:`press`
         defines them; NaN where nothing was solved. [1]
@@ -73,7 +75,7 @@ class Curve:
     rms_height : float
         Root-mean-square height of the body. [length]
     length : float
-        sqrt(A_0) of a surface, length of a line. [length]
+        sqrt(A_0) of a surface or a profile, length of a line. [length]
     unit : str or None
         Unit of lengths ("m": forces are in newtons, stiffness in N/m).
     settings : mapping
@@ -100,7 +102,9 @@ class Curve:
         Work done by the load since first touch, less the work returned on unloading; and the
         part of it dissipated. Indentations dissipate the hardness times their volume. Bodies that
         stick dissipate where they jump: their work is the integral of the force over the depths, by
-        cubics between the loads, and what is not stored is dissipated. [energy]
+        cubics between the loads, and what is not stored is dissipated. Of a profile it is what the
+        edge of the contact gives up, whatever the loads; a force that pulls it off counts as held
+        from there on. [energy]
     pulling_fraction : ndarray, shape (loads,), or None
         Area across whose gap bodies pull each other over the nominal area; points count by their
         share of the largest pull. [1]
@@ -109,7 +113,8 @@ class Curve:
     pull_off_force, pull_off_depth : float
         Largest pull of bodies that stick, negative, and its depth: of depths on retreat, the least
         force that a larger one follows; of forces that pull more than the contact bears, that at
-        which it comes off, to the tolerance. NaN where there is none, and where the grid does not
+        which it comes off, to the tolerance. Of a profile it is that of the way between the loads.
+        NaN where there is none, and where the grid does not
         resolve the pull. [force] and [length]
     pull_off_force_error : float
         Estimated discretisation error of `pull_off_force`, if asked for. [force]
@@ -125,12 +130,12 @@ class Curve:
         One for each load if asked for, else empty; None for a load that did not converge, and for
         one whose fields were not asked for.
     surface : Surface or None
-        The untouched surface; None for a line.
+        The untouched surface; None for a line or a profile.
     dents : sequence of Indentation
         Permanent indentations after each load, for :meth:`surface_after`; None where the surface
         is not indented. Empty without a hardness.
-    law : ContactLaw or None
-        What pressures and gaps obey; None for a line.
+    law : ContactLaw, JKR or None
+        What pressures and gaps obey; None for a line, and for a profile that does not stick.
     control : {"forces", "depths"}
         What was prescribed.
     """
@@ -169,7 +174,7 @@ class Curve:
     fields: Sequence[Fields | None] = field(default=(), repr=False)
     surface: Surface | None = field(default=None, repr=False)
     dents: Sequence[Indentation | None] = field(default=(), repr=False)
-    law: ContactLaw | None = field(default=None, repr=False)
+    law: ContactLaw | JKR | None = field(default=None, repr=False)
     control: Literal["forces", "depths"] = field(default="forces", repr=False)
 
     _repr_html_ = in_notebook
@@ -232,11 +237,13 @@ class Curve:
         Raises
         ------
         InputError
-            If there is no such load, it was not solved, or the body is a line.
+            If there is no such load, it was not solved, or the body is no surface.
         """
         load = checked_count("load", load)
         if self.surface is None:
-            raise InputError("this curve has no surface: the reduced model of a line has no yield")
+            raise InputError(
+                "this curve has no surface: the reduced model of a line or a profile has no yield"
+            )
         count = self.status.size
         if not -count <= load < count:
             raise InputError(f"load is {load}; the curve has loads 0 to {count - 1}")

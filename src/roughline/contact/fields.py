@@ -13,6 +13,7 @@ from roughline.contact.distribution import Distribution, distribution_of
 from roughline.contact.patches import Patches, patches_of
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
+from roughline.halfspace.elasticity.half_space import Periodic, repeated_axes
 
 
 @public
@@ -38,8 +39,9 @@ class Fields:
         Permanent indentation: how much lower the surface is than before any load. [length]
     sizes : tuple of float
         Sides of the surface, (Lx, Ly). [length]
-    is_periodic : bool
-        Whether the half-space is periodic, so that fields go on across the borders.
+    periodic : bool, "x" or "y"
+        Whether the half-space is periodic, so that fields go on across the borders: along both
+        axes, none, or the one that is named.
     """
 
     pressure: Real
@@ -50,9 +52,19 @@ class Fields:
     pulling: Mask
     indentation: Real
     sizes: tuple[float, float]
-    is_periodic: bool
+    periodic: Periodic
 
     __repr__ = summary
+
+    @property
+    def repeats(self) -> tuple[bool, bool]:
+        """Whether fields go on across the borders along x, and along y."""
+        return repeated_axes(self.periodic)
+
+    @property
+    def is_periodic(self) -> bool:
+        """Whether fields go on across all borders."""
+        return all(self.repeats)
 
     @property
     def mean_gap(self) -> float:
@@ -114,7 +126,7 @@ class Fields:
         >>> print(round(patches.forces.sum(), 6), patches.areas[0] == patches.areas.max())
         0.01 True
         """
-        return patches_of(self.contact, self.pressure, self.sizes, is_periodic=self.is_periodic)
+        return patches_of(self.contact, self.pressure, self.sizes, periodic=self.periodic)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,10 @@ import numpy as np
 
 from roughline._version import __version__
 from roughline.computing import linear_algebra
-from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields, Indentation
-from roughline.contact.loads import Loads
+from roughline.contact.loads import Loads, comes_nearer
 from roughline.contact.measures import Measure, all_measured
 from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.contact.scaled_surface import ScaledSurface
@@ -157,9 +157,8 @@ def _curve(
     scaled = ScaledSurface.of(surface, half_space, loads)
     law_there = law.scaled(scaled.pressure, scaled.height)
     at_the_border = (
-        _jump_warnings(surface)
-        if half_space.periodic
-        else _border_warnings(surface, values["force"], shares)
+        *_jump_warnings(surface, half_space.repeats),
+        *_border_warnings(surface, values["force"], shares),
     )
     pull_off_depth, pull_off_force = _pull_off(results, values, law_there)
     return Curve(
@@ -171,7 +170,7 @@ def _curve(
         settings={
             "roughline_version": __version__,
             "model": "full",
-            "boundary": "periodic" if half_space.periodic else "free",
+            "boundary": half_space.boundary,
             "control": loads.control,
             "rtol": method.rtol,
             "max_iterations": method.max_iterations,
@@ -306,19 +305,12 @@ def _along_the_path(
     depth: Real, force: Real, results: Sequence[_LoadResult], law: ContactLaw
 ) -> dict[str, Any]:
     """Return what depends on the loads before: the branch, and the work of bodies that stick."""
-    nearer = {"on_approach": _comes_nearer(depth)}
+    nearer = {"on_approach": comes_nearer(depth)}
     if law.memory != "path":
         return nearer
     stored = np.array([result.stored_work for result in results])
     work = _work_done(depth, force, stored)
     return {**nearer, "work": work, "dissipated_work": work - stored}
-
-
-def _comes_nearer(depth: Real) -> Mask:
-    """Return at which loads bodies have come nearer since the load before that was solved."""
-    nearer, known = np.zeros(depth.size, bool), np.isfinite(depth)
-    nearer[known] = np.diff(depth[known], prepend=-np.inf) >= 0
-    return nearer
 
 
 def _work_done(depth: Real, force: Real, stored: Real) -> Real:
@@ -379,7 +371,7 @@ def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tup
     the cells: at F / H itself all of the contact would yield. Where nothing yields, it is that of
     elastic bodies if that is possible.
     """
-    most, overstated = overstated_cells(contact, scaled.spacing, scaled.half_space.periodic)
+    most, overstated = overstated_cells(contact, scaled.spacing, scaled.half_space.repeats)
     most_of_cell = float(np.max(law.bounds(None)[1])) * scaled.cell_area
     if math.isfinite(most_of_cell):
         borne = contact.force * scaled.force / most_of_cell
@@ -441,17 +433,19 @@ def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) 
         pulling=pulling,
         indentation=indentation,
         sizes=scaled.surface.sizes,
-        is_periodic=scaled.half_space.periodic,
+        periodic=scaled.half_space.periodic,
     )
 
 
 def _border_share(contact: Contact) -> float:
-    """Share of the force that the outer frame carries. [1]"""
+    """Share of the force that is carried near the borders at which the surface ends. [1]"""
+    shape, repeats = contact.separation.shape, contact.problem.grid.half_space.repeats
     if not contact.nodes.size:
         return 0.0
-    nx, ny = contact.separation.shape
-    x, y = np.divmod(contact.nodes, ny)
-    within = np.minimum(np.minimum(x, nx - 1 - x) / nx, np.minimum(y, ny - 1 - y) / ny)
+    within = np.ones(contact.nodes.size)
+    for place, n, repeated in zip(np.divmod(contact.nodes, shape[1]), shape, repeats, strict=True):
+        if not repeated:
+            within = np.minimum(within, np.minimum(place, n - 1 - place) / n)
     borne = np.abs(contact.pressure)
     return float(borne[within < _BORDER_WIDTH].sum() / borne.sum())
 
@@ -476,8 +470,9 @@ def _border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, 
     )
 
 
-def _jump_warnings(surface: Surface) -> tuple[str, ...]:
+def _jump_warnings(surface: Surface, repeats: tuple[bool, bool]) -> tuple[str, ...]:
     """Say how far a piece of a larger surface jumps at its borders where it is repeated."""
-    if not surface.is_cut_out or surface.rms_height == 0:
+    may_jump = any(each and n > 1 for each, n in zip(repeats, surface.shape, strict=True))
+    if not may_jump or not surface.is_cut_out or surface.rms_height == 0:
         return ()
-    return (border_jump(surface).in_words(surface.unit),)
+    return (border_jump(surface, repeats).in_words(surface.unit),)

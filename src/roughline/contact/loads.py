@@ -8,23 +8,29 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.arguments import LARGEST, checked_count
+from roughline.contact.full_contact import in_full_contact
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.errors.checks import shown
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.law import ContactLaw, refuse_pulls
+from roughline.reduction.revolution import Revolution
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.profile import Profile
 
 _Control = Literal["depths", "forces"]  # what is prescribed
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
+_UNBEARABLE = 1.01  # pull over the largest that all of the area can bear
 _LARGEST_CYCLE = 0.5  # of the mean separation, the largest depth of bodies that stick
+_BEYOND = 1.1  # the last depth of a profile that sticks, over that at which it comes off
 _LARGEST_YIELDING = 0.5  # of the force under which all of the area yields
 _BYTES_PER_LOAD = 1000  # of what a load gives
 _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few points touch early
@@ -50,20 +56,36 @@ class GivenLoads:
 def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
     """Return the loads of a line; spaced ones run from ten springs in contact to all of them."""
     if given.n_loads is None:
-        loads = _checked_loads(given)
+        loads = _computable_loads(given)
         refuse_pulls(loads.control, loads.values)
-        largest = int(loads.values.argmax())
-        if loads.values[largest] > LARGEST:
-            raise InputError(
-                f"{loads.control}[{largest}] is {loads.values[largest]:g}; at most {LARGEST:g} can "
-                "be computed with: give smaller loads"
-            )
         return loads
     _refuse_constant(line, given)
     few = min(RESOLVED_FROM, line.heights.size - 1)
     highest_points = int(np.count_nonzero(line.heights == line.heights.max()))
     lowest = springs.touch_force(max(few, highest_points))
     return _spaced_loads(given, lowest, springs.touch_force(line.heights.size - 1))
+
+
+def profile_loads(profile: Profile, body: Revolution, given: GivenLoads) -> Loads:
+    """Return the loads of a profile; spaced ones run from ten radii in contact to all of them.
+
+    If it sticks, they are depths of a whole cycle: from first touch to where all of it touches, and
+    back until nothing does.
+    """
+    if given.n_loads is None:
+        loads = _computable_loads(given)
+        if not body.work_of_adhesion:
+            refuse_pulls(loads.control, loads.values)
+        return loads
+    _refuse_constant(profile, given)
+    _, depths, forces = body.table
+    if body.work_of_adhesion:
+        without_pull = float(depths[-1] + body.elongation(profile.radii[-1:])[0])
+        deepest = float(depths[-1]) if depths[-1] > 0 else without_pull
+        return _there_and_back(0.0, deepest, _BEYOND * float(depths.min()), _counted(given))
+    few = profile.radii[min(RESOLVED_FROM, profile.radii.size - 1)]
+    lowest = float(body.at_rest(np.array([few]))[1][0])
+    return _spaced_loads(given, lowest, float(forces[-1]))
 
 
 def surface_loads(
@@ -94,7 +116,7 @@ def surface_loads(
             loads = _spaced_loads(given, *_range_of_forces(surface, half_space, law))
         else:
             loads = _cycle(surface, half_space, law, given)
-    _refuse_beyond_precision(surface, half_space.E_star, loads, rtol, single)
+    _refuse_beyond_precision(surface, half_space, loads, rtol, single)
     return loads
 
 
@@ -102,11 +124,9 @@ def _range_of_forces(
     surface: Surface, half_space: HalfSpace, law: ContactLaw
 ) -> tuple[float, float]:
     """Return the forces from about ten cells in contact to saturation."""
-    E_star, area = half_space.E_star, surface.area
-    # Persson: 95 % contact at a mean pressure of E* times the rms slope
-    saturated = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
-    highest = E_star * surface.rms_slope * area if half_space.periodic else saturated
-    highest = min(highest, _LARGEST_YIELDING * law.largest_force(area))
+    highest = min(
+        _saturated(surface, half_space), _LARGEST_YIELDING * law.largest_force(surface.area)
+    )
     separation = np.sort(surface.heights.max() - surface.heights, axis=None)
     few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
     if few >= separation.size:
@@ -116,25 +136,97 @@ def _range_of_forces(
     return float(half_space.disc_stiffness(float(radius)) * separation[few]), highest
 
 
+def _saturated(surface: Surface, half_space: HalfSpace) -> float:
+    """Return the force under which 95 % are in contact, or k of a free body is near the punch's.
+
+    The gradient of the surface whose full contact has the same pressures tells the former. A free
+    body is pressed at least so far that its pressures are as large a part of those in full contact
+    as they are on a homogeneous half-space.
+    """
+    slope = in_full_contact(surface, half_space).rms_slope
+    # Persson: 95 % contact at a mean pressure of E* times the rms slope
+    full = half_space.E_star * slope * surface.area
+    if all(half_space.repeats):
+        return full
+    side = surface.length
+    if any(half_space.repeats):  # the length of its lines takes the place of the side of the punch
+        side = surface.sizes[half_space.repeats.index(True)]
+    saturated = _SATURATED_FORCE_BAR * half_space.E_star * surface.rms_height * side
+    least = saturated * (slope / surface.rms_slope)
+    return min(max(saturated * _beside_homogeneous(surface, half_space), least), max(full, least))
+
+
+def _beside_homogeneous(surface: Surface, half_space: HalfSpace) -> float:
+    """Return how stiff a half-space is under a disc of the surface's area, beside one of E*."""
+    radius = float(np.sqrt(surface.area / np.pi))
+    homogeneous = Homogeneous(half_space.E_star)
+    return half_space.disc_stiffness(radius) / homogeneous.disc_stiffness(radius)
+
+
 def _cycle(surface: Surface, half_space: HalfSpace, law: ContactLaw, given: GivenLoads) -> Loads:
     """Return even depths of bodies that stick, from out of reach to a large one, and back.
 
-    At the largest one the bodies would overlap by half of their mean separation. On the way back no
-    contact is drawn out further than a flat disc that is as wide as all of that contact, when the
-    springs of its line let go.
+    At the largest one the bodies would overlap by half of their mean separation.
     """
-    n_loads = _counted(given)
-    separation = surface.heights.max() - surface.heights
-    deepest = _LARGEST_CYCLE * float(separation.mean())
-    within = np.count_nonzero(separation < deepest + law.reach) * surface.area / separation.size
-    radius = float(np.sqrt(within / np.pi))
-    work = law.largest_pull * law.reach  # at least that of adhesion
-    drawn = float(np.sqrt(2 * np.pi * radius * work / half_space.E_star))
-    first, last = -law.reach, -law.reach - drawn
+    deepest = _LARGEST_CYCLE * float(np.mean(surface.heights.max() - surface.heights))
+    last = depth_apart(surface, half_space, law, deepest)
+    return _there_and_back(-law.reach, deepest, last, _counted(given))
+
+
+def _there_and_back(first: float, deepest: float, last: float, n_loads: int) -> Loads:
+    """Return even depths to a large one, and back."""
     nearer = round(1 + (n_loads - 1) * (deepest - first) / (2 * deepest - first - last))
     nearer = min(max(nearer, 2), n_loads - 1)
     there = np.linspace(first, deepest, nearer)
     return Loads("depths", np.append(there, np.linspace(deepest, last, n_loads - nearer + 1)[1:]))
+
+
+def _computable_loads(given: GivenLoads) -> Loads:
+    """Return given loads that are not too large to compute with."""
+    loads = _checked_loads(given)
+    largest = int(np.abs(loads.values).argmax())
+    if abs(loads.values[largest]) > LARGEST:
+        raise InputError(
+            f"{loads.control}[{largest}] is {loads.values[largest]:g}; at most {LARGEST:g} can "
+            "be computed with: give smaller loads"
+        )
+    return loads
+
+
+def comes_nearer(depth: Real) -> Mask:
+    """Return at which loads bodies have come nearer since the load before that was solved."""
+    nearer, known = np.zeros(depth.size, bool), np.isfinite(depth)
+    nearer[known] = np.diff(depth[known], prepend=-np.inf) >= 0
+    return nearer
+
+
+def depth_apart(surface: Surface, half_space: HalfSpace, law: ContactLaw, deepest: float) -> float:
+    """Return a depth at which bodies that stick have come apart, after a largest one. [length]
+
+    No contact is drawn out further than a flat disc that is as wide as all that was in contact or
+    within reach. Its edge lets go where 2 pi a w is what a smaller radius takes from the energy
+    k l² / 2. Springs of a line do so at 2 pi a w = k l² / (2 a). Where k grows more slowly with a,
+    as on a hard layer, the edge lets go later, at the latest when all of the disc pulls as it can.
+    """
+    separation = surface.heights.max() - surface.heights
+    within = np.count_nonzero(separation < deepest + law.reach) * surface.area / separation.size
+    radius = float(np.sqrt(within / np.pi))
+    work = law.largest_pull * law.reach  # at least that of adhesion
+    if not radius:
+        return -law.reach
+    smaller, stiffness, larger = (
+        half_space.disc_stiffness(each * radius) for each in (0.5, 1.0, 2.0)
+    )
+    usual = float(np.sqrt(4 * np.pi * radius**2 * work / stiffness))
+    growth = float(np.log2(min(stiffness / smaller, larger / stiffness)))  # k as a to this power
+    largest = law.largest_pull * np.pi * radius**2 / stiffness
+    later = usual / np.sqrt(growth) if growth > 0 else np.inf
+    return -law.reach - max(usual, min(later, largest))
+
+
+def unbearable_pull(law: ContactLaw, area: float) -> float:
+    """Return a pull that no contact bears, under which bodies come off. [force]"""
+    return -_UNBEARABLE * law.largest_pull * area
 
 
 def _checked_loads(given: GivenLoads) -> Loads:
@@ -143,7 +235,7 @@ def _checked_loads(given: GivenLoads) -> Loads:
         count = "no loads" if depths is None else "both depths and forces"
         raise InputError(f"{count} given; give one of depths, forces and n_loads")
     control: _Control = "forces" if depths is None else "depths"
-    values = _numbers(control, forces if depths is None else depths)
+    values = checked_numbers(control, forces if depths is None else depths)
     if values.ndim != 1 or values.size == 0:
         raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
     wrong = ~np.isfinite(values)
@@ -170,7 +262,7 @@ def _counted(given: GivenLoads) -> int:
     return n_loads
 
 
-def _refuse_constant(body: Body, given: GivenLoads) -> None:
+def _refuse_constant(body: Body | Profile, given: GivenLoads) -> None:
     if body.rms_height == 0:
         raise InputError(
             f"all heights are {body.heights.flat[0]:g}: a flat punch has no range of loads from "
@@ -179,7 +271,7 @@ def _refuse_constant(body: Body, given: GivenLoads) -> None:
 
 
 def _refuse_beyond_precision(
-    surface: Surface, E_star: float, loads: Loads, rtol: float, single: bool
+    surface: Surface, half_space: HalfSpace, loads: Loads, rtol: float, single: bool
 ) -> None:
     """Refuse loads so large or small that gaps cannot be resolved to the tolerance.
 
@@ -188,7 +280,9 @@ def _refuse_beyond_precision(
     if surface.rms_height == 0:
         unit, name = float(np.abs(loads.values).max()) or 1.0, "of the largest load"
     elif loads.control == "forces":
-        unit, name = surface.rms_height * E_star * surface.length, "E* h L"
+        unit, name = surface.rms_height * half_space.E_star * surface.length, "E* h L"
+        if (stiffer := _beside_homogeneous(surface, half_space)) != 1:
+            unit, name = unit * stiffer, "of what sinks a flat punch by the rms height"
     else:
         unit, name = surface.rms_height, "rms heights"
     reach = np.abs(loads.values) / unit
@@ -207,7 +301,7 @@ def _refuse_beyond_precision(
         )
 
 
-def _numbers(name: str, values: Any) -> Real:
+def checked_numbers(name: str, values: Any) -> Real:
     """Return one number or a list of them as an array; refuse text, and what is no number."""
     try:
         array = np.atleast_1d(np.ma.filled(np.ma.asarray(values), np.nan))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
 from roughline.contact.distribution import Distribution, distribution_of
+from roughline.halfspace.elasticity.half_space import Periodic, repeated_axes
 
 _WITH_CORNERS = np.ones((3, 3), dtype=int)
 
@@ -20,7 +21,8 @@ class Patches:
     """Connected patches of a contact, the largest first.
 
     Cells that meet at an edge or at a corner belong to one patch: no fluid passes where two cells
-    in contact meet at a corner. On a periodic half-space patches go on across the borders.
+    in contact meet at a corner. On a periodic half-space patches go on across the borders, and on a
+    strip across those along which it repeats.
 
     Attributes
     ----------
@@ -62,13 +64,13 @@ class Patches:
 
 
 def patches_of(
-    contact: Mask, pressure: Real, sizes: tuple[float, float], *, is_periodic: bool
+    contact: Mask, pressure: Real, sizes: tuple[float, float], *, periodic: Periodic
 ) -> Patches:
-    """Return the patches of a contact on a rectangle with these sides."""
+    """Return the patches of a contact on a rectangle with these sides, which may repeat."""
     from scipy import ndimage  # here because it loads slowly
 
     pieces, count = ndimage.label(contact, _WITH_CORNERS)
-    patch, turns, winds = _joined(pieces, count, is_periodic)
+    patch, turns, winds = _joined(pieces, count, repeated_axes(periodic))
     number = len(winds)
     cell_area = sizes[0] * sizes[1] / contact.size
     cells = np.bincount(pieces.ravel(), minlength=count + 1)[1:]
@@ -98,9 +100,9 @@ def patches_of(
 
 
 def _joined(
-    pieces: NDArray[np.intp], count: int, is_periodic: bool
+    pieces: NDArray[np.intp], count: int, repeats: tuple[bool, bool]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Mask]:
-    """Join pieces across the borders of a periodic surface.
+    """Join pieces across the borders along which a surface repeats.
 
     Returns the number of each piece's patch, by how many sides (x, y) the piece is moved on to
     meet the others, shape (count, 2), and along which sides each patch meets itself.
@@ -108,7 +110,7 @@ def _joined(
     patch = np.full(count, -1, dtype=np.intp)
     turns = np.zeros((count, 2), dtype=np.intp)
     neighbours = defaultdict(list)
-    for one, other, *sides in _across_borders(pieces) if is_periodic else ():
+    for one, other, *sides in _across_borders(pieces, repeats):
         neighbours[one].append((other, np.array(sides)))
         neighbours[other].append((one, -np.array(sides)))
     winds: list[Mask] = []
@@ -129,15 +131,18 @@ def _joined(
     return patch, turns, np.array(winds, dtype=bool).reshape(-1, 2)
 
 
-def _across_borders(pieces: NDArray[np.intp]) -> list[list[int]]:
+def _across_borders(pieces: NDArray[np.intp], repeats: tuple[bool, bool]) -> list[list[int]]:
     """Return which pieces meet across a border, from 0, and by how many sides (x, y) it is."""
-    met = []
-    for axis in (0, 1):
+    met = [np.empty((0, 4), dtype=np.intp)]
+    for axis in np.flatnonzero(repeats).tolist():
         last, beyond = np.take(pieces, -1, axis), np.take(pieces, 0, axis)
         for step in (-1, 0, 1):  # along the border: corners meet too
             place = np.arange(last.size) + step
             turn = np.ones((last.size, 2), dtype=np.intp)
             turn[:, 1 - axis] = place // last.size
             pair = np.stack([last, beyond[place % last.size]], axis=1) - 1
-            met.append(np.concatenate([pair, turn], axis=1)[(pair >= 0).all(axis=1)])
+            meet = (pair >= 0).all(axis=1)
+            if not repeats[1 - axis]:  # a corner has none beyond the end of the border
+                meet &= turn[:, 1 - axis] == 0
+            met.append(np.concatenate([pair, turn], axis=1)[meet])
     return np.unique(np.concatenate(met), axis=0).tolist()

@@ -15,36 +15,40 @@ from roughline.contact.arguments import (
     checked_count,
     given_half_space,
     given_law,
+    given_stickiness,
     kept_loads,
 )
 from roughline.contact.curve import Curve
-from roughline.contact.estimates import expected_area_fraction, memory_for
+from roughline.contact.estimates import bytes_of_layers, expected_area_fraction, memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
+from roughline.contact.jkr import JKR
 from roughline.contact.loads import GivenLoads, Loads, surface_loads
 from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
+from roughline.contact.revolution import press_profile
 from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.errors.checks import between, flag, one_of, refuse, shown
 from roughline.errors.public import public_names
-from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.profile import Profile
 
 
 @public_names
 def press(
-    body: Body,
+    body: Body | Profile,
     *,
     E_star: float | None = None,
     half_space: HalfSpace | None = None,
     hardness: float | None = None,
-    law: ContactLaw | None = None,
+    law: ContactLaw | JKR | None = None,
     depths: ArrayLike | None = None,
     forces: ArrayLike | None = None,
     n_loads: int | None = None,
-    periodic: bool | None = None,
+    periodic: Periodic | None = None,
     fields: bool | Sequence[int] = False,
     measures: Sequence[Measure] = (),
     grid_error: bool = False,
@@ -58,12 +62,13 @@ def press(
 
     A :class:`~roughline.Surface` is solved with the full model (every interaction, the
     half-space free around the surface unless it is periodic), a :class:`~roughline.Line` with the
-    reduced model (independent springs, solved exactly). Units are any coherent set.
+    reduced model (independent springs, solved exactly), and a :class:`~roughline.Profile` with the
+    reduction method for bodies of revolution. Units are any coherent set.
 
     Parameters
     ----------
-    body : Surface or Line
-        The rough body. [length]
+    body : Surface, Line or Profile
+        The rough body, or one of revolution. [length]
     E_star : float, optional
         Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [pressure]
     half_space : HalfSpace, optional
@@ -73,10 +78,10 @@ def press(
         Largest pressure that a point bears, the indentation hardness of the softer body; where it
         is reached, the surface is permanently indented. Default, or infinite: both bodies are
         elastic. Short for ``law=rl.Yielding(hardness)``. [pressure]
-    law : ContactLaw, optional
+    law : ContactLaw or JKR, optional
         What pressure and gap obey at a point. Default: :class:`~roughline.Unilateral`, bodies that
         neither stick nor overlap; :class:`~roughline.Dugdale` and :class:`~roughline.Exponential`
-        stick.
+        stick. A profile sticks by :class:`~roughline.JKR`.
     depths, forces : array_like, shape (loads,), optional
         Depths since first touch of the untouched surface [length] or total forces [force]. They may
         rise and fall: each load finds the surface as the last one left it. The order of loads does
@@ -87,10 +92,13 @@ def press(
     n_loads : int, optional
         Number of forces, log-spaced from about ten springs or cells in contact to saturation. Of
         bodies that stick, depths of a whole cycle: from out of reach to half of the mean
-        separation, and back until no contact can be left.
-    periodic : bool, optional
+        separation, or to where all of a profile touches, and back until no contact can be left.
+    periodic : bool, "x" or "y", optional
         Repeat the surface periodically; default: no. Depths then count the approach of the mean
-        planes, k is the stiffness of the interface alone and is infinite in full contact.
+        planes, k is the stiffness of the interface alone and is infinite in full contact. With the
+        name of an axis it repeats along that one, as a line seal or a roller does, and is free
+        across. Depths then count from a place as far away across as the surface is wide, as
+        :class:`~roughline.Homogeneous` says, and k holds what the half-space gives up to there.
     fields : bool or sequence of int, optional
         Keep pressure, displacement, gap, contact, plastic points and indentation of every load,
         or of loads with these numbers (from 0).
@@ -160,7 +168,10 @@ def press(
     [0.308]
     """
     half_space = given_half_space(half_space, E_star, periodic)
-    law = given_law(law, hardness, body)
+    if isinstance(body, Profile):
+        stickiness = given_stickiness(law, hardness, body)
+    else:
+        law = given_law(law, hardness, body)
     rtol = between("rtol", rtol, 1e-12, 0.1, "a tolerance from 1e-12 to 0.1 is needed")
     max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = flag("grid_error", grid_error)
@@ -169,31 +180,22 @@ def press(
     one_of("precision", precision, ("mixed", "float64", "float32"))
     if progress is not None and not callable(progress):
         refuse("progress", progress, "a function of (loads done, loads in all) is needed")
-    if isinstance(body, Line):
-        if half_space.periodic or grid_error or fields is not False:
-            raise InputError(
-                "periodic, fields and grid_error belong to the full model; the reduced model of a "
-                "Line has none of these: leave them out, or press a Surface"
-            )
-        if measures:
-            raise InputError(
-                "belong to the full model; the reduced model of a Line has no fields that they are "
-                "taken from: leave them out, or press a Surface",
-                "measures",
-            )
-        if not isinstance(half_space, Homogeneous):
-            raise InputError(
-                f"half_space is {shown(half_space)}; the springs of a Line have one "
-                "modulus: give E_star, or press a Surface"
-            )
-        return press_line(body, half_space, GivenLoads(depths, forces, n_loads))
+    given = GivenLoads(depths, forces, n_loads)
+    if isinstance(body, Line | Profile):
+        sought = grid_error or fields is not False
+        homogeneous = _of_reduced(body, half_space, sought, measures)
+        if isinstance(body, Line):
+            return press_line(body, homogeneous, given)
+        return _complete(press_profile(body, homogeneous, stickiness, given), throw)
     if not isinstance(body, Surface):
         raise InputError(
-            f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
-            "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L), and a topography of "
-            "SurfaceTopography as Surface(topography)"
+            f"body is a {type(body).__name__}; a Surface or a Line is needed, or a Profile of a "
+            "body of revolution: wrap heights as Surface(heights, sizes=(Lx, Ly)) or Line(heights, "
+            "length=L), and a topography of SurfaceTopography as Surface(topography)"
         )
-    given, single = GivenLoads(depths, forces, n_loads), precision == "float32"
+    assert isinstance(law, ContactLaw)
+    half_space.refuse(body.spacing)
+    single = precision == "float32"
     loads = surface_loads(body, half_space, given, rtol, single=single, law=law)
     kept = kept_loads(fields, loads.values.size)
     _refuse_beyond_memory(body, half_space, loads, law, len(kept), measured=bool(measures))
@@ -211,9 +213,38 @@ def press(
             curve = with_grid_error(curve, body, loads, pressed)
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
+    return _complete(curve, throw)
+
+
+def _complete(curve: Curve, throw: bool) -> Curve:
+    """Return a curve; with `throw`, refuse one of which a load was not solved."""
     if throw and not curve.converged.all():
         raise ConvergenceError(_failure_message(curve), curve)
     return curve
+
+
+def _of_reduced(
+    body: Line | Profile, half_space: HalfSpace, fields: bool, measures: Sequence[Measure]
+) -> Homogeneous:
+    """Return the half-space of the reduced model; refuse what that does not have."""
+    name = f"the reduced model of a {type(body).__name__}"
+    if any(half_space.repeats) or fields:
+        raise InputError(
+            f"periodic, fields and grid_error belong to the full model; {name} has none of these: "
+            "leave them out, or press a Surface"
+        )
+    if measures:
+        raise InputError(
+            f"belong to the full model; {name} has no fields that they are taken from: leave them "
+            "out, or press a Surface",
+            "measures",
+        )
+    if not isinstance(half_space, Homogeneous):
+        raise InputError(
+            f"half_space is {shown(half_space)}; the springs of a {type(body).__name__} have one "
+            "modulus: give E_star, or press a Surface"
+        )
+    return half_space
 
 
 def _refuse_beyond_memory(
@@ -234,6 +265,7 @@ def _refuse_beyond_memory(
         yielding=law.memory == "dents",
         sticking=law.follows_gaps,
         several=loads.values.size > 1,
+        of_layers=bytes_of_layers(half_space, surface.shape, surface.spacing),
     )
     if fits_into_memory(memory(area_fraction=1.0)):
         return

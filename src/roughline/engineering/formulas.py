@@ -18,6 +18,9 @@ _Value = TypeVar("_Value", float, NDArray[np.float64])
 
 _FULL = 1e-6  # of the saturated stiffness, which may be missing in full contact
 
+COMPARED = "estimates for comparison", "they are of bodies of one material each"
+"""What Holm's, Mikic's and Yovanovich's formulas are called, and why they are not of layers."""
+
 ELASTIC_UP_TO = 0.4
 """Mean contact pressure over hardness at which yield begins under a smooth asperity."""
 
@@ -202,14 +205,6 @@ def reflection(
         spring = 2 * math.pi * frequency * first * second / np.asarray(stiffness_per_area)
         reflected = np.hypot(first - second, spring) / np.hypot(first + second, spring)
     return np.where(np.isinf(spring), 1.0, reflected)
-
-
-def constriction_of_disc(area: float, E_star: float) -> float:
-    """Stiffness of a flat round punch of some area, 2 E* a with pi a² the area. [N / m]
-
-    Bodies that are much wider than a joint have this stiffness even without any roughness.
-    """
-    return 2 * E_star * math.sqrt(area / math.pi)
 
 
 def _mean_slope(rms_slope: float) -> float:

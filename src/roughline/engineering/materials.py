@@ -1,17 +1,20 @@
-"""Bulk materials: their properties for contact stiffness, conductance and ultrasound."""
+"""Materials by their names and values: a table with sources, and coated ones."""
 
 from __future__ import annotations
 
 import functools
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
 from types import MappingProxyType
 
+from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.described import described, rows_of
-from roughline.errors import InputError
+from roughline.engineering.material import Material
+from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
 from roughline.errors.public import public
+from roughline.units import in_si
 
 _UNITS = {
     "nu": "",
@@ -24,103 +27,36 @@ _UNITS = {
 _TABLE_FACTOR = 1.5
 """Uncertainty of hardnesses of the table, a factor; published ones scatter by two in all."""
 
-
-@public
-@dataclass(frozen=True)
-class Material:
-    """An isotropic bulk material at room temperature.
-
-    Parameters
-    ----------
-    name : str
-        Name of the material.
-    E : float
-        Young's modulus; infinite for a rigid body. [Pa]
-    nu : float
-        Poisson's ratio, -1 to 0.5. [1]
-    hardness : float, optional
-        Indentation hardness of the surface. [Pa]
-    resistivity : float, optional
-        Electrical resistivity. [ohm m]
-    conductivity : float, optional
-        Thermal conductivity. [W / (m K)]
-    density : float, optional
-        Mass density. [kg / m³]
-    source : str, optional
-        Where the values come from.
-    hardness_factor : float, optional
-        Factor by which the hardness H is uncertain: it lies between H / factor and H * factor.
-        Hardnesses of the table are uncertain, as hardness varies with heat treatment, cold work
-        and depth; a given one is taken as exact. [1]
-
-    Raises
-    ------
-    InputError
-        If a value is outside its range.
-    """
-
-    name: str
-    E: float
-    nu: float
-    hardness: float | None = None
-    resistivity: float | None = None
-    conductivity: float | None = None
-    density: float | None = None
-    source: str = "given by the user"
-    hardness_factor: float = 1.0
-
-    def __post_init__(self) -> None:
-        if not self.E > 0:
-            raise InputError(f"E of {self.name} is {self.E}; a positive modulus is needed")
-        if not -1 < self.nu <= 0.5:
-            raise InputError(f"nu of {self.name} is {self.nu}; allowed is -1 to 0.5")
-        for name in ("hardness", "resistivity", "conductivity", "density"):
-            value = getattr(self, name)
-            if value is not None and not 0 < value < math.inf:
-                raise InputError(
-                    f"{name} of {self.name} is {value}; a positive, finite number is needed"
-                )
-
-        if not 1 <= self.hardness_factor < math.inf:
-            raise InputError(
-                f"hardness_factor of {self.name} is {self.hardness_factor}; 1 or more is needed"
-            )
-
-    @property
-    def shear_modulus(self) -> float:
-        """G = E / (2 (1 + nu)). [Pa]"""
-        return self.E / (2 * (1 + self.nu))
-
-    @property
-    def carries_sound(self) -> bool:
-        """Whether longitudinal waves have a finite speed: not in rigid or incompressible bodies."""
-        return not math.isinf(self.E) and self.nu != 0.5
-
-    @property
-    def impedance(self) -> float | None:
-        """Acoustic impedance of longitudinal waves, density times their speed. [kg / (m² s)]
-
-        None without a density, and for a rigid or an incompressible material.
-        """
-        if self.density is None or not self.carries_sound:
-            return None
-        nu = self.nu
-        return math.sqrt(self.density * self.E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)))
+_ON = re.compile(r"(?<!\S)on(?!\S)", re.IGNORECASE)  # between a layer and what it lies on
+_THICKNESS = re.compile(
+    r"(?P<of>.*[^=\s;])[\s;]+"
+    r"(?P<thickness>[-+]?([\d.,]+(e[-+]?\d+)?|inf|nan)\s*([^\W\d][\w/*^]*)?)",
+    re.IGNORECASE,
+)
+_EXAMPLE = '"rubber 2 mm on steel"'
 
 
 @public
-def material(description: str) -> Material:
-    """Return a material from its name, its values, or a name with other values.
+def material(description: str) -> Solid:
+    """Return a material from its name, its values, or a name with other values; or a coated one.
 
     Parameters
     ----------
     description : str
-        Such as "copper", "steel hardness=2 GPa" or "E=70 GPa nu=0.33 density=2700 kg/m^3".
+        Such as "copper", "steel hardness=2 GPa" or "E=70 GPa nu=0.33 density=2700 kg/m^3". Each
+        layer of a coated body is followed by its thickness and by what it lies on: "gold 0.5 µm on
+        nickel 2 µm on copper", "E=5 MPa nu=0.49 2 mm on steel".
+
+    Returns
+    -------
+    Material or Coated
+        A Coated body where layers are given.
 
     Raises
     ------
     InputError
-        If the name or a property is unknown, a value is missing, or outside its range.
+        If the name or a property is unknown, a value is missing, or outside its range; if a layer
+        has no thickness, or lies on nothing.
     UnitError
         If a value has no unit, or a wrong one.
 
@@ -132,9 +68,21 @@ def material(description: str) -> Material:
     129800000000.0 0.343
     >>> print(rl.material("steel hardness=2 GPa").hardness)
     2000000000.0
+    >>> print(rl.material("gold 0.5 um on copper").layers[0][1])
+    5e-07
     """
+    *layers, base = (part.strip(" ;") for part in _ON.split(description))
+    _refuse_depth(base, description, [*layers, base])
+    lowest = _bulk(base, description)
+    if not layers:
+        return lowest
+    return Coated([_layer(each, description) for each in layers], lowest)
+
+
+def _bulk(text: str, description: str) -> Material:
+    """A material that is not coated, or one of a coated body."""
     known = materials()
-    name, given = described(description, "material", known, _UNITS, "E=70 GPa nu=0.33")
+    name, given = described(text, "material", known, _UNITS, "E=70 GPa nu=0.33")
     if not name:
         if not {"E", "nu"} <= given.keys():
             raise InputError(
@@ -145,6 +93,38 @@ def material(description: str) -> Material:
     source = f"{known[name].source}; {changed} given" if given else known[name].source
     factor = 1.0 if "hardness" in given else known[name].hardness_factor
     return replace(known[name], **given, source=source, hardness_factor=factor)  # type: ignore[arg-type]
+
+
+def _layer(text: str, description: str) -> tuple[Material, float]:
+    """A layer of a material, and its thickness. [m]"""
+    parts = _THICKNESS.fullmatch(text)
+    if parts is None:
+        raise InputError(
+            f"{shown(text)} in the material {shown(description)} is no layer: give its material "
+            f"and its thickness, and what it lies on, such as {_EXAMPLE}"
+        )
+    found = _bulk(parts["of"], description)
+    return found, in_si(parts["thickness"], "m", f"the thickness of the layer of {found.name}")
+
+
+def _refuse_depth(base: str, description: str, parts: Sequence[str]) -> None:
+    """Refuse what lies lowest if it is missing, or has a thickness."""
+    if len(parts) > 1 and not base:
+        raise InputError(
+            f'the material {shown(description)} ends with "on": say what its layers lie on, such '
+            f"as {_EXAMPLE}"
+        )
+    depth = _THICKNESS.fullmatch(base)
+    if depth is None:
+        return
+    try:
+        in_si(depth["thickness"], "m", "thickness")
+    except UnitError:
+        return
+    raise InputError(
+        f"{shown(base)} in the material {shown(description)} lies on nothing: say what it lies on, "
+        f"such as {_EXAMPLE}, or leave out its thickness, {depth['thickness']}"
+    )
 
 
 @functools.cache

@@ -4,29 +4,45 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from operator import itemgetter
 
-from roughline.engineering.materials import Material
+from roughline.contact.conduction import Resistances
+from roughline.contact.elastic_pair import ElasticPair
+from roughline.engineering.coated import Coated, Solid
+from roughline.engineering.material import Material
 from roughline.errors import InputError
 from roughline.errors.public import public
 
 
 @dataclass(frozen=True, eq=False)
 class MaterialPair:
-    """Two bodies of given materials in contact, in any order."""
+    """Two bodies of given materials in contact, in any order; each may be coated."""
 
-    first: Material
-    second: Material
+    first: Solid
+    second: Solid
 
     @property
     def E_star(self) -> float:
-        """Contact modulus. [Pa]"""
-        return contact_modulus(self.first, self.second)
+        """Contact modulus of what lies at both surfaces. [Pa]"""
+        return contact_modulus(self.first.surface, self.second.surface)
+
+    @property
+    def elasticity(self) -> ElasticPair:
+        """How both give way to pressure."""
+        bodies = (self.first.elasticity, self.second.elasticity) if self.coated else ()
+        return ElasticPair(self.E_star, bodies)
+
+    @property
+    def coated(self) -> list[Coated]:
+        """The bodies that are coated."""
+        return [each for each in (self.first, self.second) if isinstance(each, Coated)]
 
     @property
     def G_star(self) -> float:
         """Tangential contact modulus, 1 / G* = (2 - nu1) / (4 G1) + (2 - nu2) / (4 G2). [Pa]
+
+        It is that of what lies at both surfaces, as E* is.
 
         The tangential stiffness of any contact without slip is G* / E* times the normal one where
         the two problems are uncoupled; for equal materials that is (2 - 2 nu) / (2 - nu).
@@ -36,39 +52,41 @@ class MaterialPair:
         V. L. Popov, "Contact Mechanics and Friction", 2nd ed. (2017), eq. 8.8.
         """
         return _inverse_sum(
-            (2 - each.nu) / (4 * each.shear_modulus) for each in (self.first, self.second)
+            (2 - each.surface.nu) / (4 * each.surface.shear_modulus)
+            for each in (self.first, self.second)
         )
 
     @property
     def hardness(self) -> float | None:
         """Hardness of the softer body, of those that are known; None if none is. [Pa]
 
-        A rigid body never yields. A body whose modulus is below the hardness of the other is the
-        softer one, be its hardness known or not: it is elastic, as rubber is, if it is not.
+        That of a coated body is its top layer's. A rigid body never yields. A body whose modulus is
+        below the hardness of the other is the softer one, be its hardness known or not: it is
+        elastic, as rubber is, if it is not.
         """
-        softer = self._softer
-        return None if softer is None else softer.hardness
+        softer = self.softer
+        return None if softer is None else softer.surface.hardness
 
     @property
     def hardness_factor(self) -> float:
         """Factor by which that hardness is uncertain. [1]"""
-        return 1.0 if self._softer is None else self._softer.hardness_factor
+        return 1.0 if self.softer is None else self.softer.surface.hardness_factor
 
     @property
-    def _softer(self) -> Material | None:
-        """The body of lower hardness, among those that can yield."""
-        yielding = [each for each in (self.first, self.second) if not math.isinf(each.E)]
-        known = [(each.hardness, each) for each in yielding if each.hardness is not None]
+    def softer(self) -> Solid | None:
+        """The body of lower hardness, among those that can yield; None if that is not known."""
+        yielding = [each for each in (self.first, self.second) if not math.isinf(each.surface.E)]
+        known = [(h, each) for each in yielding if (h := each.surface.hardness) is not None]
         if not known:
             return None
         hardness, softer = min(known, key=itemgetter(0))
-        unknown = [each for each in yielding if each.hardness is None]
+        unknown = [each.surface for each in yielding if each.surface.hardness is None]
         return None if any(hardness > each.E for each in unknown) else softer
 
     @property
     def bearer(self) -> str:
         """Which body has that hardness, in words."""
-        named = [name for name, each in self._by_name if each is self._softer]
+        named = [name for name, each in self._by_name if each is self.softer]
         return named[0] if named and self.lacking("hardness") else "the softer body"
 
     def with_hardness(self, hardness: float) -> MaterialPair:
@@ -76,26 +94,25 @@ class MaterialPair:
 
         It need not be known which of the two is softer; a rigid body never is.
         """
-
-        def given(each: Material) -> Material:
-            if math.isinf(each.E):
-                return each
-            source = f"{each.source}; hardness given"
-            return replace(each, hardness=hardness, hardness_factor=1.0, source=source)
-
-        return MaterialPair(given(self.first), given(self.second))
+        return MaterialPair(self.first.with_hardness(hardness), self.second.with_hardness(hardness))
 
     def lacking(self, quantity: str) -> list[str]:
-        """Name the bodies for which a property is not known; a rigid one needs no hardness."""
-        return [
-            name
-            for name, each in self._by_name
-            if getattr(each, quantity) is None
-            and not (quantity == "hardness" and math.isinf(each.E))
-        ]
+        """Name the bodies for which a property is not known, and which of their layers.
+
+        The hardness is that of the surface; a rigid body needs none.
+        """
+        found = []
+        for name, body in self._by_name:
+            of_hardness = quantity == "hardness"
+            for each in [body.surface] if of_hardness else body.materials:
+                is_needed = not (of_hardness and math.isinf(each.E))
+                if is_needed and getattr(each, quantity) is None:
+                    is_layer = isinstance(body, Coated) and not of_hardness
+                    found.append(f"{each.name} in {name}" if is_layer else name)
+        return list(dict.fromkeys(found))
 
     @property
-    def _by_name(self) -> list[tuple[str, Material]]:
+    def _by_name(self) -> list[tuple[str, Solid]]:
         """Both bodies, and what they are called."""
         bodies = (("first", self.first), ("second", self.second))
         return [(f"the {which} body ({each.name})", each) for which, each in bodies]
@@ -110,10 +127,33 @@ class MaterialPair:
             f'the material, as "{quantity}=..."'
         )
 
+    def refuses_layers(self, what: str, why: str) -> str:
+        """Say that there is no answer, as its formula is of bodies without layers; else nothing."""
+        if not self.coated:
+            return ""
+        return f"no {what}: {why}, and {self.coated[0].name} is coated"
+
     def both(self, quantity: str) -> tuple[float, float] | None:
-        """Return a property of both bodies; None unless it is known for both."""
-        first, second = getattr(self.first, quantity), getattr(self.second, quantity)
+        """Return a property of both bodies; None if one does not have it, or is coated."""
+        return None if self.coated else self.at_surfaces(quantity)
+
+    def at_surfaces(self, quantity: str) -> tuple[float, float] | None:
+        """Return a property of what lies at both surfaces; None unless it is known for both."""
+        first, second = (getattr(each.surface, quantity) for each in (self.first, self.second))
         return None if first is None or second is None else (first, second)
+
+    def resistances(self, quantity: str) -> Resistances | None:
+        """Return what both bodies resist with, by their resistivities or conductivities.
+
+        None unless these are known of all their layers. [ohm m] or [m K / W], and [m]
+        """
+        if self.lacking(quantity):
+            return None
+        power = -1 if quantity == "conductivity" else 1
+        return tuple(
+            (tuple(getattr(each, quantity) ** power for each in body.materials), body.thicknesses)
+            for body in (self.first, self.second)
+        )
 
 
 @public

@@ -11,6 +11,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
+from roughline.engineering.attraction import Attraction, Separation
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Closing, Sealing
@@ -34,6 +35,14 @@ class Interface:
     def bare(self) -> Interface:
         """The same without its interval."""
         return replace(self, ends=None)
+
+
+@dataclass(frozen=True, eq=False)
+class Sought:
+    """What was sought beyond the loads, as far as that was asked for."""
+
+    closing: Closing | None = None  # at which pressure the gap seals, and down to which it does
+    separation: Separation | None = None  # what it takes to draw bodies apart that stick
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,12 +78,16 @@ class Pressed:
     measured : mapping of str to Measured
         What rules need from the fields of every load, with what the grid and filled points leave
         open: of the map in a periodic half-space where it was cut out of a larger surface.
+    is_repeated : bool, optional
+        Whether these are of a periodic contact.
     place : str, optional
         Which surface the intervals of measures are of; empty for that of the map alone.
     sealing : Sealing, optional
         What is asked of a fluid in the gap.
-    closing : Closing, optional
-        At which pressure the gap seals, and down to which load it stays tight, if that is asked.
+    attraction : Attraction, optional
+        How the bodies attract each other; None if they only push.
+    sought : Sought, optional
+        What was sought beyond the loads.
     fields : Fields, optional
         Of one load: the largest, or one that shows the contact well.
     """
@@ -91,9 +104,11 @@ class Pressed:
     hardest: float | None = None
     has_depths: bool = False
     measured: Mapping[str, Measured] = field(default_factory=dict)
+    is_repeated: bool = False
     place: str = ""
     sealing: Sealing | None = None
-    closing: Closing | None = None
+    attraction: Attraction | None = None
+    sought: Sought = field(default_factory=Sought)
     fields: Fields | None = None
 
     @property

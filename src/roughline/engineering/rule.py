@@ -19,7 +19,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse
 from roughline.errors.public import public
 
-_Group = Literal["mechanics", "contact", "sealing", "electrical", "thermal", "acoustic"]
+_Group = Literal["mechanics", "contact", "adhesion", "sealing", "electrical", "thermal", "acoustic"]
 """What an answer is about."""
 
 _GROUPS: tuple[_Group, ...] = get_args(_Group)  # in the order in which pages show them
@@ -49,7 +49,7 @@ class Rule:
         Name by which the answer is found, such as "contact_stiffness".
     name, symbol, unit : str
         What it is called in tables and formulas; the unit is SI.
-    group : {"mechanics", "contact", "sealing", "electrical", "thermal", "acoustic"}
+    group : {"mechanics", "contact", "adhesion", "sealing", "electrical", "thermal", "acoustic"}
         What it is about.
     formula : str
         How it follows, in words and symbols.
@@ -93,6 +93,8 @@ class Rule:
         rows.
     measured_with : callable, optional
         The same, needed where a fluid in the gap is asked for, from what is asked.
+    measured_of : callable, optional
+        The same, needed of some materials, from both.
 
     Examples
     --------
@@ -142,6 +144,7 @@ class Rule:
     may_be_infinite: bool = False
     measures: Sequence[Measure] = ()
     measured_with: Callable[[Sealing], Sequence[Measure]] = lambda _sealing: ()
+    measured_of: Callable[[MaterialPair], Sequence[Measure]] = lambda _pair: ()
 
     def answer(self, pressed: Pressed) -> Answer | None:
         """Work out the answer; None where there is none."""
@@ -296,12 +299,12 @@ class Rules:
         """
         del self._by_key[self[key].key]
 
-    def measures(self, sealing: Sealing | None) -> list[Measure]:
+    def measures(self, pair: MaterialPair, sealing: Sealing | None) -> list[Measure]:
         """What the rules need from the fields of every load, each once.
 
-        Some of it only where a fluid in the gap is asked for.
+        Some of it only where a fluid in the gap is asked for, or of some materials.
         """
-        found = [each for rule in self for each in rule.measures]
+        found = [each for rule in self for each in (*rule.measures, *rule.measured_of(pair))]
         if sealing is not None:
             found += [each for rule in self for each in rule.measured_with(sealing)]
         return list(dict.fromkeys(found))

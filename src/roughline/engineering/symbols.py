@@ -36,13 +36,13 @@ def symbols_of(
     The area is that of the joint if there is one [m²], the rms height that of the sum of both
     surfaces [m].
     """
-    conductivities = pair.both("conductivity")
+    conductivities = pair.at_surfaces("conductivity")
     harmonic = conductivities and harmonic_conductivity(conductivities)
     known = [
         _Symbol("E*", "contact modulus", "Pa", E_star),
         _Symbol("A_0", "nominal area", "m²", area),
         _Symbol("H", "hardness of the softer body", "Pa", hardness),
-        *_of_bodies("rho", "electrical resistivity", "Ω m", pair.both("resistivity")),
+        *_of_bodies("rho", "electrical resistivity", "Ω m", pair.at_surfaces("resistivity")),
         *_of_bodies("kappa", "thermal conductivity", "W/(m K)", conductivities),
         _Symbol("kappa_s", "their harmonic mean", "W/(m K)", harmonic),
         _Symbol("sigma", "rms height", "m", rms_height),

@@ -266,7 +266,7 @@ def flow(
         Side along which the fluid flows.
     sides : {"periodic", "closed"}, optional
         Whether fluid that leaves at one of the other two borders enters at the opposite one.
-        Default: periodic; closed for fields of a body that is not repeated.
+        Default: periodic; closed for fields of a body that is not repeated along them.
     mean_free_path : float, optional
         Of a gas, at its mean pressure. It slips along the walls: u³ becomes u³ + 6 λ u². Default:
         0, a liquid. [length]
@@ -301,18 +301,17 @@ def flow(
     0.00163
     """
     one_of("along", along, (*get_args(Along), "both"))
-    if isinstance(gap, Fields):
-        sizes = sizes or gap.sizes
-        sides = sides or ("periodic" if gap.is_periodic else "closed")
-    across = one_of("sides", sides or "periodic", get_args(Sides))
+    one_of("sides", sides or "periodic", get_args(Sides))
+    repeats = gap.repeats if isinstance(gap, Fields) else (True, True)
+    sizes = sizes or (gap.sizes if isinstance(gap, Fields) else None)
     gap = _checked_gap(gap)
     if sizes is None:
         raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
-    path = checked_free_path(mean_free_path)
-    given = checked_sides(sizes), across, path
+    given = checked_sides(sizes), checked_free_path(mean_free_path)
+    across_y, across_x = (sides or ("periodic" if each else "closed") for each in repeats)
     if along == "both":
-        return _solved(gap, "x", *given), _solved(gap, "y", *given)
-    return _solved(gap, along, *given)
+        return _solved(gap, "x", across_x, *given), _solved(gap, "y", across_y, *given)
+    return _solved(gap, along, across_x if along == "x" else across_y, *given)
 
 
 def checked_free_path(given: Any) -> float:
@@ -321,7 +320,7 @@ def checked_free_path(given: Any) -> float:
     return between("mean_free_path", given, 0.0, sys.float_info.max, needed)
 
 
-def _solved(gap: Real, along: Along, sizes: tuple[float, float], sides: Sides, path: float) -> Flow:
+def _solved(gap: Real, along: Along, sides: Sides, sizes: tuple[float, float], path: float) -> Flow:
     """The flow along one side."""
     from roughline.fluid.network import Network  # here because compiled loops load slowly
 

@@ -9,6 +9,8 @@ from functools import partial
 import numpy as np
 
 from roughline.contact.grid_error import field_on, halved
+from roughline.errors import InputError
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
@@ -16,8 +18,16 @@ _FEWEST_POINTS = 32  # along a side that is halved, or cut into quarters
 _STUDENT = 3.182  # of 95 %, with the three degrees of freedom of four quarters
 
 
-def is_judged(surface: Surface) -> bool:
-    """Whether a surface has points enough to be halved, and cut into quarters."""
+def is_judged(surface: Surface, half_space: HalfSpace) -> bool:
+    """Whether a surface has points enough to be halved, and cut into quarters.
+
+    Half as many points along a side have to resolve the half-space, too.
+    """
+    dx, dy = surface.spacing
+    try:
+        half_space.refuse((2 * dx, 2 * dy))
+    except InputError:
+        return False
     return min(surface.shape) >= _FEWEST_POINTS
 
 

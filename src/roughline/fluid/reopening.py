@@ -137,7 +137,7 @@ def reopening(
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
     search = _Search(curve.half_space, times, along, rtol)
     found = search.bracket(left, law, float(history[-1]))
-    if not interval or curve.surface is None or not is_judged(curve.surface):
+    if not interval or curve.surface is None or not is_judged(curve.surface, curve.half_space):
         return found
     forces = np.array([np.nanmax(history), history[-1]])
     return search.with_interval(found, curve.surface, law, forces)

@@ -8,12 +8,10 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
-import numpy as np
-
-from roughline.computing.fft import half_spectrum, synthesise
 from roughline.computing.summary import summary
 from roughline.contact.arguments import given_half_space, given_law
 from roughline.contact.fields import Fields
+from roughline.contact.full_contact import in_full_contact
 from roughline.contact.grid_error import steepening_of
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
@@ -22,10 +20,9 @@ from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
 from roughline.fluid.flow import Along, components
 from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
-from roughline.halfspace.elasticity.half_space import HalfSpace
-from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.laws.law import ContactLaw
-from roughline.topography.body import Surface, with_heights
+from roughline.topography.body import Surface
 
 _PERCOLATING = 0.277  # mean pressure over E* and the rms slope at which Persson's area is 0.42
 _OF_HARDNESS = 0.4  # about the share of the area that seals, all of which bears the hardness
@@ -47,7 +44,8 @@ class SealingPressure:
     along : {"both", "x", "y"}
         Direction in which no path leads through; of both, in neither.
     on_half : float
-        The same on half as many points along each side; NaN if not asked for. [pressure]
+        The same on half as many points along each side; NaN if not asked for, or if these do not
+        resolve a layer. [pressure]
     on_quarters : sequence of float
         The same of the four quarters of the surface. [pressure]
     interval : tuple of float
@@ -82,7 +80,7 @@ def sealing_pressure(
     half_space: HalfSpace | None = None,
     hardness: float | None = None,
     law: ContactLaw | None = None,
-    periodic: bool | None = None,
+    periodic: Periodic | None = None,
     along: Along | Literal["both"] = "both",
     rtol: float = 0.01,
     interval: bool = True,
@@ -105,7 +103,7 @@ def sealing_pressure(
         Of the softer body, as for :func:`press`. [pressure]
     law : ContactLaw, optional
         What pressure and gap obey at a point, in place of `hardness`.
-    periodic : bool, optional
+    periodic : bool, "x" or "y", optional
         Whether the surface is repeated; free, its borders are closed sides. Default: it is.
     along : {"both", "x", "y"}, optional
         Direction in which the last path closes; of both, when none leads either way.
@@ -140,13 +138,13 @@ def sealing_pressure(
         periodic = True
     half_space = given_half_space(half_space, E_star, periodic)
     law = given_law(law, hardness, surface)
-    full = _in_full_contact(surface, half_space)
+    full = in_full_contact(surface, half_space)
     guess = _PERCOLATING * half_space.E_star * full.rms_slope
     guess = min(guess, _OF_HARDNESS * law.largest_force(1.0))
     search = _Search(half_space, along, rtol)
     (low, open_area), (high, sealed_area) = search.bracket(surface, law, guess)
     found = SealingPressure(low, high, (open_area, sealed_area), along)
-    if not interval or not is_judged(surface):
+    if not interval or not is_judged(surface, half_space):
         return found
     half = search.middle(*on_half(surface, law), found.value)
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
@@ -209,7 +207,8 @@ def _percolates(fields: Fields, along: Along | Literal["both"]) -> float:
     is_open = ~fields.contact
     for each in ("x", "y") if along == "both" else (along,):
         rows = is_open if each == "x" else is_open.T
-        from_inlet, from_outlet = components(rows, fields.is_periodic)
+        repeats_across = fields.repeats[1 if each == "x" else 0]
+        from_inlet, from_outlet = components(rows, repeats_across)
         if (from_inlet & from_outlet).any():
             return 1.0
     return 0.0
@@ -226,20 +225,3 @@ OPEN = {
     for along in ("x", "y", "both")
 }
 """Whether the gap is open, along x, along y, or along one of both."""
-
-
-def _in_full_contact(surface: Surface, half_space: HalfSpace) -> Surface:
-    """The surface whose full contact with a homogeneous half-space has the same pressures.
-
-    A wave that reaches deeper than what is near the surface is as much higher or lower as that is
-    stiffer or softer there.
-    """
-    nx, ny = surface.shape
-    dx, dy = surface.spacing
-    q = np.hypot(np.fft.fftfreq(nx, dx)[:, np.newaxis], np.fft.rfftfreq(ny, dy)) * 2 * np.pi
-    q[0, 0] = 1.0  # the mean has no slope
-    stiffness = Homogeneous(half_space.E_star).spectrum(q) / half_space.spectrum(q)
-    if (stiffness == 1).all():
-        return surface
-    waves = stiffness * half_spectrum(surface.heights)
-    return with_heights(surface, synthesise(waves, ny) / surface.heights.size)

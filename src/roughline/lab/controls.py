@@ -142,6 +142,11 @@ def rounded(value: float) -> float:
     return float(f"{value:.{_DIGITS}g}")
 
 
+def as_code(value: float) -> str:
+    """A number as lines of code have it, without the rounding of what it was computed from."""
+    return repr(rounded(value))
+
+
 def as_text(value: float) -> str:
     """A number as an address has it: the fewest digits that are read as the same number."""
     return repr(float(value)).removesuffix(".0")

@@ -37,6 +37,7 @@ TASKS: Mapping[str, Place] = {
     "explore.full": _place("explore.pictures", "full"),
     "explore.curve": _place("explore.pictures", "curve"),
     "explore.flow": _place("explore.pictures", "flow"),
+    "explore.cycle": _place("explore.pictures", "cycle"),
     "explore.unloading": _place("explore.pictures", "unloading"),
     "explore.code": _place("explore.code", "code", is_quick=True),
     "explore.download": _place("explore.downloads", "download"),

@@ -14,12 +14,11 @@ def up() -> None:
 
     rl.set_threads(1)  # many sessions share the cores
     session = {"max_points": 64}
-    for boundary, hardness, fluid in (
-        *(("free", "", ""), ("periodic", "", "")),
-        *(("free", "0.5", ""), ("free", "", "x")),
+    for special in (
+        *({}, {"boundary": "periodic"}),
+        *({"hardness_bar": "0.5"}, {"fluid": "x"}, {"w": "1"}),
     ):
-        state = {"n": "64", "boundary": boundary, "hardness_bar": hardness, "fluid": fluid}
-        arguments = {"state": state, "session": session, "crowded": True}
+        arguments = {"state": {"n": "64", **special}, "session": session, "crowded": True}
         for task in (pictures.reduced, pictures.full):
             task(arguments, lambda done, total: None)
     gc.freeze()  # what is loaded stays shared with the processes that are forked

@@ -66,8 +66,7 @@ def _of_curve(curve: Curve) -> str:
         area = curve.area_fraction_corrected, curve.area_fraction_error
         columns.append(("corrected area A/A_0", *area, None))
     model = "reduced model" if curve.area_fraction is None else "full model"
-    boundary = "periodic" if curve.half_space.periodic else "free"
-    place = "" if curve.area_fraction is None else f", {boundary} half-space"
+    place = "" if curve.area_fraction is None else f", {curve.half_space.boundary} half-space"
     title = f"Curve of the {model}{place}, E* = {_with_unit(curve.E_star, 'pressure', curve.unit)}"
     header = ["load", *(name for name, *_ in columns), "remark"]
     reached = np.flatnonzero(curve.status != Status.INTERRUPTED)

@@ -164,5 +164,5 @@ class _SpringsInContact:
         return self.spring_stiffness * (self.count * depths - self.sum)
 
     def depth_under(self, forces: Real) -> Real:
-        """Depth under the positive forces. [length]"""
-        return (forces / self.spring_stiffness + self.sum) / self.count
+        """Depth under the forces, zero without a force. [length]"""
+        return (forces / self.spring_stiffness + self.sum) / np.maximum(self.count, 1)

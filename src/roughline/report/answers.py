@@ -109,7 +109,8 @@ def lead_of(result: Assessment | PartAssessment) -> str:
         under = f"{force}, {pressure} over {on_joint or 'the nominal area'}"
     count = len(result.headings)
     which = f", the largest of {count} loads" if count > 1 else ""
-    text = f"{pair.first.name} on {pair.second.name} under {under}{which}"
+    faces = ", against" if pair.coated else " on"  # a layer lies on its base
+    text = f"{pair.first.name}{faces} {pair.second.name} under {under}{which}"
     if no_mean:
         return sentence(f"{text}: the maps have no common mean")
     unsure = any(_is_decided_by_grid(each)[result.largest] for each in maps)

@@ -85,6 +85,8 @@ def overview(assessment: Assessment) -> Figure:
         panels.append(partial(draw_last_contact, surface=body, assessment=assessment))
     if _apertures(assessment):
         panels.append(partial(_draw_apertures, assessment=assessment))
+    if (separation := assessment.sought.separation) is not None:
+        panels.append(partial(_draw_separation, assessment=assessment, drawn=separation.curve))
     if _has_falling_loads(assessment):
         panels.append(partial(_draw_force, assessment=assessment))
     if assessment.question.friction is not None:
@@ -126,6 +128,8 @@ def overview_in_words(assessment: Assessment) -> str:
         )
     if _apertures(assessment):
         shown.append("hydraulic aperture over force")
+    if assessment.sought.separation is not None:
+        shown.append("force over depth as the bodies are drawn apart after the largest load")
     if _has_falling_loads(assessment):
         shown.append("force over depth")
     if question.friction is not None:
@@ -144,6 +148,27 @@ def _draw_force(axes: Axes, assessment: Assessment) -> None:
     if falls:
         axes.plot([], [], "o", color="tab:blue", label="after a larger load")
         axes.legend()
+
+
+def _draw_separation(axes: Axes, assessment: Assessment, drawn: Curve) -> None:
+    """Force over depth on the way in, and as the bodies are drawn apart; a ring at the pull-off."""
+    loaded = rising(assessment.curve)
+    x_label, depth = in_unit("depth since touch $d$", drawn.depth, "m")
+    y_label, force = _force_axis(assessment)
+    shown = slice(int(np.flatnonzero(drawn.force)[-1]) + 2)  # up to the first depth without a force
+    axes.plot(
+        *(drawn.depth[shown] * depth, drawn.force[shown] * force),
+        ".-",
+        color="tab:blue",
+        label="drawn apart",
+    )
+    x, y = assessment.curve.depth[loaded], assessment.curve.force[loaded]
+    axes.plot(x * depth, y * force, "k.", label="on the way in")
+    off = drawn.pull_off_depth * depth, drawn.pull_off_force * force
+    axes.plot(*off, "o", color="tab:red", markerfacecolor="none", label="pull-off")
+    axes.axhline(0, color="0.7", linewidth=0.7, zorder=-1)
+    axes.set(xlabel=x_label, ylabel=y_label)
+    axes.legend()
 
 
 def draw_stiffness(axes: Axes, assessment: Assessment) -> None:

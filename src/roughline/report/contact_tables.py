@@ -8,6 +8,7 @@ import numpy as np
 
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
+from roughline.engineering.coated import Coated
 from roughline.engineering.symbols import symbols_of
 from roughline.report.answers import starred
 from roughline.report.values import value_and_interval, with_interval
@@ -16,8 +17,9 @@ from roughline.units import change_in_words, engineering
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.computing.arrays import Real
+    from roughline.engineering.coated import Solid
     from roughline.engineering.intervals import Ends
-    from roughline.engineering.materials import Material
+    from roughline.engineering.material import Material
 
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
@@ -114,8 +116,23 @@ def area_in_words(assessment: Assessment, load: int) -> str:
     return value_and_interval(written)[0]
 
 
-def material_in_words(material: Material) -> str:
-    """Name, moduli and hardness of a material, and where they are from."""
+def modulus_in_words(assessment: Assessment) -> str:
+    """The contact modulus, and of which materials it is."""
+    pair, of = assessment.question.pair, ""
+    if pair is not None:
+        names = [each.surface.name for each in (pair.first, pair.second)]
+        of = f" of {' and '.join(names)}" + (", which lie at the surfaces," if pair.coated else "")
+    return f"E*{of} = {engineering(assessment.curve.E_star, 'Pa')}"
+
+
+def solid_in_words(solid: Solid) -> str:
+    """Name, moduli and hardness of a material, and where they are from; those of each layer."""
+    if not isinstance(solid, Coated):
+        return _in_words(solid)
+    return f"{solid.name}: {', '.join(map(_in_words, solid.materials))}"
+
+
+def _in_words(material: Material) -> str:
     parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
     if material.hardness:
         factor = material.hardness_factor

@@ -21,7 +21,7 @@ from roughline.report.answers import (
     star_is_shown,
     told,
 )
-from roughline.report.contact_tables import formula_table, material_in_words, symbol_table
+from roughline.report.contact_tables import formula_table, solid_in_words, symbol_table
 from roughline.report.page import Section, Table, render, sentence
 from roughline.report.pdf import write_pdf
 
@@ -51,6 +51,11 @@ _ASSUMPTIONS_OF_JOINT = (
     "Intervals, where given, hold the uncertainty due to the grid, to filled points, to the "
     "scatter of the hardness, and to what one map does not show of the surface around it. They do "
     "not hold the scatter of other material data, nor that of places which are not alike.",
+)
+_ASSUMPTION_OF_LAYERS = (
+    "Layers are bonded to each other and to their base, which is as deep as one wishes. The "
+    "hardness of a coated body is that of its top layer, and what lies below does not yield. No "
+    "interval of a coated body holds what a map does not show of the surface around it."
 )
 _ASSUMPTION_OF_PART = (
     "Intervals of the part hold the scatter between its places as well. They assume that the "
@@ -121,7 +126,7 @@ def _materials(assessment: Assessment) -> list[str]:
     pair = assessment.question.pair
     if pair is None:
         return []
-    return [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."]
+    return [f"Materials: {solid_in_words(pair.first)}; {solid_in_words(pair.second)}."]
 
 
 def _abreast(result: Assessment | PartAssessment) -> int:
@@ -161,4 +166,6 @@ def _assumptions(assessment: Assessment) -> list[str]:
     """Assumptions of the answers, and of theories beside them."""
     of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
     joint = assessment.question.joint is not None
-    return [*(_ASSUMPTIONS_OF_JOINT if joint else _ASSUMPTIONS), *of_theories]
+    pair = assessment.question.pair
+    of_layers = [_ASSUMPTION_OF_LAYERS] if pair is not None and pair.coated else []
+    return [*(_ASSUMPTIONS_OF_JOINT if joint else _ASSUMPTIONS), *of_layers, *of_theories]

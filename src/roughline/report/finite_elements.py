@@ -19,7 +19,7 @@ from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.plot.curves import rising
 from roughline.report.contact_report import settings_in_words
-from roughline.report.contact_tables import material_in_words
+from roughline.report.contact_tables import solid_in_words
 from roughline.topography.body import Line, Surface
 
 if TYPE_CHECKING:
@@ -240,7 +240,7 @@ def _remarks(assessment: Assessment, table: _JointTable) -> list[str]:
             f"No materials are given, so conductances are not known; E* = {curve.E_star:.6g} Pa."
         )
     else:
-        remarks.append(f"{material_in_words(pair.first)}; {material_in_words(pair.second)}.")
+        remarks.append(f"{solid_in_words(pair.first)}; {solid_in_words(pair.second)}.")
         if _HEAT in table.columns:
             remarks.append("Conductances are those of the solid spots alone, as in vacuum.")
         kinds = {_HEAT: "thermal", _CURRENT: "electrical"}

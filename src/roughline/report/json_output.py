@@ -37,12 +37,14 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
     :attr:`Assessment.answers`.
     """
     intervals = assessment.intervals_as_asked
+    pair = assessment.question.pair
     question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip
     content = {
         "file": (question.reading.name or question.body)
         if isinstance(question.body, Path)
         else None,
         "body": _of_body(assessment.body),
+        "materials": pair and [pair.first.name, pair.second.name],
         "E_star": curve.E_star,
         "nominal_area": assessment.area,
         "joint_area": question.joint,

@@ -27,7 +27,7 @@ from roughline.report.answers import (
     starred,
 )
 from roughline.report.columns import blocks, paragraph
-from roughline.report.contact_tables import curve_table
+from roughline.report.contact_tables import curve_table, modulus_in_words
 from roughline.report.part_tables import count_in_words, leading_table, maps_table
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
@@ -57,10 +57,9 @@ def print_assessment(
     curve, pair = assessment.curve, assessment.question.pair
     model = "reduced model, exact"
     if curve.area_fraction is not None:
-        boundary = "periodic" if curve.half_space.periodic else "free"
+        boundary = curve.half_space.boundary
         model = f"full model, {boundary} half-space, residuals below {curve.settings['rtol']}"
-    of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
-    console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}", highlight=False)
+    console.print(f"{modulus_in_words(assessment)}; {model}", highlight=False)
     folded = ""
     if pair is not None:
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)

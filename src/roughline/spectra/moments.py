@@ -170,7 +170,7 @@ class Moments:
         return 4 * math.sqrt(self.m0 / (math.pi * self.nayak))
 
 
-def moments(roughness: SurfaceOrSpectrum) -> Moments:
+def moments(roughness: SurfaceOrSpectrum | Bands) -> Moments:
     """Moments of a surface or of a spectrum, from its :func:`bands`.
 
     References
@@ -178,7 +178,7 @@ def moments(roughness: SurfaceOrSpectrum) -> Moments:
     P. R. Nayak, "Random process model of rough surfaces", J. Lubr. Technol. 93, 398-407 (1971).
     J. I. McCool, "Comparison of models for the contact of rough surfaces", Wear 107, 37-60 (1986).
     """
-    spectrum = bands(roughness)
+    spectrum = roughness if isinstance(roughness, Bands) else bands(roughness)
     return Moments(
         m0=float(spectrum.power.sum()),
         m2=float((spectrum.power * spectrum.q**2).sum()) / 2,

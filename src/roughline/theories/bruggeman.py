@@ -22,7 +22,7 @@ from scipy import optimize
 from roughline.computing.arrays import Real
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
-from roughline.spectra.moments import SurfaceOrSpectrum
+from roughline.spectra.moments import Bands
 from roughline.theories.interfacial_separation import separation
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
@@ -35,18 +35,18 @@ _ROUNDING = 1e-14  # of a sum of shares
 
 
 def bruggeman(
-    roughness: SurfaceOrSpectrum, E_star: float, pressure: Real, threshold: float = _TWO_DIMENSIONS
+    spectrum: Bands, E_star: float, pressure: Real, threshold: float = _TWO_DIMENSIONS
 ) -> TheoryCurve:
     """Flow through the effective medium of the separations that Persson's theory gives.
 
     The gaps are u_1(zeta), each on the share -dA(zeta) / A_0 of the interface that loses contact at
     its magnification.
     """
-    of_persson = persson(roughness, E_star, pressure)
+    of_persson = persson(spectrum, E_star, pressure)
     aperture = np.zeros(pressure.size)
     for i in np.flatnonzero(of_persson.area_fraction < threshold):
         half = (1 - of_persson.area_fraction[i]) / 2
-        gaps = separation(roughness, E_star, pressure[i], 1 - half * (1 - _NODES))
+        gaps = separation(spectrum, E_star, pressure[i], 1 - half * (1 - _NODES))
         aperture[i] = _effective_gap(gaps, half * _WEIGHTS, threshold)
     return replace(
         of_persson,
@@ -133,7 +133,9 @@ def _effective_gap(gaps: Real, shares: Real, threshold: float) -> float:
 
     def imbalance(logarithm: float) -> float:
         medium = odds * math.exp(logarithm)
-        return float((shares * conductance / (conductance + medium)).sum()) - (1 - threshold)
+        wider = conductance > medium  # whole shares first, as terms far below them would be lost
+        parts = np.where(wider, -medium, conductance) / (conductance + medium)
+        return float(shares[wider].sum()) - (1 - threshold) + float((shares * parts).sum())
 
     root = optimize.brentq(imbalance, math.log(lowest) - 1e-9, 1e-9, xtol=1e-14)
     return widest * math.exp(root / 3)

@@ -11,15 +11,15 @@ from __future__ import annotations
 import math
 
 from roughline.computing.arrays import Real
-from roughline.spectra.moments import SurfaceOrSpectrum, moments
+from roughline.spectra.moments import Bands, moments
 from roughline.theories.theory_curve import TheoryCurve
 
 KAPPA = math.sqrt(2 * math.pi)  # contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)
 
 
-def bush_gibson_thomas(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:
+def bush_gibson_thomas(spectrum: Bands, E_star: float, pressure: Real) -> TheoryCurve:
     """Asymptotic area of Bush, Gibson and Thomas, A / A_0 = sqrt(2 pi) p / (E* rms |grad h|)."""
-    slope = moments(roughness).rms_slope
+    slope = moments(spectrum).rms_slope
     return TheoryCurve(
         "bush-gibson-thomas",
         pressure,

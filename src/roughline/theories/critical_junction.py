@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.spectra.moments import SurfaceOrSpectrum
+from roughline.spectra.moments import Bands
 from roughline.theories.interfacial_separation import separation
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
@@ -24,17 +24,17 @@ _PERCOLATION = 0.42  # share of contact of isotropic elastic surfaces, where no 
 
 
 def critical_junction(
-    roughness: SurfaceOrSpectrum, E_star: float, pressure: Real, threshold: float = _PERCOLATION
+    spectrum: Bands, E_star: float, pressure: Real, threshold: float = _PERCOLATION
 ) -> TheoryCurve:
     """Flow through one square constriction, of the gap u_c that the critical magnification shows.
 
     As the magnification zeta rises, less and less of the interface seems to touch. Where
     A(zeta_c) / A_0 is the threshold the first channel opens, and u_c = u_1(zeta_c) is its gap.
     """
-    of_persson = persson(roughness, E_star, pressure)
+    of_persson = persson(spectrum, E_star, pressure)
     aperture = np.zeros(pressure.size)
     for i in np.flatnonzero(of_persson.area_fraction < threshold):
-        aperture[i] = separation(roughness, E_star, pressure[i], np.array([threshold]))[0]
+        aperture[i] = separation(spectrum, E_star, pressure[i], np.array([threshold]))[0]
     return replace(
         of_persson,
         name="critical-junction",

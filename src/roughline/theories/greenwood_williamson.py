@@ -15,15 +15,13 @@ from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.spectra.moments import SurfaceOrSpectrum, moments
+from roughline.spectra.moments import Bands, moments
 from roughline.theories.theory_curve import TheoryCurve
 
 
-def greenwood_williamson(
-    roughness: SurfaceOrSpectrum, E_star: float, pressure: Real
-) -> TheoryCurve:
+def greenwood_williamson(spectrum: Bands, E_star: float, pressure: Real) -> TheoryCurve:
     """Greenwood and Williamson's independent spheres, with summits after Nayak and McCool."""
-    of_surface = moments(roughness)
+    of_surface = moments(spectrum)
     density, radius = of_surface.summit_density, of_surface.summit_radius
     deviation = of_surface.summit_deviation
     t = np.linspace(-3.0, 12.0, 3000)  # separation over the deviation of the summits

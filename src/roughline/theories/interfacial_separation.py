@@ -20,11 +20,11 @@ import numpy as np
 from scipy import special
 
 from roughline.computing.arrays import Real
-from roughline.spectra.moments import SurfaceOrSpectrum, bands
+from roughline.spectra.moments import Bands
 from roughline.theories.persson import energy_beyond, energy_density, stress_nodes
 
 
-def separation(roughness: SurfaceOrSpectrum, E_star: float, pressure: float, share: Real) -> Real:
+def separation(spectrum: Bands, E_star: float, pressure: float, share: Real) -> Real:
     """Separation u_1 at the magnifications that show contact on given shares of the interface.
 
     u_1 = u + u' A / A', where u(zeta) is the mean gap that the waves beyond zeta q_0 leave in the
@@ -35,7 +35,6 @@ def separation(roughness: SurfaceOrSpectrum, E_star: float, pressure: float, sha
     F(x) the integral of g(s) / s from x to infinity, u is 2 / sqrt(pi) int F(P / tau) / q dtau. Its
     derivative with t² is a sum, as q rises in steps from band to band.
     """
-    spectrum = bands(roughness)
     p = pressure / E_star
     steps = 1 / spectrum.q - np.append(1 / spectrum.q[1:], 0.0)
     found = np.zeros(share.size)

@@ -17,7 +17,7 @@ import numpy as np
 from scipy import special
 
 from roughline.computing.arrays import Real
-from roughline.spectra.moments import Bands, SurfaceOrSpectrum, bands
+from roughline.spectra.moments import Bands
 from roughline.theories.theory_curve import TheoryCurve
 
 KAPPA = math.sqrt(8 / math.pi)  # contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)
@@ -26,9 +26,9 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # within a band
 _SMALLEST, _LARGEST, _STEPS = 1e-4, 6.0, 20_000  # of the table of the energy integral
 
 
-def persson(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:
+def persson(spectrum: Bands, E_star: float, pressure: Real) -> TheoryCurve:
     """Persson's theory, with Yang and Persson's share of elastic energy, gamma = 0.45."""
-    ends, t, weight = stress_nodes(bands(roughness))
+    ends, t, weight = stress_nodes(spectrum)
     gap, compliance = np.empty((2, pressure.size))
     for i, p in enumerate(pressure / E_star):
         gap[i] = float((weight * energy_beyond(p / t)).sum())

@@ -16,18 +16,32 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import one_of, positive, refuse
 from roughline.errors.public import public
-from roughline.spectra.moments import SurfaceOrSpectrum, of_the_continuum, refuse_no_roughness
+from roughline.spectra.moments import (
+    SurfaceOrSpectrum,
+    bands,
+    of_the_continuum,
+    refuse_no_roughness,
+)
 from roughline.theories.bruggeman import bruggeman, check_threshold
 from roughline.theories.bush_gibson_thomas import bush_gibson_thomas
 from roughline.theories.critical_junction import critical_junction
 from roughline.theories.greenwood_williamson import greenwood_williamson
+from roughline.theories.layers import (
+    HOLDS_UP_TO,
+    Elastic,
+    OneMaterial,
+    felt,
+    is_even,
+    on_layers,
+    stiffening,
+)
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
 
 _OF_FLOW = {"critical-junction": critical_junction, "bruggeman": bruggeman}
 """Theories of the flow through the gap; each seals at a threshold that may be given."""
 
-THEORIES: dict[str, Callable[[SurfaceOrSpectrum, float, Real], TheoryCurve]] = {
+THEORIES: dict[str, Callable[..., TheoryCurve]] = {
     "persson": persson,
     "bush-gibson-thomas": bush_gibson_thomas,
     "greenwood-williamson": greenwood_williamson,
@@ -35,14 +49,19 @@ THEORIES: dict[str, Callable[[SurfaceOrSpectrum, float, Real], TheoryCurve]] = {
 }
 """Every theory, by its name."""
 
+OF_ONE_MATERIAL = ("bush-gibson-thomas", "greenwood-williamson")
+"""Theories of summits as spheres, which have no solution on layers."""
+
 
 @public
 def theory(
     name: str,
     roughness: SurfaceOrSpectrum,
-    E_star: float,
-    pressure: ArrayLike,
+    E_star: float | None = None,
+    pressure: ArrayLike | None = None,
     threshold: float | None = None,
+    *,
+    half_space: Elastic | None = None,
 ) -> TheoryCurve:
     """Evaluate a theory for a surface or a spectrum.
 
@@ -55,7 +74,7 @@ def theory(
         A surface, for its own waves; ``spectrum.lattice(n)``, for those of generated surfaces;
         ``spectrum.continuum``, or the spectrum itself, for integrals up to ``q_high``. Where the
         integrals of a SelfAffine are more than 5 % off its surfaces, ``validity`` says so. [length]
-    E_star : float
+    E_star : float, optional
         Contact modulus. [pressure]
     pressure : array_like, shape (loads,)
         Mean pressures over the nominal area. [pressure]
@@ -63,12 +82,16 @@ def theory(
         Of theories of flow, the share of contact at which no channel is left: 0.42 for
         "critical-junction" and 0.5, which is d = 2, for "bruggeman" unless given. Bruggeman's d is
         1 / (1 - threshold). [1]
+    half_space : HalfSpace, optional
+        What the roughness is pressed into, in place of `E_star`, such as :class:`roughline.Layered`
+        for "persson" and what rests on it; ``validity`` says how far that holds.
 
     Raises
     ------
     InputError
         If there is no theory of that name, a pressure is not positive, the spectrum has no
-        upper end, or a threshold is not between 0 and 1 or given to a theory that has none.
+        upper end, a threshold is not between 0 and 1 or given to a theory that has none, or a
+        half-space has layers, of which the theory is not.
 
     Examples
     --------
@@ -83,17 +106,63 @@ def theory(
     """
     one_of("name", name, THEORIES)
     refuse_no_roughness(roughness)
-    positive("E_star", E_star, "a positive, finite contact modulus is needed")
-    pressures = np.atleast_1d(np.asarray(pressure, dtype=np.float64))
+    elastic = _given(E_star, half_space)
+    pressures = _pressures(pressure)
+    if threshold is not None:
+        _refuse_threshold(name, threshold)
+    spectrum = bands(roughness)
+    ratio = stiffening(spectrum, elastic)
+    if name in OF_ONE_MATERIAL and not is_even(ratio):
+        raise InputError(
+            f"has layers, and the summits of {name} are spheres of one material: leave it out, or "
+            'take "persson"',
+            "half_space",
+        )
+    others = () if threshold is None else (threshold,)
+    curve = THEORIES[name](felt(spectrum, elastic), elastic.E_star, pressures, *others)
+    remark = of_the_continuum(roughness) + on_layers(ratio)
+    return replace(curve, validity=curve.validity + remark)
+
+
+def why_not(name: str, roughness: SurfaceOrSpectrum, half_space: Elastic) -> str:
+    """Say why a theory does not hold of the layers of a half-space; empty where it does."""
+    ratio = stiffening(bands(roughness), half_space)
+    if is_even(ratio):
+        return ""
+    if name in OF_ONE_MATERIAL:
+        return "its summits are spheres of one material, and one body is coated"
+    if ratio > HOLDS_UP_TO:
+        return (
+            f"the layers meet these waves {ratio:.2g} times as stiffly as the top one alone, and "
+            f"the theory was found to hold up to {HOLDS_UP_TO:g}"
+        )
+    return ""
+
+
+def _given(E_star: float | None, half_space: Elastic | None) -> Elastic:
+    """What waves feel: that of a half-space, or a contact modulus."""
+    if half_space is None:
+        needed = "a positive, finite contact modulus is needed"
+        return OneMaterial(positive("E_star", E_star, needed))
+    if E_star is not None:
+        raise InputError("half_space and E_star are given; the half-space has a modulus of its own")
+    if not hasattr(half_space, "modulus") or not hasattr(half_space, "E_star"):
+        refuse("half_space", half_space, "an rl.HalfSpace is needed, such as rl.Layered(...)")
+    return half_space
+
+
+def _refuse_threshold(name: str, threshold: float) -> None:
+    """Refuse a threshold of a theory that has none, or one that is no share."""
+    if name not in _OF_FLOW:
+        refuse("threshold", threshold, f"theories of flow alone have one: {' and '.join(_OF_FLOW)}")
+    check_threshold(threshold)
+
+
+def _pressures(given: ArrayLike | None) -> Real:
+    """Mean pressures, positive and finite."""
+    if given is None:
+        raise InputError("theory needs pressure=; give it")
+    pressures = np.atleast_1d(np.asarray(given, dtype=np.float64))
     if not ((pressures > 0) & np.isfinite(pressures)).all():
         raise InputError(f"pressures must be positive and finite; {pressures.min()} is among them")
-    if threshold is None:
-        curve = THEORIES[name](roughness, E_star, pressures)
-    else:
-        if name not in _OF_FLOW:
-            refuse(
-                "threshold", threshold, f"theories of flow alone have one: {' and '.join(_OF_FLOW)}"
-            )
-        check_threshold(threshold)
-        curve = _OF_FLOW[name](roughness, E_star, pressures, threshold)
-    return replace(curve, validity=curve.validity + of_the_continuum(roughness))
+    return pressures

@@ -15,7 +15,7 @@ _LARGEST = 1e150  # beyond it, squares of lengths leave the range of double prec
 _BLOCK = 2**16  # heights summed at a time
 
 
-def checked_heights(heights: Any, dimensions: int) -> Real:
+def checked_heights(heights: Any, dimensions: int, body: str = "") -> Real:
     """Return heights as a read-only array of finite numbers, without a copy where possible."""
     if isinstance(heights, np.ma.MaskedArray):
         missing = int(np.count_nonzero(np.ma.getmaskarray(heights)))
@@ -37,7 +37,7 @@ def checked_heights(heights: Any, dimensions: int) -> Real:
         what = "complex numbers" if str(error) == "complex" else shown(heights)
         raise InputError(f"are not an array of real numbers, but {what}", "heights") from error
     if array.ndim != dimensions:
-        name = {1: "a Line", 2: "a Surface"}[dimensions]
+        name = body or {1: "a Line", 2: "a Surface"}[dimensions]
         raise InputError(
             f"the heights have {array.ndim} dimensions; {name} takes {dimensions}: reshape them"
         )
@@ -50,6 +50,24 @@ def checked_heights(heights: Any, dimensions: int) -> Real:
         )
     if largest > _LARGEST:
         raise InputError(f"heights reach {largest:.3g}; at most {_LARGEST:g}: rescale")
+    array.flags.writeable = False
+    return array
+
+
+def checked_radii(radii: Any) -> Real:
+    """Return radii of a profile as a read-only array that rises from zero."""
+    needed = "numbers that rise from zero, at least two, are needed"
+    try:
+        given = np.ma.asarray(radii)
+    except (TypeError, ValueError):
+        refuse("radii", radii, needed)
+    if given.dtype.kind not in "iuf" or given.ndim != 1 or given.size < 2:
+        refuse("radii", radii, needed)
+    array = np.ma.filled(given.astype(np.float64), np.nan)
+    if array[0] != 0 or not (np.diff(array) > 0).all():
+        refuse("radii", radii, needed)
+    if not _is_length(array[-1]):
+        refuse("radii", radii, f"the largest is {array[-1]:g}, and at most {_LARGEST:g} is allowed")
     array.flags.writeable = False
     return array
 

@@ -45,11 +45,13 @@ class _BorderJump:
         )
 
 
-def border_jump(surface: Surface) -> _BorderJump:
-    """Measure the jump across the borders of a surface that is repeated periodically."""
+def border_jump(surface: Surface, repeats: tuple[bool, bool] = (True, True)) -> _BorderJump:
+    """Measure the jump across the borders of a surface that is repeated, along x and y or one."""
     across, within = [], []
     slopes_across = slopes_within = 0.0
-    for axis, spacing in enumerate(surface.spacing):
+    for axis, (spacing, repeated) in enumerate(zip(surface.spacing, repeats, strict=True)):
+        if not repeated:
+            continue
         heights = np.moveaxis(surface.heights, axis, 0)
         across.append(heights[0] - heights[-1])
         within.append(np.diff(heights, axis=0).ravel())

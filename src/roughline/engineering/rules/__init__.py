@@ -4,13 +4,14 @@ import copyreg
 
 from roughline.engineering.rule import Rule, Rules
 from roughline.engineering.rules.acoustic import ACOUSTIC
+from roughline.engineering.rules.adhesion import ADHESION
 from roughline.engineering.rules.contact import CONTACT
 from roughline.engineering.rules.electrical import ELECTRICAL
 from roughline.engineering.rules.mechanical import MECHANICAL
 from roughline.engineering.rules.sealing import SEALING
 from roughline.engineering.rules.thermal import THERMAL
 
-rules = Rules([*MECHANICAL, *CONTACT, *ELECTRICAL, *THERMAL, *SEALING, *ACOUSTIC])
+rules = Rules([*MECHANICAL, *CONTACT, *ADHESION, *ELECTRICAL, *THERMAL, *SEALING, *ACOUSTIC])
 """By which all answers are worked out; more can be added."""
 
 

@@ -16,7 +16,9 @@ from roughline.engineering.rule import Limits, Rule
 def _lacking(pair: MaterialPair, frequency: float | None) -> str:
     if frequency is None:
         return ""
-    if not (pair.first.carries_sound and pair.second.carries_sound):
+    if pair.coated:
+        return pair.refuses_layers("reflection", "layers reflect a part of the wave themselves")
+    if not (pair.first.surface.carries_sound and pair.second.surface.carries_sound):
         return "no reflection: a rigid or an incompressible body carries no such wave"
     return pair.lacks("density", "reflection")
 

@@ -7,19 +7,26 @@ from functools import partial
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.engineering.formulas import electrical_resistance, holm_resistance
+from roughline.engineering.conduction import of_contact, spreading, through_layers
+from roughline.engineering.formulas import COMPARED, electrical_resistance, holm_resistance
+from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 
 _rule = partial(Rule, group="electrical")
 
 
+def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
+    return pair.lacks("resistivity", "constriction resistance")
+
+
 def _resistance(pressed: Pressed) -> Real | None:
-    resistivities = pressed.pair.both("resistivity")
-    if resistivities is None:
+    resistivities = pressed.pair.at_surfaces("resistivity")
+    stiffness = of_contact(pressed, "resistivity")
+    if resistivities is None or stiffness is None:
         return None
     with np.errstate(divide="ignore"):
-        return electrical_resistance(pressed.unloading, pressed.pair.E_star, resistivities)
+        return electrical_resistance(stiffness, pressed.pair.E_star, resistivities)
 
 
 def _specific_resistance(pressed: Pressed) -> Real | None:
@@ -46,7 +53,9 @@ ELECTRICAL = (
         "like the displacement on unloading, however the spots were formed",
         source="Barber 2003",
         value=_resistance,
-        lacking=lambda pair, _frequency: pair.lacks("resistivity", "constriction resistance"),
+        differing=partial(through_layers, "clean metal; films add to it"),
+        lacking=_lacking,
+        measured_of=partial(spreading, quantity="resistivity"),
         leads=always,
         is_extensive=True,
         may_be_infinite=True,
@@ -73,6 +82,7 @@ ELECTRICAL = (
         "resistance, and elastic spots, which are smaller, have more",
         source="Holm 1967",
         value=_of_single_spot,
+        lacking=lambda pair, _frequency: pair.refuses_layers(*COMPARED),
         is_extensive=True,
         is_of_hardness_alone=True,
         may_be_infinite=True,

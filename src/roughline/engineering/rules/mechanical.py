@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.engineering.formulas import constriction_of_disc, electrical_resistance
+from roughline.engineering.formulas import electrical_resistance
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule
 from roughline.units import decimal, engineering
@@ -73,12 +74,14 @@ def _meaning_of_joint(pressed: Pressed, *, bodies_matter: bool) -> str:
     """Say what a joint is taken to be, and what is left out of it, where that matters or else."""
     if pressed.joint is None:
         return ""
-    disc = constriction_of_disc(pressed.joint, pressed.curve.E_star)
+    disc = pressed.curve.half_space.disc_stiffness(math.sqrt(pressed.joint / math.pi))
     share = float(np.nanmax(pressed.interface_stiffness[0], initial=0.0)) / disc
     if (share > _CONSTRICTION_MATTERS) != bodies_matter:
         return ""
     resistivities = pressed.pair.both("resistivity")
     added = engineering(disc, "N/m")
+    if pressed.pair.coated:
+        added = f"about {added}"
     if resistivities is not None:
         resistance = electrical_resistance(disc, pressed.curve.E_star, resistivities)
         added += f" and {engineering(resistance, 'ohm')}"
@@ -210,6 +213,10 @@ MECHANICAL = (
         "causes no yield",
         source="Popov 2017, ch. 8",
         value=lambda pressed: pressed.pair.G_star / pressed.pair.E_star * pressed.unloading,
+        lacking=lambda pair, _frequency: pair.refuses_layers(
+            "tangential stiffness",
+            "its ratio to the normal one is that of bodies of one material each",
+        ),
         is_extensive=True,
         may_be_infinite=True,
     ),

@@ -212,7 +212,8 @@ def _bisected(
     which: Callable[[Closing], SealingPressure | Reopening | None], pressed: Pressed
 ) -> Real | None:
     """What bisection found, the same under all loads, with its ends where they are known."""
-    found = None if pressed.closing is None else which(pressed.closing)
+    closing = pressed.sought.closing
+    found = None if closing is None else which(closing)
     if found is None:
         return None
     rows = [found.value] if np.isnan(found.interval).any() else [found.value, *found.interval]
@@ -221,7 +222,8 @@ def _bisected(
 
 def _stays_tight(pressed: Pressed) -> str:
     """Say where the load may be taken off altogether."""
-    reopens = None if pressed.closing is None else pressed.closing.reopening
+    closing = pressed.sought.closing
+    reopens = None if closing is None else closing.reopening
     if reopens is None or reopens.low > 0:
         return ""
     return (

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 
 from roughline.computing.arrays import Real
+from roughline.engineering.conduction import of_contact, of_interface, spreading, through_layers
 from roughline.engineering.formulas import (
+    COMPARED,
     mikic_conductance,
     thermal_conductance,
     yovanovich_conductance,
@@ -24,16 +27,26 @@ def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
     return pair.lacks("conductivity", "thermal conductance")
 
 
-def _conductance_of(stiffness: Real, pressed: Pressed) -> Real | None:
-    conductivities = pressed.pair.both("conductivity")
-    if conductivities is None:
+def _conductance_of(stiffness: Real | None, pressed: Pressed) -> Real | None:
+    conductivities = pressed.pair.at_surfaces("conductivity")
+    if conductivities is None or stiffness is None:
         return None
     return thermal_conductance(stiffness, pressed.pair.E_star, conductivities)
 
 
 def conductance_of_interface(pressed: Pressed) -> Real | None:
     """Conductance per area of the solid spots, in rows. [W / (m² K)]"""
-    return _conductance_of(pressed.interface_stiffness / pressed.nominal_area, pressed)
+    stiffness = of_interface(pressed, "conductivity")
+    return None if stiffness is None else _conductance_of(stiffness / pressed.nominal_area, pressed)
+
+
+def _which_interface(pressed: Pressed) -> Mapping[str, str]:
+    validity = f"{_OF_INTERFACE}{pressed.of_interface}"
+    return through_layers(validity, pressed) or {"validity": validity}
+
+
+def _estimated(pair: MaterialPair, _frequency: float | None) -> str:
+    return pair.refuses_layers(*COMPARED)
 
 
 def _without_gas(pressed: Pressed) -> str:
@@ -78,8 +91,10 @@ THERMAL = (
         validity=f"{_IN_VACUUM}. k_u, as heat spreads from the contact spots however they were "
         "formed",
         source="Barber 2003",
-        value=lambda pressed: _conductance_of(pressed.unloading, pressed),
+        value=lambda pressed: _conductance_of(of_contact(pressed, "conductivity"), pressed),
+        differing=partial(through_layers, _IN_VACUUM),
         lacking=_lacking,
+        measured_of=partial(spreading, quantity="conductivity"),
         is_extensive=True,
         may_be_infinite=True,
     ),
@@ -92,7 +107,7 @@ THERMAL = (
         validity=_OF_INTERFACE,
         source="Barber 2003",
         value=conductance_of_interface,
-        differing=lambda pressed: {"validity": f"{_OF_INTERFACE}{pressed.of_interface}"},
+        differing=_which_interface,
         lacking=_lacking,
         note=_without_gas,
         leads=always,
@@ -108,6 +123,7 @@ THERMAL = (
         validity=f"{_IN_VACUUM}. Gaussian heights, light loads, no large waves",
         source="Mikic 1974",
         value=_mikic,
+        lacking=_estimated,
     ),
     _rule(
         key="plastic_conductance",
@@ -118,6 +134,7 @@ THERMAL = (
         validity=f"{_IN_VACUUM}. Gaussian heights, all contact plastic",
         source="Yovanovich 2005",
         value=_plastic,
+        lacking=_estimated,
         is_of_hardness_alone=True,
     ),
 )

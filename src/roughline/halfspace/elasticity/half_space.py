@@ -3,11 +3,34 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.checks import as_plain, refuse
+
+Periodic = bool | Literal["x", "y"]
+"""Whether pressures repeat themselves beyond the grid: along both axes, none, or one of them."""
+
+
+def given_periodic(argument: str, given: Any) -> Periodic:
+    """Return along which axes pressures repeat themselves; refuse all else."""
+    value = as_plain(given)
+    for each in (True, False):
+        if value is each:
+            return each
+    for axis in ("x", "y"):
+        if isinstance(value, str) and value == axis:
+            return axis
+    refuse(argument, given, 'True, False, "x" or "y" is needed')
+
+
+def repeated_axes(periodic: Periodic) -> tuple[bool, bool]:
+    """Return whether pressures repeat themselves along x, and along y."""
+    return periodic in (True, "x"), periodic in (True, "y")
 
 
 class HalfSpace(ABC):
@@ -22,16 +45,22 @@ class HalfSpace(ABC):
     E_star : float
         Contact modulus E* of the surface, for waves much shorter than anything that the body is
         made of. It is the unit of pressures, of `force_bar` and of `stiffness_bar`. [pressure]
-    periodic : bool
-        Whether pressures repeat themselves beyond the grid. If not, the surface is free there.
+    periodic : bool, "x" or "y"
+        Whether pressures repeat themselves beyond the grid: along both axes, none, or the one that
+        is named. Where they do not, the surface is free. The half-space that repeats along one axis
+        and is free across is a strip.
     is_pushed_everywhere : bool
         Whether pressure displaces no place of the surface towards the other body. Then nothing can
         touch where the bodies are farther apart than they approach, and is not looked at.
+    spread : float
+        How far layers that are harder than their base spread a load, beyond what one material does.
+        The depth of a strip counts from a place that is so much farther away. [length]
     """
 
     E_star: float
-    periodic: bool
+    periodic: Periodic
     is_pushed_everywhere: bool = False
+    spread: float = 0.0
 
     @abstractmethod
     def spectrum(self, q: Real) -> Real:
@@ -53,7 +82,8 @@ class HalfSpace(ABC):
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of displacements under unit pressure on one cell.
 
-        Only a free half-space is asked for it.
+        It is that of the free half-space, whatever repeats itself. Only a half-space that is free
+        along an axis is asked for it.
 
         Parameters
         ----------
@@ -83,20 +113,202 @@ class HalfSpace(ABC):
             The new units, in the old ones. [pressure] and [length]
         """
 
-    @abstractmethod
     def disc_stiffness(self, radius: float) -> float:
         """Return the force per approach of a rigid disc on the free half-space. [force / length]
 
-        Guesses and the least of spaced loads are taken from it, so that an estimate will do.
+        Guesses and the range of spaced loads are taken from it, so that an estimate will do. It
+        follows from the spectrum, to some percent; a half-space that knows better may say so.
 
         Parameters
         ----------
         radius : float
             Its radius. [length]
         """
+        # here because special functions load slowly
+        from roughline.halfspace.elasticity.disc import disc_stiffness
+
+        return disc_stiffness(self.spectrum, radius)
+
+    def refuse(self, spacing: tuple[float, float]) -> None:  # noqa: B027 as most resolve it
+        """Refuse a grid that does not resolve the half-space, if there are such grids.
+
+        It is asked of the grid of a surface, not of the coarser ones that guesses come from.
+
+        Parameters
+        ----------
+        spacing : tuple of float
+            Sides of a cell, (dx, dy). [length]
+
+        Raises
+        ------
+        InputError
+            If the grid is too coarse.
+        """
+
+    def modulus(self, q: Real) -> Real:
+        """Return the contact modulus that waves feel.
+
+        It is that of a homogeneous half-space which they displace as much. Waves much shorter than
+        anything that the body is made of feel `E_star`.
+
+        Parameters
+        ----------
+        q : ndarray
+            Wavenumbers 2 pi / wavelength, positive. [1 / length]
+
+        Returns
+        -------
+        ndarray, shape of q
+            2 / (q C(q)), with the displacement C over the pressure. [pressure]
+        """
+        return 2 / (q * self.spectrum(q))
+
+    def __add__(self, other: HalfSpace) -> HalfSpace:
+        """Return both, one facing the other: :class:`~roughline.TwoBodies`."""
+        return TwoBodies(self, other)
+
+    @property
+    def repeats(self) -> tuple[bool, bool]:
+        """Whether pressures repeat themselves beyond the grid along x, and along y."""
+        return repeated_axes(self.periodic)
+
+    @property
+    def boundary(self) -> str:
+        """What is beyond the grid, in words: free, periodic, or periodic along one axis."""
+        return ("free", "periodic along x", "periodic along y", "periodic")[
+            int(self.repeats[0]) + 2 * int(self.repeats[1])
+        ]
+
+    @property
+    def has_base(self) -> bool:
+        """Whether an even pressure displaces by a finite length, as on a rigid base."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return not bool(np.isinf(self.spectrum(np.zeros(1)))[0])
 
     @property
     def mean_is_free(self) -> bool:
         """Whether displacements count from their mean, as an even pressure has no bounded one."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return self.periodic and bool(np.isinf(self.spectrum(np.zeros(1)))[0])
+        return all(self.repeats) and not self.has_base
+
+
+@dataclass(frozen=True)
+class TwoBodies(HalfSpace):
+    """Two half-spaces under the same pressure, whose displacements add.
+
+    It is what ``first + second`` makes of half-spaces.
+
+    Parameters
+    ----------
+    first, second : HalfSpace
+        What the two bodies are, such as a :class:`~roughline.Layered` and a
+        :class:`~roughline.Homogeneous` one. Both have the same `periodic`.
+
+    Raises
+    ------
+    InputError
+        If one is no half-space, or both do not repeat themselves along the same axes.
+
+    References
+    ----------
+    .. [1] K. L. Johnson, *Contact Mechanics*, Cambridge (1985), §4.2: a compliance is the sum of
+       those of the two bodies.
+    """
+
+    first: HalfSpace
+    second: HalfSpace
+
+    def __post_init__(self) -> None:
+        for name in ("first", "second"):
+            if not isinstance(getattr(self, name), HalfSpace):
+                raise InputError(
+                    f"is {getattr(self, name)!r}; a half-space such as rl.Homogeneous(E_star) is "
+                    "needed for each of the two bodies",
+                    name,
+                )
+        if self.first.repeats != self.second.repeats:
+            raise InputError(
+                f"one half-space is {self.first.boundary} and the other is {self.second.boundary}; "
+                "give both the same boundary"
+            )
+
+    @property
+    def E_star(self) -> float:  # type: ignore[override]
+        """Contact modulus of both, 1 / E* = 1 / E*_1 + 1 / E*_2. [pressure]"""
+        return 1 / (1 / self.first.E_star + 1 / self.second.E_star)
+
+    @property
+    def periodic(self) -> Periodic:  # type: ignore[override]
+        """Whether pressures repeat themselves beyond the grid."""
+        return self.first.periodic
+
+    @property
+    def is_pushed_everywhere(self) -> bool:  # type: ignore[override]
+        """Whether pressure displaces no place of either surface towards the other body."""
+        return self.first.is_pushed_everywhere and self.second.is_pushed_everywhere
+
+    @property
+    def spread(self) -> float:  # type: ignore[override]
+        """How far a hard layer of one of them spreads a load. [length]"""
+        return max(self.first.spread, self.second.spread)
+
+    def spectrum(self, q: Real) -> Real:
+        """Return the displacement over the pressure of waves."""
+        return self.first.spectrum(q) + self.second.spectrum(q)
+
+    def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
+        """Fill rows of the table of displacements under unit pressure on one cell."""
+        self.first.kernel(first, spacing, rows)
+        other = np.empty_like(rows)
+        self.second.kernel(first, spacing, other)
+        rows += other
+
+    def refuse(self, spacing: tuple[float, float]) -> None:
+        """Refuse grids that do not resolve one of the two."""
+        self.first.refuse(spacing)
+        self.second.refuse(spacing)
+
+    def in_units(self, pressure: float, length: float) -> TwoBodies:
+        """Return the same half-spaces in other units."""
+        return TwoBodies(*(each.in_units(pressure, length) for each in (self.first, self.second)))
+
+
+@dataclass(frozen=True)
+class Repeated(HalfSpace):
+    """A free half-space, repeated without an end, whose displacements count from their mean.
+
+    So they do of every deep body. Layers on a rigid base are displaced by even pressure, too. Here
+    that is left out, and what is left is the interface alone.
+
+    Parameters
+    ----------
+    free : HalfSpace
+        What is repeated.
+    """
+
+    free: HalfSpace
+
+    @property
+    def E_star(self) -> float:  # type: ignore[override]
+        """Contact modulus of the surface. [pressure]"""
+        return self.free.E_star
+
+    @property
+    def periodic(self) -> bool:  # type: ignore[override]
+        """Pressures repeat themselves beyond the grid."""
+        return True
+
+    def spectrum(self, q: Real) -> Real:
+        """Return the displacement over the pressure of waves; without a bound for even pressure."""
+        return np.where(q == 0, np.inf, self.free.spectrum(q))
+
+    def refuse(self, spacing: tuple[float, float]) -> None:
+        """Refuse grids that do not resolve what is repeated."""
+        self.free.refuse(spacing)
+
+    def in_units(self, pressure: float, length: float) -> Repeated:
+        """Return the same half-space in other units."""
+        return Repeated(self.free.in_units(pressure, length))
+
+    def disc_stiffness(self, radius: float) -> float:
+        """Return the force per approach of a rigid disc on what is repeated."""
+        return self.free.disc_stiffness(radius)

@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
 
 
 @dataclass(frozen=True)
@@ -20,37 +20,45 @@ class Homogeneous(HalfSpace):
     ----------
     E_star : float
         Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [pressure]
-    periodic : bool, optional
-        Whether pressures repeat themselves beyond the grid. If not, the surface is free there.
+    periodic : bool, "x" or "y", optional
+        Whether pressures repeat themselves beyond the grid: along both axes, none, or the one that
+        is named. Where they do not, the surface is free. Along one axis only, depths count from a
+        place as far away across as the surface is wide: far across from a load, its mean along that
+        axis displaces by (2 / (pi E*)) ln(width / distance) for each force per length.
 
     Raises
     ------
     InputError
-        If the modulus is not positive and finite.
+        If the modulus is not positive and finite, or `periodic` is something else.
 
     References
     ----------
     .. [1] K. L. Johnson, *Contact Mechanics*, Cambridge (1985), §13.2 (waves), eq. 3.25 (cells),
-       eq. 3.36 (discs).
+       eq. 3.36 (discs), §2.3 (lines).
     """
 
     E_star: float
-    periodic: bool = False
+    periodic: Periodic = False
 
     def __post_init__(self) -> None:
         if not 0 < self.E_star < math.inf:
             raise InputError(
                 f"E_star is {self.E_star!r}; a positive, finite contact modulus is needed"
             )
+        given_periodic("periodic", self.periodic)
 
     @property
     def is_pushed_everywhere(self) -> bool:  # type: ignore[override]
         """Whether the surface is free: the kernel is positive everywhere then."""
-        return not self.periodic
+        return not any(self.repeats)
 
     def spectrum(self, q: Real) -> Real:
         """Return 2 / (E* q), the displacement over the pressure of waves."""
         return 2 / (self.E_star * q)
+
+    def modulus(self, q: Real) -> Real:
+        """Return E*, which all waves feel."""
+        return np.full_like(q, self.E_star)
 
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of displacements under unit pressure on one cell."""

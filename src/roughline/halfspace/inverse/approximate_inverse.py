@@ -5,6 +5,9 @@ What is smooth over blocks of 16 cells is inverted by the inverse convolution of
 blocks. The two spaces are split by zero means, so each adds only what the other cannot represent;
 the splitting is stable for operators of this order [1]_ [2]_.
 
+A hard layer on a soft base bends as a plate does, and its compliance falls faster with the
+wavenumber than that. There the inverse convolution of the whole grid is used.
+
 References
 ----------
 .. [1] P. Oswald, "Multilevel norms for H^(-1/2)", Computing 61, 235-255 (1998).
@@ -15,7 +18,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -28,10 +31,13 @@ from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
 from roughline.halfspace.operators.grid_nodes import ROUNDING, GridNodes, unit_in_single
-from roughline.halfspace.operators.restricted import RestrictedOperators
+from roughline.halfspace.operators.restricted import RESOLVED, RestrictedOperators, felt_beneath
 
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
+
+_STEEP = 50.0  # fall of wavenumber times compliance, from which on plates bend
+_LEAST = 0.1  # of the compliance of a wave, which no eigenvalue on a grid is taken to be below
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +61,11 @@ class ApproximateInverse:
         stretch = float(np.clip(np.sqrt(dy / dx), 0.25, 4.0))  # of stencil and blocks along x
         offsets, taps = _stencil(operator, stretch)
         reach_x, reach_y = (int(each) for each in abs(offsets).max(axis=0))
-        sides = min(round(_BLOCK * stretch), nx), min(round(_BLOCK / stretch), ny)
+        assert operator.half_space is not None
+        block = _BLOCK
+        if felt_beneath(operator.half_space, block / 4 * min(dx, dy)) > RESOLVED:
+            block //= 2
+        sides = min(round(block * stretch), nx), min(round(block / stretch), ny)
         corners = np.arange(0, nx, sides[0]), np.arange(0, ny, sides[1])
         whole, origin = (operator.spectrum, operator.periods), (np.zeros(1), np.zeros(1))
         return cls(
@@ -80,11 +90,40 @@ class ApproximateInverse:
         Cut short, the kernel may have eigenvalues that are too small.
         """
         (mx, my), kernel = self.block_kernel.shape, self.block_kernel
-        if self.operator.periods != self.operator.shape:
-            mx, my = max(1, 2 * mx - 2), max(1, 2 * my - 2)
+        mx, my = (
+            n if repeated else max(1, 2 * n - 2)
+            for n, repeated in zip((mx, my), self.operator.repeats, strict=True)
+        )
         x, y = (np.minimum(np.arange(n), -np.arange(n) % n) for n in (mx, my))
         spectrum = fft.half_spectrum(kernel[x[:, np.newaxis], y]).real
         return 1 / (np.maximum(spectrum, 0.1 * np.median(spectrum)) * mx * my), (mx, my)
+
+    @cached_property
+    def is_of_plates(self) -> bool:
+        """Whether plates bend on the grid."""
+        return bends_as_plates(self.operator)
+
+    @cached_property
+    def of_waves(self) -> Convolution:
+        """The inverse convolution of the whole grid."""
+        operator, half_space = self.operator, self.operator.half_space
+        assert half_space is not None
+        kx, ky = (
+            2 * np.pi / (n * side) * np.arange(n // 2 + 1)
+            for n, side in zip(operator.periods, operator.spacing, strict=True)
+        )
+        modes, inverse = float(np.prod(operator.periods)), operator.spectrum.copy()
+
+        def fill(first: int, last: int) -> None:
+            q, eigenvalues = np.hypot(kx[first:last, np.newaxis], ky), inverse[first:last]
+            q[q == 0] = max(kx[-1], ky[-1])  # in place of no wave
+            np.maximum(eigenvalues, _LEAST / modes * half_space.spectrum(q), out=eigenvalues)
+
+        fft.share_out_blocks(fill, kx.size, 1 + fft.VALUES_AT_A_TIME // ky.size)
+        inverse[0, 0] += _raised(operator)
+        inverse *= modes**2
+        np.reciprocal(inverse, out=inverse)
+        return replace(operator, spectrum=inverse, half_space=None)
 
     @cached_property
     def stencil(self) -> tuple[Integers, Single]:
@@ -107,6 +146,16 @@ class ApproximateInverse:
         kernel = self.operator.displacement(np.ones(1), corner, None, "float32")
         kernel += _raised(self.operator)
         return kernel.astype(np.float32)
+
+
+def bends_as_plates(operator: Convolution) -> bool:
+    """Whether compliance falls far more with the wavenumber than a half-space's does."""
+    half_space, spacing = operator.half_space, operator.spacing
+    assert half_space is not None
+    sides = [n * side for n, side in zip(operator.periods, spacing, strict=True)]
+    q = np.geomspace(2 * np.pi / max(sides), np.pi / min(spacing))
+    compliance = q * half_space.spectrum(q)
+    return bool((np.maximum.accumulate(compliance) > _STEEP * compliance).any())
 
 
 def _raised(operator: Convolution) -> float:
@@ -139,7 +188,9 @@ _Preconditioner = Callable[[Real], Real]
 
 def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> _Preconditioner:
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
-    return (_Direct if nodes.indices.size <= _DIRECT else _TwoLevels)(inverse, nodes)
+    if nodes.indices.size <= _DIRECT:
+        return _Direct(inverse, nodes)
+    return (_Waves if inverse.is_of_plates else _TwoLevels)(inverse, nodes)
 
 
 class _Direct:
@@ -162,6 +213,20 @@ class _Direct:
             return residual
         half = blas.dtrsv(self._factor, residual, lower=1)
         return blas.dtrsv(self._factor, half, lower=1, trans=1, overwrite_x=1)
+
+
+class _Waves:
+    """The inverse convolution of the whole grid, cut to the contact nodes.
+
+    It is taken in double precision, as compliances of waves differ by many powers of ten.
+    """
+
+    def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
+        self._convolution, self._nodes = inverse.of_waves, nodes
+
+    def __call__(self, residual: Real) -> Real:
+        """Return the change of pressure that causes the displacement `residual`, about."""
+        return self._convolution.displacement(residual, self._nodes, self._nodes)
 
 
 class _TwoLevels:

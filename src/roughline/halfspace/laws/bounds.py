@@ -74,7 +74,8 @@ class Bounds:
         touching = self.touching(pressure)
         rest = total - float(pressure[~touching].sum())
         now = float(pressure[touching].sum())
-        if (rest < 0 or not touching.any()) and np.any(self.low):
+        pulls = rest <= 0 or not touching.any() or float(pressure[touching].min()) < 0
+        if pulls and np.any(self.low):
             follow = touching if touching.any() else np.ones_like(touching)
             pressure[follow] += (total - float(pressure.sum())) / int(follow.sum())
             return pressure

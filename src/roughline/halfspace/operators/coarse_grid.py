@@ -40,17 +40,20 @@ class PaddedGrid:
         padded = shape[0] + 2 * margins[0], shape[1] + 2 * margins[1]
         return cls(workspace.array("padded grid", padded, np.float32), margins)
 
-    def wrap(self) -> None:
-        """Fill the margin with what lies a period away."""
-        for values, margin in zip((self.values, self.values.T), self.margins, strict=True):
-            values[:margin] = values[-2 * margin : -margin]
-            values[-margin:] = values[margin : 2 * margin]
+    def wrap(self, repeats: tuple[bool, bool]) -> None:
+        """Fill the margins along x and y, where these repeat, with what lies a period away."""
+        both = self.values, self.values.T
+        for values, margin, repeated in zip(both, self.margins, repeats, strict=True):
+            if repeated:
+                values[:margin] = values[-2 * margin : -margin]
+                values[-margin:] = values[margin : 2 * margin]
 
-    def clear(self, nodes: GridNodes, *, wrapped: bool = False) -> None:
-        """Set the nodes to zero, and the margin where it was filled."""
+    def clear(self, nodes: GridNodes, *, wrapped: tuple[bool, bool] = (False, False)) -> None:
+        """Set the nodes to zero, and the margins where they were filled."""
         _clear_runs(nodes.rows, nodes.columns, *nodes.runs, self.values, self.margins)
-        if wrapped:
-            for values, margin in zip((self.values, self.values.T), self.margins, strict=True):
+        both = self.values, self.values.T
+        for values, margin, repeated in zip(both, self.margins, wrapped, strict=True):
+            if repeated:
                 values[:margin] = values[-margin:] = 0
 
 
@@ -64,7 +67,7 @@ class CoarseGrid:
 
     convolution: Convolution
     weights: tuple[Single, Single]
-    periodic: bool
+    repeats: tuple[bool, bool]  # along x and y
 
     @classmethod
     def of(cls, operator: Convolution, ratios: tuple[int, int], spectrum: Real) -> CoarseGrid:
@@ -77,13 +80,15 @@ class CoarseGrid:
         # the spectrum of a B-spline's values on the grid, there and back
         x, y = ((2 + np.cos(2 * np.pi / n * np.arange(n // 2 + 1))) / 3 for n in (px, py))
         corrected = spectrum / (x[:, np.newaxis] * y) ** 2
-        periodic = operator.periods == operator.shape
-        nx, ny = (-(-n // ratio) + _BEYOND for n, ratio in zip(operator.shape, ratios, strict=True))
+        nx, ny = (
+            n // ratio if repeated else -(-n // ratio) + _BEYOND
+            for n, ratio, repeated in zip(operator.shape, ratios, operator.repeats, strict=True)
+        )
         dx, dy = (ratio * side for ratio, side in zip(ratios, operator.spacing, strict=True))
-        shape = (px, py) if periodic else (nx, ny)
         work = operator.workspace
-        convolution = Convolution(shape, (dx, dy), (px, py), corrected, workspace=work)
-        return cls(convolution, (_spline_weights(ratios[0]), _spline_weights(ratios[1])), periodic)
+        convolution = Convolution((nx, ny), (dx, dy), (px, py), corrected, workspace=work)
+        weights = _spline_weights(ratios[0]), _spline_weights(ratios[1])
+        return cls(convolution, weights, operator.repeats)
 
     @cached_property
     def _half_spectrum(self) -> Single:
@@ -98,9 +103,12 @@ class CoarseGrid:
 
     def displacement(self, pressure: Single, sources: GridNodes, grid: PaddedGrid) -> Single:
         """Return the displacement of the coarse nodes, and leave the pressures on a fine grid."""
-        (nx, ny), beyond = self.convolution.shape, _BEYOND if self.periodic else 0
+        nx, ny = (
+            n + _BEYOND if repeated else n
+            for n, repeated in zip(self.convolution.shape, self.repeats, strict=True)
+        )
         spread, moved = (
-            self.convolution.workspace.array(part, (nx + beyond, ny + beyond), np.float32)
+            self.convolution.workspace.array(part, (nx, ny), np.float32)
             for part in ("spread pressures", "coarse displacements")
         )
         lines = np.empty((sources.rows.size, spread.shape[1]), dtype=np.float32)
@@ -116,13 +124,16 @@ class CoarseGrid:
 
         fft.share_out_blocks(spread_along, sources.rows.size, sources.rows_of(fft.VALUES_AT_A_TIME))
         fft.share_out_blocks(spread_across, len(spread), 1 + fft.VALUES_AT_A_TIME // len(spread))
-        if self.periodic:
-            grid.wrap()
-            for values in (spread, spread.T):  # what lies beyond a period, to a period away
-                values[-_BEYOND] += values[0]
-                values[1:_BEYOND] += values[-2:]
-            inner = np.ascontiguousarray(spread[1:-2, 1:-2])
-            moved[:] = np.pad(self._convolved(inner, np.empty_like(inner)), (1, 2), mode="wrap")
+        if any(self.repeats):
+            grid.wrap(self.repeats)
+            for values, repeated in zip((spread, spread.T), self.repeats, strict=True):
+                if repeated:  # what lies beyond a period, to a period away
+                    values[-_BEYOND] += values[0]
+                    values[1:_BEYOND] += values[-2:]
+            beyond = [(1, 2) if repeated else (0, 0) for repeated in self.repeats]
+            (left, right), (low, high) = beyond
+            inner = np.ascontiguousarray(spread[left : nx - right, low : ny - high])
+            moved[:] = np.pad(self._convolved(inner, np.empty_like(inner)), beyond, mode="wrap")
             return moved
         return self._convolved(spread, moved)
 

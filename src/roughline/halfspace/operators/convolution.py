@@ -24,7 +24,8 @@ _LARGE = 2**22  # points of the padded rows, from which on memory counts
 class Convolution:
     """Displacement of the surface under the pressures on a grid, computed by Fourier transforms.
 
-    The periods of the transform are twice the grid or more (free), or the grid itself (periodic).
+    Along each axis the period of the transform is twice the grid or more (free), or the grid itself
+    (periodic).
     The spectrum holds the eigenvalues over their product, the normalisation of the two transforms.
     The kernel is even in x and y, so the spectrum is real and even, and a quarter of it is stored.
     """
@@ -40,6 +41,11 @@ class Convolution:
     def cell_area(self) -> float:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
+
+    @property
+    def repeats(self) -> tuple[bool, bool]:
+        """Whether the grid is a period along x, and along y."""
+        return self.periods[0] == self.shape[0], self.periods[1] == self.shape[1]
 
     @property
     def mean_is_free(self) -> bool:
@@ -78,7 +84,7 @@ class Convolution:
         modes = self.periods[0] * self.periods[1]
         fit = targets <= _ROWS_AT_A_TIME * self.shape[1]
         few = sources * targets <= _PAIRS * modes
-        free = self.half_space is not None and not self.half_space.periodic
+        free = self.half_space is not None and not any(self.repeats)
         return free and modes >= _MANY and fit and few
 
     def _summed(self, pressure: Real, sources: GridNodes, targets: GridNodes, result: Real) -> Real:

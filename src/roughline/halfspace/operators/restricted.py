@@ -6,6 +6,9 @@ themselves [2]_. In Fourier space, far is K times erfc(q w / 2), where w is the 
 smoothing: near then falls like erfc(r / w) / r, and is cut at a few coarse cells. Products have
 an error of about a thousandth. The correction of the defect by the exact convolution removes it.
 
+That is so where K falls as 1 / q. What a layered body adds to that is smooth as a whole, if the
+coarse grid resolves the depth that it comes from, and far.
+
 References
 ----------
 .. [1] A. Brandt and A. A. Lubrecht, "Multilevel matrix multiplication and fast solution of integral
@@ -25,8 +28,11 @@ from scipy.special import erfc
 from roughline.computing import fft
 from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
 from roughline.computing.compiled import compiled
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.even_sums import even_sums
 from roughline.halfspace.operators.grid_nodes import ROUNDING, GridNodes, Precision
 
@@ -37,6 +43,7 @@ _RADIUS = 2.25  # of the near part, in cells of the coarse grid
 _SIDES = (8, 0.025), (4, 0.35), (2, 1.0)
 _MOST = 0.15  # part of the grid for each mode a point, up to which the exact operator takes longer
 _REACH = int(_RADIUS * _SIDES[0][0])  # of the near part, at most
+RESOLVED = 0.15  # part that the shortest waves of a coarse grid may feel of what lies beneath
 _SMALL = 2**16  # modes, up to which it takes less in any case
 
 
@@ -62,12 +69,11 @@ class RestrictedOperator:
         q = 2 * np.pi * np.hypot(kx[:, np.newaxis] / (px * dx), ky / (py * dy))
         spectrum = operator.spectrum[: kx.size, : ky.size]
         share = erfc(q * _WIDTH * side / 2)
-        smooth = spectrum * share
+        spectrum = operator.spectrum[: kx.size, : ky.size]
+        steep, limit, rest = _split(operator, side, q)
+        smooth = steep * share + rest
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
-        assert operator.half_space is not None
-        q_small = np.array([1e-3 * 2 * np.pi / max(px * dx, py * dy)])
-        limit = float((q_small * operator.half_space.spectrum(q_small))[0]) / (px * py)
-        smooth[0, 0] -= limit * _WIDTH * side / np.sqrt(np.pi)
+        smooth[0, 0] -= limit / (px * py) * _WIDTH * side / np.sqrt(np.pi)
         lags = np.arange(int(_RADIUS * side / dx) + 1), np.arange(int(_RADIUS * side / dy) + 1)
         near = even_sums(operator.spectrum, operator.periods, lags)
         near -= even_sums(smooth, coarse, (lags[0] / rx, lags[1] / ry))
@@ -114,7 +120,7 @@ class RestrictedOperator:
         # for fewer near sums, starting a thread does not pay
         rows_at_a_time = targets.rows_of(2**21 // self.taps.size)
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
-        grid.clear(sources, wrapped=self.far.periodic)
+        grid.clear(sources, wrapped=self.far.repeats)
         return np.multiply(result, unit, dtype=np.float64)
 
 
@@ -146,6 +152,41 @@ class RestrictedOperators:
         return self._made[ratios] if ratios else None
 
 
+def _split(operator: Convolution, side: float, q: Real) -> tuple[Real, float, Real]:
+    """Split a spectrum into one that falls as 1 / q, and the smooth part of the rest.
+
+    Return the first at the waves of a coarse grid, its q C(q), and the second. Where the coarse
+    grid resolves what waves feel beside the modulus of the surface, the first is of that modulus,
+    and all of the rest is smooth. Else it is of the modulus that the longest waves feel.
+    """
+    half_space, (kx, ky) = operator.half_space, q.shape
+    assert half_space is not None
+    longest = max(n * each for n, each in zip(operator.periods, operator.spacing, strict=True))
+    long_waves, spectrum = np.array([1e-3 * 2 * np.pi / longest]), operator.spectrum[:kx, :ky]
+    limit = 2 / float(half_space.modulus(long_waves)[0])
+    if math.isclose(limit, 2 / half_space.E_star, rel_tol=1e-9):
+        return spectrum, limit, np.zeros(q.shape)
+    smooth = np.exp(-((q * side) ** 2) / 4)
+    if _resolves(half_space, side):
+        limit, smooth = 2 / half_space.E_star, np.ones(q.shape)
+    plain = Homogeneous(2.0, half_space.periodic)  # C(q) = 1 / q
+    steep = on_grid(plain, operator.shape, operator.spacing).spectrum[:kx, :ky] * limit
+    return steep, limit, (spectrum - steep) * smooth
+
+
+def felt_beneath(half_space: HalfSpace, side: float) -> float:
+    """Return by which part more than the surface's own modulus lets it a wave is displaced.
+
+    The wave is the shortest on a grid with cells of such a side.
+    """
+    return half_space.E_star / float(half_space.modulus(np.array([np.pi / side]))[0]) - 1
+
+
+def _resolves(half_space: HalfSpace, side: float) -> bool:
+    """Whether a coarse grid resolves what waves feel beside the modulus of the surface."""
+    return abs(felt_beneath(half_space, side)) < RESOLVED
+
+
 def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
     """List possible coarse cells, about square, and up to which part of the grid they serve."""
     (dx, dy), possible = operator.spacing, []
@@ -157,7 +198,14 @@ def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
         large = min(operator.shape) >= 64 and math.prod(operator.periods) > _SMALL
         if large and divide and radius < _REACH + 1:
             possible.append(((rx, ry), min(share, most)))
-    return possible
+    half_space = operator.half_space
+    assert half_space is not None
+    resolving = [
+        ((rx, ry), share)
+        for (rx, ry), share in possible
+        if _resolves(half_space, max(rx * dx, ry * dy))
+    ]
+    return resolving or possible
 
 
 @compiled

@@ -174,9 +174,17 @@ class _Search:
 
     def apart(self, state: State) -> State:
         """Take bodies apart until they bear the force, or come off."""
-        if self._stays_rigid(state):
-            return self.given(state.path)
+        if state.is_rigid:
+            lowest_force = self._lowest_of_full_contact(state)
+            if self._force > lowest_force:
+                return self.given(state.path)
+            last = _Search(lowest_force, self._rtol)
+            state = last.given(state.path)
+            self.convolutions += last.convolutions
+            if not state.is_solved or self.is_at(state):
+                return state
         before, least = state, state
+        lowest: _Dip | None = None  # of the force along the way
         step = -self._step(None, state)
         for _ in range(_MOST_TRIALS):
             beyond = self.at(state.path, state.depth - step)
@@ -194,11 +202,16 @@ class _Search:
                 continue
             passed = beyond.force >= state.force
             if passed and is_least and state.force < 0:
-                lowest = self._least(before, state, beyond)
-                if lowest.is_solved and lowest.force <= self._force:
-                    return lowest if self.is_at(lowest) else self._between(before, lowest)
-                least = min(least, lowest, key=lambda each: each.force)
-            if beyond.has_come_off(least):
+                dip = self._looked_into(_Dip(before, state, beyond))
+                if dip.bound <= self._force:
+                    found = self._least(dip)
+                    if found.is_solved and found.force <= self._force:
+                        return found if self.is_at(found) else self._between(before, found)
+                if dip.middle.force <= least.force:
+                    least, lowest = dip.middle, dip
+            # beside a push, a pull that still grows may be small
+            if beyond.has_come_off(least if least.force < 0 else state):
+                least = self._least(lowest) if lowest else min(state, beyond, key=_force)
                 off = replace(least.contact, outcome=Outcome.PULLED_OFF)
                 return State(beyond.path.from_apart(), off, None)
             before, state = state, beyond
@@ -206,13 +219,11 @@ class _Search:
             step = min(max(wanted, step / _FASTER), _FASTER * step)
         return replace(state, contact=replace(state.contact, outcome=Outcome.STALLED))
 
-    def _stays_rigid(self, state: State) -> bool:
-        """Whether no node of full contact would pull more than it can under the force."""
-        if not state.is_rigid:
-            return False
+    def _lowest_of_full_contact(self, state: State) -> float:
+        """Return the force of full contact whose first node pulls nearly all that it can."""
         problem, pressure = state.contact.problem, state.contact.pressure
-        even = (self._force - state.force) / (problem.grid.cell_area * pressure.size)
-        return float(pressure.min()) + even > -problem.law.largest_pull
+        spare = float(pressure.min()) + (1 - self._rtol) * problem.law.largest_pull
+        return state.force - problem.grid.cell_area * pressure.size * spare
 
     def _step(self, before: State | None, state: State) -> float:
         """Return the change of depth that leads to the force, as far as the last ones tell."""
@@ -249,52 +260,71 @@ class _Search:
                 low, side = (low / 2, -1) if side == -1 else (low, -1)
         return min(start, end, key=lambda each: abs(each.force - self._force))
 
-    def _least(self, nearer: State, middle: State, farther: State) -> State:
-        """Narrow an interval of depths down to the least force in it.
-
-        That of a rough body falls and rises many times, so it is looked at in even steps first.
-        """
-        states = [nearer]
-        for depth in np.linspace(nearer.depth, farther.depth, _LOOKS + 1)[1:-1]:
+    def _looked_into(self, dip: _Dip) -> _Dip:
+        """Narrow a dip by looks in even steps: that of a rough body falls and rises many times."""
+        states = [dip.nearer]
+        for depth in np.linspace(dip.nearer.depth, dip.farther.depth, _LOOKS + 1)[1:-1]:
             states.append(self.at(states[-1].path, float(depth)))
             if not states[-1].is_solved:
-                return middle
-        states.append(farther)
+                return dip
+        states.append(dip.farther)
         least = min(range(1, _LOOKS), key=lambda i: states[i].force)
-        nearer, middle, farther = states[least - 1 : least + 2]
+        return _Dip(*states[least - 1 : least + 2])
+
+    def _least(self, dip: _Dip) -> State:
+        """Narrow a dip down to its least force."""
         for _ in range(_MOST_TRIALS):
-            depth = _lowest_of_parabola(nearer, middle, farther)
+            nearer, middle, farther = dip.nearer, dip.middle, dip.farther
+            depth = dip.lowest_of_parabola
             trial = self.at((nearer if depth > middle.depth else middle).path, depth)
             if not trial.is_solved:
                 return middle
             gained = middle.force - trial.force
             if depth > middle.depth:
-                if gained > 0:
-                    middle, farther = trial, middle
-                else:
-                    nearer = trial
-            elif gained > 0:
-                nearer, middle = middle, trial
+                dip = _Dip(nearer, trial, middle) if gained > 0 else _Dip(trial, middle, farther)
             else:
-                farther = trial
-            if abs(gained) <= self._rtol * middle.borne:
+                dip = _Dip(middle, trial, farther) if gained > 0 else _Dip(nearer, middle, trial)
+            if abs(gained) <= self._rtol * dip.middle.borne:
                 break
-        return middle
+        return dip.middle
 
 
-def _lowest_of_parabola(nearer: State, middle: State, farther: State) -> float:
-    """Return the depth of the least force of a parabola through three states, well within them.
+def _force(state: State) -> float:
+    return state.force
 
-    Where the parabola does not tell, it is the middle of the wider part.
-    """
-    right, left = nearer.depth - middle.depth, middle.depth - farther.depth
-    wider = middle.depth + (right / 2 if right > left else -left / 2)
-    if not (right > 0 and left > 0):
-        return wider
-    up, down = (nearer.force - middle.force) / right, (middle.force - farther.force) / left
-    bent = (up - down) / (right + left)
-    least = 0.05 * (right + left)
-    lowest = middle.depth + (bent * right - up) / (2 * bent) if bent > 0 else middle.depth
-    if abs(lowest - middle.depth) < 0.2 * least:
-        return wider
-    return min(max(lowest, farther.depth + least), nearer.depth - least)
+
+@dataclass(frozen=True, eq=False)
+class _Dip:
+    """An interval of depths with a least force in it: the middle bears no more than its ends."""
+
+    nearer: State
+    middle: State
+    farther: State
+
+    @property
+    def bound(self) -> float:
+        """A force below which it does not fall, as no branch is stiffer than a given reach."""
+        if self.nearer.is_rigid or self.middle.is_rigid:
+            return -math.inf
+        sides = (self.nearer, self.middle), (self.middle, self.farther)
+        falls = (start.force - start.stiffness * (start.depth - end.depth) for start, end in sides)
+        return min(falls)
+
+    @property
+    def lowest_of_parabola(self) -> float:
+        """Depth of the least force of a parabola through the three, well within them.
+
+        Where the parabola does not tell, it is the middle of the wider part.
+        """
+        nearer, middle, farther = self.nearer, self.middle, self.farther
+        right, left = nearer.depth - middle.depth, middle.depth - farther.depth
+        wider = middle.depth + (right / 2 if right > left else -left / 2)
+        if not (right > 0 and left > 0):
+            return wider
+        up, down = (nearer.force - middle.force) / right, (middle.force - farther.force) / left
+        bent = (up - down) / (right + left)
+        least = 0.05 * (right + left)
+        lowest = middle.depth + (bent * right - up) / (2 * bent) if bent > 0 else middle.depth
+        if abs(lowest - middle.depth) < 0.2 * least:
+            return wider
+        return min(max(lowest, farther.depth + least), nearer.depth - least)

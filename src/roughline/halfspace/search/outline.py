@@ -17,7 +17,7 @@ _STEEP_ALONE = 20.0  # where the contact is one cell wide, so that there is no i
 
 
 def overstated_cells(
-    contact: Contact, spacing: tuple[float, float], periodic: bool
+    contact: Contact, spacing: tuple[float, float], repeats: tuple[bool, bool]
 ) -> tuple[float, float]:
     """Cells by which the count of cells in contact exceeds the area, at most and as estimated.
 
@@ -27,7 +27,7 @@ def overstated_cells(
     understate it, and the count is right. There the pressure rises towards the outline, and the gap
     beyond it is steep. Where both are so, a pair has 2 p spacing / (E* gap) of the correction.
 
-    The contact is in units in which E* is 1, and opposite sides are neighbours if it is periodic.
+    The contact is in units in which E* is 1, and opposite sides are neighbours where it repeats.
     The first of the two counts is as if all of the outline were under summits.
 
     References
@@ -44,11 +44,11 @@ def overstated_cells(
     for axis in (0, 1):
         for step in (1, -1):
             outer = touching & ~np.roll(touching, -step, axis)
-            if not periodic:
+            if not repeats[axis]:
                 np.moveaxis(outer, axis, 0)[-1 if step > 0 else 0] = False
             outline = np.flatnonzero(outer)
-            beyond, _ = _neighbours(outline, shape, axis, step, periodic)
-            within, loaded_too = _neighbours(outline, shape, axis, -step, periodic)
+            beyond, _ = _neighbours(outline, shape, axis, step, repeats[axis])
+            within, loaded_too = _neighbours(outline, shape, axis, -step, repeats[axis])
             at, gap = np.searchsorted(contact.nodes, outline), contact.gap_at(beyond)
             edge = above[at]
             loaded_too &= touching.flat[within]
@@ -65,13 +65,13 @@ def overstated_cells(
 
 
 def _neighbours(
-    nodes: Indices, shape: tuple[int, ...], axis: int, step: int, periodic: bool
+    nodes: Indices, shape: tuple[int, ...], axis: int, step: int, repeated: bool
 ) -> tuple[Indices, Mask]:
     """Flat indices of the neighbours along an axis, and whether there are any."""
     position = list(np.divmod(nodes, shape[1]))
     position[axis] = position[axis] + step
     exist = np.ones(nodes.size, dtype=bool)
-    if not periodic:
+    if not repeated:
         exist = (position[axis] >= 0) & (position[axis] < shape[axis])
     position[axis] %= shape[axis]
     return position[0] * shape[1] + position[1], exist

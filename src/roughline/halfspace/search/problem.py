@@ -20,8 +20,8 @@ from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
-# epsilons of F / (E* side) on grids of 8 to 10^6 points. Rounded pressures displace most in the
-# longest wave, so the side is the shorter one.
+# epsilons of pi C F / A_0 on grids of 8 to 10^6 points. C is the compliance of the longest wave, in
+# which rounded pressures displace most.
 _ROUNDINGS = 2.0
 SINGLE_ABOVE = 1e-4
 """Single precision serves while errors are above this part of what moves; its own are 1e-7."""
@@ -144,9 +144,10 @@ class Method:
 
     def resolution(self, grid: Grid) -> float:
         """Rounding of displacements over the force, over the tolerance. [length / force]"""
-        side = min(n * spacing for n, spacing in zip(grid.shape, grid.spacing, strict=True))
+        sides = [n * spacing for n, spacing in zip(grid.shape, grid.spacing, strict=True)]
         rounding = _ROUNDINGS * float(np.finfo(self.certificate).eps)
-        return rounding / (self.rtol * grid.half_space.E_star * side)
+        longest = float(grid.half_space.spectrum(np.array([2 * np.pi / max(sides)]))[0])
+        return rounding / self.rtol * math.pi * longest / math.prod(sides)
 
 
 @dataclass(frozen=True)

@@ -30,9 +30,12 @@ class Window:
 
     @classmethod
     def of(cls, problem: Problem, load: Load, start: ContactSet) -> Window:
-        """Return the window for a load: all of the grid, if the bodies may touch all over it."""
+        """Return the window for a load: all of the grid, if the bodies may touch all over it.
+
+        A side that is a period is not cut.
+        """
         reach = problem.foreseen_reach(load, start)
-        if reach == np.inf:
+        if reach == np.inf or any(problem.grid.half_space.repeats):
             return cls.whole(problem)
         shape = problem.separation.shape
         near = problem.separation <= problem.touch + reach

@@ -87,6 +87,26 @@ _NUMBERS = (
         "Largest pressure that a point bears, over E* times the rms slope on the grid, or with a "
         "unit, such as 2 GPa. Where it is reached, the surface is permanently indented.",
     ),
+    Control(
+        "w",
+        "w L/(E*h²)",
+        "work of adhesion",
+        1e-4,
+        10.0,
+        1.0,
+        "Work to separate a unit of area, over E* h² / L, or with a unit, such as 50 mJ/m^2. About "
+        "1 is what it takes to flatten the longest waves.",
+    ),
+    Control(
+        "h0",
+        "h_0/h",
+        "range of the pull",
+        1e-3,
+        2.0,
+        0.5,
+        "Largest gap across which the bodies pull each other, evenly with w / h_0, over the rms "
+        "height, or with a unit, such as 5 nm. A shorter one takes a finer grid.",
+    ),
 )
 _CHOICES = (
     Choice(
@@ -116,10 +136,11 @@ _CHOICES = (
         "contact as",
         {
             **{"area": "area", "pressure": "pressure", "gap": "gap"},
-            **{"displacement": "displacement", "flux": "flux"},
+            **{"displacement": "displacement", "flux": "flux", "retreat": "area, way back"},
         },
         "area",
-        "Quantity that the second map shows; the flux is there with a fluid alone.",
+        "Quantity that the second map shows; the flux is there with a fluid alone, the way back of "
+        "bodies that stick.",
     ),
     Choice(
         "fluid",
@@ -141,6 +162,8 @@ _CHOICES = (
         "Theories for the same waves, drawn with the curves; they hold for periodic surfaces.",
     ),
 )
+WITH_ALONE = {"flux": "fluid", "retreat": "w"}
+"""Quantities of the map that are there with a control alone."""
 NUMBERS = {each.key: each for each in _NUMBERS}
 """Numbers by their keys."""
 CHOICES = {each.key: each for each in _CHOICES}

@@ -12,8 +12,9 @@ from matplotlib.axes import Axes
 import roughline as rl
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
+from roughline.lab.explore import adhesion
 from roughline.lab.explore.fluid import FORCES, measures, theories
-from roughline.lab.explore.pictures import borne, pressed_under
+from roughline.lab.explore.pressing import borne, pressed_under
 from roughline.lab.explore.state import ExploreState, state_in
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Arguments, Progress
@@ -43,13 +44,18 @@ def download(arguments: Arguments, progress: Progress) -> bytes:
     if name == "surface.nc":
         rl.write(surface, folder / name)
         return frame({"file": name})
-    if name in OF_FLUID:
-        draw = _draw_flow if name.startswith("flow") else _draw_apertures
+    stem, kind = name.split(".")
+    drawn = _OF_FLUID | (adhesion.PICTURES if state.w is not None else {})
+    if stem in drawn and kind in ("png", "pdf"):
         with TemporaryDirectory(dir=folder) as written, styled():
             figure = new_figure(PAGE, _HEIGHT)
-            draw(figure.subplots(), state, surface, progress)
-            save(figure, Path(written), Path(name).stem)
+            drawn[stem](figure.subplots(), state, surface, progress)
+            save(figure, Path(written), stem)
             shutil.move(Path(written) / name, folder / name)
+        return frame({"file": name})
+    if state.w is not None:
+        found = adhesion.cycle(state, adhesion.points(state), progress, measures(state))
+        found.by_depths.write(folder / name)
         return frame({"file": name})
     result = rl.assess_body(
         rl.Question(
@@ -98,3 +104,6 @@ def _draw_apertures(
         forces = np.concatenate([forces[forces <= state.F], back])
     curve = pressed_under(*(state, surface, forces, progress), measures=measures(state))
     rl.plot.hydraulic_aperture(curve, theories(state, surface), axes=axes)
+
+
+_OF_FLUID = {"flow": _draw_flow, "aperture": _draw_apertures}

@@ -17,15 +17,13 @@ _PRESSED = 1e-6  # of the largest pressure: where less presses, the paper shows
 def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
     """The maps of a contact, by the words that choose them."""
     height = surface.rms_height
-    marks = ("ink",) if state.hardness_bar is None else ("ink", "plastic")
     pressure, gap, displacement = (
         fields.pressure / state.E_star,
         fields.gap / height,
         fields.displacement / height,
     )
-    area = fields.contact.astype(np.uint8) + fields.plastic
     return {
-        "area": Map(area, "marks", 0, 2, marks=marks),
+        "area": area_map(state, fields),
         "pressure": _scaled(
             pressure, "Viridis256", "pressure over E*; blank where nothing touches", _PRESSED
         ),
@@ -34,6 +32,17 @@ def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) ->
             displacement, "Cividis256", "deflection of the half-space in rms heights"
         ),
     }
+
+
+def area_map(state: ExploreState, fields: rl.Fields) -> Map:
+    """Where bodies touch, and where they yield or pull each other."""
+    if state.w is not None:
+        return Map(
+            *(fields.contact + 2 * fields.pulling.astype(np.uint8), "pull", 0, 2),
+            marks=("ink", "pull"),
+        )
+    marks = ("ink",) if state.hardness_bar is None else ("ink", "plastic")
+    return Map(fields.contact.astype(np.uint8) + fields.plastic, "marks", 0, 2, marks=marks)
 
 
 def _scaled(values: NDArray[Any], palette: str, caption: str, low: float = 0.0) -> Map:

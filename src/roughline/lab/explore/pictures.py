@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -14,8 +14,9 @@ import roughline as rl
 from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
-from roughline.lab.explore import fluid
-from roughline.lab.explore.maps import contact_maps
+from roughline.lab.explore import adhesion, fluid
+from roughline.lab.explore.maps import area_map, contact_maps
+from roughline.lab.explore.pressing import borne, pressed_under
 from roughline.lab.explore.state import ExploreState, usable_state
 from roughline.lab.explore.words import (
     contact_words,
@@ -40,7 +41,6 @@ _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
 _CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
 _CURVE_FORCES = np.geomspace(1e-3, 3, 13)
-_MOST_OF_HARDNESS = 0.9  # of the force under which all yields, where curves end
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
@@ -76,7 +76,7 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
     state, refused = usable_state(arguments)
     crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
-    n = min(state.n, _COARSER if crowded else _COARSE)
+    n = state.points(_COARSER if crowded else _COARSE)
     return _contact(state, refused, n, progress)
 
 
@@ -86,14 +86,14 @@ def full(arguments: Arguments, progress: Progress) -> bytes:
     In a crowd it is on fewer points first; the page asks for the full grid by "refines".
     """
     state, refused = usable_state(arguments)
-    n = min(state.n, _FIRST_STEP) if _is_first_step(arguments) else state.n
+    n = state.points(_FIRST_STEP) if _is_first_step(arguments) else state.n
     return _contact(state, refused, n, progress)
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
     """Stiffness and area over force of the surface, and of theories."""
     state, refused = usable_state(arguments)
-    n = min(state.n, _CURVE_POINTS)
+    n = state.points(_CURVE_POINTS)
     surface = state.surface(n)
     pressed = pressed_under(state, surface, borne(state, _CURVE_FORCES), progress)
     return frame(
@@ -113,7 +113,7 @@ def flow(arguments: Arguments, progress: Progress) -> bytes:
     state, refused = usable_state(arguments)
     if not state.fluid:
         raise ControlError("there is no fluid: mark that one flows through the gap", "fluid")
-    n = min(state.n, _CURVE_POINTS)
+    n = state.points(_CURVE_POINTS)
     surface = state.surface(n)
     measures = fluid.measures(state)
     pressed = pressed_under(state, surface, borne(state, fluid.FORCES), progress, measures=measures)
@@ -127,15 +127,31 @@ def flow(arguments: Arguments, progress: Progress) -> bytes:
     )
 
 
-def borne(state: ExploreState, force_bar: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Those of dimensionless forces that the surface bears. [1]"""
-    return force_bar[force_bar < _MOST_OF_HARDNESS * state.most_force_bar]
+def cycle(arguments: Arguments, progress: Progress) -> bytes:
+    """Both ways of bodies that stick: beyond the load, back to it, and off."""
+    state, refused = usable_state(arguments)
+    n = adhesion.points(state, refines=arguments.get("refines") is True)
+    found = adhesion.cycle(state, n, progress)
+    fields = found.by_forces.fields[adhesion.BACK]
+    maps = {} if fields is None else {"retreat": area_map(state, fields)}
+    turn = {name: each for name, each in _of_curve(found.by_forces).items() if each is not None}
+    return frame(
+        {
+            **_settled(state, refused),
+            **adhesion.of_cycle(found, state, n),
+            "curve": _of_curve(found.by_depths),
+            "turn": {name: values[1 : adhesion.BACK + 1] for name, values in turn.items()},
+            "is_coarse": n < adhesion.points(state),
+            "maps": {name: each.look for name, each in maps.items()},
+        },
+        {name: each.values.T for name, each in maps.items()},
+    )
 
 
 def unloading(arguments: Arguments, progress: Progress) -> bytes:
     """The way back from the load of the state to none."""
     state, refused = usable_state(arguments)
-    n = min(state.n, _CURVE_POINTS)
+    n = state.points(_CURVE_POINTS)
     loads = state.F * np.array([1.0, *UNLOADING])
     measures = fluid.measures(state)
     pressed = pressed_under(state, state.surface(n), loads, progress, measures=measures)
@@ -167,6 +183,7 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
     strip = contact_words(pressed, fields, surface)
     if fields is not None:
         maps = contact_maps(state, surface, fields)
+        strip += adhesion.contact_words(pressed, state)
         if flows:
             maps["flux"] = flux_map(flows[0])
             strip += fluid.flow_words(pressed, flows[0])
@@ -200,7 +217,7 @@ def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
         finest = f"{as_text(state.shortest)} sides"
         why = f"{state.n} points carry no waves shorter than {finest}; that is used meanwhile"
         refused = {"cutoff": why, **refused}
-    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "n", "F", "hardness_bar")
+    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "n", "F", "hardness_bar", "w", "h0")
     values = {name: getattr(state, name) for name in names} | {"cutoff": state.cutoff_used}
     return {
         "state": state.address(),
@@ -208,31 +225,6 @@ def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
         "lows": {"cutoff": state.shortest},
         "refused": refused,
     }
-
-
-def pressed_under(
-    state: ExploreState,
-    surface: rl.Surface,
-    force_bar: NDArray[Any],
-    progress: Progress,
-    *,
-    fields: bool = False,
-    grid_error: bool = False,
-    measures: Sequence[rl.Measure] = (),
-) -> rl.Curve:
-    """Press a surface of the state under dimensionless forces."""
-    return rl.press(
-        surface,
-        E_star=state.E_star,
-        hardness=state.hardness,
-        forces=state.force(force_bar),
-        periodic=state.periodic,
-        fields=fields,
-        grid_error=grid_error,
-        measures=measures,
-        throw=False,
-        progress=progress,
-    )
 
 
 def _lines_of(state: ExploreState, count: int) -> tuple[rl.Line, ...]:

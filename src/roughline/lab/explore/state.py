@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 import roughline as rl
 from roughline.errors.checks import shown
 from roughline.lab.controls import (
@@ -29,6 +31,8 @@ from roughline.units import engineering, in_si, load_in_newtons
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
 _OF_THE_SURFACE = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
 _SIDES, _MODULI = (1e-12, 1e3), (1.0, 1e14)  # that are allowed [m], [Pa]
+RESOLVED = 4.0
+"""Cells of a zone that pulls, from which on it is resolved."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +58,8 @@ class ExploreState:
     E: str = "110 GPa"  # contact modulus
     theories: tuple[str, ...] = ()  # drawn beside the curve
     fluid: str = CHOICES["fluid"].default  # along which side it flows; empty without one
+    w: float | None = None  # None if the bodies do not stick
+    h0: float = NUMBERS["h0"].default
 
     @property
     def length(self) -> float:
@@ -106,6 +112,25 @@ class ExploreState:
         if self.hardness_bar is None:
             return None
         return self.hardness_bar * self.E_star * self.rms_slope
+
+    @property
+    def law(self) -> rl.ContactLaw | None:
+        """What pressures and gaps obey; None if the bodies are elastic and do not stick."""
+        if self.w is not None:
+            work = self.w * self.E_star * self.rms_height**2 / self.length
+            return rl.Dugdale(work_of_adhesion=work, range=self.h0 * self.rms_height)
+        return None if self.hardness is None else rl.Yielding(self.hardness)
+
+    def zone(self, n: int) -> float:
+        """Cells across the zone that pulls about a contact, with so many along a side. [1]"""
+        return math.inf if self.w is None else n * self.h0**2 / (math.pi * self.w)
+
+    def points(self, fewest: int) -> int:
+        """The fewest points along a side, from so many on, that resolve the pull, if any do."""
+        n = min(self.n, fewest)
+        while n < self.n and self.zone(n) < RESOLVED:
+            n *= 2
+        return n
 
     def force(self, force_bar: Any) -> Any:
         """Forces F = F̄ E* h L. [N]"""
@@ -210,6 +235,7 @@ def state_of(said: Texts, most_points: int) -> ExploreState:
             *("n", "roll_off"),
         )
     state = replace(state, hardness_bar=_hardness_bar(said.get("hardness_bar", ""), state))
+    state = _sticking(said, state)
     state = replace(state, F=_force_bar(said.get("F", str(ExploreState.F)), state))
     most = state.most_force_bar
     if most <= state.F:
@@ -274,6 +300,7 @@ def _in_scales(text: str, key: str, unit: str, scale: float, called: str) -> flo
     try:
         return control.checked(rounded(value / scale))
     except ControlError:
+        unit = unit.replace("**2", "²")
         low, high = (engineering(end * scale, unit, 3) for end in (control.low, control.high))
         raise ControlError(
             f"{control.name} is {shown(text.strip())}; give one from {low} to {high}, which is "
@@ -287,6 +314,28 @@ def _hardness_bar(text: str, state: ExploreState) -> float | None:
     if not text.strip():
         return None
     return _in_scales(text, "hardness_bar", "Pa", state.E_star * state.rms_slope, "E* ∇h")
+
+
+def _sticking(said: Texts, state: ExploreState) -> ExploreState:
+    """The state with its work of adhesion, none for no text, and the range of the pull."""
+    height = state.rms_height
+    state = replace(state, h0=_in_scales(said.get("h0", as_text(state.h0)), "h0", "m", height, "h"))
+    if not (text := said.get("w", "")).strip():
+        return state
+    scale = state.E_star * height**2 / state.length
+    state = replace(state, w=_in_scales(text, "w", "J/m**2", scale, "E* h² / L"))
+    if state.hardness_bar is not None:
+        raise ControlError(
+            "bodies that stick and yield have no law here: take the hardness away, or the adhesion",
+            *("w", "hardness_bar"),
+        )
+    cell = state.length / state.n
+    try:  # the grid is refused alike under a flat body of few cells, far away
+        flat = rl.Surface(np.zeros((2, 2)), sizes=(2 * cell, 2 * cell))
+        rl.press(flat, E_star=state.E_star, law=state.law, depths=[-4 * state.h0 * height])
+    except rl.InputError as error:
+        raise ControlError(str(error), "h0", "w", "n", *_OF_THE_SURFACE) from None
+    return state
 
 
 def _force_bar(text: str, state: ExploreState) -> float:

@@ -24,14 +24,15 @@ _Item = dict[str, str]
 
 def line_words(state: ExploreState, stiffness: float, lines: int) -> list[_Item]:
     """What the reduced model gives at the load."""
-    without_yield = "" if state.hardness_bar is None else " Its springs do not yield."
+    without = "" if state.hardness_bar is None else " Its springs do not yield."
+    without += "" if state.w is None else " Its springs do not stick."
     return [
         item(
             "stiffness_1d",
             "k̄ (1D)",
             decimal(stiffness, _DIGITS),
             f"Stiffness k / (E* L) of the reduced model, mean of {lines} lines with the same "
-            f"waves. It is made for the free half-space.{without_yield}",
+            f"waves. It is made for the free half-space.{without}",
         )
     ]
 
@@ -45,7 +46,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
     return [
         _stiffness(pressed, intervals),
         _area(pressed, intervals),
-        *_pressure_and_depth(pressed, surface),
+        *_pressure_and_depth(pressed, fields, surface),
         *_of_yield(pressed, intervals, surface),
         _roughness(surface),
     ]
@@ -53,6 +54,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
 
 def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
     unsure = not pressed.resolved[0]
+    sticks = isinstance(pressed.law, rl.Dugdale)
     ends = _first(intervals.stiffness) if intervals else None
     return item(
         "stiffness_3d",
@@ -61,6 +63,7 @@ def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
         + (" *" if unsure else ""),
         "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
         "square punch. The interval shows how far finer grids may change it."
+        + (" It is that at a given reach of the pull: along a branch the slope is less." * sticks)
         + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
         with_interval(float(pressed.stiffness[0]), ends, "N/m"),
     )
@@ -81,10 +84,9 @@ def _area(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
     )
 
 
-def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[_Item]:
-    assert pressed.area_fraction is not None
+def _pressure_and_depth(pressed: rl.Curve, fields: rl.Fields, surface: rl.Surface) -> list[_Item]:
     force, depth = float(pressed.force[0]), float(pressed.depth[0])
-    in_contact = force / (surface.area * float(pressed.area_fraction[0]))
+    in_contact = float(fields.pressure[fields.contact].mean())
     return [
         item(
             "pressure",

@@ -41,7 +41,7 @@ from roughline.report.answers import (
     star_is_shown,
 )
 from roughline.report.comparison import comparison_table, verdict_in_words
-from roughline.report.contact_tables import curve_table, formula_table
+from roughline.report.contact_tables import curve_table, formula_table, modulus_in_words
 from roughline.topography.body import Surface
 from roughline.units import engineering
 
@@ -70,7 +70,7 @@ def _framed(result: Assessment, **others: Any) -> bytes:
         drawing = contact_drawing(result)
         contact, arrays = drawing.header, drawing.arrays
     header = {
-        "modulus": _modulus(result),
+        "modulus": modulus_in_words(result),
         "lead": lead_of(result),
         "figures": [vars(each) for each in headline(result).figures],
         "answers": answer_table(result, with_elastic=True) if result.answers else None,
@@ -164,12 +164,6 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
             },
         }
     )
-
-
-def _modulus(result: Assessment) -> str:
-    pair = result.question.pair
-    of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
-    return f"E*{of} = {engineering(result.curve.E_star, 'Pa')}"
 
 
 def _slip(result: Assessment) -> dict[str, Any] | None:

@@ -19,7 +19,7 @@ from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import CONTROLS, Said, Source, at, question_of, used_in
 from roughline.lab.server.tasks import Arguments, Progress
-from roughline.report.contact_tables import material_in_words
+from roughline.report.contact_tables import solid_in_words
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 
@@ -43,8 +43,8 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     pair = question.pair
     if pair is not None:
         rows += [
-            ["rough body", material_in_words(pair.first)],
-            ["smooth body", material_in_words(pair.second)],
+            ["rough body", solid_in_words(pair.first)],
+            ["smooth body", solid_in_words(pair.second)],
         ]
         notes = [
             *of_unknown_hardness(pair),

@@ -16,7 +16,8 @@ from roughline.assessment.fields import FILE, PREPARATION, names_by
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.assessment.told import refuse_alone
-from roughline.engineering.materials import Material, material
+from roughline.engineering.coated import Solid
+from roughline.engineering.materials import material
 from roughline.errors.checks import shown
 from roughline.errors.words import Words
 from roughline.lab.controls import (
@@ -42,7 +43,9 @@ _NEEDING = (
     "fluid",
     "sealing_pressure",
 )  # controls that need two materials
-_OF_ARGUMENTS = {"E_star": "E"} | {each.name: key for key, each in c.BY_CONTROL.items()}
+_OF_ARGUMENTS = {"E_star": ("E",), "materials": ("first", "second")} | {
+    each.name: (key,) for key, each in c.BY_CONTROL.items()
+}
 """Controls by the names of arguments."""
 
 CONTROLS = Words(
@@ -195,15 +198,17 @@ def bodies_of(said: Said) -> dict[str, Any]:
                     f'contact modulus is "{said["E"][:40]}"; give a positive one', "E"
                 )
         return {"E_star": modulus}
-    pair: list[Material] = []
+    pair: list[Solid] = []
     for key in ("first", "second"):
         with at(key):
             if key not in said:
                 raise ControlError(
-                    f'give the {key} material: a name, or values such as "E=70 GPa nu=0.33"', key
+                    f'give the {key} material: a name, values such as "E=70 GPa nu=0.33", or '
+                    'a coated one such as "rubber 2 mm on steel"',
+                    key,
                 )
             pair.append(material(said[key]))
-    if all(math.isinf(each.E) for each in pair):
+    if all(math.isinf(each.surface.E) for each in pair):
         raise ControlError("both materials are rigid: one of them must give way", "second")
     return {"materials": tuple(pair)}
 
@@ -248,7 +253,7 @@ def at(key: str) -> Iterator[None]:
         yield
     except rl.RoughlineError as error:
         about = [getattr(error, "argument", None), *getattr(error, "others", ())]
-        keys = [_OF_ARGUMENTS.get(name or "", name) for name in about]
+        keys = [each for name in about for each in _OF_ARGUMENTS.get(name or "", (name,))]
         among = getattr(error, "among", [key for key in keys if key in c.KEYS] or [key])
         raise ControlError(str(error), *among) from None
 

@@ -8,7 +8,7 @@ const MARKS = [ // of the full model: source, name, colour, and how they look
   ["curve", "3D", "dark-line", {marker: "circle", size: 7}],
   ["unsure", "3D, fewer than ten cells touch", "dark-line", {marker: "circle", size: 7, fill_alpha: 0}],
   ["unloading", "3D, on unloading", "mark", {marker: "triangle", size: 7, fill_alpha: 0}],
-  ["back", "3D, way back from this load", "here", {marker: "square", size: 5}],
+  ["back", "3D, way back", "here", {marker: "square", size: 5}],
   ["here", "3D, this load", "here", {marker: "circle", size: 13}],
 ];
 
@@ -20,6 +20,7 @@ export function exploreFigures() {
     "explore-stiffness": stiffness(),
     "explore-area": area(),
     "explore-aperture": aperture(),
+    "explore-cycle": cycle(),
     "explore-spectrum": spectrum(),
   };
 }
@@ -67,6 +68,21 @@ function aperture() {
   return made;
 }
 
+// Both ways of bodies that stick, on scales that have pulls.
+function cycle() {
+  const made = plot(["depth d / h", FORCE], [[-1, 1], [-1, 1]]);
+  add(made, "Span", "cycle zero", {dimension: "width", location: 0, line_width: 1, colours: {line_color: "line"}});
+  for (const [way, legend, colour, marker] of [["there", "there", "dark-line", "circle"], ["back", "back", "here", "square"]]) {
+    draw(made, "line", `cycle ${way}`, {line_width: 2, legend, colours: {line_color: colour}});
+    draw(made, "scatter", `cycle ${way}`, {size: 4, marker, legend, colours: {fill_color: colour, line_color: colour}});
+  }
+  draw(made, "scatter", "cycle here", {size: 13, line_width: 1.5, legend: "this load on both ways", colours: {fill_color: "mark", line_color: "paper"}});
+  draw(made, "scatter", "cycle pull-off", {marker: "inverted_triangle", size: 13, line_width: 1.5, legend: "pull-off", colours: {fill_color: "pull", line_color: "text"}});
+  addCursor(made, "cycle", "width");
+  made.legend.location = "top_left";
+  return made;
+}
+
 function spectrum() {
   const made = plot(["waves along the side, q L / 2π", "C_2d [m⁴]"], [[0.8, 300], [1e-20, 1e-10]], LOGARITHMIC);
   draw(made, "scatter", "spectrum", {size: 4, colours: {fill_color: "mark", line_color: "mark"}});
@@ -84,8 +100,13 @@ function drawLoads(made, name) {
     draw(made, "scatter", `${name} ${what}`, {line_width: 1.5, legend, ...look, colours: {fill_color: colour, line_color: colour}});
     made.legend.items.at(-1).visible = what === "curve" || what === "here"; // the others are shown if there are any
   }
-  add(made, "Span", `${name} cursor`, {
-    dimension: "height", location: 0.1, line_width: 3, editable: true, colours: {line_color: "here", hover_line_color: "mark"},
-  });
+  addCursor(made, name, "height");
   made.legend.location = "bottom_right";
+}
+
+// Add the line of the present load, which can be dragged.
+function addCursor(made, name, dimension) {
+  add(made, "Span", `${name} cursor`, {
+    dimension, location: 0.1, line_width: 3, editable: true, colours: {line_color: "here", hover_line_color: "mark"},
+  });
 }

@@ -14,11 +14,13 @@ const DASHES = ["– –", "· · ·", "– ·"]; // as theories are drawn
 const MOST_THEORIES = DASHES.length;
 const CONTACT = ["topography", "contact"], CURVES = ["stiffness", "area", "spectrum"]; // panels
 const OVER_FORCE = {stiffness: "stiffness_bar", area: "area", aperture: "aperture"}; // panels with loads, what they show
+const CURSORS = [...Object.keys(OVER_FORCE), "cycle"]; // panels with the line of the load
 const STRIP = ["stiffness_3d", "unloading", "stiffness_1d", "area", "aperture", "channel", "plastic", "pressure", "depth",
-  "indentation", "force", "roughness"];
-const FINER = ["full", "curve", "flow", "unloading"]; // what is asked at rest
-const NOT_ALWAYS = ["unloading", "plastic", "indentation", "aperture", "channel"]; // in the strip
+  "indentation", "force", "roughness", "retreat", "pull_off", "pulling", "zone"];
+const FINER = ["full", "curve", "flow", "unloading", "cycle"]; // what is asked at rest
+const NOT_ALWAYS = ["unloading", "plastic", "indentation", "aperture", "channel", "retreat", "pull_off", "pulling", "zone"]; // in the strip
 const FOOT = 0.04; // of an axis: how far above its end sealed loads stand
+const ROOM_ABOUT = 0.06; // of what is drawn on linear axes
 const ROOM = 3; // between them and the smallest aperture
 
 export async function open(link, address, said) {
@@ -46,10 +48,10 @@ class Explore {
     this.#dimAll();
     this.#askNow();
     this.#plots = await embedded(exploreFigures);
-    for (const name of Object.keys(OVER_FORCE)) {
+    for (const name of CURSORS) {
       this.#plots.onMove(`${name} cursor`, (force) => this.#cursorMoved(force));
       onDraw(this.#plots.root(`explore-${name}`), this.#root.querySelector(`[data-draw="${name}"]`),
-        (from, {x}) => { this.#plots.model(`${name} cursor`).location = x; });
+        (from, {x, y}) => { this.#plots.model(`${name} cursor`).location = name === "cycle" ? y : x; });
     }
     onPoint(this.#plots.root("explore-contact"), (at) => this.#tell(at));
     this.#plots.frame(["explore-topography", "explore-contact"], [1, 1]);
@@ -63,6 +65,8 @@ class Explore {
     this.#showHeightOrSlope();
     this.#showHardness();
     this.#showFluid();
+    this.#showSticking();
+    if (this.#sticks) this.#root.querySelector("#tab-cycle").click();
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
@@ -82,8 +86,13 @@ class Explore {
       this.#controls.put("shown", this.#flows ? "flux" : "area");
       this.#showFluid();
     }
+    if (key === "w" && this.#sticks === this.#root.querySelector('[data-control="w"]').hidden) { // on or off
+      if (this.#controls.said.shown === "retreat") this.#controls.put("shown", "area");
+      this.#showSticking();
+      this.#root.querySelector(this.#sticks ? "#tab-cycle" : "#tab-area").click();
+    }
     this.#forgetWayBack();
-    if (key === "F") this.#dim(CONTACT);
+    if (key === "F") this.#dim([...CONTACT, ...(this.#sticks ? ["cycle"] : [])]);
     else this.#dimAll();
     this.#askNow();
     clearTimeout(this.#rest);
@@ -95,7 +104,7 @@ class Explore {
     this.#stopped = this.#turn;
     const left = {full: "the coarse answer is shown", curve: "the marks of the curves belong to the previous surface",
       flow: "the apertures belong to the previous surface",
-      unloading: "the way back is not shown", download: "nothing was saved"};
+      unloading: "the way back is not shown", cycle: "both ways belong to the contact before", download: "nothing was saved"};
     this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
   }
 
@@ -128,6 +137,12 @@ class Explore {
     ask("full", args, (header) => {
       this.#drawContact(header, args, turn);
       if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
+      if (header.state.w) {
+        ask("cycle", {...args, refines: false}, (cycle) => {
+          this.#drawCycle(cycle);
+          if (cycle.is_coarse) ask("cycle", {...args, refines: true}, (finer) => this.#drawCycle(finer));
+        });
+      }
       if (this.#stale.has("curve")) ask("curve", {...args, refines: true}, (curve) => this.#drawCurve(curve));
       if (this.#stale.has("flow") && header.state.fluid) ask("flow", {...args, refines: true}, (flow) => this.#drawFlow(flow));
       if (header.state.hardness_bar) ask("unloading", args, (back) => this.#drawWayBack(back));
@@ -212,7 +227,7 @@ class Explore {
 
   #dimAll() {
     this.#stale = new Set(["curve", "flow"]);
-    this.#dim([...CONTACT, ...CURVES, ...(this.#flows ? ["aperture"] : [])]);
+    this.#dim([...CONTACT, ...CURVES, ...(this.#flows ? ["aperture"] : []), ...(this.#sticks ? ["cycle"] : [])]);
   }
 
   #dim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.add("dimmed"); }
@@ -262,6 +277,31 @@ class Explore {
     this.#fillCurveTables();
   }
 
+  // Draw both ways of bodies that stick, and what the strip and the map have of them.
+  #drawCycle({curve, turn, on_approach, here, pull_off, grid, strip, maps, arrays, table}) {
+    this.#undim(["cycle"]);
+    this.#plots.shows("explore-cycle", {what: "cycle", grid});
+    const ways = {there: (i) => on_approach[i], back: (i) => !on_approach[i]};
+    for (const [way, isOn] of Object.entries(ways)) this.#plots.set(`cycle ${way}`, points(curve.depth, curve.force_bar, isOn));
+    this.#plots.set("cycle here", here);
+    this.#plots.set("cycle pull-off", pull_off);
+    const label = {value: `pull-off, ${strip.find(({key}) => key === "pull_off").value}`};
+    this.#plots.model("cycle pull-off label").setv({label, visible: pull_off.x.length > 0});
+    const borne = points(curve.depth, curve.force_bar, (i) => curve.force_bar[i] !== 0);
+    for (const [axis, known] of [["x", borne.x], ["y", borne.y]]) {
+      const [low, high] = [Math.min(...known), Math.max(...known)], room = ROOM_ABOUT * (high - low);
+      this.#plots.range("explore-cycle", axis, low - room, high + room);
+    }
+    for (const name of ["stiffness", "area"]) this.#setMarks(`${name} back`, turn.force_bar, turn[OVER_FORCE[name]]);
+    this.#caption("cycle", `by depths to twice this load and back, on ${grid} points; under a force bodies jump where it falls`);
+    fillTable("explore-cycle", ["d/h", "F̄", "A/A_0", "k̄", "way"], table);
+    this.#strip.add(strip);
+    if (!this.#last) return;
+    Object.assign(this.#last.maps, maps);
+    Object.assign(this.#last.arrays, arrays);
+    this.#drawField(this.#last);
+  }
+
   // Draw sealed loads at the foot of the axis.
   #drawSealed(name, curves) {
     const x = curves.flatMap(({force_bar, aperture}) => force_bar.filter((_, i) => aperture[i] === 0));
@@ -299,7 +339,7 @@ class Explore {
   }
 
   #forgetWayBack() {
-    if (!this.#backTables[0].length) return;
+    if (!this.#plots?.model("area back").data.x.length) return;
     for (const name of Object.keys(OVER_FORCE)) this.#setMarks(`${name} back`, [], []);
     this.#backTables = [[], [], []];
     this.#fillCurveTables();
@@ -338,7 +378,7 @@ class Explore {
 
   #cursorTo(force) {
     this.#fromCursor = true;
-    for (const name of Object.keys(OVER_FORCE)) this.#plots.model(`${name} cursor`).location = force;
+    for (const name of CURSORS) this.#plots.model(`${name} cursor`).location = force;
     this.#fromCursor = false;
   }
 
@@ -379,16 +419,32 @@ class Explore {
     this.#root.querySelector('[data-control="hardness_bar"]').hidden = !yields;
   }
 
+  get #sticks() { return Boolean(this.#controls.said.w); }
+
+  // Show what there is of bodies that stick alone.
+  #showSticking() {
+    const sticks = this.#sticks;
+    this.#root.querySelector("#explore-sticks").checked = sticks;
+    for (const key of ["w", "h0"]) this.#root.querySelector(`[data-control="${key}"]`).hidden = !sticks;
+    this.#showOf("w", sticks);
+    if (!sticks) this.#undim(["cycle"]);
+  }
+
   get #flows() { return Boolean(this.#controls.said.fluid); }
 
   // Show what there is with a fluid alone, and its curve.
   #showFluid() {
     const flows = this.#flows;
-    for (const each of this.#root.querySelectorAll('[data-of="fluid"]')) each.hidden = !flows;
-    for (const select of this.#root.querySelectorAll('select:has([data-of="fluid"]:checked)')) if (!flows) select.selectedIndex = 0;
+    this.#showOf("fluid", flows);
     this.#root.querySelector(flows ? "#tab-aperture" : "#tab-area").click();
     this.#caption("theories of the flow", "");
     if (!flows) this.#undim(["aperture"]);
+  }
+
+  // Show or hide what belongs to a control that is set; a hidden choice is left.
+  #showOf(key, isSet) {
+    for (const each of this.#root.querySelectorAll(`[data-of="${key}"]`)) each.hidden = !isSet;
+    for (const select of this.#root.querySelectorAll(`select:has([data-of="${key}"]:checked)`)) if (!isSet) select.selectedIndex = 0;
   }
 
   #showHeightOrSlope() {
@@ -402,11 +458,12 @@ class Explore {
     find("#another").addEventListener("click", () => {
       this.#controls.put("seed", String(Math.floor(Math.random() * 1e6)));
     });
-    find("#explore-yields").addEventListener("change", ({target}) => {
-      const slider = find("#explore-hardness_bar");
-      const text = find("#explore-hardness_bar-text").value || slider.dataset.default;
-      this.#controls.set("hardness_bar", target.checked ? text : "");
-    });
+    for (const [tick, key] of [["#explore-yields", "hardness_bar"], ["#explore-sticks", "w"]]) {
+      find(tick).addEventListener("change", ({target}) => {
+        const text = find(`#explore-${key}-text`).value || find(`#explore-${key}`).dataset.default;
+        this.#controls.set(key, target.checked ? text : "");
+      });
+    }
     bindTabs(this.#root);
   }
 }

@@ -6,6 +6,7 @@ const documents = [], allPlots = [];
 const MARKS = { // palettes of a few colours of the theme
   marks: ["paper", "ink", "plastic"], // gap, contact, contact at the hardness
   reach: ["paper", "ink", "dark-line"], // gap, contact, gap that a fluid comes to
+  pull: ["paper", "ink", "pull"], // gap, contact, gap across which bodies pull each other
 };
 const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
 
@@ -125,10 +126,12 @@ class Plots {
   span(name, axis, values, atLeast = [Infinity, -Infinity]) {
     const known = [...values, ...atLeast].filter((value) => Number.isFinite(value) && value > 0);
     if (!known.length) return;
-    const plot = this.root(name);
     const [low, high] = [Math.min(...known), Math.max(...known)];
-    const [start, end] = [low / 1.2, high * 1.2];
-    plot[`${axis}_range`].setv({start, end, reset_start: start, reset_end: end});
+    this.range(name, axis, low / 1.2, high * 1.2);
+  }
+
+  range(name, axis, start, end) {
+    this.root(name)[`${axis}_range`].setv({start, end, reset_start: start, reset_end: end});
   }
 
   // Call when a cursor was moved by hand.

@@ -46,6 +46,7 @@ const MEANINGS = { // of the colours of marks
   ink: "in contact",
   plastic: "of this at the hardness: permanently indented",
   reach: "reached by the fluid",
+  pull: "pulled across a gap",
 };
 
 // Say in a caption what a map shows, and what the colours of its marks mean.

@@ -1,0 +1,83 @@
+"""What it takes to draw bodies apart that stick, once their largest load was on."""
+
+from __future__ import annotations
+
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from roughline.assessment.case import Case
+from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve
+from roughline.contact.jkr import JKR
+from roughline.contact.loads import depth_apart, unbearable_pull
+from roughline.contact.press import press
+from roughline.engineering.attraction import Separation
+from roughline.topography.body import Surface
+
+_STEPS = 8  # from no load to the largest pull, on to where bodies come apart, and across that
+_NEARLY = 1 - 1e-6  # of the depth of full contact
+
+
+def separation_of(case: Case, curve: Curve) -> Separation | None:
+    """Draw a surface apart from the largest load of a curve; None if that was not solved.
+
+    Pull-off and area are uncertain by the grid's errors. They have no interval where other places
+    of a joint, or the way in which missing points are filled, leave them open as well.
+    """
+    largest, law = case.loads.largest, curve.law
+    if not curve.converged[largest] or law is None or isinstance(law, JKR):
+        return None
+    force = float(curve.force[largest])
+    is_judged = case.loads.grid_error and case.question.joint is None and not case.filled
+    surface = curve.surface
+    assert surface is not None
+    under = press(
+        surface,
+        half_space=curve.half_space,
+        law=law,
+        forces=[force, 0.0, unbearable_pull(law, surface.area)],
+        grid_error=is_judged,
+        throw=False,
+    )
+    share, error = under.area_fraction_corrected, under.area_fraction_error
+    assert share is not None
+    drawn = _drawn_apart(surface, under)
+    assert drawn.work is not None
+    return Separation(
+        drawn,
+        _rows(-under.pull_off_force, under.pull_off_force_error),
+        _rows(float(share[1]), None if error is None else float(error[1])),
+        float(drawn.work[-1] - drawn.work[1]),
+    )
+
+
+def _drawn_apart(surface: Surface, under: Curve) -> Curve:
+    """Draw bodies apart at falling depths, through those of no load and of the pull-off.
+
+    Where they come apart is looked for first, as it bounds the work that they take.
+    """
+    law, off = under.law, under.pull_off_depth
+    assert law is not None
+    assert not isinstance(law, JKR)
+    loaded, unloaded = float(under.depth[0]), float(under.depth[1])
+    if under.half_space.mean_is_free:  # full contact has one depth, at which forces are not known
+        full = float(np.mean(surface.heights.max() - surface.heights))
+        loaded, unloaded, off = (min(each, _NEARLY * full) for each in (loaded, unloaded, off))
+    if not np.isfinite(off):  # the grid does not resolve it
+        off = unloaded
+    pressed = partial(press, surface, half_space=under.half_space, law=law, throw=False)
+    beyond = np.linspace(off, depth_apart(surface, under.half_space, law, loaded), _STEPS + 1)
+    looked = pressed(depths=[loaded, unloaded, *beyond])
+    last = max(0, int(np.flatnonzero(looked.force < 0).max(initial=0)) - 2)
+    ends = [unloaded, off, *beyond[last : last + 2].tolist()]
+    steps = [np.linspace(start, end, _STEPS + 1) for start, end in pairwise(ends)]
+    return pressed(depths=[loaded, *np.unique(np.concatenate(steps))[::-1]])
+
+
+def _rows(value: float, error: float | None) -> Real:
+    """A value and, where its error is known, both ends of its interval."""
+    if error is None or not np.isfinite(error):
+        return np.array([value])
+    return np.array([value, value / (1 + error / value) if value else 0.0, value + error])

@@ -1,0 +1,85 @@
+"""Electricity and heat through coated bodies, by the points that touch.
+
+Of bodies of one material each, Barber's identity gives what they conduct from their stiffness.
+Through layers a current spreads otherwise than a displacement does, and is solved on its own.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.contact.conduction import Resistances, conductance
+from roughline.contact.fields import Fields
+from roughline.contact.measures import Measure
+from roughline.engineering.pair import MaterialPair
+from roughline.engineering.pressed import Pressed
+
+_NAMES = {"resistivity": "electrical_spreading", "conductivity": "thermal_spreading"}
+
+
+def spreading(pair: MaterialPair, quantity: str) -> Sequence[Measure]:
+    """What is measured of coated bodies of known resistivities or conductivities; else nothing.
+
+    It is the conductance times the mean of both resistivities at the surfaces, a length, as k / E*
+    is of bodies of one material.
+    """
+    layers = pair.resistances(quantity)
+    return () if layers is None or not pair.coated else (_measure(_NAMES[quantity], layers),)
+
+
+@functools.cache  # several answers ask for it
+def _measure(name: str, layers: Resistances) -> Measure:
+    meaning = "conductance of the touching points times the mean resistivity at the surfaces"
+    return Measure(name, "", "length", meaning, partial(_spreading, layers))
+
+
+def _spreading(layers: Resistances, fields: Fields) -> float:
+    of_surfaces = sum(resistivity[0] for resistivity, _ in layers) / 2
+    found = conductance(fields.contact, fields.sizes, layers, fields.is_periodic)
+    return of_surfaces * found
+
+
+def of_contact(pressed: Pressed, quantity: str) -> Real | None:
+    """k_u, or the stiffness with which Barber's identity holds through layers, in rows. [N / m]
+
+    Of a map that is pressed freely it is not known: through layers, the map repeated is measured.
+    """
+    if not pressed.pair.coated:
+        return pressed.unloading
+    is_of_map = pressed.is_repeated and pressed.interface is not None and pressed.joint is None
+    return None if is_of_map else _measured(pressed, quantity, pressed.unloading)
+
+
+def of_interface(pressed: Pressed, quantity: str) -> Real | None:
+    """k_i, or the stiffness with which Barber's identity holds through layers, in rows. [N / m]
+
+    Of a free piece it is not known through layers.
+    """
+    if not pressed.pair.coated:
+        return pressed.interface_stiffness
+    return (
+        _measured(pressed, quantity, pressed.interface_stiffness) if pressed.is_repeated else None
+    )
+
+
+def _measured(pressed: Pressed, quantity: str, stiffness: Real) -> Real | None:
+    """What was measured, as uncertain as a stiffness is: both are of the same points."""
+    rows = pressed.measure(_NAMES[quantity])
+    if rows is None:
+        return None
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratios = stiffness / stiffness[0]
+        return pressed.pair.E_star * pressed.scale * rows[0] * np.where(ratios > 0, ratios, 1.0)
+
+
+def through_layers(validity: str, pressed: Pressed) -> Mapping[str, str]:
+    """Texts that differ where something flows through layers."""
+    if not pressed.pair.coated:
+        return {}
+    formula = "of the potential that all points of the contact have, solved through the layers"
+    return {"formula": formula, "validity": validity}

@@ -1,0 +1,120 @@
+"""A bulk material: its properties for contact stiffness, conductance and ultrasound."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from roughline.contact.elastic_pair import ElasticBody
+from roughline.errors import InputError
+from roughline.errors.public import public
+
+
+@public
+@dataclass(frozen=True)
+class Material:
+    """An isotropic bulk material at room temperature.
+
+    Parameters
+    ----------
+    name : str
+        Name of the material.
+    E : float
+        Young's modulus; infinite for a rigid body. [Pa]
+    nu : float
+        Poisson's ratio, -1 to 0.5. [1]
+    hardness : float, optional
+        Indentation hardness of the surface. [Pa]
+    resistivity : float, optional
+        Electrical resistivity. [ohm m]
+    conductivity : float, optional
+        Thermal conductivity. [W / (m K)]
+    density : float, optional
+        Mass density. [kg / m³]
+    source : str, optional
+        Where the values come from.
+    hardness_factor : float, optional
+        Factor by which the hardness H is uncertain: it lies between H / factor and H * factor.
+        Hardnesses of the table are uncertain, as hardness varies with heat treatment, cold work
+        and depth; a given one is taken as exact. [1]
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range.
+    """
+
+    name: str
+    E: float
+    nu: float
+    hardness: float | None = None
+    resistivity: float | None = None
+    conductivity: float | None = None
+    density: float | None = None
+    source: str = "given by the user"
+    hardness_factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not self.E > 0:
+            raise InputError(f"E of {self.name} is {self.E}; a positive modulus is needed")
+        if not -1 < self.nu <= 0.5:
+            raise InputError(f"nu of {self.name} is {self.nu}; allowed is -1 to 0.5")
+        for name in ("hardness", "resistivity", "conductivity", "density"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < math.inf:
+                raise InputError(
+                    f"{name} of {self.name} is {value}; a positive, finite number is needed"
+                )
+
+        if not 1 <= self.hardness_factor < math.inf:
+            raise InputError(
+                f"hardness_factor of {self.name} is {self.hardness_factor}; 1 or more is needed"
+            )
+
+    @property
+    def surface(self) -> Material:
+        """What lies at the surface: the material itself."""
+        return self
+
+    @property
+    def materials(self) -> tuple[Material]:
+        """The material itself."""
+        return (self,)
+
+    @property
+    def thicknesses(self) -> tuple[float, ...]:
+        """None, as there is no layer. [m]"""
+        return ()
+
+    @property
+    def elasticity(self) -> ElasticBody:
+        """How a body of it gives way to pressure."""
+        return ElasticBody((self.E,), (self.nu,))
+
+    def with_hardness(self, hardness: float) -> Material:
+        """Return the same with a hardness that is known exactly [Pa]; a rigid body has none."""
+        if math.isinf(self.E):
+            return self
+        source = f"{self.source}; hardness given"
+        return replace(self, hardness=hardness, hardness_factor=1.0, source=source)
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / (2 (1 + nu)). [Pa]"""
+        return self.E / (2 * (1 + self.nu))
+
+    @property
+    def carries_sound(self) -> bool:
+        """Whether longitudinal waves have a finite speed: not in rigid or incompressible bodies."""
+        return not math.isinf(self.E) and self.nu != 0.5
+
+    @property
+    def impedance(self) -> float | None:
+        """Acoustic impedance of longitudinal waves, density times their speed. [kg / (m² s)]
+
+        None without a density, and for a rigid or an incompressible material.
+        """
+        if self.density is None or not self.carries_sound:
+            return None
+        nu = self.nu
+        return math.sqrt(self.density * self.E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)))

@@ -1,0 +1,127 @@
+"""Bodies that stick: what it takes to draw them apart once their largest load was on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.engineering.attraction import Separation
+from roughline.engineering.pressed import Pressed
+from roughline.engineering.rule import Rule, always
+from roughline.units import decimal, engineering
+
+_AFTER = "after the largest load, slowly, so that nothing swings"
+
+
+def _found(of: Callable[[Separation, Pressed], Real], pressed: Pressed) -> Real | None:
+    """What was found after the largest load, the same under all loads, in rows."""
+    separation = pressed.sought.separation
+    if separation is None or pressed.attraction is None:
+        return None
+    rows = of(separation, pressed)
+    if not np.isfinite(rows).all():
+        return None
+    return np.where(pressed.curve.converged, rows[:, np.newaxis], np.nan)
+
+
+def _of_work(separation: Separation, pressed: Pressed) -> Real:
+    """Work of separation over that of smooth bodies, in a row. [1]"""
+    assert pressed.attraction is not None
+    return np.array([separation.work / (pressed.attraction.work * pressed.area)])
+
+
+def _of_range(name: str, pressed: Pressed) -> Mapping[str, str]:
+    """Of which attraction an answer is, and of which surface."""
+    law, attraction = pressed.curve.law, pressed.attraction
+    if attraction is None or law is None:
+        return {}
+    reach = engineering(float(law.settings["range"]), "m")
+    place = ""
+    if pressed.interface is not None:
+        place = "of this piece alone, a punch with its outline; "
+    if pressed.joint is not None:
+        place = "of the map, which is one place of the joint; "
+    work = f"w = {engineering(attraction.work, 'J')}/m² ({attraction.source})"
+    validity = f"{place}{_AFTER}; {work}, range {reach}"
+    if attraction.range is not None:
+        return {"validity": validity}
+    return {"name": f"{name} at a range of {reach}", "validity": validity}
+
+
+def _branch(pressed: Pressed) -> str:
+    """Say which branch the other answers are of, and which range was taken."""
+    law, attraction = pressed.curve.law, pressed.attraction
+    if attraction is None or law is None or pressed.sought.separation is None:
+        return ""
+    text = (
+        "the bodies stick: other answers are those on the way in, and stiffness and conductance "
+        "those of the points that touch"
+    )
+    if attraction.range is None:
+        reach = float(law.settings["range"])
+        text += (
+            f"; no range was given, and the shortest that the map resolves is taken, "
+            f"{engineering(reach, 'm')}"
+        )
+        if pressed.rms_height:
+            text += f" or {decimal(reach / pressed.rms_height, 2)} rms heights"
+        text += ": shorter ones give other answers, and half of it needs four times as fine a grid"
+    return text
+
+
+def _rule(name: str, **others: Any) -> Rule:
+    """A rule about bodies that stick; where no range was given, its answer's name says which."""
+    return Rule(
+        name=name,
+        group="adhesion",
+        source="Maugis 1992",
+        differing=partial(_of_range, name),
+        **others,
+    )
+
+
+ADHESION = (
+    _rule(
+        key="pull_off_force",
+        name="pull-off force",
+        symbol="F_po",
+        unit="N",
+        formula="largest pull under a load that is taken off and turned into a pull",
+        value=partial(_found, lambda separation, pressed: separation.pull_off * pressed.scale),
+        note=_branch,
+        leads=always,
+        is_extensive=True,
+    ),
+    _rule(
+        key="pull_off_pressure",
+        name="pull-off pressure",
+        symbol="p_po",
+        unit="Pa",
+        formula="F_po / A_0",
+        value=partial(_found, lambda separation, pressed: separation.pull_off / pressed.area),
+    ),
+    _rule(
+        key="area_without_load",
+        name="contact area without load",
+        symbol="A_0F/A_0",
+        unit="1",
+        formula="share of the nominal area that still touches once the load is off",
+        value=partial(_found, lambda separation, _pressed: np.minimum(separation.area_fraction, 1)),
+        limits=lambda _pressed: (0.0, 1.0),
+        in_per_cent=True,
+    ),
+    _rule(
+        key="work_of_separation",
+        name="work of separation over that of smooth bodies",
+        symbol="W_s/(w A_0)",
+        unit="1",
+        formula="integral of the pull over the depth from no load until apart, to about 3 %",
+        value=partial(_found, _of_work),
+        in_per_cent=True,
+    ),
+)
+"""Answers about bodies that stick, in their order."""

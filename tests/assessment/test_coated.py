@@ -1,0 +1,312 @@
+"""Questions of coated bodies: limits, what is left out, remarks and refusals."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.assessment.loads import LoadCase
+from roughline.contact.conduction import conductance
+
+SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4)
+SURFACE = SPECTRUM.surface(64, rng=7)
+MAP = replace(SURFACE, is_cut_out=True)
+RTOL = 1e-11
+GOLD = (2.21e-8, 6.93e-8, 1.68e-8), (20e-6, 40e-6)
+OF_ONE_MATERIAL = {
+    *("tangential_stiffness", "holm_resistance", "mikic_conductance", "plastic_conductance"),
+    "reflection",
+}
+"""Answers whose formulas do not hold of layers."""
+
+
+def assessed(materials, loads=("0.1 N", "1 N"), body=SURFACE, **others):
+    return rl.assess(rl.Question(body, materials=materials, loads=loads, **others))
+
+
+@pytest.fixture
+def _to_rounding(monkeypatch):
+    """Press so closely that no solution is farther from another than its tolerance."""
+    press = LoadCase.press
+    monkeypatch.setattr(
+        LoadCase, "press", lambda case, progress=None: press(replace(case, rtol=RTOL), progress)
+    )
+
+
+def differences(first, second):
+    """Largest relative difference of each answer that both have, ends of intervals included."""
+    found = {}
+    for key in second.answers:
+        for name in ("values", "low", "high"):
+            one, other = (getattr(each.answers[key], name) for each in (first, second))
+            if one is None or other is None:
+                continue
+            with np.errstate(invalid="ignore", divide="ignore"):
+                off = np.where(one == other, 0.0, np.abs(other / one - 1))
+            found[f"{key} {name}"] = float(np.nanmax(off, initial=0.0))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("others", "body"),
+    [
+        ({"elastic": True}, SURFACE),
+        ({}, SURFACE),  # copper yields
+        ({"periodic": True, "elastic": True, "loads": ("1 N", "20 N", "100 N")}, SURFACE),
+        ({"ask": [rl.Ultrasound("5 MHz"), rl.Fluid("helium"), rl.Closure()]}, SURFACE),
+        ({"ask": [rl.Adhesion("50 J/m^2")], "elastic": True, "loads": "0.1 N"}, SURFACE),
+        ({"ask": [rl.Unloading()], "loads": "1 N"}, SURFACE),
+    ],
+)
+@pytest.mark.usefixtures("_to_rounding")
+def test_a_coating_of_its_base_changes_no_answer_that_is_kept(others, body):
+    plain = assessed(("steel", "copper"), body=body, **others)
+    coated = assessed(("steel 20 um on steel", "copper"), body=body, **others)
+    of_a_piece = {"thermal_conductance_per_area", "joint_conductance"}
+    left_out = OF_ONE_MATERIAL | (set() if others.get("periodic") else of_a_piece)
+    assert set(plain.answers) - set(coated.answers) <= left_out
+    assert set(coated.answers) <= set(plain.answers)
+    # the way apart of bodies that stick begins and ends a little elsewhere
+    sticks = any(isinstance(each, rl.Adhesion) for each in others.get("ask", ()))
+    assert max(differences(plain, coated).values()) < (1e-8 if sticks else 1e-9)
+    assert coated.curve.E_star == pytest.approx(plain.curve.E_star, rel=1e-14)
+    assert coated.hardness_scatter.keys() == coated.answers.keys() & plain.hardness_scatter.keys()
+
+
+def test_spaced_loads_of_a_coating_of_its_base_are_the_same():
+    """They come from a disc's stiffness, which is found from the waves for layers."""
+    each = ("steel", "copper"), ("steel 20 um on steel", "copper")
+    plain, coated = (assessed(pair, (), periodic=True, elastic=True) for pair in each)
+    np.testing.assert_allclose(coated.curve.force, plain.curve.force, rtol=1e-5)
+
+
+@pytest.mark.parametrize("joint", [[], [rl.Joint("2 cm^2")]])
+@pytest.mark.usefixtures("_to_rounding")
+def test_of_a_map_the_values_are_the_same_and_the_larger_surface_is_left_open(joint):
+    pair = ("steel", "copper"), ("steel", "copper 20 um on copper")
+    plain, coated = (assessed(each, "1 MPa", MAP, elastic=True, ask=joint) for each in pair)
+    for key, answer in coated.answers.items():
+        np.testing.assert_allclose(answer.values, plain.answers[key].values, rtol=1e-9)
+    assert "thermal_conductance_per_area" in coated.answers
+    assert ("constriction_resistance" in coated.answers) == bool(joint)
+    assert plain.answers["interface_stiffness"].low is not None
+    assert coated.answers["interface_stiffness"].low is None
+    said = [each for each in coated.notes if "how far a larger surface may be from its map" in each]
+    assert len(said) == 1
+    assert "k_i" in said[0]
+
+
+def test_numbers_are_those_of_the_full_model_on_the_sum_of_both_bodies():
+    layer = rl.Layered([78e9], [0.44], [20e-6], 129.8e9, 0.343)
+    steel = rl.Homogeneous(211.9e9 / (1 - 0.291**2))
+    curve = rl.press(SURFACE, half_space=layer + steel, forces=[0.1, 1.0])
+    for pair in (("gold 20 um on copper", "steel"), ("steel", "gold 20 um on copper")):
+        found = assessed(pair, elastic=True)
+        for name in ("depth", "stiffness", "area_fraction"):
+            np.testing.assert_allclose(
+                getattr(found.curve_as_asked, name), getattr(curve, name), rtol=1e-7
+            )
+
+
+def test_a_thick_layer_is_its_material():
+    layer = assessed(("rubber", "rigid"), "10 mN")
+    coated = assessed(("rubber 1 km on steel", "rigid"), "10 mN")
+    off = differences(layer, coated)
+    assert max(off[f"{key} values"] for key in coated.answers) < 1e-5
+    # the base is felt by the approach of the body as a whole, in proportion to its distance
+    nearer = assessed(("rubber 10 m on steel", "rigid"), "10 mN")
+    moved = differences(layer, nearer)["contact_stiffness values"]
+    assert moved == pytest.approx(100 * off["contact_stiffness values"], rel=0.05)
+
+
+def test_a_thin_layer_is_its_base_within_its_thickness():
+    """Contacts many cells wide, on layers of 2, 1 and 0.5 cells: half the layer, at most half."""
+    wide = rl.SelfAffine(hurst=1.0, length=1e-3, rms_height=1e-6, q_high=1.3e4).surface(128, rng=3)
+    base = assessed(("steel", "rigid"), "2 kN", wide, elastic=True, grid_error=False)
+    k = base.answers["contact_stiffness"].values[0]
+    off = []
+    for cells in (2, 1, 0.5):
+        text = f"gold {cells * 1e-3 / 128:.12g} m on steel"
+        found = assessed((text, "rigid"), "2 kN", wide, elastic=True, grid_error=False)
+        off.append(1 - found.answers["contact_stiffness"].values[0] / k)
+    assert 0 < off[2] < 2e-3
+    assert off[0] > 1.9 * off[1] > 3.6 * off[2]
+
+
+def test_the_interface_of_a_piece_leaves_out_what_a_flat_punch_on_the_same_layers_gives():
+    found = assessed(("E=3 MPa nu=0.4 100 um on steel", "rigid"), ["20 mN", "0.1 N"])
+    flat = rl.Surface(np.zeros((64, 64)), (1e-3, 1e-3))
+    of_punch = rl.press(flat, half_space=found.curve.half_space, forces=[1.0]).stiffness[0]
+    k = found.answers["contact_stiffness"].values
+    k_i = found.answers["interface_stiffness"].values
+    np.testing.assert_allclose(1 / k_i, 1 / k - 1 / of_punch, rtol=1e-6)
+    remark = next(each for each in found.remarks if "punch with its outline" in each)
+    assert "a fifth less stiff" not in remark
+
+
+def test_a_rigid_base_is_the_limit_of_a_stiff_one_for_the_interface():
+    """Layers on either are repeated without what even pressure displaces them by."""
+    of = [
+        assessed((f"E=3 MPa nu=0.4 50 um on {base}", "rigid"), "0.1 N", periodic=True)
+        for base in ("rigid", "E=3000 GPa nu=0.3")
+    ]
+    assert max(differences(*of).values()) < 1e-4
+    note = next(each for each in of[0].notes if "those of the interface alone" in each)
+    even = 50e-6 / (3e6 * (1 - 0.4) / ((1 + 0.4) * (1 - 0.8)))
+    assert f"{even * 1e5 * 1e9:.1f} nm under 100 kPa" in note
+    assert not any("those of the interface alone" in each for each in of[1].notes)
+
+
+def test_a_layer_that_keeps_its_volume_may_be_repeated_on_a_rigid_base():
+    found = assessed(("E=3 MPa nu=0.5 50 um on rigid", "rigid"), "0.1 N", periodic=True)
+    nearly = assessed(("E=3 MPa nu=0.49999 50 um on rigid", "rigid"), "0.1 N", periodic=True)
+    assert max(differences(found, nearly).values()) < 2e-3
+
+
+def test_the_hardness_is_that_of_the_top_layer_and_a_remark_says_so():
+    found = assessed(("steel", "gold 20 um on nickel 40 um on copper"), "1 N")
+    assert found.curve.hardness == rl.material("gold").hardness
+    said = " / ".join(found.notes)
+    assert "the hardness of gold 20 µm on nickel 40 µm on copper is that of its top layer" in said
+    elastic = assessed(("steel", "gold 20 um on copper"), "1 N", elastic=True)
+    assert "no plasticity index: it is of summits of one material each" in " / ".join(elastic.notes)
+    assert not any("plasticity index is" in each for each in elastic.remarks)
+    given = assessed(("steel", "gold 20 um on copper"), "1 N", hardness="1 GPa")
+    assert given.curve.hardness == 1e9
+
+
+def test_what_is_left_out_is_named_with_its_reason():
+    found = assessed(("gold 20 um on copper", "steel"), "1 N", ask=rl.Ultrasound("5 MHz"))
+    assert not OF_ONE_MATERIAL & found.answers.keys()
+    said = " / ".join(found.left_out)
+    for name in ("tangential stiffness", "estimates for comparison"):
+        assert f"no {name}: " in said
+    assert "no reflection: layers reflect a part of the wave themselves" in said
+
+
+def test_currents_are_solved_through_the_layers():
+    """Of a piece all of it, of a map its interface, of a joint both; each says what it lacks."""
+    gold, bodies = "gold 20 um on nickel 40 um on copper", (GOLD, ((1.6e-7,), ()))
+    piece = assessed((gold, "steel"), "1 N", elastic=True)
+    touching = piece.fields.contact
+    R = 1 / conductance(touching, SURFACE.sizes, bodies, False)
+    assert piece.answers["constriction_resistance"].values[0] == pytest.approx(R, rel=1e-9)
+    assert "thermal_conductance_per_area" not in piece.answers
+    assert any("no conductance per area of its interface" in each for each in piece.notes)
+    homogeneous = assessed(("gold", "steel"), "1 N", elastic=True)
+    assert pytest.approx(homogeneous.answers["constriction_resistance"].values[0], rel=0.01) != R
+    of_map = assessed((gold, "steel"), "1 MPa", MAP, elastic=True)
+    assert "constriction_resistance" not in of_map.answers
+    assert any("neither resistance nor conductance of the map alone" in n for n in of_map.notes)
+    joint = assessed((gold, "steel"), "1 MPa", MAP, elastic=True, ask=rl.Joint("2 cm^2"))
+    h_c = [each.answers["thermal_conductance_per_area"].values[0] for each in (of_map, joint)]
+    assert h_c[0] == pytest.approx(h_c[1], rel=1e-6)
+    G = joint.answers["thermal_conductance"].values[0]
+    assert pytest.approx(h_c[1] * 2e-4, rel=1e-12) == G
+    rho_c = joint.answers["specific_contact_resistance"].values[0]
+    R = joint.answers["constriction_resistance"].values[0]
+    assert rho_c == pytest.approx(R * 2e-4, rel=1e-12)
+    even = 20e-6 * 2.21e-8 + 40e-6 * 6.93e-8
+    assert any(f"adds {even:.4g} Ω m² of electricity" in each for each in joint.notes)
+
+
+def test_the_interval_of_a_current_is_as_wide_as_that_of_the_stiffness():
+    found = assessed(("gold 20 um on copper", "steel"), "1 N", elastic=True)
+    k, R = (found.answers[key] for key in ("contact_stiffness", "constriction_resistance"))
+    assert R.low[0] / R.values[0] == pytest.approx(k.values[0] / k.high[0], rel=1e-9)
+    assert R.high[0] / R.values[0] == pytest.approx(k.values[0] / k.low[0], rel=1e-9)
+
+
+def test_theories_stay_where_they_hold():
+    asked = rl.Theories("persson", "bush-gibson-thomas", "greenwood-williamson")
+    thick = assessed(("E=3 MPa nu=0.4 300 um on steel", "rigid"), "20 mN", ask=asked)
+    assert [each.name for each in thick.theories] == ["persson"]
+    said = " / ".join(thick.left_out)
+    assert "no bush-gibson-thomas: its summits are spheres of one material" in said
+    thin = assessed(("E=3 MPa nu=0.4 20 um on steel", "rigid"), "20 mN", ask=asked)
+    assert thin.theories == []
+    assert "no persson: the layers meet these waves" in " / ".join(thin.left_out)
+    plain = assessed(("steel", "copper"), "20 mN", ask=asked)
+    coated = assessed(("steel 20 um on steel", "copper"), "20 mN", ask=asked)
+    assert len(plain.theories) == len(coated.theories) == 3
+    for one, other in zip(plain.theories, coated.theories, strict=True):
+        np.testing.assert_allclose(one.area_fraction, other.area_fraction, rtol=1e-9)
+
+
+def test_soft_layers_under_high_pressure_are_warned_of():
+    found = assessed(("E=3 MPa nu=0.4 50 um on steel", "rigid"), ["0.1 N", "2 N"])
+    assert any("times the contact modulus of the softest materials" in w for w in found.warnings)
+    light = assessed(("E=3 MPa nu=0.4 50 um on steel", "rigid"), "5 mN")
+    assert not any("softest materials" in each for each in light.warnings)
+
+
+def test_several_maps_have_a_mean_and_say_what_is_not_known():
+    maps = [replace(SPECTRUM.surface(64, rng=seed), is_cut_out=True) for seed in (1, 2)]
+    found = assessed(("gold 20 um on copper", "steel"), "1 MPa", maps, elastic=True)
+    k_i = found.answers["interface_stiffness"]
+    assert np.isfinite(k_i.mean).all()
+    assert np.isnan(k_i.low).all()
+    assert any(
+        "how maps differ from the part behind them is known of bodies of one" in each
+        for each in found.warnings
+    )
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        (
+            {"materials": ("gold 7 um on copper", "steel")},
+            'materials "gold 7 µm on copper": its layer of gold, 7 µm, is thinner than half a cell '
+            "of 15.62 µm: leave that layer out",
+        ),
+        (
+            {"materials": ("gold 20 um on copper", "steel"), "ask": rl.Friction(0.3)},
+            "partial slip (rl.Friction) follows from the ratio .* gold 20 µm on copper is coated",
+        ),
+        (
+            {"materials": "rubber 2 mm on steel"},
+            'give two with a comma between, such as "steel,copper" or "rubber 2 mm on steel,rigid"',
+        ),
+        (
+            {"materials": ("rubber on steel", "rigid")},
+            'materials "rubber on steel" cannot be used: "rubber" in the material .* is no layer',
+        ),
+        (
+            {"materials": "rubber 50 um on steel, rigid", "loads": "5 kN"},
+            "the mean pressure of load 5 kN strains the layers or their base by about",
+        ),
+        (
+            {"materials": ("gold 20 um on copper", "steel"), "body": SPECTRUM.line(512, rng=1)},
+            'materials "gold 20 µm on copper" is coated, and the springs of a line have one',
+        ),
+        (
+            {
+                "materials": ("steel", "gold 20 um on copper"),
+                "body": rl.Line(SURFACE.heights[0], 1e-3, "m", kind="profile"),
+            },
+            "is coated, and the springs of a line have one modulus: give a body of one material",
+        ),
+    ],
+)
+def test_what_cannot_be_asked_of_layers_gets_one_line(asked, message):
+    with pytest.raises(
+        rl.InputError, match=message.replace("(", r"\(").replace(")", r"\)")
+    ) as told:
+        rl.assess(rl.Question(**{"body": SURFACE, "loads": "1 N", **asked}))
+    assert "\n" not in str(told.value)
+    assert len(str(told.value)) <= 350
+    assert told.value.argument == "materials" or "rl.Friction" in message or "strains" in message
+
+
+def test_thin_layers_have_no_bound_of_a_coarser_grid_where_they_are_sealed():
+    """Half as many points would not resolve the layer, so what they leave open is not known."""
+    found = assessed(
+        ("E=3 MPa nu=0.4 12 um on steel", "rigid"), "0.1 N", ask=[rl.Fluid("water"), rl.Closure()]
+    )
+    sealing = found.answers["sealing_pressure"]
+    assert np.isfinite(sealing.values).all()
+    assert sealing.low is None
+    assert math.isfinite(found.answers["hydraulic_aperture"].values[0])

@@ -1,0 +1,198 @@
+"""Bodies that stick in Explore: both ways, pull-off, maps, code and files are the library's."""
+
+import csv
+import json
+import math
+import shlex
+
+import numpy as np
+import pytest
+from matplotlib import image
+
+import roughline as rl
+from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer
+from roughline.lab.controls import ControlError
+from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore.state import ExploreState, state_of, usable_state
+
+SCALE = E_STAR * HEIGHT * LENGTH
+STICKS = {"n": "64", "D_f": "2.2", "seed": "7", "F": "0.08", "w": "1", "h0": "0.5"}
+POORLY = {**STICKS, "h0": "0.35"}  # 2.5 cells
+LAW = rl.Dugdale(work_of_adhesion=E_STAR * HEIGHT**2 / LENGTH, range=0.5 * HEIGHT)
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    """Return the contact there, beyond, back, and off."""
+    forces = 0.08 * SCALE * np.array([1, 2, 1, 0])
+    surface = state_of(STICKS, 64).surface(64)
+    return rl.press(surface, E_star=E_STAR, law=LAW, forces=forces, fields=[0, 2])
+
+
+@pytest.fixture(scope="module")
+def pull_off(pressed):
+    """Return depth and force of the largest pull on the way back, in small steps."""
+    surface = state_of(STICKS, 64).surface(64)
+    depths = np.arange(pressed.depth[1], -1.5 * HEIGHT, -0.02 * HEIGHT)
+    back = rl.press(surface, E_star=E_STAR, law=LAW, depths=depths)
+    return back.pull_off_depth, back.pull_off_force
+
+
+@pytest.fixture(scope="module")
+def cycle():
+    return answer(pictures.cycle, STICKS)
+
+
+def said(header):
+    return {item["key"]: item for item in header["strip"]}
+
+
+def refused(**changed):
+    """Return the sentences of texts that are not used after the first state."""
+    session = {"max_points": 1024}
+    before = state_of(STICKS, 1024).texts()
+    asked = {"state": {**before, **changed}, "before": before, "session": session}
+    state, sentences = usable_state(asked)
+    return state, sentences
+
+
+def test_the_map_shows_where_bodies_touch_and_where_they_pull(pressed):
+    header, arrays = answer(pictures.full, STICKS)
+    fields = pressed.fields[0]
+    assert fields.contact.any()
+    assert fields.pulling.any()
+    np.testing.assert_array_equal(arrays["area"].T, fields.contact + 2 * fields.pulling)
+    found = said(header)
+    assert found["pulling"]["value"] == f"{100 * pressed.pulling_fraction[0]:.3g}%"
+    mean = fields.pressure[fields.contact].mean()
+    assert found["pressure"]["value"] == f"{mean / E_STAR:.3g} E*"
+
+
+def test_the_way_back_and_the_pull_off_are_those_of_the_library(pressed, pull_off, cycle):
+    header, arrays = cycle
+    fields = pressed.fields[2]
+    np.testing.assert_array_equal(arrays["retreat"].T, fields.contact + 2 * fields.pulling)
+    assert header["here"]["x"] == pytest.approx(pressed.depth[[0, 2]] / HEIGHT, rel=1e-5)
+    assert header["here"]["y"] == pytest.approx([0.08, 0.08])
+    [pull], [depth] = header["pull_off"]["y"], header["pull_off"]["x"]
+    assert pull == pytest.approx(pull_off[1] / SCALE, rel=5e-3)
+    assert depth == pytest.approx(pull_off[0] / HEIGHT, abs=0.02)
+    found = said(header)
+    assert found["pull_off"]["value"] == f"{pull:.3g}"
+    assert found["retreat"]["value"] == f"{100 * pressed.area_fraction_corrected[2]:.3g}%"
+    assert pressed.area_fraction[2] > pressed.area_fraction[0]
+
+
+def test_both_ways_go_from_out_of_reach_to_twice_the_load_and_back(cycle):
+    header, _ = cycle
+    depth, force, there = (
+        np.array(header["curve"]["depth"]),
+        np.array(header["curve"]["force_bar"]),
+        np.array(header["on_approach"]),
+    )
+    assert force[0] == force[-1] == 0
+    assert force.max() == pytest.approx(0.16, rel=1e-4)
+    assert (np.diff(depth[there]) > 0).all()
+    assert (np.diff(depth[~there]) < 0).all()
+    assert force[~there].min() == pytest.approx(header["pull_off"]["y"][0], rel=0.1)
+    assert {row[-1] for row in header["table"]} == {"there", "back"}
+
+
+def test_a_zone_of_fewer_than_four_cells_is_told():
+    found = said(answer(pictures.full, STICKS)[0])
+    assert found["zone"]["value"] == f"{64 * 0.5**2 / math.pi:.2g} cells"
+    assert not found["zone"]["below"]
+    found = said(answer(pictures.full, POORLY)[0])
+    assert found["zone"]["value"] == "2.5 cells *"
+    assert "4 are needed" in found["zone"]["below"]
+
+
+def test_without_a_pull_off_it_says_that_the_grid_does_not_resolve_it():
+    header, _ = answer(pictures.cycle, {**STICKS, "h0": "0.3"})
+    assert header["pull_off"] == {"x": [], "y": []}
+    assert said(header)["pull_off"]["value"] == "not known"
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "why"),
+    [
+        ("h0", "0.2", "too short for the grid"),
+        ("w", "4", "too short for the grid"),
+        ("w", "50 Pa", "J/m"),
+        ("w", "-1", "from 0.0001 to 10"),
+        ("h0", "5 m", "range of the pull"),
+        ("hardness_bar", "0.3", "stick and yield"),
+    ],
+)
+def test_what_cannot_be_used_is_said_there_and_the_one_before_counts(key, text, why):
+    state, sentences = refused(**{key: text})
+    assert why in sentences[key]
+    assert state == state_of(STICKS, 1024)
+    assert list(sentences) == [key]
+
+
+def test_works_and_ranges_may_have_units():
+    work, height = 110e9 * HEIGHT**2 / LENGTH, "400 nm"
+    state, sentences = refused(w=f"{1e3 * work:.10g} mJ/m^2", h0=height)
+    assert not sentences
+    assert state.w == pytest.approx(1)
+    assert state.h0 == pytest.approx(0.4)
+
+
+def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
+    state = state_of(POORLY, 1024)
+    assert {key: state.address()[key] for key in ("w", "h0")} == {"w": "1", "h0": "0.35"}
+    assert state_of(state.address(), 1024) == state
+    assert ExploreState().law is None
+    with pytest.raises(ControlError) as error:
+        answer(pictures.cycle, {**STICKS, "w": ""})
+    assert error.value.at == "w"
+
+
+def test_grids_of_pictures_resolve_the_pull_where_that_of_the_state_does():
+    state = state_of({**STICKS, "n": "1024", "h0": "0.25"}, 1024)
+    assert state.points(64) == 256
+    assert state.zone(256) >= 4 > state.zone(128)
+    assert state_of({**STICKS, "n": "1024", "w": ""}, 1024).points(128) == 128
+
+
+def test_a_fluid_flows_between_bodies_that_stick(pressed):
+    header, _ = answer(pictures.full, {**STICKS, "fluid": "x"})
+    aperture = rl.flow(pressed.fields[0]).hydraulic_aperture
+    assert header["curve"]["aperture"] == pytest.approx([aperture / HEIGHT], rel=1e-3)
+
+
+def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
+    cycle, capsys, invoke, tmp_path, monkeypatch
+):
+    exec(answer(code.code, STICKS, which="python")[0]["text"], {})
+    *_, there, _, back, pull = capsys.readouterr().out.splitlines()
+    found = said(answer(pictures.full, STICKS)[0])
+    assert 100 * float(there.split()[-1]) == pytest.approx(
+        float(found["area"]["value"][:-1]), rel=0.1
+    )
+    assert f"{100 * float(back.split()[-1]):.3g}%" == said(cycle[0])["retreat"]["value"]
+    assert float(pull.split()[1]) / SCALE == pytest.approx(cycle[0]["pull_off"]["y"][0], rel=1e-2)
+    *commands, without = answer(code.code, STICKS, which="command")[0]["text"].splitlines()
+    assert without.startswith("# the way back and the pull-off")
+    monkeypatch.chdir(tmp_path)
+    for each in commands:
+        done, told, _ = invoke(*shlex.split(each)[1:], *["--json"] * each.count("press"))
+        assert done == 0
+    share = json.loads(told)["curve"]["area_fraction_corrected"][0]
+    assert 100 * share == pytest.approx(float(found["area"]["value"][:-1]), rel=0.1)
+
+
+def test_a_saved_curve_has_both_ways(tmp_path, cycle):
+    header, _ = answer(downloads.download, STICKS, folder=tmp_path, name="curve.csv")
+    with (tmp_path / "results" / header["file"]).open() as file:
+        rows = list(csv.DictReader(file))
+    forces = np.array([float(row["force [N]"]) for row in rows]) / SCALE
+    np.testing.assert_allclose(forces, cycle[0]["curve"]["force_bar"], rtol=1e-6, atol=1e-9)
+    assert {row["on_approach"] for row in rows} == {"0", "1"}
+
+
+@pytest.mark.parametrize("name", ["curve.png", "contact.png"])
+def test_pictures_of_bodies_that_stick_can_be_saved(name, tmp_path):
+    header, _ = answer(downloads.download, STICKS, folder=tmp_path, name=name)
+    assert image.imread(tmp_path / "results" / header["file"]).size
