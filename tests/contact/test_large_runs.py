@@ -114,7 +114,9 @@ def test_what_layers_take_in_addition_is_known_before(kind, periodic):
         )
         assert 0.4 * told < held < 1.1 * told
         if not periodic and force == most * 1e-3:
-            assert held > told - 1.15 * beside * surface.heights.size
+            # two threads at most hold a block of half a field each, at the same time or not
+            block = surface.heights.nbytes / 2
+            assert held + block > told - 1.15 * beside * surface.heights.size
 
 
 def test_an_estimate_counts_the_loads_whose_fields_are_kept():
