@@ -5,18 +5,27 @@ What is smooth over blocks of 16 cells is inverted by the inverse convolution of
 blocks. The two spaces are split by zero means, so each adds only what the other cannot represent;
 the splitting is stable for operators of this order [1]_ [2]_.
 
-A hard layer on a soft base bends as a plate does, and its compliance falls faster with the
-wavenumber than that. There the inverse convolution of the whole grid is used.
+Cut to blocks that bear unevenly, the inverse convolution mixes long waves with short ones. That is
+harmless unless a base that is softer than the layer gives way to long waves far more. There the
+equations between blocks are solved as they are for pressures of a few shapes, and the inverse
+convolution serves for the rest, as in deflation [3]_ and balancing [4]_.
+
+A hard layer on a much softer base bends as a plate does, and its compliance falls faster with the
+wavenumber than 1 / q. There the inverse convolution of the whole grid is used.
 
 References
 ----------
 .. [1] P. Oswald, "Multilevel norms for H^(-1/2)", Computing 61, 235-255 (1998).
 .. [2] M. Hahne and E. P. Stephan, "Schwarz iterations for the efficient solution of screen problems
    with boundary elements", Computing 56, 61-85 (1996).
+.. [3] R. A. Nicolaides, "Deflation of conjugate gradients with applications to boundary value
+   problems", SIAM J. Numer. Anal. 24, 355-365 (1987).
+.. [4] J. Mandel, "Balancing domain decomposition", Commun. Numer. Methods Eng. 9, 233-241 (1993).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -36,6 +45,8 @@ from roughline.halfspace.operators.restricted import RESOLVED, RestrictedOperato
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 
+_SHAPES = 4, 4  # parts of the surface, each with a shape for which blocks are solved as they are
+_SOFT = 0.5  # part that the longest waves feel of what lies beneath, from which on that pays
 _STEEP = 50.0  # fall of wavenumber times compliance, from which on plates bend
 _LEAST = 0.1  # of the compliance of a wave, which no eigenvalue on a grid is taken to be below
 
@@ -84,19 +95,34 @@ class ApproximateInverse:
         return self.operator.spectrum.nbytes + 4 * self.operator.shape[0] * self.operator.shape[1]
 
     @cached_property
-    def block_inverse(self) -> tuple[Real, tuple[int, int]]:
-        """Half of the spectrum of the inverse of the kernel of blocks, and its periods.
-
-        Cut short, the kernel may have eigenvalues that are too small.
-        """
+    def block_spectrum(self) -> tuple[Real, tuple[int, int]]:
+        """Half of the spectrum of the kernel of blocks, and its periods."""
         (mx, my), kernel = self.block_kernel.shape, self.block_kernel
         mx, my = (
             n if repeated else max(1, 2 * n - 2)
             for n, repeated in zip((mx, my), self.operator.repeats, strict=True)
         )
         x, y = (np.minimum(np.arange(n), -np.arange(n) % n) for n in (mx, my))
-        spectrum = fft.half_spectrum(kernel[x[:, np.newaxis], y]).real
+        return fft.half_spectrum(kernel[x[:, np.newaxis], y]).real, (mx, my)
+
+    @cached_property
+    def block_inverse(self) -> tuple[Real, tuple[int, int]]:
+        """The same of the inverse of that kernel.
+
+        Cut short, the kernel may have eigenvalues that are too small.
+        """
+        spectrum, (mx, my) = self.block_spectrum
         return 1 / (np.maximum(spectrum, 0.1 * np.median(spectrum)) * mx * my), (mx, my)
+
+    @cached_property
+    def mixes_waves(self) -> bool:
+        """Whether a soft base gives way to the longest waves, under a layer that blocks resolve."""
+        operator, half_space = self.operator, self.operator.half_space
+        assert half_space is not None
+        sides = [n * side for n, side in zip(operator.periods, operator.spacing, strict=True)]
+        block = min(n * side for n, side in zip(self.block_sides, operator.spacing, strict=True))
+        longest, short = (felt_beneath(half_space, side / 2) for side in (max(sides), block))
+        return longest > _SOFT and short < RESOLVED
 
     @cached_property
     def is_of_plates(self) -> bool:
@@ -256,6 +282,7 @@ class _TwoLevels:
         alone = (1 - count / (sides[0] * sides[1])) * max(0.0, inverse.diagonal - full)
         self._scale = 1 / np.sqrt(np.maximum(count * (count + alone / full), 1.0))
         self._block_inverse = inverse.block_inverse
+        self._shapes = _Shapes(inverse, count, alone, self._scale) if inverse.mixes_waves else None
 
     def _share_out(self, work: Callable[[int, int], None]) -> None:
         """Do some work on all bands."""
@@ -263,6 +290,14 @@ class _TwoLevels:
 
     def _even(self, sums: Real) -> Real:
         """Return the pressure on the nodes of each block, from the sums of their residuals."""
+        if self._shapes is None:
+            return self._cut(sums)
+        borne, rest = self._shapes.solved(sums)
+        pressure = self._cut(rest)
+        return borne + pressure - self._shapes.of(pressure)
+
+    def _cut(self, sums: Real) -> Real:
+        """Return the same by the inverse convolution, cut to the blocks with nodes."""
         pressure: Real = fft.convolved(sums * self._scale, *self._block_inverse)
         return pressure * self._scale
 
@@ -284,6 +319,42 @@ class _TwoLevels:
         self._share_out(apply)
         self._grid.clear(self._nodes)
         return result
+
+
+class _Shapes:
+    """Pressures of a few shapes on the nodes of each block, and what they displace.
+
+    Each shape is that of blocks of one part of the surface which bear without each other. The
+    energy of even pressures x on the nodes of each block is x A x, where A counts by how much
+    blocks displace each other, and by how much more a block in which few nodes touch is displaced.
+    """
+
+    def __init__(self, inverse: ApproximateInverse, count: Real, alone: Real, scale: Real) -> None:
+        rows, columns = (
+            np.arange(n) * parts // n for n, parts in zip(count.shape, _SHAPES, strict=True)
+        )
+        part = rows[:, np.newaxis] * _SHAPES[1] + columns
+        each = (np.where(part == k, count * scale**2, 0.0) for k in range(math.prod(_SHAPES)))
+        shapes = [shape for shape in each if shape.any()]
+        spectrum, periods = inverse.block_spectrum
+        kernel = spectrum / math.prod(periods)
+        displaced = [
+            count * (fft.convolved(count * shape, kernel, periods) + alone * shape)
+            for shape in shapes
+        ]
+        self._shapes, self._displaced = (np.reshape(x, (len(x), -1)) for x in (shapes, displaced))
+        self._inverse = np.linalg.inv(self._displaced @ self._shapes.T)
+
+    def solved(self, sums: Real) -> tuple[Real, Real]:
+        """Return what shapes can bear of some displacements, and the sums that remain of these."""
+        parts = self._inverse @ (self._shapes @ sums.ravel())
+        borne, moved = parts @ self._shapes, parts @ self._displaced
+        return borne.reshape(sums.shape), sums - moved.reshape(sums.shape)
+
+    def of(self, pressure: Real) -> Real:
+        """Return the part of pressures that shapes have, by energy."""
+        parts = self._inverse @ (self._displaced @ pressure.ravel())
+        return (parts @ self._shapes).reshape(pressure.shape)
 
 
 class _Layout(NamedTuple):
