@@ -19,6 +19,7 @@ from halfspace.dense_contact import (
 from halfspace.dense_hardness import History
 from halfspace.test_adhesion_oracle import DenseSticking
 from halfspace.test_foreign_half_space import Coating, OnRigidBase
+from halfspace.test_layered import rough
 from random_cases import cases
 from random_problems import E_STAR, random_problem
 from roughline.contact.patches import patches_of
@@ -266,11 +267,6 @@ def test_what_is_even_along_the_strip_is_pressed_evenly():
         rtol=1e-12,
     )
     np.testing.assert_allclose(one.fields[0].pressure[0], pressure[0], atol=1e-11 * pressure.max())
-
-
-def rough(n, seed, sizes=(1.0, 1.0)):
-    heights = rl.SelfAffine(hurst=0.8, rms_height=0.02, q_roll=20.0).surface(n, seed).heights
-    return rl.Surface(heights, sizes)
 
 
 LAYER = rl.Layered(1.0, 0.3, 0.07, 20.0, 0.3)
