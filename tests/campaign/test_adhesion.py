@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from campaign.test_hardness import compute
 from roughline import campaign
 from roughline.campaign import batch as batches
-from roughline.campaign.writer import writing
 
 TABLE = {
     "name": "soft",
@@ -28,15 +28,6 @@ def planned(**changes):
     return campaign.plan_from({"name": "soft", "seed": 3, "ensemble": [table]})
 
 
-def compute(plan, path):
-    """Compute all of a store in this process."""
-    with writing(path, plan) as writer:
-        for ensemble in plan.ensembles:
-            for batch in writer.missing(ensemble):
-                writer.put(batch, batches.evaluate(batch, 1, rl.__version__))
-    return path
-
-
 def test_a_case_is_what_a_press_gives():
     ensemble = planned().ensembles[0]
     case = batches.evaluate_case(ensemble, 2.2, 1)
@@ -52,7 +43,8 @@ def test_a_case_is_what_a_press_gives():
 
 
 def test_a_store_keeps_the_pull_of_bodies_that_stick_alone(tmp_path):
-    store = compute(planned(), tmp_path / "store")
+    store = tmp_path / "store"
+    compute(planned(), store)
     found = campaign.Store(store).dataset("soft")
     assert (found.pull_off_force < 0).all()
     assert (found.pulling_fraction > 0).all()

@@ -12,6 +12,7 @@ from scipy.integrate import quad
 
 import roughline as rl
 from halfspace.dense_contact import BodyOn, DenseContact
+from halfspace.test_foreign_half_space import OnRigidBase
 from random_cases import cases
 from random_problems import E_STAR, random_problem
 from roughline.contact.creep import memory_of_stress
@@ -259,6 +260,7 @@ def test_a_line_creeps_as_its_springs_do(line):
     rl.Homogeneous(1.5, periodic=True),
     rl.Layered(1.0, 0.45, 0.1, math.inf),
     rl.Layered([1.0, 2.0], [0.45, 0.3], [0.1, 0.1], math.inf, periodic=True),
+    OnRigidBase(1.5, 0.1),
 ])  # fmt: skip
 def test_in_the_end_a_contact_is_that_of_the_relaxed_modulus(surface, half_space):
     curve = rl.press_creep(surface, RUBBER, times=[1e9], force=3e-3, half_space=half_space)
@@ -310,9 +312,7 @@ def test_a_flat_punch_at_moving_depths_and_falls_of_rounding():
     flat = rl.Surface(np.zeros((8, 8)), (1.0, 1.0))
     stiffness = rl.press(flat, E_star=1.0, depths=[0.01]).stiffness[0]
     times, depths = [0.0, 1.0, 5.0, 6.0], [0.0, 0.01, 0.02, 0.02 * (1 - 1e-14)]
-    curve = rl.press_creep(
-        flat, RUBBER, times=times, depth=depths, E_star=1.0, hardness=math.inf, rtol=1e-5
-    )
+    curve = rl.press_creep(flat, RUBBER, times=times, depth=depths, E_star=1.0, rtol=1e-5)
     for t, force in zip(times[1:], curve.force[1:], strict=True):
         parts = [(0.0, 1.0, 0.01), (1.0, 5.0, 0.0025)]
         wanted = sum(
@@ -477,8 +477,8 @@ REFUSED = {
     "before": ({"times": [-1.0, 1.0, 2.0]}, "from time zero"),
     "no times": ({"times": []}, "shape"),
     "for ever": ({"times": [0.0, 1.0, math.inf]}, "finite"),
-    "hardness": ({"hardness": 1.0}, "yields"),
-    "law": ({"law": rl.Dugdale(1e-3, 1e-2)}, "stick"),
+    "hardness": ({"hardness": 1.0}, "no argument hardness="),
+    "law": ({"law": rl.Dugdale(1e-3, 1e-2)}, "no argument law="),
     "two bodies": (
         {"E_star": None, "half_space": rl.Homogeneous(1.0) + rl.Homogeneous(2.0)},
         "creep alike",

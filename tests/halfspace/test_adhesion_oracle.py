@@ -66,6 +66,15 @@ class DenseSticking:
         )
 
 
+def assert_sticking_is_dense(curve, dense, depths):
+    """Compare contacts at depths, with their fields, with those of a dense history."""
+    for i, depth in enumerate(depths):
+        state, found = dense.press(depth), curve.fields[i]
+        scale = np.abs(state.pressure).max()
+        assert np.abs(found.pressure.ravel() - state.pressure).max() <= 1e-5 * scale
+        np.testing.assert_array_equal(found.contact.ravel(), state.touching)
+
+
 def share_of(body, law, matrix):
     """The share of the largest pull across a gap, of the nodes of a body."""
     if isinstance(law, rl.Exponential):

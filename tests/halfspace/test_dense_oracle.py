@@ -12,6 +12,7 @@ from scipy.optimize import brentq, nnls
 
 import roughline as rl
 from halfspace.dense_contact import love_matrix
+from halfspace.small_bodies import needle, rough
 
 N = 16
 SIZES = (1.0, 1.6)
@@ -21,24 +22,13 @@ FORCE = 3e-6  # three times the certified tolerance
 STIFFNESS = 1e-8
 
 
-def rough(hurst, seed=1):
-    heights = rl.SelfAffine(hurst=hurst, rms_height=0.1).surface(N, seed).heights
-    return np.array(heights)
-
-
-def needle():
-    heights = rough(0.5) * 0.1
-    heights[3, 12] += 3.0
-    return heights
-
-
 BODIES = {
-    "H = 0": rough(0.0),
-    "H = 0.5": rough(0.5),
-    "H = 1": rough(1.0),
+    "H = 0": rough((N, N), 0.0),
+    "H = 0.5": rough((N, N), 0.5),
+    "H = 1": rough((N, N), 1.0),
     "white noise": 0.1 * np.random.default_rng(2).normal(size=(N, N)),
-    "plateaus": np.round(10 * rough(0.8)) / 10,
-    "needle": needle(),
+    "plateaus": np.round(10 * rough((N, N), 0.8)) / 10,
+    "needle": needle((N, N), 3.0),
 }
 
 

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from halfspace.dense_contact import BodyOn, DenseContact, eigenvalues
+from halfspace.dense_contact import BodyOn, DenseContact, assert_history_is_dense, eigenvalues
 from halfspace.dense_hardness import History
+from halfspace.test_adhesion_oracle import DenseSticking, assert_sticking_is_dense
 
 
 @dataclass(frozen=True)
@@ -110,15 +111,19 @@ def test_histories_with_a_hardness_are_those_of_the_dense_solution(half_space):
     forces = [0.002, 0.03, 0.01, 0.045, 0.0, 0.02]
     given = {"forces": forces, "hardness": hardness, "rtol": RTOL}
     curve = rl.press(body, half_space=half_space, fields=True, **given)
-    for i, force in enumerate(forces):
-        state, found = history.press(force), curve.fields[i]
-        scale = max(float(state.pressure.max()), 1e-300)
-        assert np.abs(found.pressure.ravel() - state.pressure).max() <= 1e-6 * scale
-        np.testing.assert_array_equal(found.contact.ravel(), state.contact)
-        np.testing.assert_array_equal(found.plastic.ravel(), state.plastic)
-        assert curve.depth[i] == pytest.approx(state.depth, rel=1e-6, abs=1e-9)
-        for name in ("stiffness", "unloading_stiffness"):
-            assert getattr(curve, name)[i] == pytest.approx(getattr(state, name), rel=1e-6)
+    assert_history_is_dense(curve, history, forces)
+
+
+@pytest.mark.parametrize("half_space", ALL[::2], ids=str)
+def test_histories_of_bodies_that_stick_are_those_of_the_dense_solution(half_space):
+    body = surface((12, 11), seed=7)
+    height = float(np.ptp(body.heights))
+    law = rl.Exponential(0.02 * half_space.E_star * height, 0.2 * height)
+    dense = DenseSticking(BodyOn.of(body, half_space), law)
+    # in small steps, as repeated bodies on a soft base have several contacts at one depth
+    depths = height * np.array([*np.arange(-0.2, 0.4, 0.1), *np.arange(0.4, -0.5, -0.1)])
+    curve = rl.press(body, half_space=half_space, law=law, depths=depths, fields=True, rtol=RTOL)
+    assert_sticking_is_dense(curve, dense, depths)
 
 
 def displaced(half_space, pressure, spacing):

@@ -16,6 +16,7 @@ from threadpoolctl import threadpool_limits
 import roughline as rl
 from halfspace.dense_contact import Body, DenseContact
 from halfspace.dense_hardness import History
+from halfspace.small_bodies import needle, rough
 
 E_STAR = 2.0
 RTOL = 1e-9  # a pressure answers a gap with the grid's stiffness, so gaps must be smaller
@@ -152,27 +153,16 @@ class RangedPull(rl.ContactLaw):
         return float(np.abs(pressure).mean()), self.range
 
 
-def heights(shape, hurst, seed=1):
-    made = rl.SelfAffine(hurst=hurst, rms_height=0.1).surface(max(shape), seed).heights
-    return np.array(made[: shape[0], : shape[1]])
-
-
-def needle(shape):
-    made = 0.1 * heights(shape, 0.5)
-    made[3, 5] += 0.3
-    return made
-
-
 BODIES = {
-    "H = 0": ((14, 10), (1.0, 1.0), lambda shape: heights(shape, 0.0)),
-    "H = 0.8": ((14, 10), (1.0, 1.3), lambda shape: heights(shape, 0.8)),
+    "H = 0": ((14, 10), (1.0, 1.0), lambda shape: rough(shape, 0.0)),
+    "H = 0.8": ((14, 10), (1.0, 1.3), lambda shape: rough(shape, 0.8)),
     "white noise": (
         (10, 13),
         (1.0, 1.0),
         lambda shape: 0.1 * np.random.default_rng(2).normal(size=shape),
     ),
     "needle": ((12, 10), (1.0, 1.0), needle),
-    "large": ((70, 20), (1.0, 0.3), lambda shape: heights(shape, 0.8)),  # it has coarser grids
+    "large": ((70, 20), (1.0, 0.3), lambda shape: rough(shape, 0.8)),  # it has coarser grids
 }
 
 
@@ -452,7 +442,7 @@ def test_what_is_not_finite_is_never_certified(lost, load):
         pressed(body, Lost(lost), **load)
 
 
-SURFACE = rl.Surface(heights((14, 10), 0.8), (1.0, 1.3))
+SURFACE = rl.Surface(rough((14, 10), 0.8), (1.0, 1.3))
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from threadpoolctl import threadpool_limits
 import roughline as rl
 from halfspace.dense_contact import Body
 from halfspace.dense_hardness import History
+from halfspace.small_bodies import needle, rough
 
 E_STAR = 2.0
 LOADS = np.array([0.2, 0.5, 0.3, 1.0, 0.4, 0.0, 1.0, 1.3, 0.7])  # over the force drawn for a body
@@ -22,17 +23,6 @@ STIFFNESS = 1e-6
 def small_matrices_need_one_thread():
     with threadpool_limits(limits=1, user_api="blas"):
         yield
-
-
-def rough(shape, hurst, seed=1):
-    heights = rl.SelfAffine(hurst=hurst, rms_height=0.1).surface(max(shape), seed).heights
-    return np.array(heights[: shape[0], : shape[1]])
-
-
-def needle(shape):
-    heights = 0.1 * rough(shape, 0.5)
-    heights[3, 5] += 0.3
-    return heights
 
 
 BODIES = {

@@ -18,7 +18,7 @@ from halfspace.dense_contact import (
     assert_history_is_dense,
 )
 from halfspace.dense_hardness import History
-from halfspace.test_adhesion_oracle import DenseSticking
+from halfspace.test_adhesion_oracle import DenseSticking, assert_sticking_is_dense
 from halfspace.test_foreign_half_space import displaced
 from random_cases import cases
 from random_problems import E_STAR, random_problem
@@ -374,11 +374,7 @@ def test_histories_of_bodies_that_stick_are_those_of_the_dense_solution(half_spa
     dense = DenseSticking(BodyOn.of(body, half_space), law)
     depths = height * np.array([-0.2, 0.1, 0.3, 0.5, 0.3, 0.1, -0.1, -0.4])
     curve = rl.press(body, half_space=half_space, law=law, depths=depths, fields=True, rtol=RTOL)
-    for i, depth in enumerate(depths):
-        state, found = dense.press(depth), curve.fields[i]
-        scale = np.abs(state.pressure).max()
-        assert np.abs(found.pressure.ravel() - state.pressure).max() <= 1e-5 * scale
-        np.testing.assert_array_equal(found.contact.ravel(), state.touching)
+    assert_sticking_is_dense(curve, dense, depths)
 
 
 def test_random_problems_on_random_layers_are_certified_or_said_not_to_be():

@@ -17,8 +17,9 @@ from halfspace.dense_contact import (
     assert_history_is_dense,
 )
 from halfspace.dense_hardness import History
-from halfspace.test_adhesion_oracle import DenseSticking
+from halfspace.test_adhesion_oracle import DenseSticking, assert_sticking_is_dense
 from halfspace.test_foreign_half_space import Coating, OnRigidBase
+from halfspace.test_layered import rough, small
 from random_cases import cases
 from random_problems import E_STAR, random_problem
 from roughline.contact.patches import patches_of
@@ -268,11 +269,6 @@ def test_what_is_even_along_the_strip_is_pressed_evenly():
     np.testing.assert_allclose(one.fields[0].pressure[0], pressure[0], atol=1e-11 * pressure.max())
 
 
-def rough(n, seed, sizes=(1.0, 1.0)):
-    heights = rl.SelfAffine(hurst=0.8, rms_height=0.02, q_roll=20.0).surface(n, seed).heights
-    return rl.Surface(heights, sizes)
-
-
 LAYER = rl.Layered(1.0, 0.3, 0.07, 20.0, 0.3)
 
 
@@ -319,10 +315,6 @@ STRIPS = [
 NAMES = ["homogeneous", "soft on hard", "rigid base", "hard on soft"]
 
 
-def small(seed):
-    return rl.Surface(rough(64, seed).heights[:16, :14], (0.6, 0.5))
-
-
 @pytest.mark.parametrize("half_space", STRIPS, ids=NAMES)
 def test_contacts_are_those_of_the_dense_solution(half_space):
     body = small(5)
@@ -352,11 +344,7 @@ def test_histories_of_bodies_that_stick_are_those_of_the_dense_solution(half_spa
     dense = DenseSticking(StripOn.of(body, half_space), law)
     depths = height * np.array([-0.2, 0.1, 0.3, 0.5, 0.3, 0.1, -0.1, -0.4])
     curve = rl.press(body, half_space=half_space, law=law, depths=depths, fields=True, rtol=RTOL)
-    for i, depth in enumerate(depths):
-        state, found = dense.press(depth), curve.fields[i]
-        scale = np.abs(state.pressure).max()
-        assert np.abs(found.pressure.ravel() - state.pressure).max() <= 1e-5 * scale
-        np.testing.assert_array_equal(found.contact.ravel(), state.touching)
+    assert_sticking_is_dense(curve, dense, depths)
 
 
 # Limits

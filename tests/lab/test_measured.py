@@ -28,6 +28,11 @@ from roughline.report.part_tables import leading_table, maps_table
 
 PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
 SMALL = {"resample": "64"}
+NEEDING = {
+    **{"joint_area": "1 cm^2", "friction": "0.3", "frequency": "5 MHz"},
+    **{"fluid": "water", "sealing_pressure": "yes"},
+}
+"""Controls that need two materials."""
 RANDOM = "3f9a0c5d7e2b4a61"  # as an upload lies on the disk
 
 
@@ -375,11 +380,9 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"elastic": "perhaps"}, "bodies", "elastic", "allowed are"),
         ({"joint_area": "2"}, "bodies", "joint_area", "without a unit"),
         ({"joint_area": "1 nm^2"}, "answer", "answers", "less than the map"),
-        (
-            {"joint_area": "1 cm^2", "bodies": "modulus", "E": "1 GPa"},
-            "bodies",
-            "joint_area",
-            "two",
+        *(
+            ({key: text, "bodies": "modulus", "E": "1 GPa"}, "bodies", key, "two materials")
+            for key, text in NEEDING.items()
         ),
         ({"loads": "900 MPa"}, "answer", "answers", "hardness"),
         ({"friction": "rough"}, "answer", "friction", "such as 0.3"),
@@ -392,15 +395,15 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
             "above 0 and up to 5 is needed",
         ),
         ({"frequency": "5 m"}, "answer", "frequency", "no quantity in Hz"),
-        ({"theories": "hertz"}, "answer", "theories", "there is no theory"),
+        ({"theories": "hertz"}, "answer", "theories", '"hertz"; allowed are "persson"'),
         ({"fluid": "watr"}, "bodies", "fluid", 'did you mean "water"'),
-        ({"fluid": "water", "bodies": "modulus", "E": "1 GPa"}, "bodies", "fluid", "two materials"),
         ({"inlet": "6 bar"}, "bodies", "inlet", "belongs to a fluid"),
         ({"fluid": "water", "inlet": "6 bar"}, "bodies", "inlet", "needs seal"),
         ({"fluid": "water", "seal": "24 mm .. 20 mm"}, "bodies", "seal", "inner radius"),
         ({"fluid": "water", "flow_along": "z"}, "bodies", "flow_along", "allowed are"),
         ({"crop": "1, 2"}, "prepare", "crop", "without a unit"),
         ({"crop": "0 um, 1 um"}, "prepare", "crop", "give 4"),
+        ({"crop": "0 um, 1 um, 2 um"}, "prepare", "crop", "give from and to along each side"),
         ({"low_pass": "-1 um"}, "prepare", "low_pass", "a positive, finite length"),
         ({"resample": "1.5"}, "prepare", "resample", "give a whole number"),
         ({"trend": "cubic"}, "prepare", "trend", "allowed are"),

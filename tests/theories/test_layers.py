@@ -10,8 +10,8 @@ import roughline as rl
 from roughline.exact.layers import BondedLayer
 from roughline.spectra.moments import bands
 from roughline.theories.layers import HOLDS_UP_TO, felt, stiffening
+from theories.test_theories import IN_OTHER_UNITS, SPECTRUM
 
-SPECTRUM = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=4 * 2 * math.pi, q_high=64 * 2 * math.pi)
 SLOPE = SPECTRUM.lattice(256).rms_slope
 LOADS = np.geomspace(1e-3, 1.0, 12) * SLOPE
 NAMES = ("persson", "critical-junction", "bruggeman")
@@ -54,14 +54,8 @@ def test_a_thick_layer_is_its_material_and_a_thin_one_its_base(name):
 
 def test_units_are_neutral():
     one = on(rl.Layered(1.0, 0.3, 0.05, 10.0, 0.3))
-    scaled = rl.SelfAffine(
-        hurst=0.7,
-        length=1e6,
-        rms_height=1e6,
-        q_roll=SPECTRUM.q_roll * 1e-6,
-        q_high=SPECTRUM.q_high * 1e-6,
-    )
-    other = on(rl.Layered(1e9, 0.3, 5e4, 1e10, 0.3), roughness=scaled, pressure=LOADS * 1e9)
+    layers = rl.Layered(1e9, 0.3, 5e4, 1e10, 0.3)
+    other = on(layers, roughness=IN_OTHER_UNITS, pressure=LOADS * 1e9)
     np.testing.assert_allclose(other.area_fraction, one.area_fraction, rtol=1e-9)
     np.testing.assert_allclose(other.stiffness, one.stiffness * 1e3, rtol=1e-9)
     np.testing.assert_allclose(other.mean_gap, one.mean_gap * 1e6, rtol=1e-9)

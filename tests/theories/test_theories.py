@@ -15,6 +15,14 @@ from roughline.theories.theory import THEORIES, theory
 SPECTRUM = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=4 * 2 * math.pi, q_high=64 * 2 * math.pi)
 FOUND = moments(SPECTRUM)
 SLOPE = FOUND.rms_slope
+IN_OTHER_UNITS = rl.SelfAffine(
+    hurst=0.7,
+    length=1e6,
+    rms_height=1e6,
+    q_roll=SPECTRUM.q_roll * 1e-6,
+    q_high=SPECTRUM.q_high * 1e-6,
+)
+"""The spectrum, with lengths in millionths of its unit."""
 
 
 def test_moments_are_those_of_the_continuum():
@@ -143,15 +151,8 @@ def test_bush_gibson_and_thomas_bound_persson_and_numerics_lie_between():
 
 @pytest.mark.parametrize("name", THEORIES)
 def test_units_are_neutral(name):
-    scaled = rl.SelfAffine(
-        hurst=0.7,
-        length=1e6,
-        rms_height=1e6,
-        q_roll=SPECTRUM.q_roll * 1e-6,
-        q_high=SPECTRUM.q_high * 1e-6,
-    )
     p = np.geomspace(1e-5, 1e-3, 5) * SLOPE
-    one, other = theory(name, SPECTRUM, 1.0, p), theory(name, scaled, 1e9, p * 1e9)
+    one, other = theory(name, SPECTRUM, 1.0, p), theory(name, IN_OTHER_UNITS, 1e9, p * 1e9)
     assert other.area_fraction == pytest.approx(one.area_fraction, rel=1e-9)
     if one.stiffness is not None:
         assert other.stiffness == pytest.approx(one.stiffness * 1e9 / 1e6, rel=1e-9)

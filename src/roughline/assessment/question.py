@@ -474,7 +474,8 @@ class Question:
             return
         joint, materials = called("rl.Joint"), called("materials")
         if self.materials is None:
-            raise InputError(f"answers of a joint ({joint}) need two materials ({materials})")
+            text = f"answers of a joint ({joint}) need two materials ({materials})"
+            raise InputError(text, None, "joint_area")
         if self.depths:
             raise InputError(
                 f"a joint ({joint}) is pressed by loads ({called('loads')}): its depth counts from "
@@ -506,8 +507,10 @@ class Question:
         materials = called("materials")
         if self.materials is not None:
             contact_modulus(*(each.surface for each in self.materials))
-        elif self.frequency_in_hertz is not None or self.friction is not None:
-            raise InputError(f"reflection and partial slip need two materials ({materials})")
+        elif self.friction is not None or self.frequency_in_hertz is not None:
+            text = f"reflection and partial slip need two materials ({materials})"
+            which = "frequency" if self.friction is None else "friction"
+            raise InputError(text, None, which)
         if (self.E_star is None) == (self.materials is None):
             raise InputError(
                 f"give either a contact modulus ({called('E_star')}) or two materials ({materials})"
@@ -529,7 +532,8 @@ class Question:
         sealing = self.sealing
         if self.materials is None and (sealing is not None or self.finds_closing):
             asked = called("rl.Closure" if sealing is None else "rl.Fluid")
-            raise InputError(f"{asked} needs two materials ({called('materials')})")
+            text = f"{asked} needs two materials ({called('materials')})"
+            raise InputError(text, None, "sealing_pressure" if sealing is None else "fluid")
         for each, name in ((Inlet, "inlet"), (Outlet, "outlet"), (Seal, "seal")):
             if sealing is None and self._asked(each, bool):
                 text = f"{called(f'rl.{each.__name__}')} belongs to a fluid ({called('rl.Fluid')})"

@@ -52,8 +52,7 @@ class Curve:
         Total force, compression positive. [force]
     stiffness : ndarray, shape (loads,)
         Exact k = dF/dd on further loading: points at the hardness carry no additional load. Of a
-        profile 2 E* a, with the contact radius a.
-        [force / length]
+        profile 2 E* a, with the contact radius a. [force / length]
     area_fraction : ndarray, shape (loads,), or None
         Real over nominal contact area: the share of the points that touch, which are those whose
         pressure is above zero, unless bodies stick. Of a profile the contact is a disc. None for a
@@ -114,8 +113,7 @@ class Curve:
         Largest pull of bodies that stick, negative, and its depth: of depths on retreat, the least
         force that a larger one follows; of forces that pull more than the contact bears, that at
         which it comes off, to the tolerance. Of a profile it is that of the way between the loads.
-        NaN where there is none, and where the grid does not
-        resolve the pull. [force] and [length]
+        NaN where there is none, and where the grid does not resolve the pull. [force] and [length]
     pull_off_force_error : float
         Estimated discretisation error of `pull_off_force`, if asked for. [force]
     residual_of : sequence of str

@@ -236,8 +236,6 @@ def _checked_loads(given: GivenLoads) -> Loads:
         raise InputError(f"{count} given; give one of depths, forces and n_loads")
     control: _Control = "forces" if depths is None else "depths"
     values = checked_numbers(control, forces if depths is None else depths)
-    if values.ndim != 1 or values.size == 0:
-        raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
     wrong = ~np.isfinite(values)
     if wrong.any():
         raise InputError(
@@ -302,11 +300,13 @@ def _refuse_beyond_precision(
 
 
 def checked_numbers(name: str, values: Any) -> Real:
-    """Return one number or a list of them as an array; refuse text, and what is no number."""
+    """Return one number or a list of them as an array; refuse all else, such as text."""
     try:
         array = np.atleast_1d(np.ma.filled(np.ma.asarray(values), np.nan))
     except (TypeError, ValueError) as error:
         raise InputError(f"{name} are not numbers ({error}); give a list of numbers") from error
     if array.size and array.dtype.kind not in "iuf":
         raise InputError(f"{name} are not numbers ({name}={shown(values)}); give a list of numbers")
+    if array.ndim != 1 or array.size == 0:
+        raise InputError(f"have shape {array.shape}; a list of one or more is needed", name)
     return array.astype(np.float64)

@@ -13,7 +13,6 @@ References
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
@@ -29,19 +28,15 @@ from roughline.contact.arguments import LARGEST, given_half_space
 from roughline.contact.creep import Creep, memory_of_strain, memory_of_stress
 from roughline.contact.curve import Curve
 from roughline.contact.fading_memory import FadingMemory
-from roughline.contact.jkr import JKR
 from roughline.contact.loads import checked_numbers, comes_nearer
 from roughline.contact.press import press
 from roughline.contact.quantities import QUANTITIES, Quantity
 from roughline.contact.selection import at_loads
 from roughline.errors import InputError
-from roughline.errors.checks import between, refuse, shown
+from roughline.errors.checks import between, refuse
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.halfspace.elasticity.layered import Layered
-from roughline.halfspace.laws.law import ContactLaw
-from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.topography.body import Body
 from roughline.topography.profile import Profile
 
@@ -165,8 +160,6 @@ def press_creep(
     E_star: float | None = None,
     half_space: HalfSpace | None = None,
     periodic: bool | None = None,
-    hardness: float | None = None,
-    law: ContactLaw | JKR | None = None,
     rtol: float = 1e-3,
 ) -> CreepCurve:
     """Press a body into one that creeps, under a force or to a depth over time.
@@ -174,7 +167,8 @@ def press_creep(
     While a contact grows or stays, it is that of an elastic body under another force, the
     correspondence principle of growing contact [1]_. Under a force F(t) this is
     F_e = int J(t - s) dF(s); at a depth d(t) the force is F = int R(t - s) dF_e(d(s)). What makes
-    the contact recede is refused. The rough body is rigid, or far stiffer than the one that creeps.
+    the contact recede is refused. The rough body is rigid, or far stiffer than the one that creeps,
+    and the bodies only push: an elastic contact does not tell those of bodies that yield or stick.
 
     Parameters
     ----------
@@ -192,13 +186,10 @@ def press_creep(
         Contact modulus at once, E_0 / (1 - nu²). [pressure]
     half_space : HalfSpace, optional
         What the body is pressed into, with its moduli at once, in place of `E_star` and `periodic`:
-        :class:`~roughline.Homogeneous`, or :class:`~roughline.Layered` on a rigid base, whose
-        layers all creep alike.
+        :class:`~roughline.Homogeneous`, or one on a rigid base such as
+        :class:`~roughline.Layered`, whose layers all creep alike.
     periodic : bool, optional
         Repeat the surface periodically; default: no.
-    hardness, law : optional
-        As for :func:`press`, but bodies that yield or stick are refused: an elastic contact does
-        not tell theirs.
     rtol : float, optional
         How well the force is known where the depth moves: more depths are pressed between those
         given until bounds of the force are so close, over the force.
@@ -238,8 +229,7 @@ def press_creep(
     if not isinstance(creep, Creep):
         refuse("creep", creep, "rl.Creep(shares, times) is needed")
     half_space = given_half_space(half_space, E_star, periodic)
-    _refuse_others_than_one_body(half_space)
-    _refuse_other_laws(hardness, law)
+    _refuse_elastic_parts(half_space)
     rtol = between("rtol", rtol, 1e-6, 0.1, "a tolerance from 1e-6 to 0.1 is needed")
     history = _given_history(times, force, depth)
     pressed = partial(_pressed, body, half_space)
@@ -318,8 +308,6 @@ def _given_history(times: Any, force: Any, depth: Any) -> _History:
 def _checked(name: str, given: Any) -> Real:
     """Return numbers in a row that can be computed with."""
     values = checked_numbers(name, given)
-    if values.ndim != 1 or values.size == 0:
-        raise InputError(f"have shape {values.shape}; a list of one or more is needed", name)
     wrong = ~(np.abs(values) <= LARGEST)
     if wrong.any():
         raise InputError(
@@ -334,39 +322,15 @@ def _one_of(name: str, given: Any, values: Real, i: int) -> str:
     return f"{name}{f'[{i}]' if np.ndim(given) else ''} is {values[i]:g}"
 
 
-def _refuse_others_than_one_body(half_space: HalfSpace) -> None:
+def _refuse_elastic_parts(half_space: HalfSpace) -> None:
     """Refuse half-spaces of which a part may not creep as the others do."""
-    if isinstance(half_space, Homogeneous):
-        return
-    if not isinstance(half_space, Layered):
-        raise InputError(
-            f"is {shown(half_space)}; all that gives way has to creep alike: give E_star, "
-            "rl.Homogeneous, or rl.Layered on a rigid base. Of two bodies, or of others, parts may "
-            "be elastic, or creep each in its own way",
+    if not isinstance(half_space, Homogeneous) and not half_space.has_base:
+        refuse(
             "half_space",
-        )
-    if half_space.base_young < math.inf:
-        raise InputError(
-            "has an elastic base, which does not creep as its layers do, so that no elastic "
-            "contact is the same: make a base that is far stiffer than the layers rigid, "
-            "base_young=math.inf",
-            "half_space",
-        )
-
-
-def _refuse_other_laws(hardness: Any, law: Any) -> None:
-    """Refuse bodies that do not only push."""
-    if not (hardness is None or hardness == math.inf):
-        raise InputError(
-            f"is {shown(hardness)}; the contact of a body that yields and creeps is that of no "
-            "elastic one: leave it out, or press without creep",
-            "hardness",
-        )
-    if not (law is None or isinstance(law, Unilateral)):
-        raise InputError(
-            f"is {shown(law)}; bodies that creep only push here: where they stick, the work of "
-            "adhesion depends on how fast the edge moves. Leave it out, or press without creep",
-            "law",
+            half_space,
+            "all that gives way has to creep alike: give E_star, rl.Homogeneous, or layers on a "
+            "rigid base (base_young=math.inf), as one far stiffer than they are nearly is. An "
+            "elastic base, or a second body, does not creep as they do",
         )
 
 

@@ -307,11 +307,11 @@ def flow(
     gap = _checked_gap(gap)
     if sizes is None:
         raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
-    given = checked_sides(sizes), checked_free_path(mean_free_path)
-    across_y, across_x = (sides or ("periodic" if each else "closed") for each in repeats)
-    if along == "both":
-        return _solved(gap, "x", across_x, *given), _solved(gap, "y", across_y, *given)
-    return _solved(gap, along, across_x if along == "x" else across_y, *given)
+    given = gap, checked_sides(sizes), checked_free_path(mean_free_path)
+    of_x, of_y = (sides or ("periodic" if each else "closed") for each in repeats)
+    if along == "both":  # beside a flow along x are the sides of y
+        return _solved("x", of_y, *given), _solved("y", of_x, *given)
+    return _solved(along, of_y if along == "x" else of_x, *given)
 
 
 def checked_free_path(given: Any) -> float:
@@ -320,7 +320,7 @@ def checked_free_path(given: Any) -> float:
     return between("mean_free_path", given, 0.0, sys.float_info.max, needed)
 
 
-def _solved(gap: Real, along: Along, sides: Sides, sizes: tuple[float, float], path: float) -> Flow:
+def _solved(along: Along, sides: Sides, gap: Real, sizes: tuple[float, float], path: float) -> Flow:
     """The flow along one side."""
     from roughline.fluid.network import Network  # here because compiled loops load slowly
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
@@ -31,9 +30,6 @@ from roughline.report.contact_tables import curve_table, modulus_in_words
 from roughline.report.part_tables import count_in_words, leading_table, maps_table
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
-
-if TYPE_CHECKING:
-    from roughline.theories.theory_curve import TheoryCurve
 
 MOST_SHOWN = 1000
 """Loads that are printed as a table, unless all are wanted."""
@@ -73,8 +69,8 @@ def print_assessment(
             _explain_star(console, starred(assessment))
     for failure in _failures(assessment):
         console.print(failure, highlight=False, soft_wrap=not console.is_terminal)
-    for theory in assessment.theories:
-        console.print(_theory_line(theory, assessment), highlight=False, soft_wrap=True)
+    for line in _theory_lines(assessment):
+        console.print(line, highlight=False, soft_wrap=True)
     _print_end(console, assessment.notes, files, folded)
 
 
@@ -223,13 +219,16 @@ def _failures(assessment: Assessment) -> list[str]:
     return lines
 
 
-def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:
-    """A theory at the largest load."""
-    text = f"{theory.name} at the largest load: area {theory.area_fraction[-1]:.3%}"
-    if theory.stiffness is not None:
-        stiffness = theory.stiffness[-1] * assessment.area * assessment.scale
-        text += f", interface stiffness {engineering(stiffness, 'N/m')}"
-    return f"{text} ({theory.validity})"
+def _theory_lines(assessment: Assessment) -> list[str]:
+    """Theories at the largest load."""
+    lines = []
+    for theory in assessment.theories:
+        text = f"{theory.name} at the largest load: area {theory.area_fraction[-1]:.3%}"
+        if theory.stiffness is not None:
+            stiffness = theory.stiffness[-1] * assessment.area * assessment.scale
+            text += f", interface stiffness {engineering(stiffness, 'N/m')}"
+        lines.append(f"{text} ({theory.validity})")
+    return lines
 
 
 def print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:

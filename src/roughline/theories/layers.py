@@ -13,12 +13,9 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import replace
 
-import numpy as np
-
-from roughline.computing.arrays import Real
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.spectra.moments import Bands
 
 HOLDS_UP_TO = 1.1
@@ -27,34 +24,12 @@ HOLDS_UP_TO = 1.1
 _ROUNDING = 1e-9
 
 
-class Elastic(Protocol):
-    """A half-space, by what its waves feel."""
-
-    @property
-    def E_star(self) -> float:
-        """Contact modulus of its surface. [pressure]"""
-
-    def modulus(self, q: Real) -> Real:
-        """Contact modulus that waves feel. [pressure]"""
-
-
-@dataclass(frozen=True)
-class OneMaterial:
-    """A homogeneous half-space."""
-
-    E_star: float
-
-    def modulus(self, q: Real) -> Real:
-        """Contact modulus, which all waves feel. [pressure]"""
-        return np.full_like(q, self.E_star)
-
-
-def felt(spectrum: Bands, half_space: Elastic) -> Bands:
+def felt(spectrum: Bands, half_space: HalfSpace) -> Bands:
     """The roughness that a homogeneous half-space of E* would have to feel to respond alike."""
     return replace(spectrum, q=spectrum.q * (half_space.modulus(spectrum.q) / half_space.E_star))
 
 
-def stiffening(spectrum: Bands, half_space: Elastic) -> float:
+def stiffening(spectrum: Bands, half_space: HalfSpace) -> float:
     """Energy of full contact with a half-space over that with what lies at its surface. [1]"""
     waves = felt(spectrum, half_space)
     return float(waves.q @ waves.power) / float(spectrum.q @ spectrum.power)

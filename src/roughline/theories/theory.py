@@ -16,6 +16,8 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import one_of, positive, refuse
 from roughline.errors.public import public
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.spectra.moments import (
     SurfaceOrSpectrum,
     bands,
@@ -26,15 +28,7 @@ from roughline.theories.bruggeman import bruggeman, check_threshold
 from roughline.theories.bush_gibson_thomas import bush_gibson_thomas
 from roughline.theories.critical_junction import critical_junction
 from roughline.theories.greenwood_williamson import greenwood_williamson
-from roughline.theories.layers import (
-    HOLDS_UP_TO,
-    Elastic,
-    OneMaterial,
-    felt,
-    is_even,
-    on_layers,
-    stiffening,
-)
+from roughline.theories.layers import HOLDS_UP_TO, felt, is_even, on_layers, stiffening
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
 
@@ -61,7 +55,7 @@ def theory(
     pressure: ArrayLike | None = None,
     threshold: float | None = None,
     *,
-    half_space: Elastic | None = None,
+    half_space: HalfSpace | None = None,
 ) -> TheoryCurve:
     """Evaluate a theory for a surface or a spectrum.
 
@@ -124,7 +118,7 @@ def theory(
     return replace(curve, validity=curve.validity + remark)
 
 
-def why_not(name: str, roughness: SurfaceOrSpectrum, half_space: Elastic) -> str:
+def why_not(name: str, roughness: SurfaceOrSpectrum, half_space: HalfSpace) -> str:
     """Say why a theory does not hold of the layers of a half-space; empty where it does."""
     ratio = stiffening(bands(roughness), half_space)
     if is_even(ratio):
@@ -139,14 +133,14 @@ def why_not(name: str, roughness: SurfaceOrSpectrum, half_space: Elastic) -> str
     return ""
 
 
-def _given(E_star: float | None, half_space: Elastic | None) -> Elastic:
+def _given(E_star: float | None, half_space: HalfSpace | None) -> HalfSpace:
     """What waves feel: that of a half-space, or a contact modulus."""
     if half_space is None:
         needed = "a positive, finite contact modulus is needed"
-        return OneMaterial(positive("E_star", E_star, needed))
+        return Homogeneous(positive("E_star", E_star, needed))
     if E_star is not None:
         raise InputError("half_space and E_star are given; the half-space has a modulus of its own")
-    if not hasattr(half_space, "modulus") or not hasattr(half_space, "E_star"):
+    if not isinstance(half_space, HalfSpace):
         refuse("half_space", half_space, "an rl.HalfSpace is needed, such as rl.Layered(...)")
     return half_space
 

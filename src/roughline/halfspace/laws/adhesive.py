@@ -19,7 +19,7 @@ from roughline.halfspace.laws.unilateral import Unilateral, refuse_beyond_full_c
 # a change is so large a part of the one before, no end is near: bodies slide to a jump, and shares
 # go up to so many times as far.
 _NEAR, _ROUNDS, _NEARER, _FASTEST = 0.1, 6, 0.9, 8.0
-_IS_RESOLVED, _IS_POORLY = 4.0, 2.0  # cells of the pulling zone
+_IS_POORLY = 2.0  # cells of the pulling zone, with which a pull-off is resolved at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +40,8 @@ class Adhesive(ContactLaw):
         h_0, so that the largest pull is w / h_0. [length]
     share : ndarray, shape (nx, ny), or float
         Share of the largest pull that each node bears at least.
+    resolved_zone : float
+        Cells across the zone that pulls, from which on a grid resolves it. [1]
     """
 
     work_of_adhesion: float
@@ -55,6 +57,7 @@ class Adhesive(ContactLaw):
     memory: ClassVar[Literal["none", "dents", "path"]] = "path"
     only_pushes: ClassVar[bool] = False
     follows_gaps: ClassVar[bool] = True
+    resolved_zone: ClassVar[float] = 4.0
 
     def __post_init__(self) -> None:
         for name, what in (("work_of_adhesion", "work of an area"), ("range", "length")):
@@ -171,11 +174,11 @@ class Adhesive(ContactLaw):
     def remarks(self, separation: Real) -> tuple[str, ...]:
         """Say where the grid does not resolve the pull, and where all of the bodies is pulled."""
         found = []
-        if self.zone < _IS_RESOLVED:
-            wider = math.sqrt(_IS_RESOLVED / self.zone)
+        if self.zone < self.resolved_zone:
+            wider = math.sqrt(self.resolved_zone / self.zone)
             found.append(
                 f"the zone that pulls about a contact, E* w / (pi sigma_0²), is {self.zone:.2g} "
-                f"cells wide, and {_IS_RESOLVED:.0f} are needed: "
+                f"cells wide, and {self.resolved_zone:.0f} are needed: "
                 + ("no pull-off is given; " if self.zone < _IS_POORLY else "")
                 + f"give a range {wider:.2g} times as large, or a finer grid"
             )

@@ -14,7 +14,7 @@ from matplotlib.colors import ListedColormap
 import roughline as rl
 from roughline.lab.controls import ControlError, as_code
 from roughline.lab.explore.pressing import pressed_under
-from roughline.lab.explore.state import RESOLVED, ExploreState
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import item, number_rows
 from roughline.lab.server.tasks import Progress
 from roughline.plot.pixels import draw_map
@@ -92,8 +92,8 @@ def contact_words(pressed: rl.Curve, state: ExploreState) -> list[dict[str, str]
     if state.w is None:
         return []
     assert pressed.pulling_fraction is not None
-    cells = float(pressed.settings["pulling_zone_cells"])
-    is_resolved = cells >= RESOLVED
+    cells, needed = float(pressed.settings["pulling_zone_cells"]), rl.Dugdale.resolved_zone
+    is_resolved = cells >= needed
     return [
         item(
             *("pulling", "pulled", f"{decimal(100 * float(pressed.pulling_fraction[0]), 3)}%"),
@@ -103,8 +103,8 @@ def contact_words(pressed: rl.Curve, state: ExploreState) -> list[dict[str, str]
         item(
             *("zone", "pulling zone", f"{decimal(cells, 2)} cells{'' if is_resolved else ' *'}"),
             "Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = w / h_0, in "
-            f"cells of this grid; {RESOLVED:g} resolve it.",
-            "" if is_resolved else f"{RESOLVED:g} are needed: a longer range, or a finer grid",
+            f"cells of this grid; {needed:g} resolve it.",
+            "" if is_resolved else f"{needed:g} are needed: a longer range, or a finer grid",
         ),
     ]
 

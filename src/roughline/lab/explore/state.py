@@ -31,8 +31,6 @@ from roughline.units import engineering, in_si, load_in_newtons
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
 _OF_THE_SURFACE = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
 _SIDES, _MODULI = (1e-12, 1e3), (1.0, 1e14)  # that are allowed [m], [Pa]
-RESOLVED = 4.0
-"""Cells of a zone that pulls, from which on it is resolved."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +126,7 @@ class ExploreState:
     def points(self, fewest: int) -> int:
         """The fewest points along a side, from so many on, that resolve the pull, if any do."""
         n = min(self.n, fewest)
-        while n < self.n and self.zone(n) < RESOLVED:
+        while n < self.n and self.zone(n) < rl.Dugdale.resolved_zone:
             n *= 2
         return n
 

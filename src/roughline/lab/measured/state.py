@@ -30,19 +30,11 @@ from roughline.lab.controls import (
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import EXAMPLES, path_of
 from roughline.lab.server.tasks import Arguments
-from roughline.theories.theory import THEORIES
 from roughline.topography.preparation import Preparation
 from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comma
 
 _FILES = ("file", "example")
 _KNOWN = (*_FILES, *c.KEYS)
-_NEEDING = (
-    "joint_area",
-    "friction",
-    "frequency",
-    "fluid",
-    "sealing_pressure",
-)  # controls that need two materials
 _OF_ARGUMENTS = {"E_star": ("E",), "materials": ("first", "second")} | {
     each.name: (key,) for key, each in c.BY_CONTROL.items()
 }
@@ -54,7 +46,9 @@ CONTROLS = Words(
 """What the page calls arguments of the library: its controls."""
 
 _MOST_LOADS = 20  # of one question
-_DEFAULTS = {key: each.default for key, each in c.CHOICES.items()} | {"most_missing": "10 %"}
+_DEFAULTS = {key: each.default for key, each in c.CHOICES.items()} | {
+    "most_missing": c.BY_CONTROL["most_missing"].otherwise
+}
 """Of controls that mean something without a text."""
 _NEEDED = {"first": "steel", "second": "copper", "E": "110 GPa"}
 """Of controls without whose text there is no answer: what is used while there is none."""
@@ -182,7 +176,7 @@ def question_of(said: Said, source: Source) -> Question:
         If a text cannot be used; it says at which control.
     """
     given = bodies_of(said) | told_in(said) | {"whole_curve": bool(loads_of(said))}
-    with at(next((key for key in _NEEDING if key in said), "")):
+    with at(""):
         return told.question_of(source.path, given, source.name)
 
 
@@ -238,12 +232,7 @@ def _friction(text: str) -> float | str:
 
 def _theories(text: str) -> list[str]:
     """Names of theories with commas between."""
-    names = [name for name in text.split(",") if name]
-    for name in names:
-        if name not in THEORIES:
-            allowed = ", ".join(THEORIES)
-            raise ControlError(f'there is no theory "{name[:40]}"; there are {allowed}', "theories")
-    return names
+    return [name for name in text.split(",") if name]
 
 
 @contextmanager
@@ -283,18 +272,6 @@ def _sizes(text: str) -> str:
     return text
 
 
-def _crop(text: str) -> tuple[float, ...]:
-    """From and to along each side. [m]"""
-    ends = tuple(lengths(text, "crop"))
-    if len(ends) not in (2, 4) or not all(map(math.isfinite, ends)):
-        raise ControlError(
-            f"crop is {shown(text)}; give from and to along each side, such as 0 um, 50 um, 0 um, "
-            "40 um, or 0 um, 50 um of a line",
-            "crop",
-        )
-    return ends
-
-
 def _points(text: str) -> int:
     """Points along the longer side."""
     if not (text.isascii() and text.isdecimal()) or not 2 <= int(text[:20]) <= c.MOST_POINTS:
@@ -312,7 +289,6 @@ _READ: dict[str, Callable[[str], Any]] = {
     "theories": _theories,
     "most_missing": _share,
     "size": _sizes,
-    "crop": _crop,
     "resample": _points,
 }
 """Readers of controls whose texts are not those of the command line, or have limits of the lab."""
