@@ -46,7 +46,6 @@ _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 
 _SHAPES = 4, 4  # parts of the surface, each with a shape for which blocks are solved as they are
-_SOFT = 0.5  # part that the longest waves feel of what lies beneath, from which on that pays
 _STEEP = 50.0  # fall of wavenumber times compliance, from which on plates bend
 _LEAST = 0.1  # of the compliance of a wave, which no eigenvalue on a grid is taken to be below
 
@@ -116,13 +115,13 @@ class ApproximateInverse:
 
     @cached_property
     def mixes_waves(self) -> bool:
-        """Whether a soft base gives way to the longest waves, under a layer that blocks resolve."""
+        """Whether a softer base gives way to long waves, under a layer that blocks resolve."""
         operator, half_space = self.operator, self.operator.half_space
         assert half_space is not None
         sides = [n * side for n, side in zip(operator.periods, operator.spacing, strict=True)]
         block = min(n * side for n, side in zip(self.block_sides, operator.spacing, strict=True))
         longest, short = (felt_beneath(half_space, side / 2) for side in (max(sides), block))
-        return longest > _SOFT and short < RESOLVED
+        return longest > RESOLVED > short
 
     @cached_property
     def is_of_plates(self) -> bool:
