@@ -118,8 +118,8 @@ class HalfSpace(ABC):
         """Return the force per approach of a rigid disc on the free half-space. [force / length]
 
         Guesses and the range of spaced loads are taken from it, so that an estimate will do. It
-        follows from the modulus of waves, to rounding where that comes to `E_star` as fast as of
-        layers; a half-space that knows it in closed form may say so.
+        follows from the modulus that waves feel, nearly to rounding where that comes to `E_star` as
+        fast as on layers; a half-space that knows it in closed form may say so.
 
         Parameters
         ----------
