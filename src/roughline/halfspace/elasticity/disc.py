@@ -1,4 +1,4 @@
-"""The stiffness of a rigid disc on a half-space, from the contact modulus that its waves feel.
+"""The stiffness of a rigid disc on a half-space, from what its waves are displaced by.
 
 Springs of the reduction method bear phi(t) between the middle of the disc and its rim, and give its
 pressure, whatever lies below the surface [1]_. As a sum of even Legendre polynomials, whose
@@ -29,14 +29,15 @@ from roughline.computing.arrays import Real
 from roughline.computing.panels import on_panels
 
 
-def disc_stiffness(modulus: Callable[[Real], Real], E_star: float, radius: float) -> float:
+def disc_stiffness(spectrum: Callable[[Real], Real], E_star: float, radius: float) -> float:
     """Force per approach of a rigid disc, 2 E* a of one material [3]_. [force / length]
 
     E* is the modulus of short waves.
     """
 
     def beside(x: Real) -> Real:
-        return E_star / modulus(x / radius) - 1
+        q = x / radius
+        return E_star / 2 * q * spectrum(q) - 1
 
     growing = 2.0 ** np.arange(-30, 13.25, 0.25)  # wavenumber times radius
     felt = np.flatnonzero(np.abs(beside(growing)) > 1e-12)

@@ -118,15 +118,15 @@ class HalfSpace(ABC):
         """Return the force per approach of a rigid disc on the free half-space. [force / length]
 
         Guesses and the range of spaced loads are taken from it, so that an estimate will do. It
-        follows from the modulus that waves feel, nearly to rounding where that comes to `E_star` as
-        fast as on layers; a half-space that knows it in closed form may say so.
+        follows from the spectrum, nearly to rounding where that comes to 2 / (E* q) as fast as on
+        layers; a half-space that knows it in closed form may say so.
 
         Parameters
         ----------
         radius : float
             Its radius. [length]
         """
-        return disc_stiffness(self.modulus, self.E_star, radius)
+        return disc_stiffness(self.spectrum, self.E_star, radius)
 
     def refuse(self, spacing: tuple[float, float]) -> None:  # noqa: B027 as most resolve it
         """Refuse a grid that does not resolve the half-space, if there are such grids.
