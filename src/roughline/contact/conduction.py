@@ -71,8 +71,9 @@ class LayeredConductor(HalfSpace):
         # here because compiled loops load slowly
         from roughline.halfspace.elasticity.layered_kernel import layered_kernel
 
+        # how far currents go along good layers beside bad ones
         contrast = max(self.resistivity) / min(self.resistivity)
-        longest = sum(self.thickness) * math.sqrt(contrast)  # in good layers on bad ones
+        longest = sum(self.thickness) * math.sqrt(contrast)
         layered_kernel(self, self.thickness[0], longest, first, spacing, rows)
 
     def in_units(self, pressure: float, length: float) -> LayeredConductor:

@@ -1,4 +1,4 @@
-"""The kernel of layers: that of the top one's material, and a smooth rest that is tabulated once."""
+"""The kernel of layers: that of the top material, and a smooth rest that is tabulated once."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def layered_kernel(
 ) -> None:
     """Fill rows of the table of displacements under unit pressure on one cell.
 
-    The top layer has this thickness. Far apart is beyond the longest length, as of `hankel`.
+    It changes over the thickness of the top layer, and farther away over up to the longest length.
     """
     x, y, h = first + np.arange(rows.shape[0]), np.arange(rows.shape[1]), thickness
     love(x, y, *spacing, 1 / body.E_star, rows)
