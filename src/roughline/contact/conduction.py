@@ -94,7 +94,8 @@ def conductance(
 ) -> float:
     """Current through the points that touch, over the difference of both bodies' potentials.
 
-    It is zero where none touch, and infinite where all of a periodic surface do.
+    It is zero where none touch, infinite where all of a periodic surface do, and NaN where the
+    currents are not found.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ import numpy as np
 from roughline.exact._checks import Real, positive
 from roughline.exact.layers import BondedLayer
 
-_NODES, _IN_RADIUS = 64, 10  # of the springs; and so many more for each thickness in the radius
+_NODES, _IN_RADIUS = 64, 5  # of the springs; and so many more for each thickness in the radius
 _PANELS, _IN_PANEL, _LONGEST = 200, 8, 24.0  # of the waves, and their largest wavenumber times h
 
 
