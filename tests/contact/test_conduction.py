@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy import special
 
 import roughline as rl
 from roughline.contact.conduction import LayeredConductor, conductance
@@ -55,6 +56,26 @@ def test_waves_are_those_of_all_images_of_one_layer():
     np.testing.assert_allclose(cut.spectrum(q), one_layer(q, 2.0, 40.0, 0.3), rtol=1e-12)
     thin = LayeredConductor((2.0, 40.0), (1e-9,)).spectrum(q)
     np.testing.assert_allclose(thin, 40 / q, rtol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("resistivity", "thickness"),
+    [((2.0, 2e3, 2.0), (1.0, 0.3)), ((2.0, 2e2, 0.2), (1.0, 1.0)), ((2.0, 2e-3), (1.0,))],
+)
+@pytest.mark.parametrize("distance", [3, 100, 400])
+def test_far_along_good_layers_the_potential_is_the_integral_of_its_waves(
+    resistivity, thickness, distance
+):
+    body, found = LayeredConductor(resistivity, thickness), np.empty((1, 1))
+    body.kernel(10 * distance, (0.1, 0.1), found)
+    growing = np.geomspace(1e-9, 1 / distance)
+    edges = np.concatenate([[0.0], growing, np.arange(2, 20 * distance) / distance])
+    x, w = np.polynomial.legendre.leggauss(12)
+    half = np.diff(edges)[:, np.newaxis] / 2
+    q, w = (edges[:-1, np.newaxis] + half * (1 + x)).ravel(), (half * w).ravel()
+    beside = (q * body.spectrum(q) / 2.0 - 1) * special.j0(q * distance)
+    wanted = 2.0 / (2 * math.pi) * (1 / distance + w @ beside)
+    assert found[0, 0] / 0.01 == pytest.approx(wanted, rel=0.01 / distance**2)  # a cell is no point
 
 
 @pytest.mark.parametrize("periodic", [False, True])

@@ -217,18 +217,47 @@ def test_a_punch_on_a_layer_is_that_of_the_published_table(poisson, ratio, stiff
 
 @pytest.mark.parametrize("ratio", [0.01, 0.3, 1.0, 4.0, 20.0])
 @pytest.mark.parametrize("base", [math.inf, 1e3, 10.0, 0.1, 1e-3])
-@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.49])
-def test_the_stiffness_of_a_disc_is_estimated_from_below(poisson, base, ratio):
-    """A few pressures of the least energy take more of it than the punch's own."""
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.5])
+def test_the_stiffness_of_a_disc_is_that_of_fredholms_equation(poisson, base, ratio):
+    """Which has the closed form of the waves, and is solved at Gauss's points."""
     exact = LayeredContact(BondedLayer(1.0, poisson, 1.0, base, 0.3), ratio).stiffness
-    estimated = rl.Layered(1.0, poisson, 1.0, base, 0.3).disc_stiffness(ratio)
-    rounding = 2e-3 if ratio > 4 else 3e-5  # of the integrals, and of the exact one's nodes
-    assert -0.04 < estimated / exact - 1 < rounding
+    found = rl.Layered(1.0, poisson, 1.0, base, 0.3).disc_stiffness(ratio)
+    assert found == pytest.approx(exact, rel=1e-11)
 
 
-def test_a_disc_on_two_bodies_is_that_on_both_compliances():
+@pytest.mark.parametrize("base", [math.inf, 1e3, 1e-3])
+def test_a_disc_on_a_layer_that_is_cut_into_several_is_the_same(base):
+    """Be the first of them a hundredth of the whole, and the disc small or large."""
+    for radius in (1e-2, 1.0, 300.0):
+        whole = rl.Layered(1.0, 0.3, 1.0, base, 0.3).disc_stiffness(radius)
+        cut = rl.Layered([1.0] * 3, [0.3] * 3, [0.01, 0.5, 0.49], base, 0.3)
+        assert cut.disc_stiffness(radius) == pytest.approx(whole, rel=1e-11)
+
+
+def test_a_disc_on_a_thin_layer_is_on_its_base_and_on_a_thick_one_on_the_layer():
+    """A thin layer adds its thickness times the square of pressures, which grows as log(a / h)."""
+    layer = rl.Layered(1.0, 0.3, 1.0, 7.0, 0.3)
+    of_base, of_layer = (2 * young / (1 - 0.3**2) for young in (7.0, 1.0))
+    radii = np.array([250.0, 500.0, 1000.0])
+    thin = radii - np.array([layer.disc_stiffness(radius) for radius in radii]) / of_base
+    assert np.diff(thin)[1] == pytest.approx(np.diff(thin)[0], rel=0.01)
+    assert 0 < thin[2] < 0.01 * radii[2]
+    thick = [layer.disc_stiffness(radius) / (of_layer * radius) - 1 for radius in (2e-3, 1e-3)]
+    assert 0 < thick[1] < 1e-3
+    assert thick[0] / thick[1] == pytest.approx(2, rel=0.01)
+    rigid = BondedLayer(1.0, 0.3, 1.0)
+    found = rl.Layered(1.0, 0.3, 1.0, math.inf).disc_stiffness(1e3)
+    assert found == pytest.approx(math.pi * 1e6 * rigid.spring, rel=3e-3)
+
+
+@pytest.mark.parametrize("radius", [1e-3, 0.7, 1e4])
+def test_a_disc_on_one_material_is_exact(radius):
+    """However many layers or bodies it is called."""
+    layers = rl.Layered([2.0, 2.0], [0.3, 0.3], [0.1, 0.4], 2.0, 0.3)
+    wanted = pytest.approx(2 * 2.0 / (1 - 0.3**2) * radius, rel=1e-15)
+    assert layers.disc_stiffness(radius) == wanted
     both = rl.Homogeneous(3.0) + rl.Homogeneous(1.5)
-    assert both.disc_stiffness(0.7) == pytest.approx(2 * 1.0 * 0.7, rel=1e-5)
+    assert both.disc_stiffness(radius) == pytest.approx(2 * 1.0 * radius, rel=1e-15)
 
 
 def sphere(points, side, radius):

@@ -30,8 +30,9 @@ def hankel(transform: Callable[[Real], Real], r: Real, length: float, longest: f
     Parameters
     ----------
     transform : callable
-        A function that falls as exp(-2 q length), of real and of imaginary q. It has no pole nearer
-        to zero than about one over the longest length, and is real on the real axis.
+        A function that falls as exp(-2 q length), of real and of imaginary q. It is real on the
+        real axis. No pole with a real part that is not negative is nearer to zero than about one
+        over the longest length.
     r : ndarray, shape (n,)
         Distances, the largest at most some times the least. [length]
     length, longest : float

@@ -20,21 +20,14 @@ import functools
 import math
 import operator as of
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
-if TYPE_CHECKING:  # compiled loops load slowly
-    from roughline.halfspace.elasticity.smooth_kernel import SmoothKernel
-    from roughline.halfspace.operators.convolution import Convolution
-    from roughline.halfspace.operators.grid_nodes import GridNodes
-
-_RTOL = 1e-8  # of potentials; the current, an energy, is known far better
-_MOST_STEPS = 1000
+_RTOL = 1e-8  # a hundred times that of the conductance
 
 
 @dataclass(frozen=True)
@@ -60,11 +53,6 @@ class LayeredConductor(HalfSpace):
         """Twice the conductivity of the top layer, in the place of a contact modulus."""
         return 2 / self.resistivity[0]
 
-    @property
-    def is_pushed_everywhere(self) -> bool:  # type: ignore[override]
-        """Whether the surface is free: no place has the other sign of potential then."""
-        return not self.periodic
-
     def spectrum(self, q: Real) -> Real:
         """Return the potential over the density of currents that go in waves.
 
@@ -81,14 +69,12 @@ class LayeredConductor(HalfSpace):
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of potentials under a current of unit density into one cell."""
         # here because compiled loops load slowly
-        from roughline.halfspace.elasticity.kernel import love
+        from roughline.halfspace.elasticity.layered_kernel import layered_kernel
 
-        x, y = first + np.arange(rows.shape[0]), np.arange(rows.shape[1])
-        love(x, y, *spacing, 1 / self.E_star, rows)
-        if self.thickness:
-            h = self.thickness[0]
-            rest = _beside_top_layer(self.in_units(self.E_star, h))
-            rest.add(x, y, (spacing[0] / h, spacing[1] / h), h / self.E_star, rows)
+        # how far currents go along good layers beside bad ones
+        contrast = max(self.resistivity) / min(self.resistivity)
+        longest = sum(self.thickness) * math.sqrt(contrast)
+        layered_kernel(self, self.thickness[0], longest, first, spacing, rows)
 
     def in_units(self, pressure: float, length: float) -> LayeredConductor:
         """Return the same in other units."""
@@ -108,7 +94,8 @@ def conductance(
 ) -> float:
     """Current through the points that touch, over the difference of both bodies' potentials.
 
-    It is zero where none touch, and infinite where all of a periodic surface do.
+    It is zero where none touch, infinite where all of a periodic surface do, and NaN where the
+    currents are not found.
 
     Parameters
     ----------
@@ -122,58 +109,29 @@ def conductance(
         Whether the surface is repeated.
     """
     # here because compiled loops load slowly
-    from roughline.halfspace.operators.grid_nodes import GridNodes
+    from roughline.halfspace.inverse.kept import working_memory
+    from roughline.halfspace.search.problem import Grid, Method
+    from roughline.halfspace.search.tangent import punch_compliance
 
-    if not contact.any():
+    nodes = np.flatnonzero(contact)
+    if not nodes.size:
         return 0.0
     if periodic and contact.all():
         return math.inf
-    nx, ny = contact.shape
-    operator = _on_grid(bodies, periodic, (nx, ny), (sizes[0] / nx, sizes[1] / ny))
-    found = _current(operator, GridNodes.of(np.flatnonzero(contact), operator.shape))
-    operator.workspace.give_up()
-    return found
+    half_space = functools.reduce(of.add, [_conductor(*body, periodic) for body in bodies])
+    dx, dy = (size / n for size, n in zip(sizes, contact.shape, strict=True))
+    # in units in which E* is one, and dx
+    grid = Grid(half_space.in_units(half_space.E_star, dx), contact.shape, (1.0, dy / dx))
+    even = np.full(nodes.size, 1 / (nodes.size * grid.cell_area))
+    with working_memory():
+        compliance, _ = punch_compliance(grid, nodes, even, Method(_RTOL, max_iterations=0))
+    return half_space.E_star * dx / compliance
 
 
-def _current(operator: Convolution, nodes: GridNodes) -> float:
-    """Current from points of unit potential, by conjugate gradients; NaN if they do not get there.
-
-    They begin with even currents.
-    """
-    potential = np.ones(nodes.indices.size)
-    current = potential / np.abs(operator.displacement(potential, nodes, nodes)).max()
-    residual = potential - operator.displacement(current, nodes, nodes)
-    step, squares = residual.copy(), float(residual @ residual)
-    for _ in range(_MOST_STEPS):
-        if squares <= _RTOL**2 * potential.size:
-            return float(current.sum()) * operator.cell_area
-        moved = operator.displacement(step, nodes, nodes)
-        length = squares / float(step @ moved)
-        current += length * step
-        residual -= length * moved
-        before, squares = squares, float(residual @ residual)
-        step = residual + squares / before * step
-    return math.nan
-
-
-@lru_cache(maxsize=2)  # of electricity and heat, by which several loads are conducted through
-def _on_grid(
-    bodies: Resistances, periodic: bool, shape: tuple[int, int], spacing: tuple[float, float]
-) -> Convolution:
-    # here because compiled loops load slowly
-    from roughline.halfspace.operators.discretisation import on_grid
-
-    each = [LayeredConductor(*body, periodic) for body in bodies]
-    return on_grid(functools.reduce(of.add, each), shape, spacing)
-
-
-@lru_cache
-def _beside_top_layer(body: LayeredConductor) -> SmoothKernel:
-    """Tabulate the potential beside that of the top layer's material, in units of that."""
-    # here because compiled loops load slowly
-    from roughline.halfspace.elasticity.smooth_kernel import SmoothKernel
-
-    top = body.resistivity[0]
-    contrast = max(body.resistivity) / min(body.resistivity)
-    longest = sum(body.thickness) * contrast
-    return SmoothKernel.of(lambda q: q * body.spectrum(q) / top - 1, float(longest))
+def _conductor(
+    resistivity: tuple[float, ...], thickness: tuple[float, ...], periodic: bool
+) -> HalfSpace:
+    """Return what a body conducts by, as a half-space."""
+    if not thickness:
+        return Homogeneous(2 / resistivity[0], periodic)
+    return LayeredConductor(resistivity, thickness, periodic)

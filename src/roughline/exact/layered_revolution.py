@@ -27,7 +27,7 @@ import numpy as np
 from roughline.exact._checks import Real, positive
 from roughline.exact.layers import BondedLayer
 
-_NODES = 64  # of the springs
+_NODES, _IN_RADIUS = 64, 5  # of the springs; and so many more for each thickness in the radius
 _PANELS, _IN_PANEL, _LONGEST = 200, 8, 24.0  # of the waves, and their largest wavenumber times h
 
 
@@ -61,7 +61,8 @@ class LayeredContact:
 
     def _solved(self, line: Callable[[Real], Real]) -> tuple[Real, Real]:
         """Return forces over a of springs displaced by a line, at the edge and in total."""
-        nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+        count = _NODES + int(_IN_RADIUS * self.radius / self.layer.thickness)
+        nodes, weights = np.polynomial.legendre.leggauss(count)
         x, w = self.radius * (1 + nodes) / 2, self.radius * weights / 2
         both = np.append(x, self.radius)
         edges = (
@@ -75,7 +76,7 @@ class LayeredContact:
         beside = (half * shares).ravel() * (self.E_star * q / 2 * self.layer.compliance(q) - 1)
         # K(x - t) + K(x + t) = 2 int T cos(q x) cos(q t) dq
         rows = 2 / pi * (np.cos(np.outer(both, q)) * beside) @ np.cos(np.outer(q, x)) * w
-        forces = np.linalg.solve(np.eye(_NODES) + rows[:-1], self.E_star * line(x))
+        forces = np.linalg.solve(np.eye(count) + rows[:-1], self.E_star * line(x))
         edge = self.E_star * line(np.array([self.radius])) - rows[-1] @ forces
         return edge, 2 * w @ forces
 

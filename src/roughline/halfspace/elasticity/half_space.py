@@ -11,6 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import as_plain, refuse
+from roughline.halfspace.elasticity.disc import disc_stiffness
 
 Periodic = bool | Literal["x", "y"]
 """Whether pressures repeat themselves beyond the grid: along both axes, none, or one of them."""
@@ -117,17 +118,15 @@ class HalfSpace(ABC):
         """Return the force per approach of a rigid disc on the free half-space. [force / length]
 
         Guesses and the range of spaced loads are taken from it, so that an estimate will do. It
-        follows from the spectrum, to some percent; a half-space that knows better may say so.
+        follows from the spectrum, nearly to rounding where that comes to 2 / (E* q) as fast as on
+        layers; a half-space that knows it in closed form may say so.
 
         Parameters
         ----------
         radius : float
             Its radius. [length]
         """
-        # here because special functions load slowly
-        from roughline.halfspace.elasticity.disc import disc_stiffness
-
-        return disc_stiffness(self.spectrum, radius)
+        return disc_stiffness(self.spectrum, self.E_star, radius)
 
     def refuse(self, spacing: tuple[float, float]) -> None:  # noqa: B027 as most resolve it
         """Refuse a grid that does not resolve the half-space, if there are such grids.

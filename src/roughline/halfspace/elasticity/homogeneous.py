@@ -34,7 +34,7 @@ class Homogeneous(HalfSpace):
     References
     ----------
     .. [1] K. L. Johnson, *Contact Mechanics*, Cambridge (1985), §13.2 (waves), eq. 3.25 (cells),
-       eq. 3.36 (discs), §2.3 (lines).
+       §2.3 (lines).
     """
 
     E_star: float
@@ -71,7 +71,3 @@ class Homogeneous(HalfSpace):
     def in_units(self, pressure: float, length: float) -> Homogeneous:
         """Return the same half-space in other units; it has no length of its own to be scaled."""
         return replace(self, E_star=self.E_star / pressure)
-
-    def disc_stiffness(self, radius: float) -> float:
-        """Return the force per approach of a rigid disc, 2 E* a."""
-        return 2 * self.E_star * radius

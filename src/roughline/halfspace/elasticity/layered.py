@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -14,9 +14,6 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import between, positive, several
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
-
-if TYPE_CHECKING:  # compiled loops load slowly
-    from roughline.halfspace.elasticity.smooth_kernel import SmoothKernel
 
 _THINNEST = 0.5  # thickness of the top layer over the side of a cell, at least
 
@@ -128,13 +125,12 @@ class Layered(HalfSpace):
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of displacements under unit pressure on one cell."""
         # here because compiled loops load slowly
-        from roughline.halfspace.elasticity.kernel import love
+        from roughline.halfspace.elasticity.layered_kernel import layered_kernel
 
-        x, y = first + np.arange(rows.shape[0]), np.arange(rows.shape[1])
-        love(x, y, *spacing, 1 / self.E_star, rows)
-        h = float(self._layers[2, 0])
-        rest = _beside_top_layer(self.in_units(self.E_star, h))
-        rest.add(x, y, (spacing[0] / h, spacing[1] / h), h / self.E_star, rows)
+        young, _, thickness = self._layers
+        moduli = [each for each in (*young, self.base_young) if each < math.inf]
+        longest = thickness.sum() * (max(moduli) / min(moduli)) ** (1 / 3)  # of plates on springs
+        layered_kernel(self, float(thickness[0]), float(longest), first, spacing, rows)
 
     def refuse(self, spacing: tuple[float, float]) -> None:
         """Refuse grids of cells more than twice as large as the top layer is thick."""
@@ -155,18 +151,6 @@ class Layered(HalfSpace):
             thickness=tuple(thickness / length),
             base_young=self.base_young / pressure,
         )
-
-
-@lru_cache
-def _beside_top_layer(body: Layered) -> SmoothKernel:
-    """Tabulate what layers displace beside a half-space of the top one, in units of that."""
-    # here because compiled loops load slowly
-    from roughline.halfspace.elasticity.smooth_kernel import SmoothKernel
-
-    young, _, thickness = body._layers
-    moduli = [each for each in (*young, body.base_young) if each < math.inf]
-    longest = thickness.sum() * (max(moduli) / min(moduli)) ** (1 / 3)  # of plates on springs
-    return SmoothKernel.of(lambda q: q / 2 * body.spectrum(q) - 1, float(longest))
 
 
 def _ratio(name: str, given: Any) -> float:

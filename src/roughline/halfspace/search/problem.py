@@ -56,6 +56,10 @@ class Grid:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
 
+    def nodes(self, indices: Indices) -> GridNodes:
+        """List the nodes with these ascending flat indices."""
+        return GridNodes.of(indices, self.shape)
+
     @property
     def coarser(self) -> Grid:
         """The grid of half as many points a side."""

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.operators.corrected import CorrectedOperator
-from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
-from roughline.halfspace.search.problem import Contact, Method, Problem
+from roughline.halfspace.search.problem import Contact, Grid, Method
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.
@@ -82,8 +81,7 @@ def _tangent(contact: Contact, follow: Mask, start: Real | None, method: Method)
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even)
     pressure = _unit_force(follow, cell_area, start, contact.pressure)
-    following = GridNodes.of(nodes, operator.shape)
-    compliance, convolutions = _solve(contact.problem, following, pressure, method)
+    compliance, convolutions = punch_compliance(contact.problem.grid, nodes, pressure, method)
     if not every:
         pressure_per_force = np.zeros(contact.nodes.size)
         pressure_per_force[follow] = pressure
@@ -91,7 +89,9 @@ def _tangent(contact: Contact, follow: Mask, start: Real | None, method: Method)
     return Tangent(1 / compliance if compliance > 0 else np.nan, pressure, convolutions)
 
 
-def _solve(problem: Problem, nodes: GridNodes, pressure: Real, method: Method) -> tuple[float, int]:
+def punch_compliance(
+    grid: Grid, nodes: Indices, pressure: Real, method: Method
+) -> tuple[float, int]:
     """Lead pressures of unit force, which are overwritten, to those that displace all nodes alike.
 
     In each turn, steps lessen the compliance from what the pressures so far have. The first turn
@@ -99,9 +99,9 @@ def _solve(problem: Problem, nodes: GridNodes, pressure: Real, method: Method) -
     shows in the gain of the next turn. Return the compliance, NaN where it is not found, and the
     convolutions.
     """
-    restricted = problem.inverse.restricted.on(nodes)
-    operator = CorrectedOperator(problem.operator, restricted, nodes)
-    patch = Patch(operator.linear, problem.inverse, nodes)
+    inverse, listed = grid.inverse, grid.nodes(nodes)
+    operator = CorrectedOperator(inverse.operator, inverse.restricted.on(listed), listed)
+    patch = Patch(operator.linear, inverse, listed)
     accuracy, gained, convolutions = _ENERGY_MARGIN * method.rtol, np.nan, 0
     for turn in range(8):  # each computes the energy form afresh; two or three are enough
         # 1. The turn is exact but for a first one with a restricted operator.
@@ -119,8 +119,8 @@ def _solve(problem: Problem, nodes: GridNodes, pressure: Real, method: Method) -
             return compliance, convolutions
         slow = not (part <= _SLOW and error <= aim * before)
         if exact and operator.restricted is not None and slow:
-            operator = CorrectedOperator(problem.operator, None, nodes)
-            patch, gained = Patch(operator.linear, problem.inverse, nodes), np.nan
+            operator = CorrectedOperator(inverse.operator, None, listed)
+            patch, gained = Patch(operator.linear, inverse, listed), np.nan
     return np.nan, convolutions
 
 

@@ -1,10 +1,11 @@
-"""The smooth part of a kernel: an even function of the distance, tabulated once."""
+"""The kernel of layers: that of the top material, and a smooth rest that is tabulated once."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy import fft
@@ -12,11 +13,37 @@ from scipy import fft
 from roughline.computing.arrays import Floats, Integers, Real
 from roughline.computing.compiled import compiled
 from roughline.computing.hankel import hankel
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.kernel import love
 
 _PIECE, _PIECES, _DEGREE = 0.5, 40, 15  # of the table, in asinh(r / 2); up to 5e8
 # Gauss points along the side of a cell, from so many quarters of the side on between the cell and
 # the nearest singularity, which is at the imaginary distance 2 from the axis
 _POINTS = (2, 500.0), (3, 60.0), (4, 24.0), (5, 13.0), (6, 9.0), (7, 7.5), (8, 6.0)
+
+
+def layered_kernel(
+    body: HalfSpace,
+    thickness: float,
+    longest: float,
+    first: int,
+    spacing: tuple[float, float],
+    rows: Real,
+) -> None:
+    """Fill rows of the table of displacements under unit pressure on one cell.
+
+    It changes over the thickness of the top layer, and farther away over up to the longest length.
+    """
+    x, y, h = first + np.arange(rows.shape[0]), np.arange(rows.shape[1]), thickness
+    love(x, y, *spacing, 1 / body.E_star, rows)
+    rest = _beside_top_layer(body.in_units(body.E_star, h), longest / h)
+    rest.add(x, y, (spacing[0] / h, spacing[1] / h), h / body.E_star, rows)
+
+
+@lru_cache
+def _beside_top_layer(body: HalfSpace, longest: float) -> SmoothKernel:
+    """Tabulate what a body displaces beside its top layer's material, in units of that layer."""
+    return SmoothKernel.of(lambda q: q / 2 * body.spectrum(q) - 1, longest)
 
 
 @dataclass(frozen=True, eq=False)
