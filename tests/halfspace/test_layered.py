@@ -402,7 +402,7 @@ def test_random_problems_on_random_layers_are_certified():
 
 
 def test_random_loads_on_plates_are_certified():
-    """Noise and roughness, layers of 1 to 20 cells that are 100 to 1e6 times as hard as the base."""
+    """Noise and roughness; layers of 1 to 20 cells, 100 to 1e6 times as hard as their base."""
     for seed in range(cases(900, share=60)):
         rng = np.random.default_rng([seed, 7])
         shape, cell = rng.integers(48, 110, 2), rng.choice([1.0, 10.0])

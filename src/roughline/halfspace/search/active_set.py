@@ -46,7 +46,6 @@ AIM = 0.3
 # After six times as many, the equations are solved to the tolerance before nodes are exchanged; if
 # no minimum follows in twice as many, nodes are exchanged one by one.
 _PATIENCE = 8
-_DEEP = 0.5  # of the deepest overlap, from which on nodes join then
 _RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at most
 
 
@@ -150,8 +149,8 @@ class _Wrong:
         return sum(int(np.count_nonzero(wrong)) for wrong in each)
 
     def deepest(self) -> _Wrong:
-        """Leave only the deepest of the nodes that overlap."""
-        join = self.overlap >= _DEEP * self.overlap.max(initial=0.0)
+        """Of the nodes that overlap, leave only those that do so half as deep as any, or deeper."""
+        join = 2 * self.overlap >= self.overlap.max(initial=0.0)
         overlapping = self.overlapping.copy()
         overlapping[self.overlapping] = join
         return replace(self, overlapping=overlapping, overlap=self.overlap[join])
