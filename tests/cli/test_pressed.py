@@ -453,3 +453,39 @@ def test_the_same_is_said_of_a_preparation_wherever_it_is_read(rough, invoke, on
     for text in (" ".join(out.split()), " ".join(described.split()), page):
         assert said in text
         assert idle in text
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_a_strip_is_that_of_the_library(rough, invoke, along, tmp_path):
+    asked = ("--modulus", "1 GPa", "--load", "0.1 N", "--periodic-along", along)
+    code, out, errors = invoke("press", rough, *asked, "--json", "--out", tmp_path / "out")
+    assert code == 0, errors
+    found = json.loads(out)
+    curve = rl.press(rl.read(rough), E_star=1e9, periodic=along, forces=[0.1])
+    assert found["settings"]["boundary"] == curve.settings["boundary"] == f"periodic along {along}"
+    assert found["curve"]["depth"] == pytest.approx(curve.depth, rel=1e-12)
+    assert found["curve"]["stiffness"] == pytest.approx(curve.stiffness, rel=1e-12)
+    with xarray.open_dataset(tmp_path / "out" / "curve.nc") as kept:
+        assert kept.attrs["boundary"] == f"periodic along {along}"
+    _, out, _ = invoke("press", rough, *asked)
+    assert f"periodic along {along}" in out
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        (
+            (*PAIR, "--load", "1 N", "--periodic-along", "x"),
+            "repeated along x alone: give a contact modulus (--modulus) in place of --materials",
+        ),
+        (
+            ("--modulus", "1 GPa", "--load", "1 N", "--periodic-along", "z"),
+            '--periodic-along is "z"; allowed are "x", "y"',
+        ),
+    ],
+)
+def test_strips_without_answers_are_refused_in_one_line(rough, invoke, asked, message):
+    code, out, errors = invoke("press", rough, *asked)
+    assert (code, out) == (2, "")
+    assert message in errors
+    assert errors.count("\n") == 1

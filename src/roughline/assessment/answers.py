@@ -51,7 +51,7 @@ def answers_of(
     found = replace(
         pressed,
         measured=taken(solution.measured, asked),
-        is_repeated=case.is_repeated_for_interface or case.loads.periodic,
+        is_repeated=case.is_repeated_for_interface or case.loads.periodic is True,
         place=solution.place,
         sought=solution.sought,
         fields=next((each for each in solution.curve.fields if each is not None), None),

@@ -34,6 +34,7 @@ class Field:
     control: str = "{}"  # key in the lab's form and addresses: its name, or another; empty for none
     label: str = ""  # what the form calls it
     word: str = ""  # what the lab's messages call it if that differs
+    argument: str = "{}"  # of what it is of: its name, or another's that it is a value of
     help: str = ""  # one sentence with an example
     otherwise: str = ""  # what holds if it is not given, in words
     kind: type = str  # of one value on the command line
@@ -47,6 +48,7 @@ class Field:
     def __post_init__(self) -> None:
         object.__setattr__(self, "flag", self.flag.format(self.name.replace("_", "-")))
         object.__setattr__(self, "control", self.control.format(self.name))
+        object.__setattr__(self, "argument", self.argument.format(self.name))
 
     @property
     def is_asked(self) -> bool:
@@ -200,6 +202,14 @@ FIELDS: tuple[Field, ...] = (
         help="Repeat the surface periodically: it has no borders, and the stiffness is that of "
         "the interface. Otherwise the half-space continues, unloaded, around the surface.",
         choices={"free": (False, "free"), "periodic": (True, "periodic")},
+    ),
+    _of_bodies(
+        name="periodic_along",
+        argument="periodic",
+        control="",
+        help="Repeat the surface along one direction and leave it free across, as a roller or a "
+        "line seal, with --modulus; depth counts from a place as far away across as it is wide.",
+        choices={"none": (None, "none"), "x": ("x", "x"), "y": ("y", "y")},
     ),
     _of_answers(
         name="friction",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -65,7 +66,7 @@ class LoadCase:
     forces: list[float]  # in the order in which they are applied [N]
     depths: list[float]  # instead of forces [m]
     n_loads: int | None  # instead of both: forces spaced from first touch to saturation
-    periodic: bool
+    periodic: bool | Literal["x", "y"]
     asked: Sequence[int] = ()  # which loads were asked for, in the order asked; none if not named
     grid_error: bool = False
     levelled: bool = False  # without its tilt, which a periodic half-space cannot have
@@ -100,7 +101,7 @@ class LoadCase:
             forces,
             depths,
             n_loads,
-            question.is_repeated,
+            question.repeated_along,
             asked or asked_depths,
             levelled=question.joint is not None and is_map(body),
             hardness=hardness,
@@ -198,7 +199,7 @@ def _with_curve(asked: list[float]) -> list[float]:
 
 def _spaced(question: Question, body: Surface) -> list[float]:
     """Forces for bodies that stick, those of the same ones if they only push. [N]"""
-    half_space = question.elasticity.half_space(periodic=question.is_repeated)
+    half_space = question.elasticity.half_space(periodic=question.repeated_along)
     given = GivenLoads(None, None, question.n_loads)
     loads = surface_loads(body, half_space, given, 1e-6, single=False, law=law_of(None))
     return [float(each) for each in loads.values]

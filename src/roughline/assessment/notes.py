@@ -294,9 +294,10 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
     The second result says whether that outweighs all other steps. Nothing is said of a surface
     that is no map: it may be meant to be repeated.
     """
-    if not question.is_repeated or not is_map(body):
+    repeats = question.elasticity.half_space(periodic=question.repeated_along).repeats
+    if not any(repeats) or not is_map(body):
         return "", False
-    found = border_jump(body if question.joint is None else body.detrended())
+    found = border_jump(body if question.joint is None else body.detrended(), repeats)
     return found.in_words("m"), found.outweighs
 
 

@@ -38,6 +38,7 @@ from roughline.assessment.given import (
 )
 from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.reading import Reading
+from roughline.contact.arguments import given_half_space
 from roughline.contact.elastic_pair import ElasticPair
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated, Solid
@@ -73,6 +74,11 @@ def _checked(asked: Any) -> tuple[Asked, ...]:
         if kinds.count(kind) > 1:
             raise InputError(f"holds several rl.{kind}; give one", "ask")
     return found
+
+
+def _periodic(given: Any) -> bool | Literal["x", "y"]:
+    """Return along which axes a body is repeated, as those that are pressed are."""
+    return given_half_space(None, 1.0, given).periodic
 
 
 def _hardness(given: Any) -> float:
@@ -122,8 +128,8 @@ class Question:
         :class:`roughline.WholeCurve`.
     against : Surface, Line, str or Path, optional
         Topography of the second body, read and prepared like the first; without it, it is smooth.
-    periodic : bool, optional
-        As for :func:`roughline.press`.
+    periodic : bool, "x" or "y", optional
+        As for :func:`roughline.press`; along one direction alone only with `E_star`.
     grid_error : bool, optional
         Whether the grid's error is estimated; default: where that is cheap, and with a
         whole curve, on 64 points a side or more. Without it no interval is given.
@@ -167,7 +173,7 @@ class Question:
     against: Parsed[Body | Path | None] = Parsed(
         functools.partial(body_or_path, name="against"), default=None
     )
-    periodic: bool = False
+    periodic: Parsed[bool | Literal["x", "y"]] = Parsed(_periodic, default=False)
     hardness: Parsed[float | None] = Parsed(_hardness, default=None)
     elastic: bool = False
     grid_error: bool | None = None
@@ -340,9 +346,14 @@ class Question:
         return headings + [f"unloaded to {each:.0%}" if each else "unloaded" for each in falling]
 
     @property
+    def repeated_along(self) -> bool | Literal["x", "y"]:
+        """Along which axes what is pressed is repeated: as asked, or all, as a joint goes on."""
+        return self.periodic if self.joint is None else True
+
+    @property
     def is_repeated(self) -> bool:
-        """Whether what is pressed is repeated: as asked, and because a joint goes on beyond it."""
-        return self.periodic or self.joint is not None
+        """Whether what is pressed is repeated along both axes."""
+        return self.repeated_along is True
 
     def scale(self, area: float) -> float:
         """How many times larger the joint is than a body of a nominal area [m²]; 1 without one."""
@@ -514,6 +525,14 @@ class Question:
         if (self.E_star is None) == (self.materials is None):
             raise InputError(
                 f"give either a contact modulus ({called('E_star')}) or two materials ({materials})"
+            )
+        if isinstance(self.periodic, str) and self.materials is not None:
+            raise InputError(
+                "answers are known of bodies that are free or repeated both ways, not of one that "
+                f"is repeated along {self.periodic} alone: give a contact modulus "
+                f"({called('E_star')}) in place of {materials}, and take its curve",
+                None,
+                *("periodic", "materials"),
             )
 
     def _check_layers(self) -> None:

@@ -18,8 +18,8 @@ Told = Mapping[str, Any]
 
 def told_of(kind: str, told: Told) -> dict[str, Any]:
     """Return what is told of one class, as its arguments."""
-    named = {each.name: told.get(each.name) for each in FIELDS if each.of == kind}
-    return {name: value for name, value in named.items() if value is not None}
+    given = [each for each in FIELDS if each.of == kind and told.get(each.name) is not None]
+    return {each.argument: told[each.name] for each in given}
 
 
 def reading_of(told: Told, name: str | None = None) -> Reading:

@@ -102,7 +102,7 @@ class Variant:
     where it is needless."""
 
     shape: tuple[int, int]  # points along the sides of a surface, of whose time it takes a share
-    is_periodic: bool
+    is_periodic: bool | Literal["x", "y"]
     share: float = 1.0
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.contact.arguments import given_half_space
-from roughline.halfspace.elasticity.half_space import HalfSpace, Repeated
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, Repeated
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.elasticity.layered import Layered
 
@@ -105,8 +105,10 @@ class ElasticPair:
             return pressure / self.E_star
         return pressure * sum(each.softness(side) for each in self.bodies)
 
-    def half_space(self, *, periodic: bool) -> HalfSpace:
+    def half_space(self, *, periodic: Periodic) -> HalfSpace:
         """What both are pressed as; repeated ones are displaced from their mean.
+
+        Bodies with layers are free, or repeated along both axes.
 
         Raises
         ------

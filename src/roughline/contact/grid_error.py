@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
+from roughline.contact.full_contact import in_full_contact
 from roughline.contact.loads import Loads
 from roughline.contact.measures import Measured
 from roughline.contact.selection import among_loads
@@ -101,7 +102,8 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
     with the hardness H / m tells what waves do that no grid here has.
 
     The same waves open the contact area of elastic bodies as Persson's theory tells [1]_, where no
-    area is less than the force over the hardness. Besides, an area of N points scatters
+    area is less than the force over the hardness. Layers that are harder than their base meet short
+    waves more stiffly than long ones, which opens it further. Besides, an area of N points scatters
     as a count does, by 1 / sqrt(N). The logarithm of a measure is as uncertain as it differs
     between grids.
 
@@ -138,7 +140,8 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
         )
         taken = np.where((k > 0) & (k < k_u), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
         of_k = np.maximum(steepening * _of_compliance("stiffness", coarser, curve), of_k_u + taken)
-        of_area = _of_area(curve, law, coarser, steepening, surface.heights.size)
+        felt = steepening_of(in_full_contact(surface, curve.half_space))
+        of_area = _of_area(curve, law, coarser, max(steepening, felt), surface.heights.size)
         return replace(
             curve,
             stiffness_error=_times(k, of_k),

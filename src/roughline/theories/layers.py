@@ -5,10 +5,17 @@ displacement C over the pressure. Of a homogeneous half-space C is 2 / (E* q). S
 wave as that takes one of the wavenumber 2 / (E* C(q)), which is the only one that Persson's theory
 asks for.
 
+This form is derived here, from full contact alone. Persson treats layers in [1]_, and a modulus
+that depends on the depth in section 5 of [2]_; the form was not compared with the equations there.
+What judges it are its limits, plain integrals over the pressures of full contact, and the full
+model.
+
 References
 ----------
 .. [1] B. N. J. Persson, "Contact mechanics for layered materials with randomly rough surfaces",
    J. Phys.: Condens. Matter 24, 095008 (2012).
+.. [2] B. N. J. Persson, "Contact mechanics for randomly rough surfaces", Surf. Sci. Rep. 61,
+   201-227 (2006).
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,8 +42,9 @@ from roughline.halfspace.search.region import Region, Trial
 
 AIM = 0.3
 """Of the tolerance, at which conjugate gradients aim so that a certificate is not just missed."""
-# After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
-# tolerance before nodes are exchanged. After twice as many, nodes are exchanged one by one.
+# After more rounds than this without a new minimum of wrong nodes, only the deepest overlaps join.
+# After six times as many, the equations are solved to the tolerance before nodes are exchanged; if
+# no minimum follows in twice as many, nodes are exchanged one by one.
 _PATIENCE = 8
 _RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at most
 
@@ -139,6 +140,7 @@ class _Wrong:
     leaving: Mask  # carriers at a bound at which the gap has the wrong sign
     overlapping: Mask  # watched nodes, without pressure, at which the bodies overlap
     off: Real  # gap at those that leave, by its size [length]
+    overlap: Real  # at those that overlap, by its size [length]
 
     @property
     def count(self) -> int:
@@ -146,17 +148,25 @@ class _Wrong:
         each = (self.below, self.above, self.leaving, self.overlapping)
         return sum(int(np.count_nonzero(wrong)) for wrong in each)
 
+    def deepest(self) -> _Wrong:
+        """Of the nodes that overlap, leave only those that do so half as deep as any, or deeper."""
+        join = 2 * self.overlap >= self.overlap.max(initial=0.0)
+        overlapping = self.overlapping.copy()
+        overlapping[self.overlapping] = join
+        return replace(self, overlapping=overlapping, overlap=self.overlap[join])
+
     def last_alone(self, places: Indices, watched: Indices) -> _Wrong:
         """Leave only the wrong node of highest place."""
         among = places[self.below | self.above | self.leaving]
         last = max(among.max(initial=-1), watched[self.overlapping].max(initial=-1))
-        alone = places == last
+        alone, alone_watched = places == last, watched == last
         return _Wrong(
             self.below & alone,
             self.above & alone,
             self.leaving & alone,
-            self.overlapping & (watched == last),
+            self.overlapping & alone_watched,
             self.off[alone[self.leaving]],
+            self.overlap[alone_watched[self.overlapping]],
         )
 
 
@@ -283,30 +293,37 @@ class Sides:
         held = gap[~self.is_watched]
         off = np.where(self.is_plastic[~self.is_watched], held, -held) > slack
         leaving[~self.touching] = off
-        return _Wrong(below, above, leaving, gap[self.is_watched] < 0, held[off])
+        beside = gap[self.is_watched]
+        overlapping = beside < 0
+        return _Wrong(below, above, leaving, overlapping, held[off], -beside[overlapping])
 
 
 class _ExchangeRule:
     """How many of the wrong nodes change sides at a time.
 
-    As long as their number falls, all of them do. Where it has not fallen for many rounds, only
-    the wrong node of highest place does, which cannot cycle [4]_.
+    As long as their number falls, all of them do. A layer that is much harder than its base is
+    lifted far around each node that joins, so that most overlaps vanish as the deepest ones join;
+    if all of them joined at once, the set would grow and shrink without end. So where the number
+    has not fallen for many rounds, only the deepest overlaps join. If that does not help, the
+    equations are solved to the tolerance from then on, and the numbers before do not count. In the
+    end only the wrong node of highest place changes sides, which cannot cycle [4]_.
     """
 
     def __init__(self, points: int) -> None:
         self.wrong = points  # in the last round
-        self._fewest = points + 1
+        self.to_tolerance = False  # whether equations are solved to it before nodes change sides
+        self._none_yet = self._fewest = points + 1
         self._rounds = 0  # since the last new minimum of wrong nodes
 
     @property
-    def to_tolerance(self) -> bool:
-        """Whether the equations are solved to the tolerance before nodes change sides."""
-        return self._rounds > _PATIENCE
+    def is_slow(self) -> bool:
+        """Whether the number of wrong nodes has not fallen for many rounds."""
+        return self.to_tolerance or self._rounds > _PATIENCE
 
     @property
     def one_by_one(self) -> bool:
         """Whether only one node changes sides at a time."""
-        return self._rounds > 2 * _PATIENCE
+        return self.to_tolerance and self._rounds > 2 * _PATIENCE
 
     def applied(self, region: Region, relaxation: _Relaxation, watched: Indices) -> Carriers:
         """Return the carriers after wrong nodes have changed sides."""
@@ -314,8 +331,12 @@ class _ExchangeRule:
         self.wrong = wrong.count
         if self.one_by_one:
             wrong = wrong.last_alone(carriers.places, watched)
+        elif self.is_slow:
+            wrong = wrong.deepest()
         self._rounds = 0 if self.wrong < self._fewest else self._rounds + 1
         self._fewest = min(self.wrong, self._fewest)
+        if not self.to_tolerance and self._rounds > 6 * _PATIENCE:
+            self.to_tolerance, self._rounds, self._fewest = True, 0, self._none_yet
         return exchanged(region, carriers, watched, wrong)
 
 
@@ -362,7 +383,7 @@ class _StoppingRule:
         if certified and trial.residuals.rounding > self._method.rtol:
             return Outcome.STALLED
         # the stiffness depends on single nodes: go on while one overlaps more than those in contact
-        if certified and (trial.residuals.penetration == 0 or rule.to_tolerance):
+        if certified and (trial.residuals.penetration == 0 or rule.is_slow):
             return Outcome.CONVERGED
         if spent:
             return Outcome.CONVERGED if certified else Outcome.MAX_ITERATIONS
