@@ -45,7 +45,7 @@ from roughline.halfspace.operators.restricted import RESOLVED, RestrictedOperato
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 
-_SHAPES = 4, 4  # parts of the surface, each with a shape for which blocks are solved as they are
+_PARTS = 4  # along an axis, each with a shape for which blocks are solved as they are
 _STEEP = 50.0  # fall of wavenumber times compliance, from which on plates bend
 _LEAST = 0.1  # of the compliance of a wave, which no eigenvalue on a grid is taken to be below
 
@@ -329,11 +329,10 @@ class _Shapes:
     """
 
     def __init__(self, inverse: ApproximateInverse, count: Real, alone: Real, scale: Real) -> None:
-        rows, columns = (
-            np.arange(n) * parts // n for n, parts in zip(count.shape, _SHAPES, strict=True)
-        )
-        part = rows[:, np.newaxis] * _SHAPES[1] + columns
-        each = (np.where(part == k, count * scale**2, 0.0) for k in range(math.prod(_SHAPES)))
+        parts = [max(1, min(_PARTS, n // _PARTS)) for n in count.shape]
+        rows, columns = (np.arange(n) * m // n for n, m in zip(count.shape, parts, strict=True))
+        part = rows[:, np.newaxis] * parts[1] + columns
+        each = (np.where(part == k, count * scale**2, 0.0) for k in range(math.prod(parts)))
         shapes = [shape for shape in each if shape.any()]
         spectrum, periods = inverse.block_spectrum
         kernel = spectrum / math.prod(periods)
