@@ -425,7 +425,7 @@ def test_bodies_and_loads_are_said_as_soon_as_they_can_be_read(page):
     assert "20 MPa over" in header["loads"][1]
     header, _ = page.ask("bodies", {**PAIR, "first": "E=70 GPa nu=0.33"}, sides=None)
     assert header["loads"] == []
-    assert any("hardness of the first body (given)" in each for each in header["notes"])
+    assert any("hardness of the first body (E=70 GPa nu=0.33)" in each for each in header["notes"])
     assert page.refusal("bodies", said, sides=["a"])[1] == ""
 
 

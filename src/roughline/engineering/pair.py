@@ -131,7 +131,7 @@ class MaterialPair:
         """Say that there is no answer, as its formula is of bodies without layers; else nothing."""
         if not self.coated:
             return ""
-        return f"no {what}: {why}, and {self.coated[0].name} is coated"
+        return f"no {what} of coated bodies: {why}"
 
     def both(self, quantity: str) -> tuple[float, float] | None:
         """Return a property of both bodies; None if one does not have it, or is coated."""
