@@ -275,8 +275,8 @@ def test_several_maps_have_a_mean_and_say_what_is_not_known():
     [
         (
             {"materials": ("gold 7 um on copper", "steel")},
-            'materials "gold 7 µm on copper": its layer of gold, 7 µm, is thinner than half a cell '
-            "of 15.62 µm: leave that layer out",
+            "materials have a layer of gold, 7 µm, thinner than half a cell of 15.62 µm: leave it "
+            "out, as what lies below is felt alone",
         ),
         (
             {"materials": ("gold 20 um on copper", "steel"), "ask": rl.Friction(0.3)},

@@ -68,7 +68,7 @@ def test_a_report_has_the_layers_and_the_command_as_typed(rough, invoke, only_dr
         ("rubber 2 mm on steel", "give two with a comma between"),
         (
             "gold 1 um on copper, steel",
-            '--materials "gold 1 µm on copper": its layer of gold, 1 µm',
+            "--materials have a layer of gold, 1 µm, thinner than half a cell",
         ),
     ],
 )

@@ -104,12 +104,16 @@ class MaterialPair:
         found = []
         for name, body in self._by_name:
             of_hardness = quantity == "hardness"
-            for each in [body.surface] if of_hardness else body.materials:
-                is_needed = not (of_hardness and math.isinf(each.E))
-                if is_needed and getattr(each, quantity) is None:
-                    is_layer = isinstance(body, Coated) and not of_hardness
-                    found.append(f"{each.name} in {name}" if is_layer else name)
-        return list(dict.fromkeys(found))
+            unknown = [
+                each.name
+                for each in ([body.surface] if of_hardness else body.materials)
+                if getattr(each, quantity) is None and not (of_hardness and math.isinf(each.E))
+            ]
+            if unknown:
+                is_layer = isinstance(body, Coated) and not of_hardness
+                which = " and ".join(dict.fromkeys(unknown))
+                found.append(f"{which} in {name}" if is_layer else name)
+        return found
 
     @property
     def _by_name(self) -> list[tuple[str, Solid]]:
