@@ -187,8 +187,8 @@ def _of_currents(result: Assessment, pair: MaterialPair) -> list[str]:
             for (_, what, unit), layers in known
         ]
         notes.append(
-            "what conducts is told of the spots, from which currents spread: the layers' own "
-            f"resistance to an even current adds {' and '.join(added)}"
+            "resistance and conductance are those of the spots alone: the layers' own resistance "
+            f"to an even current adds {' and '.join(added)}"
         )
     return notes
 
