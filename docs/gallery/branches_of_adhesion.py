@@ -3,7 +3,8 @@ What do bodies do that stick?
 =============================
 
 They jump together on the way in, and hold each other on the way out. The area between the branches
-is the work that a cycle costs.
+is the work that a cycle costs. Maps are dark where the bodies touch, and light where they pull each
+other across a gap.
 """
 
 import numpy as np
@@ -21,9 +22,8 @@ figure, axes = pyplot.subplots(1, 3, figsize=(9, 3), layout="constrained")
 nearer = curve.on_approach
 for branch, name in ((nearer, "on approach"), (~nearer, "on retreat")):
     axes[0].plot(curve.depth[branch] * 1e9, curve.force[branch] * 1e6, label=name)
-axes[0].set(xlabel="depth (nm)", ylabel="force (µN)", xlim=(-20, None))
-axes[0].legend(frameon=False)
-# dark: they touch; light: they pull each other across a gap
+axes[0].set(xlabel="depth [nm]", ylabel="force [µN]", xlim=(-40, None))
+axes[0].legend(frameon=False, loc="center left")
 depth = curve.depth[np.nanargmin(curve.force)]
 for branch, axis, name in ((nearer, axes[1], "approach"), (~nearer, axes[2], "retreat")):
     load = np.flatnonzero(branch)[np.abs(curve.depth[branch] - depth).argmin()]

@@ -35,6 +35,8 @@ for nu, mark in ((0.49, "o-"), (0.499, "s-")):
 axes.axhline(thick / 1e3, color="black", linestyle="--", label="thick rubber")
 axes.set(xlabel="thickness of the rubber [mm]", ylabel="sealing pressure [kPa]")
 axes.set_xticks([0.3, 1, 3, 10], labels=["0.3", "1", "3", "10"])
+axes.set_yticks([20, 50, 100, 300, 1000], labels=["20", "50", "100", "300", "1000"])
 over = axes.secondary_xaxis("top", functions=(lambda h: h / 8, lambda x: 8 * x))
 over.set(xlabel="thickness over the wave")
+over.set_xticks([0.05, 0.1, 0.3, 1], labels=["0.05", "0.1", "0.3", "1"])
 axes.legend()

@@ -74,7 +74,7 @@ def test_a_soft_body_of_unknown_hardness_is_elastic_and_its_partner_is_not_the_s
     assert rubber.curve.hardness is None
     assert "contact_pressure_over_hardness" not in rubber.answers
     text = "; ".join(rubber.remarks)
-    assert "the first body (given) is not known, and it is the softer one" in text
+    assert "the first body (E=5 MPa nu=0.49) is not known, and it is the softer one" in text
     assert "of the softer body" not in text
     metal = said(surface, "E=70 GPa nu=0.33, steel", loads="1 N", grid_error=False)
     text = "; ".join(metal.remarks)

@@ -46,7 +46,7 @@ def test_a_part_begins_with_its_maps_and_counts_what_is_folded(scans, invoke, mo
     assert code == 1, errors
     lines = out.splitlines()
     assert lines[0] == "3 maps of 4: place0.nc, place1.nc, place2.nc"
-    assert lines[2].startswith("Given on given under 5 MPa")
+    assert lines[2].startswith("E=210 GPa nu=0.3 on E=120 GPa nu=0.3 under 5 MPa")
     assert any(line.startswith("warning: refused: bad.txt") for line in lines)
     header = next(i for i, line in enumerate(lines) if line.endswith("scatter  further"))
     groups = ["mechanics", "contact", "electrical", "thermal"]

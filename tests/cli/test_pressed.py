@@ -341,13 +341,17 @@ def test_what_is_left_out_is_named_with_the_reason(rough, invoke):
     assert code == 0, errors
     notes = json.loads(out)["notes"]
     assert (
-        "the hardness of the first body (given) is not known; that of the other is taken as the "
-        "softer's"
+        "the hardness of the first body (E=70 GPa nu=0.33) is not known; that of the other is "
+        "taken as the softer's"
     ) in notes
     for answer, quantity_, lacking in (
-        ("no constriction resistance", "resistivity", "the first body (given) and of the second"),
-        ("no thermal conductance", "conductivity", "the first body (given)"),
-        ("no reflection", "density", "the first body (given)"),
+        (
+            "no constriction resistance",
+            "resistivity",
+            "the first body (E=70 GPa nu=0.33) and of the second",
+        ),
+        ("no thermal conductance", "conductivity", "the first body (E=70 GPa nu=0.33)"),
+        ("no reflection", "density", "the first body (E=70 GPa nu=0.33)"),
     ):
         (note,) = [note for note in notes if note.startswith(answer)]
         assert f"the {quantity_} of {lacking}" in note

@@ -22,6 +22,10 @@ PAGE = Path(__file__).parents[2] / "docs" / "not_offered.md"
             ("press", "x", "--leak-rate", "1"),
             "there is no option --leak-rate; did you mean --fluid",
         ),
+        (
+            ("press", "x", "--coating", "gold"),
+            "there is no option --coating; did you mean --materials?",
+        ),
         (("press", "x", "--xyzzy"), "there is no option --xyzzy; --help lists the options"),
         (("press", "x", "--loads", "abc"), '--loads is "abc"; a whole number is needed'),
         (("press", "x", "--friction", "1,5"), '--friction is "1,5"; a number is needed'),
@@ -41,9 +45,7 @@ def test_a_mistake_in_a_command_is_one_line(invoke, arguments, told):
     assert errors.count("\n") == 1
 
 
-@pytest.mark.parametrize(
-    "option", ["--creep", "--coating", "--viscoelastic", "--wear", "--lubricant"]
-)
+@pytest.mark.parametrize("option", ["--creep", "--viscoelastic", "--wear", "--lubricant"])
 def test_what_is_not_offered_is_said_to_be_so(invoke, option):
     code, _, errors = invoke("press", "x", option, "1")
     assert code == 2

@@ -44,7 +44,7 @@ def test_by_name_by_values_and_both():
         ("E=70 GPa", "needs both E and nu"),
         ("E=70 nu=0.3", 'E is "70", without a unit'),
         ("E=70 mm nu=0.3", "no quantity in Pa"),
-        ("E=70 GPa nu=0.6", "nu of given is 0.6; allowed is -1 to 0.5"),
+        ("E=70 GPa nu=0.6", "nu of E=70 GPa nu=0.6 is 0.6; allowed is -1 to 0.5"),
         ("E=-70 GPa nu=0.3", "a positive modulus is needed"),
         ("E=nan GPa nu=0.3", "a positive modulus is needed"),
         ("steel colour=grey", 'a material has no "colour"'),

@@ -111,22 +111,7 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[st
             f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
             f"no interval includes the effect of slopes over {_STEEP:g}"
         )
-    ratio, text = max(question.strains(body), default=(0.0, ""))
-    if ratio > _STRAINED:
-        broken.append(
-            f"{text}: bodies that are strained so far are not linear elastic, and no interval "
-            "includes that"
-        )
-    pressed = result.answers.get("contact_pressure")
-    if question.coated and pressed is not None:
-        most = float(np.nanmax(pressed.values, initial=0.0)) / question.elasticity.softest
-        if most > _PRESSED:
-            broken.append(
-                f"the mean contact pressure reaches {decimal(most, 2)} times the contact modulus "
-                "of the softest materials: unless a layer of these is too thin to move aside, or "
-                "lies deep, it is strained beyond what is linear elastic, and no interval includes "
-                "that"
-            )
+    broken += _strained(result)
     hardness = None if question.pair is None or result.curve.hardness else question.pair.hardness
     if hardness is not None and spectrum is not None and not question.coated:  # summits have none
         summits = spectrum.summit_deviation, spectrum.summit_radius
@@ -144,6 +129,27 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[st
     if question.theories and question.attraction is not None:
         broken.append("theories leave out that the bodies stick")
     return broken + [each.warning for each in result.answers.values() if each.warning]
+
+
+def _strained(result: Assessment) -> list[str]:
+    """Say how far bodies are strained beyond what is linear elastic, by what strains them most."""
+    question, told = result.question, []
+    ratio, text = max(question.strains(result.body), default=(0.0, ""))
+    if ratio > _STRAINED:
+        so_far = "bodies that are strained so far are not linear elastic"
+        told.append((ratio, f"{text}: {so_far}, and no interval includes that"))
+    pressed = result.answers.get("contact_pressure")
+    if question.coated and pressed is not None:
+        ratio = float(np.nanmax(pressed.values, initial=0.0)) / question.elasticity.softest
+        if ratio > _PRESSED:
+            text = (
+                f"the mean contact pressure reaches {decimal(ratio, 2)} times the contact modulus "
+                "of the softest materials: unless a layer of these is too thin to move aside, or "
+                "lies deep, it is strained beyond what is linear elastic, and no interval includes "
+                "that"
+            )
+            told.append((ratio, text))
+    return [max(told)[1]] if told else []
 
 
 def _of_full_contact(result: Assessment) -> list[str]:

@@ -147,8 +147,8 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
     if is_map(result.body) or question.joint is not None:
         bare = [each.symbol for each in result.answers.values() if each.rule.is_of_interface]
         notes.append(
-            "how far a larger surface may be from its map is known of bodies of one material each: "
-            f"{listed(bare)} come without what the map leaves open of it"
+            "how far a larger surface may be from its map is not known of coated bodies, so no "
+            f"interval of {listed(bare)} includes it"
         )
     even = question.elasticity.even_compliance
     if (question.is_repeated or result.larger is not None) and 0 < even < math.inf:
@@ -182,13 +182,13 @@ def _of_currents(result: Assessment, pair: MaterialPair) -> list[str]:
         )
     if is_repeated or result.larger is not None:
         added = [
-            f"{sum(rho * h for each in layers for rho, h in zip(*each, strict=False)):.4g} {unit} "
+            f"{sum(rho * h for each in layers for rho, h in zip(*each, strict=False)):.3g} {unit} "
             f"of {what}"
             for (_, what, unit), layers in known
         ]
         notes.append(
-            "what spreads from the spots is told: the layers' own resistance to an even current "
-            f"adds {' and '.join(added)}"
+            "resistance and conductance are those of the spots alone: the layers' own resistance "
+            f"to an even current adds {' and '.join(added)}"
         )
     return notes
 

@@ -430,9 +430,9 @@ class Question:
                 top, thickness = each.layers[0]
                 cell = engineering(max(surface.spacing), "m")
                 raise InputError(
-                    f"{shown(each.name)}: its layer of {top.name}, {engineering(thickness, 'm')}, "
-                    f"is thinner than half a cell of {cell}: leave that layer out, as what lies "
-                    "below is felt alone on such a grid, or press on a finer one",
+                    f"have a layer of {top.name}, {engineering(thickness, 'm')}, thinner than half "
+                    f"a cell of {cell}: leave it out, as what lies below is felt alone on such a "
+                    "grid, or press on a finer one",
                     "materials",
                 ) from None
 

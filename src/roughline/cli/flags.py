@@ -21,6 +21,7 @@ _OTHERS = {
     "rng": "--seed",
     "force_bars": "--force-bar",
     "table": "--export-table",
+    "range": "the range of --adhesion",
 }
 
 FLAGS = Words(

@@ -13,8 +13,8 @@ NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered
 """The page on what the program does not do."""
 
 _NOT_DONE = {
-    "a layer or coating": "coating coatings coat layer layers layered film thickness substrate",
-    "viscoelasticity": "viscoelastic viscoelasticity viscous creep relaxation rubber loss-modulus",
+    "viscoelasticity on the command line": "viscoelastic viscoelasticity viscous creep relaxation "
+    "loss-modulus",
     "sliding and coupled friction": "sliding slip stick-slip shear fretting coupled-friction "
     "friction-coupled tangential tangential-load traction",
     "lubrication": "lubrication lubricant oil ehl viscosity film-thickness",
@@ -28,6 +28,7 @@ _NOT_DONE = {
 """What is not done, and words that options would be named by."""
 
 _CALLED = {
+    "--materials": "coating coatings coat layer layers layered film thickness substrate rubber",
     "--fluid": "leak leaks leakage leak-rate gasket flow permeance gas air gap-conductance",
     "--adhesion": "adhesive adhesion-energy work-of-adhesion surface-energy jkr dmt pull-off "
     "pull-range attraction sticking",

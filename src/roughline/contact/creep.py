@@ -74,8 +74,8 @@ class Creep:
         shares, times = several(self.shares), several(self.times)
         if len(shares) != len(times):
             raise InputError(
-                f"there are {len(shares)} shares and {len(times)} times; give a relaxation time "
-                "for each share"
+                f"shares are {len(shares)} in number and times {len(times)}; give a relaxation "
+                "time for each share"
             )
         if self.relaxed_share < _LEAST_LEFT:
             raise InputError(

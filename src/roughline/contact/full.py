@@ -36,6 +36,7 @@ from roughline.topography.effects import grave_effects
 from roughline.topography.preparation import tilt_warnings
 from roughline.topography.repetition import border_jump
 from roughline.topography.settings import as_body
+from roughline.units import engineering
 
 # A surface that was cut out of a larger one ends where the larger one continues. Where the outer
 # frame of this width carries more than this share of the force, the part beyond it is missed.
@@ -458,11 +459,13 @@ def _border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, 
     beyond = np.flatnonzero(shares > _BORDER_SHARE)
     if not surface.is_cut_out or not beyond.size:
         return ()
-    ends = [f"{end:.3g}" for end in (force[beyond].min(), force[beyond].max())]
-    unit = " N" if surface.unit == "m" else ""
+    extremes = force[beyond].min(), force[beyond].max()
+    ends = [
+        engineering(each, "N", 3) if surface.unit == "m" else f"{each:.3g}" for each in extremes
+    ]
     at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
     return (
-        f"at {at}{unit}, up to {shares[beyond].max():.0%} of the force is carried within "
+        f"at {at}, up to {shares[beyond].max():.0%} of the force is carried within "
         f"{_BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: the "
         "surface beyond it would carry a part of the load, so depth, stiffness and area are those "
         "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or the "

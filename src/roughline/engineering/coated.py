@@ -58,13 +58,12 @@ class Coated:
         for each, thickness in self.layers:
             if math.isinf(each.E):
                 raise InputError(
-                    f"the layer of {each.name} is rigid, and what lies below would never be felt: "
-                    f"give {each.name} alone"
+                    "a rigid layer hides what lies below it: give a rigid body without layers"
                 )
             if not 0 < thickness < math.inf:
                 raise InputError(
-                    f"the thickness of the layer of {each.name} is {thickness} m; a positive, "
-                    "finite one is needed"
+                    f"the layer of {each.name} is {engineering(thickness, 'm')} thick; a positive, "
+                    "finite thickness is needed"
                 )
         for each in (*(each for each, _ in self.layers), self.base):
             if each.nu < 0:

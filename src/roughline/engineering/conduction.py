@@ -81,5 +81,5 @@ def through_layers(validity: str, pressed: Pressed) -> Mapping[str, str]:
     """Texts that differ where something flows through layers."""
     if not pressed.pair.coated:
         return {}
-    formula = "of the potential that all points of the contact have, solved through the layers"
-    return {"formula": formula, "validity": validity}
+    formula = "currents from points at one potential, solved through the layers"
+    return {"formula": formula, "validity": validity, "source": "Yovanovich et al. 1998"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from types import MappingProxyType
 
@@ -14,11 +14,11 @@ from roughline.engineering.material import Material
 from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
 from roughline.errors.public import public
-from roughline.units import in_si
+from roughline.units import engineering, in_si
 
 _UNITS = {
-    "nu": "",
     "E": "Pa",
+    "nu": "",
     "hardness": "Pa",
     "resistivity": "ohm*m",
     "conductivity": "W/m/K",
@@ -72,49 +72,45 @@ def material(description: str) -> Solid:
     5e-07
     """
     *layers, base = (part.strip(" ;") for part in _ON.split(description))
-    _refuse_depth(base, description, [*layers, base])
-    lowest = _bulk(base, description)
-    if not layers:
-        return lowest
-    return Coated([_layer(each, description) for each in layers], lowest)
+    if layers and not all((*layers, base)):
+        raise InputError(f'"on" stands between a layer and what it lies on, such as {_EXAMPLE}')
+    _refuse_depth(base)
+    lowest = _bulk(base)
+    return Coated([_layer(each) for each in layers], lowest) if layers else lowest
 
 
-def _bulk(text: str, description: str) -> Material:
+def _bulk(text: str) -> Material:
     """A material that is not coated, or one of a coated body."""
     known = materials()
     name, given = described(text, "material", known, _UNITS, "E=70 GPa nu=0.33")
     if not name:
         if not {"E", "nu"} <= given.keys():
             raise InputError(
-                f'the material {shown(description)} needs both E and nu, such as "E=70 GPa nu=0.33"'
+                f'the material {shown(text)} needs both E and nu, such as "E=70 GPa nu=0.33"'
             )
-        return Material("given", **given)  # type: ignore[arg-type]
+        called = f"E={engineering(given['E'], 'Pa')} nu={given['nu']:g}"
+        return Material(called, **given)  # type: ignore[arg-type]
     changed = ", ".join(given)
     source = f"{known[name].source}; {changed} given" if given else known[name].source
     factor = 1.0 if "hardness" in given else known[name].hardness_factor
     return replace(known[name], **given, source=source, hardness_factor=factor)  # type: ignore[arg-type]
 
 
-def _layer(text: str, description: str) -> tuple[Material, float]:
+def _layer(text: str) -> tuple[Material, float]:
     """A layer of a material, and its thickness. [m]"""
     parts = _THICKNESS.fullmatch(text)
     if parts is None:
         raise InputError(
-            f"{shown(text)} in the material {shown(description)} is no layer: give its material "
-            f"and its thickness, and what it lies on, such as {_EXAMPLE}"
+            f"{shown(text)} is no layer: write its material, and its thickness last, such as "
+            f"{_EXAMPLE}"
         )
-    found = _bulk(parts["of"], description)
+    found = _bulk(parts["of"])
     return found, in_si(parts["thickness"], "m", f"the thickness of the layer of {found.name}")
 
 
-def _refuse_depth(base: str, description: str, parts: Sequence[str]) -> None:
-    """Refuse what lies lowest if it is missing, or has a thickness."""
-    if len(parts) > 1 and not base:
-        raise InputError(
-            f'the material {shown(description)} ends with "on": say what its layers lie on, such '
-            f"as {_EXAMPLE}"
-        )
-    depth = _THICKNESS.fullmatch(base)
+def _refuse_depth(base: str) -> None:
+    """Refuse a thickness of what lies lowest."""
+    depth = _THICKNESS.match(base)
     if depth is None:
         return
     try:
@@ -122,8 +118,8 @@ def _refuse_depth(base: str, description: str, parts: Sequence[str]) -> None:
     except UnitError:
         return
     raise InputError(
-        f"{shown(base)} in the material {shown(description)} lies on nothing: say what it lies on, "
-        f"such as {_EXAMPLE}, or leave out its thickness, {depth['thickness']}"
+        f'{shown(depth[0])} lies on nothing: add "on" and what it lies on, such as {_EXAMPLE}, or '
+        f"leave out its thickness, {depth['thickness']}"
     )
 
 

@@ -104,12 +104,16 @@ class MaterialPair:
         found = []
         for name, body in self._by_name:
             of_hardness = quantity == "hardness"
-            for each in [body.surface] if of_hardness else body.materials:
-                is_needed = not (of_hardness and math.isinf(each.E))
-                if is_needed and getattr(each, quantity) is None:
-                    is_layer = isinstance(body, Coated) and not of_hardness
-                    found.append(f"{each.name} in {name}" if is_layer else name)
-        return list(dict.fromkeys(found))
+            unknown = [
+                each.name
+                for each in ([body.surface] if of_hardness else body.materials)
+                if getattr(each, quantity) is None and not (of_hardness and math.isinf(each.E))
+            ]
+            if unknown:
+                is_layer = isinstance(body, Coated) and not of_hardness
+                which = " and ".join(dict.fromkeys(unknown))
+                found.append(f"{which} in {name}" if is_layer else name)
+        return found
 
     @property
     def _by_name(self) -> list[tuple[str, Solid]]:
@@ -131,7 +135,7 @@ class MaterialPair:
         """Say that there is no answer, as its formula is of bodies without layers; else nothing."""
         if not self.coated:
             return ""
-        return f"no {what}: {why}, and {self.coated[0].name} is coated"
+        return f"no {what} of coated bodies: {why}"
 
     def both(self, quantity: str) -> tuple[float, float] | None:
         """Return a property of both bodies; None if one does not have it, or is coated."""

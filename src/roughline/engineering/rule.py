@@ -59,7 +59,8 @@ class Rule:
     validity, source : str, optional
         Where the formula holds, and its publication.
     differing : callable, optional
-        Texts that differ for what was pressed: name, symbol, formula or validity, by these names.
+        Texts that differ for what was pressed: name, symbol, formula, validity or source, by
+        these names.
     lacking : callable, optional
         Says which property of two materials is missing for it, from these and the frequency of the
         wave that is asked for, if one is; an empty text where none is.
@@ -152,8 +153,10 @@ class Rule:
         if rows is None:
             return None
         values, *ends = np.atleast_2d(rows)
-        low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)
-        texts = {name: getattr(self, name) for name in ("name", "symbol", "formula", "validity")}
+        limits = self.limits(pressed)
+        low, high = within((np.minimum(*ends), np.maximum(*ends)), limits) if ends else (None, None)
+        told = ("name", "symbol", "formula", "validity", "source")
+        texts = {name: getattr(self, name) for name in told}
         texts |= self.differing(pressed)
         for name in ("formula", "validity"):
             texts[name] = re.sub(r"\bk_[ui]\b", lambda k: pressed.symbols[k[0]], texts[name])
@@ -163,7 +166,7 @@ class Rule:
             low,
             high,
             **texts,
-            limits=self.limits(pressed),
+            limits=limits,
             under=None if self.under is None else self.under(pressed),
             leads=self.leads(pressed),
             warning=self.warning(pressed),
@@ -190,6 +193,8 @@ class Answer:
         How it follows from the curve.
     validity : str
         Where the formula holds.
+    source : str
+        Publication of the formula.
     limits : tuple
         Least and largest possible value. [unit]
     under : tuple of (str, float), or None
@@ -208,6 +213,7 @@ class Answer:
     symbol: str
     formula: str
     validity: str = ""
+    source: str = ""
     limits: Limits = (0.0, np.inf)
     under: tuple[str, float] | None = None
     leads: bool = False
@@ -223,11 +229,6 @@ class Answer:
     def unit(self) -> str:
         """SI unit."""
         return self.rule.unit
-
-    @property
-    def source(self) -> str:
-        """Publication of the formula."""
-        return self.rule.source
 
     @property
     def ends(self) -> Ends | None:

@@ -95,7 +95,8 @@ def draw_patches(axes: Axes, fields: Fields, unit: str | None) -> None:
     at_least = np.append(fewer[1:], found.count)
     axes.loglog(-areas * factor, at_least, "o", color="k")
     share = _percent(found.forces[0] / found.forces.sum())
-    _tell(axes, [f"{found.count} patches; the largest", f"bears {share} of the force"])
+    many = f"{found.count} patches; the largest" if found.count > 1 else "1 patch, which"
+    _tell(axes, [many, f"bears {share} of the force"])
     axes.set(xlabel=label, ylabel="patches at least as large")
 
 

@@ -134,9 +134,8 @@ def _flow(
         for i, grid in enumerate(grid for each in section.tables for grid in _grids(each, width)):
             flow += [CondPageBreak(_ROOM)] if i else []  # the first stays below its heading
             flow += [Spacer(1, 5), grid]
-        flow += [
-            _picture(each.path, f"{each.name}. {each.caption}", width) for each in section.pictures
-        ]
+        for each in section.pictures:
+            flow += _picture(each.path, f"{each.name}. {each.caption}", width)
     return flow
 
 
@@ -173,15 +172,17 @@ def _key_figures(figures: Sequence[KeyFigure], width: float) -> Any:
     return Grid(rows, [width / _ABREAST] * _ABREAST, style=rules, hAlign="LEFT")
 
 
-def _picture(path: Path, caption: str, width: float) -> Any:
-    """A picture with its caption, on one sheet."""
+def _picture(path: Path, caption: str, width: float) -> list[Any]:
+    """A picture with its caption, on one sheet, and on that of a heading above it."""
     from reportlab.lib.utils import ImageReader
-    from reportlab.platypus import Image, KeepTogether, Paragraph, Spacer
+    from reportlab.platypus import Image, Paragraph, Spacer
 
     wide, high = ImageReader(str(path)).getSize()
     share = min(1.0, _PICTURE * wide / (high * width))
     image = Image(str(path), width * share, width * share * high / wide)
-    return KeepTogether([Spacer(1, 5), image, Paragraph(escape(caption), _style(_SIZE))])
+    space = Spacer(1, 5)
+    space.keepWithNext = image.keepWithNext = 1
+    return [space, image, Paragraph(escape(caption), _style(_SIZE))]
 
 
 def _grids(table: Table, width: float) -> Iterator[Any]:

@@ -8,11 +8,12 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.measures import MEAN_GAP
+from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
 from roughline.errors.words import called
-from roughline.units import decimal
+from roughline.units import decimal, engineering
 
 _rule = partial(Rule, group="contact")
 
@@ -64,6 +65,22 @@ def _beyond_elastic(pressed: Pressed) -> str:
         f"the mean contact pressure reaches {decimal(worst, 2)} times the softer body's hardness; "
         f"beyond {ELASTIC_UP_TO:g} of it summits yield, so these elastic answers do not hold: "
         f"leave out {called('elastic', True)}, or an infinite {called('hardness')}"
+    )
+
+
+def _through_the_layer(pressed: Pressed) -> str:
+    """Say where a layer is indented deeper than it is thick."""
+    softer, indentation = pressed.pair.softer, pressed.curve.indentation
+    if not pressed.may_yield or not isinstance(softer, Coated) or indentation is None:
+        return ""
+    (top, thickness), *_ = softer.layers
+    deepest = float(np.nanmax(indentation, initial=0.0))
+    if deepest <= thickness:
+        return ""
+    return (
+        f"the layer of {top.name}, {engineering(thickness, 'm')}, is indented by up to "
+        f"{engineering(deepest, 'm')}: what lies below would yield with a hardness of its own, and "
+        "no interval includes that"
     )
 
 
@@ -135,6 +152,7 @@ CONTACT = (
         validity="at one point; the finest summits on the grid decide it",
         source="Almqvist et al. 2007",
         value=lambda pressed: pressed.curve.indentation if pressed.may_yield else None,
+        warning=_through_the_layer,
     ),
     _rule(
         key="mean_gap",

@@ -86,10 +86,10 @@ class Dugdale(Adhesive):
             return law
         least = _WIDTH * self.largest_pull * compliance
         if least > self.range:
+            enough = 1.01 * np.sqrt(least / self.range)  # rounded to three digits, too
             raise InputError(
-                f"is too short for the grid: the pull w / h_0 would end within a cell. Give at "
-                f"least {np.sqrt(least / self.range):.2g} times as much, with the same work, or a "
-                "finer grid",
+                "is too short for the grid: the pull w / h_0 would end within a cell. Give at "
+                f"least {enough:.3g} times as much, with the same work, or a finer grid",
                 "range",
             )
         sides = [axis for axis in (0, 1) if separation.shape[axis] > 1]

@@ -39,7 +39,8 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
 
     question, refused = used_in(arguments, read)
     loads = question.loads
-    rows = [["contact modulus E*", engineering(question.modulus, "Pa")]]
+    of = ", of what lies at the surfaces" if question.coated else ""
+    rows = [["contact modulus E*", engineering(question.modulus, "Pa") + of]]
     pair = question.pair
     if pair is not None:
         rows += [

@@ -41,7 +41,8 @@ _OF_ARGUMENTS = {"E_star": ("E",), "materials": ("first", "second")} | {
 """Controls by the names of arguments."""
 
 CONTROLS = Words(
-    names_by(lambda field: field.word or field.label or field.control), lambda text: f'"{text}"'
+    names_by(lambda field: field.word or field.label or field.control.replace("_", " ")),
+    lambda text: f'"{text}"',
 )
 """What the page calls arguments of the library: its controls."""
 
