@@ -6,15 +6,13 @@ Rubber on a rigid plate seals a rigid, wavy flange. It hardly changes its volume
 wave it has to flow sideways, and a thin layer cannot. Points are means of four flanges.
 """
 
-import math
-
 import numpy as np
 from matplotlib import pyplot
 
 import roughline as rl
 
 YOUNG, WAVE, HEIGHT = 5e6, 8e-3, 10e-6  # modulus [Pa]; longest wave and rms height [m]
-q = 2 * math.pi / WAVE
+q = 2 * np.pi / WAVE
 spectrum = rl.SelfAffine(hurst=0.8, length=4 * WAVE, rms_height=HEIGHT, q_roll=q, q_high=6 * q)
 flanges = [spectrum.surface(64, rng=seed) for seed in range(4)]
 thicknesses = WAVE * np.array([0.04, 0.06, 0.1, 0.17, 0.3, 0.5, 1, 2])
@@ -27,7 +25,7 @@ def mean_pressure(half_space):
 
 figure, axes = pyplot.subplots(figsize=(5, 3.6), layout="constrained")
 for nu, mark in ((0.49, "o-"), (0.499, "s-")):
-    layers = [rl.Layered(YOUNG, nu, h, math.inf, periodic=True) for h in thicknesses]
+    layers = [rl.Layered(YOUNG, nu, h, np.inf, periodic=True) for h in thicknesses]
     pressures = np.array([mean_pressure(layer) for layer in layers])
     thick = mean_pressure(rl.Homogeneous(layers[0].E_star, periodic=True))
     axes.loglog(thicknesses * 1e3, pressures / 1e3, mark, label=f"ν = {nu}")
