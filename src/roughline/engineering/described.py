@@ -30,9 +30,9 @@ def described(
     given = _settings(description[start.start() :] if start else "", description, what, units)
     if name and name not in known:
         near = difflib.get_close_matches(name, known, 1)
-        hint = f'did you mean "{near[0]}"?' if near else f"known are {', '.join(known)}."
+        hint = f'; did you mean "{near[0]}"?' if near else f". Known are {', '.join(known)}."
         raise InputError(
-            f'no {what} is called {shown(typed)}; {hint} Others are given as "{example}"'
+            f'no {what} is called {shown(typed)}{hint} Others are given as "{example}"'
         )
     return name, given
 
