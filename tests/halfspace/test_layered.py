@@ -24,6 +24,7 @@ from random_cases import cases
 from random_problems import E_STAR, random_problem
 from roughline.exact.layered_revolution import LayeredContact
 from roughline.exact.layers import BondedLayer
+from roughline.halfspace.elasticity.disc import _spherical_bessel
 
 RTOL = 1e-9  # so that pressures hold to 1e-6
 
@@ -248,6 +249,13 @@ def test_a_disc_on_a_thin_layer_is_on_its_base_and_on_a_thick_one_on_the_layer()
     rigid = BondedLayer(1.0, 0.3, 1.0)
     found = rl.Layered(1.0, 0.3, 1.0, math.inf).disc_stiffness(1e3)
     assert found == pytest.approx(math.pi * 1e6 * rigid.spring, rel=3e-3)
+
+
+@pytest.mark.parametrize("count", [1, 9, 40])
+def test_the_spherical_bessel_functions_are_those_of_scipy(count):
+    x = np.geomspace(1e-6, 3e3, 400)
+    wanted = special.spherical_jn(2 * np.arange(count)[:, np.newaxis], x)
+    np.testing.assert_allclose(_spherical_bessel(count, x), wanted, rtol=1e-9, atol=1e-14)
 
 
 @pytest.mark.parametrize("radius", [1e-3, 0.7, 1e4])

