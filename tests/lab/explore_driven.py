@@ -41,8 +41,17 @@ def strip(page):
 def table(page, plot):
     """Return the rows of the table under a plot."""
     return page.evaluate(
-        """(plot) => [...document.querySelectorAll(`[data-table="explore-${plot}"] tbody tr`)].map(
-            (row) => [...row.children].map((cell) => cell.textContent))""",
+        """async (plot) => {
+            const place = document.querySelector(`[data-table="explore-${plot}"]`);
+            const fold = place.closest("details");
+            if (!fold.open) { // which fills it
+                const opened = new Promise((tell) => fold.addEventListener("toggle", tell, {once: true}));
+                fold.open = true;
+                await opened;
+            }
+            return [...place.querySelectorAll("tbody tr")].map(
+                (row) => [...row.children].map((cell) => cell.textContent));
+        }""",
         plot,
     )
 

@@ -248,7 +248,8 @@ def shown_marks(page, name):
     return page.evaluate(
         """(name) => {
             const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
-            const isNamed = made.get_model_by_name(`${name} label`).visible;
+            const isNamed = [...document.querySelectorAll("#explore .names li:not([hidden])")].some(
+                (item) => item.dataset.sources.split(";").includes(name));
             return isNamed ? made.get_model_by_name(name).data.x.length : 0;
         }""",
         name,

@@ -22,6 +22,11 @@ class Map:
     palette: str  # the page knows it by this name
     low: float
     high: float
+    title: str = ""  # of its scale, and of what is told of a point; empty where colours are marks
+    unit: str = ""
+    nothing: str = ""  # what is said where it is zero or none
+    blank: str = "paper"  # colour of the theme where there is none
+    is_logarithmic: bool = False
     caption: str = ""
     marks: tuple[str, ...] = ()  # the colours that mean something, by their names
     ring: tuple[float, float] | None = None  # a place that is marked, in sides of the surface
@@ -39,7 +44,7 @@ def flux_map(flow: rl.Flow) -> Map:
         reached = flow.pressure == 1
         marks = np.where(is_open, 2 * reached, 1).astype(np.uint8)
         caption = "sealed: no way through"
-        return Map(marks, "reach", 0, 2, caption, ("ink", "reach"))
+        return Map(marks, "reach", 0, 2, caption=caption, marks=("ink", "reach"))
     flux = np.hypot(*flow.flux) * _width(flow) / flow.inflow
     logarithm = np.full(flux.shape, _NONE)
     np.log10(flux, out=logarithm, where=flux > 0)
@@ -48,9 +53,14 @@ def flux_map(flow: rl.Flow) -> Map:
     high = max(float(np.log10(flux.max())), 0.0)
     return Map(
         *(logarithm, "flux", _WEAKEST, high),
-        "flux over its mean; ring: throttled most",
-        ("ink",),
-        throttled_at(flow),
+        title="flux",
+        unit="of its mean",
+        is_logarithmic=True,
+        nothing="no flow",
+        blank="ink",
+        caption="ring: throttled most",
+        marks=("ink",),
+        ring=throttled_at(flow),
     )
 
 

@@ -17,19 +17,25 @@ _PRESSED = 1e-6  # of the largest pressure: where less presses, the paper shows
 def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
     """The maps of a contact, by the words that choose them."""
     height = surface.rms_height
-    pressure, gap, displacement = (
-        fields.pressure / state.E_star,
-        fields.gap / height,
-        fields.displacement / height,
-    )
+    heights = (surface.heights - surface.heights.mean()) / height
+    gap = np.where(fields.contact, np.nan, fields.gap / height)
     return {
+        "height": Map(
+            *(heights, "Cividis256", float(heights.min()), float(heights.max())), "height", "/ h"
+        ),
         "area": area_map(state, fields),
         "pressure": _scaled(
-            pressure, "Viridis256", "pressure over E*; blank where nothing touches", _PRESSED
+            *(fields.pressure / state.E_star, "Viridis256", "pressure", "/ E*", _PRESSED),
+            caption="blank where nothing touches",
         ),
-        "gap": _scaled(gap, "Cividis256", "gap in rms heights; blank where they touch"),
+        "gap": _scaled(
+            *(gap, "Cividis256", "gap", "/ h"),
+            nothing="in contact",
+            caption="blank where they touch",
+        ),
         "displacement": _scaled(
-            displacement, "Cividis256", "deflection of the half-space in rms heights"
+            *(fields.displacement / height, "Cividis256", "deflection", "/ h"),
+            caption="of the half-space",
         ),
     }
 
@@ -45,7 +51,9 @@ def area_map(state: ExploreState, fields: rl.Fields) -> Map:
     return Map(fields.contact.astype(np.uint8) + fields.plastic, "marks", 0, 2, marks=marks)
 
 
-def _scaled(values: NDArray[Any], palette: str, caption: str, low: float = 0.0) -> Map:
+def _scaled(
+    values: NDArray[Any], palette: str, title: str, unit: str, low: float = 0.0, **said: str
+) -> Map:
     """A map from a share of its largest number, or zero, to that."""
-    high = float(values.max(initial=0.0))
-    return Map(values, palette, low * high, high or 1.0, caption)
+    high = float(np.nanmax(values, initial=0.0))
+    return Map(values, palette, low * high, high or 1.0, title, unit, **said)  # type: ignore[arg-type]

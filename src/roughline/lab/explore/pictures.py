@@ -189,13 +189,11 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
             strip += fluid.flow_words(pressed, flows[0])
     seconds = time.perf_counter() - started
     arrays = {"topography": shaded(surface)} | {name: each.values for name, each in maps.items()}
-    heights = (surface.heights - surface.heights.mean()) / surface.rms_height
     return frame(
         {
             **_settled(state, refused),
             "points": n,
             "is_coarse": is_coarse,
-            "heights": [float(heights.min()), float(heights.max())],
             "curve": _of_curve(pressed),
             **({} if is_coarse else _of_spectrum(surface, state)),
             "maps": {name: each.look for name, each in maps.items()},

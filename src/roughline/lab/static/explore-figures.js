@@ -1,8 +1,8 @@
 // The figures of Explore.
-import {LOGARITHMIC, add, addFluxBar, draw, drawImage, plot} from "./figures.js";
+import {LOGARITHMIC, add, draw, plot} from "./figures.js";
+import {mapFigure, profileFigure, sharedRanges} from "./maps.js";
 
 const FORCE = "force F / (E* h L)", FORCES = [1e-4, 10];
-const BAR = {width: 14, padding: 4};
 const DASHES = ["dashed", "dotted", "dashdot"]; // of theories
 const MARKS = [ // of the full model: source, name, colour, and how they look
   ["curve", "3D", "dark-line", {marker: "circle", size: 7}],
@@ -13,33 +13,17 @@ const MARKS = [ // of the full model: source, name, colour, and how they look
 ];
 
 export function exploreFigures() {
-  const sides = [1, 2].map(() => new Bokeh.Range1d({start: 0, end: 1}));
+  const ranges = sharedRanges();
   return {
-    "explore-topography": map("topography", sides, "height / h", true),
-    "explore-contact": contact(sides),
+    "explore-topography": mapFigure("topography", {isOfColours: true, ranges}),
+    "explore-contact": mapFigure("contact", {rings: "here", ranges}),
+    "explore-profile": profileFigure(),
     "explore-stiffness": stiffness(),
     "explore-area": area(),
     "explore-aperture": aperture(),
     "explore-cycle": cycle(),
     "explore-spectrum": spectrum(),
   };
-}
-
-function map(name, sides, title, isOfColours) {
-  const made = plot(["x / L", "y / L"], sides, {min_border_left: 62, min_border_right: 84}); // maps side by side are alike
-  const color_mapper = drawImage(made, name, {isOfColours});
-  add(made, "ColorBar", `${name} bar`, {color_mapper, title, ...BAR}, "right");
-  add(made, "BoxAnnotation", `${name} border`, {left: 0, right: 1, bottom: 0, top: 1, fill_alpha: 0, line_width: 1, colours: {line_color: "line"}});
-  return made;
-}
-
-function contact(sides) {
-  const made = map("contact", sides, "", false);
-  addFluxBar(made, "contact", made.right.find(({name}) => name === "contact bar").color_mapper, BAR);
-  for (const [size, line_width, colour] of [[17, 5, "paper"], [17, 2, "here"]]) { // the one is seen around the other
-    draw(made, "scatter", "ring", {size, line_width, fill_alpha: 0, colours: {line_color: colour}});
-  }
-  return made;
 }
 
 function stiffness() {
@@ -64,7 +48,6 @@ function aperture() {
   drawLoads(made, "aperture");
   draw(made, "scatter", "aperture theory sealed", {...look, colours: {line_color: "theory"}});
   draw(made, "scatter", "aperture sealed", {...look, legend: "sealed: nothing comes through", colours: {line_color: "dark-line"}});
-  made.legend.location = "bottom_left";
   return made;
 }
 
@@ -79,7 +62,6 @@ function cycle() {
   draw(made, "scatter", "cycle here", {size: 13, line_width: 1.5, legend: "this load on both ways", colours: {fill_color: "mark", line_color: "paper"}});
   draw(made, "scatter", "cycle pull-off", {marker: "inverted_triangle", size: 13, line_width: 1.5, legend: "pull-off", colours: {fill_color: "pull", line_color: "text"}});
   addCursor(made, "cycle", "width");
-  made.legend.location = "top_left";
   return made;
 }
 
@@ -98,10 +80,8 @@ function drawLoads(made, name) {
   for (const [what, legend, colour, look] of MARKS) {
     if (what === "back") draw(made, "line", `${name} back`, {line_width: 2, legend, colours: {line_color: colour}});
     draw(made, "scatter", `${name} ${what}`, {line_width: 1.5, legend, ...look, colours: {fill_color: colour, line_color: colour}});
-    made.legend.items.at(-1).visible = what === "curve" || what === "here"; // the others are shown if there are any
   }
   addCursor(made, name, "height");
-  made.legend.location = "bottom_right";
 }
 
 // Add the line of the present load, which can be dragged.

@@ -1,7 +1,8 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls} from "./controls.js";
 import {exploreFigures} from "./explore-figures.js";
-import {onDraw, onPoint} from "./hands.js";
+import {onDraw} from "./hands.js";
+import {Maps, layersOf} from "./maps.js";
 import {embedded, points} from "./plots.js";
 import {Strip} from "./strip.js";
 import {fillCaption, fillTable} from "./tables.js";
@@ -31,7 +32,7 @@ export async function open(link, address, said) {
 
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
-  #controls; #plots; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
+  #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
 
   constructor(link, address) {
     this.#link = link;
@@ -53,8 +54,8 @@ class Explore {
       onDraw(this.#plots.root(`explore-${name}`), this.#root.querySelector(`[data-draw="${name}"]`),
         (from, {x, y}) => { this.#plots.model(`${name} cursor`).location = name === "cycle" ? y : x; });
     }
-    onPoint(this.#plots.root("explore-contact"), (at) => this.#tell(at));
-    this.#plots.frame(["explore-topography", "explore-contact"], [1, 1]);
+    this.#maps = new Maps(this.#plots, "explore", CONTACT, "profile");
+    this.#maps.frame([1, 1], "/ L");
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
   }
@@ -164,7 +165,7 @@ class Explore {
     this.#settled(header, asked, turn);
     const what = {what: "contact", points: header.points, numbers: header.numbers};
     for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
-    this.#plots.setMap("topography", header.arrays.topography, [1, 1], header.heights);
+    if (header.maps.height) this.#maps.show("topography", header.arrays.topography, header.maps.height);
     this.#drawField(header);
     this.#drawHere(header.curve);
     const said = header.strip.map(({key}) => key);
@@ -193,34 +194,11 @@ class Explore {
   #drawField({maps, arrays}) {
     const {shown: wanted} = this.#controls.said, shown = wanted in maps ? wanted : "area";
     if (!(shown in maps)) return; // the load was not solved
-    const {palette, low, high, caption, marks, ring} = maps[shown];
+    const {caption, marks, ring} = maps[shown];
     fillCaption(this.#captionOf("shown"), caption, marks);
-    this.#plots.colours("contact", palette);
-    this.#plots.setMap("contact", arrays[shown], [1, 1], [low, high]);
-    this.#plots.set("ring", {x: ring ? [ring[0]] : [], y: ring ? [ring[1]] : []});
-    this.#tell(this.#at);
-  }
-
-  #at = null; // where the mouse is on the map, or a finger was
-
-  // Tell what is at a point of the map: place, gap, and flux if a fluid flows.
-  #tell(at) {
-    this.#at = at;
-    const place = this.#root.querySelector("[data-at]"), {gap, flux} = this.#last?.arrays ?? {};
-    place.hidden = !at || !gap || Math.min(at.x, at.y) < 0 || Math.max(at.x, at.y) >= 1;
-    if (place.hidden) return;
-    const [rows, columns] = gap.shape, cell = Math.floor(at.y * rows) * columns + Math.floor(at.x * columns);
-    const said = [`x ${at.x.toFixed(3)} L, y ${at.y.toFixed(3)} L`];
-    said.push(gap.values[cell] > 0 ? `gap ${gap.values[cell].toPrecision(3)} h` : "in contact");
-    if (flux && gap.values[cell] > 0) said.push(this.#fluxInWords(flux.values[cell]));
-    place.textContent = said.join("; ");
-  }
-
-  #fluxInWords(value) {
-    const {palette, low} = this.#last.maps.flux;
-    if (palette !== "flux") return value === 0 ? "no fluid comes here" : "no flow";
-    if (value < low) return "no flow";
-    return value > low ? `flux ${(10 ** value).toPrecision(3)} of its mean` : `flux below ${10 ** low} of its mean`;
+    this.#maps.show("contact", arrays[shown], maps[shown]);
+    this.#plots.set("contact rings", {x: ring ? [ring[0]] : [], y: ring ? [ring[1]] : []});
+    this.#maps.tell(layersOf(maps, arrays));
   }
 
   #stale = new Set(["curve", "flow"]); // what belongs to another surface
@@ -262,7 +240,6 @@ class Explore {
     this.#plots.shows("explore-aperture", {what: "flow", grid});
     this.#drawLoads("aperture", curve);
     this.#drawSealed("aperture sealed", [curve]);
-    this.#plots.model("aperture sealed label").visible = curve.aperture.includes(0);
     for (const [i, {force_bar, aperture}] of theories.entries()) {
       this.#plots.set(`aperture theory ${i}`, points(force_bar, aperture, (j) => aperture[j] > 0));
     }
@@ -285,8 +262,8 @@ class Explore {
     for (const [way, isOn] of Object.entries(ways)) this.#plots.set(`cycle ${way}`, points(curve.depth, curve.force_bar, isOn));
     this.#plots.set("cycle here", here);
     this.#plots.set("cycle pull-off", pull_off);
-    const label = {value: `pull-off, ${strip.find(({key}) => key === "pull_off").value}`};
-    this.#plots.model("cycle pull-off label").setv({label, visible: pull_off.x.length > 0});
+    const label = `pull-off, ${strip.find(({key}) => key === "pull_off").value}`;
+    this.#plots.call("cycle pull-off", label);
     const borne = points(curve.depth, curve.force_bar, (i) => curve.force_bar[i] !== 0);
     for (const [axis, known] of [["x", borne.x], ["y", borne.y]]) {
       const [low, high] = [Math.min(...known), Math.max(...known)], room = ROOM_ABOUT * (high - low);
@@ -319,7 +296,6 @@ class Explore {
     const few = points(curve.force_bar, values, (i) => isKnown(i) && !curve.resolved[i]);
     this.#plots.set(`${name} curve`, points(curve.force_bar, values, (i) => isKnown(i) && curve.resolved[i]));
     this.#plots.set(`${name} unsure`, few);
-    this.#plots.model(`${name} unsure label`).visible = few.x.length > 0;
   }
 
   // Draw the present load, at the foot where it is sealed.
@@ -349,7 +325,6 @@ class Explore {
   #setMarks(name, x, y) {
     const marks = points(x, y, (i) => x[i] > 0 && y[i] > 0);
     this.#plots.set(name, marks);
-    this.#plots.model(`${name} label`).visible = marks.x.length > 0;
   }
 
   #lineTable = []; #curveTables = [[], []]; #backTables = [[], [], []]; #flowTable = [];

@@ -31,36 +31,23 @@ function tools(match_aspect = false) {
   return [new Bokeh.PanTool(), new Bokeh.BoxZoomTool({match_aspect}), ...zooms, new Bokeh.ResetTool(), new Bokeh.SaveTool()];
 }
 
-// Let a plot draw the columns of a source, which several glyphs may share; its item of the legend is its "label".
-export function draw(plot, kind, name, {columns, colours = {}, legend: legend_label, ...look} = {}) {
+// What the legend of a plot names: of each glyph its source, its words, and how it looks.
+const legends = new WeakMap();
+export function legendOf(plot) { return legends.get(plot) ?? []; }
+
+// Let a plot draw the columns of a source, which several glyphs may share, and name it in its legend.
+export function draw(plot, kind, name, {columns, colours = {}, legend, ...look} = {}) {
   const fields = Object.fromEntries(Object.entries({...COLUMNS[kind], ...columns}).map(([key, field]) => [key, {field}]));
   if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
   const source = plot.renderers.find(({data_source}) => data_source.name === name)?.data_source
     ?? new Bokeh.ColumnDataSource({name});
-  const wanted = [...Object.values({...fields, ...look}).map((each) => each?.field), look.legend_field].filter(Boolean);
+  const wanted = [...Object.values({...fields, ...look}).map((each) => each?.field)].filter(Boolean);
   source.data = {...source.data, ...Object.fromEntries(wanted.map((column) => [column, []]))};
-  const drawn = plot[kind]({...fields, ...look, source, legend_label});
+  const drawn = plot[kind]({...fields, ...look, source});
   drawn.setv({selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
   drawn.glyph.tags = [{colours}];
-  if (legend_label) plot.legend.items.at(-1).name = `${name} label`;
+  if (legend) legends.set(plot, [...legendOf(plot), {name, legend, kind, look, colours}]);
   return drawn;
-}
-
-// Draw an image of numbers, whose colours have the name of its source and "colours", or one of colours.
-export function drawImage(plot, name, {isOfColours = false, ...look} = {}) {
-  const mapper = new Bokeh.LinearColorMapper({palette: Bokeh.Palettes.Cividis256, low: -1, high: 1, name: `${name} colours`, ...look});
-  if (isOfColours) draw(plot, "image_rgba", name);
-  else draw(plot, "image", name, {color_mapper: mapper});
-  for (const grid of plot.grids) grid.visible = false;
-  return mapper;
-}
-
-const POWERS = new Map([[-2, "0.01"], [-1, "0.1"], [0, "1"], [1, "10"], [2, "100"], [3, "1000"]]); // by their logarithms
-
-// Add the scale of a flow's colours, which is logarithmic, to a map; it is shown with them.
-export function addFluxBar(plot, name, color_mapper, look) {
-  const ticker = new Bokeh.FixedTicker({ticks: [...POWERS.keys()]});
-  add(plot, "ColorBar", `${name} flux bar`, {color_mapper, ticker, major_label_overrides: POWERS, visible: false, ...look}, "right");
 }
 
 // Add what is no glyph: a span, a box, whiskers, a colour bar.

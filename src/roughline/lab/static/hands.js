@@ -13,6 +13,7 @@ export function takeHands(root) {
   const {element, canvas, view} = placeOf(root);
   if (!canvas) return;
   canvas.tabIndex = -1; // one stop of the tab key for each plot
+  canvas.style.outline = view.el.style.outline = "none"; // that of the stop is seen
   canvas.style.touchAction = SCROLLS;
   for (const button of view.toolbar_panel?.toolbar_view.tool_button_views ?? []) button.el.style.touchAction = SCROLLS;
   for (const [range, scale] of axesOf(root)) keepBounded(range, scale);
@@ -63,34 +64,39 @@ export function onPoint(root, told) {
   onTouch(root, told);
 }
 
-// Let a button, once pressed, have the next drag on the plot draw, with one finger too: drawn(from, to, isLast)
-// has points in the units of the axes.
-export function onDraw(root, button, drawn) {
-  const {element, canvas, view} = placeOf(root);
+// Let a button, once pressed, have the next drag on one of the plots draw, with one finger too: drawn(from, to, isLast)
+// has points in the units of the axes; begun() is called when the button was pressed.
+export function onDraw(roots, button, drawn, begun = () => {}) {
+  const places = [roots].flat().map(placeOf);
   let isArmed = false, from = null;
   const arm = (wanted) => {
     [isArmed, from] = [wanted, null];
     button.setAttribute("aria-pressed", String(wanted));
-    canvas.style.touchAction = wanted ? "none" : SCROLLS;
+    for (const {canvas} of places) {
+      canvas.style.touchAction = wanted ? "none" : SCROLLS;
+      canvas.style.cursor = wanted ? "crosshair" : "";
+    }
   };
   const leave = () => { if (from) drawn(from, from, true); from = null; };
-  button.addEventListener("click", () => arm(!isArmed));
-  const take = {
-    pointerdown: (event) => { event.isPrimary ? (from = pointAt(view, event)) : leave(); },
-    pointermove: (event) => { if (from) drawn(from, pointAt(view, event), false); },
-    pointerup: (event) => {
-      if (!from) return;
-      drawn(from, pointAt(view, event), true);
-      arm(false);
-    },
-    pointercancel: () => leave(),
-  };
-  for (const [type, act] of Object.entries(take)) {
-    element.addEventListener(type, (event) => {
-      if (!isArmed || event.composedPath()[0] !== canvas) return;
-      event.stopPropagation();
-      act(event);
-    }, true);
+  button.addEventListener("click", () => { arm(!isArmed); begun(); });
+  for (const {element, canvas, view} of places) {
+    const take = {
+      pointerdown: (event) => { event.isPrimary ? (from = pointAt(view, event)) : leave(); },
+      pointermove: (event) => { if (from) drawn(from, pointAt(view, event), false); },
+      pointerup: (event) => {
+        if (!from) return;
+        drawn(from, pointAt(view, event), true);
+        arm(false);
+      },
+      pointercancel: () => leave(),
+    };
+    for (const [type, act] of Object.entries(take)) {
+      element.addEventListener(type, (event) => {
+        if (!isArmed || event.composedPath()[0] !== canvas) return;
+        event.stopPropagation();
+        act(event);
+      }, true);
+    }
   }
 }
 

@@ -1,15 +1,9 @@
 // Plots of Bokeh: embedding, data and the colours of the theme.
 import {element} from "./elements.js";
+import {legendOf} from "./figures.js";
 import {takeHands} from "./hands.js";
 
-const documents = [], allPlots = [];
-const MARKS = { // palettes of a few colours of the theme
-  marks: ["paper", "ink", "plastic"], // gap, contact, contact at the hardness
-  reach: ["paper", "ink", "dark-line"], // gap, contact, gap that a fluid comes to
-  pull: ["paper", "ink", "pull"], // gap, contact, gap across which bodies pull each other
-};
-const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
-
+const documents = [], recoloured = [];
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
 const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
   const script = element("script", {src: `/bokeh/${name}`, async: false}); // the second needs the first
@@ -37,12 +31,13 @@ function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)
 
 class Plots {
   #shown = new Map();
-  #palette = {};
+  #named = new Map(); // items of legends by the sources that they name
+  #counts = {}; // points in a source
 
   constructor(made) {
     this.made = made;
-    allPlots.push(this);
     for (const root of made.roots()) {
+      this.#addLegend(root);
       Bokeh.index.find_one(root)?.repainted.connect(() => this.#tellDrawn(root.name));
     }
   }
@@ -72,14 +67,32 @@ class Plots {
 
   root(name) { return this.made.roots().find((each) => each.name === name); }
 
-  // Give a source its columns.
-  set(name, columns) { this.model(name).data = columns; }
+  // Give a source its columns; a legend names what there is.
+  set(name, columns) {
+    this.model(name).data = columns;
+    this.#counts[name] = Object.values(columns)[0].length;
+    for (const {item, names} of this.#named.get(name) ?? []) {
+      const isThere = names.some((each) => this.#counts[each]);
+      if (item.hidden === isThere) item.hidden = !isThere;
+    }
+  }
 
-  // Give a map its image over both sides from a corner, and the colours of its numbers their range.
-  setMap(name, {values, shape, dtype}, [width, height], [low, high], [x, y] = [0, 0]) {
-    const {ndarray} = Bokeh.require("core/util/ndarray");
-    this.model(`${name} colours`)?.setv({low, high});
-    this.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [width], dh: [height]});
+  // Call a source by other words in the legend.
+  call(name, words) { for (const {item} of this.#named.get(name) ?? []) item.lastChild.textContent = words; }
+
+  // Put the legend of a plot above it, where it covers no data.
+  #addLegend(root) {
+    const places = new Map();
+    for (const {legend, ...glyph} of legendOf(root)) places.set(legend, [...(places.get(legend) ?? []), glyph]);
+    if (!places.size) return;
+    const items = [...places].map(([words, glyphs]) => {
+      const item = element("li", {hidden: true}, keyOf(glyphs), element("span", {textContent: words}));
+      const names = glyphs.map(({name}) => name);
+      item.dataset.sources = names.join(";");
+      for (const name of names) this.#named.set(name, [...(this.#named.get(name) ?? []), {item, names}]);
+      return item;
+    });
+    placeOf(root.name).before(element("ul", {className: "names"}, ...items));
   }
 
   // Name the axes of a plot; one without a name keeps its own.
@@ -87,39 +100,6 @@ class Plots {
     const {xaxes, yaxes} = this.root(plot);
     if (x) xaxes[0].axis_label = x;
     if (y) yaxes[0].axis_label = y;
-  }
-
-  // Give a map a palette: one of Bokeh's, that of a flow, or one of few marks.
-  colours(name, palette) {
-    if (this.#palette[name] === `${palette} ${colour("paper")}`) return;
-    this.#palette[name] = `${palette} ${colour("paper")}`;
-    const wanted = MARKS[palette]?.map(colour) ?? (palette === "flux" ? ofFlux() : Bokeh.Palettes[palette]);
-    this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper"), nan_color: colour("ink")});
-    this.model(`${name} bar`).visible = !(palette in MARKS) && palette !== "flux";
-    this.model(`${name} flux bar`)?.setv({visible: palette === "flux"}); // its scale is logarithmic
-  }
-
-  // Give maps that were drawn before the palettes of the theme.
-  recolourMaps() {
-    for (const [name, before] of Object.entries(this.#palette)) this.colours(name, before.split(" ")[0]);
-  }
-
-  // Show a rectangle in maps that share their ranges, with equal scales, whatever their size.
-  frame(names, [width, height]) {
-    const plots = names.map((name) => this.root(name));
-    const fit = () => {
-      const {width: across, height: up} = Bokeh.index.find_one(plots[0])?.frame?.bbox ?? {};
-      if (!across || !up) return;
-      const scale = Math.max(width / across, height / up);
-      for (const [range, middle, length] of [["x_range", width / 2, across], ["y_range", height / 2, up]]) {
-        const [start, end] = [middle - (scale * length) / 2, middle + (scale * length) / 2];
-        plots[0][range].setv({start, end, reset_start: start, reset_end: end});
-      }
-    };
-    this.observer?.disconnect();
-    this.observer = new ResizeObserver(() => setTimeout(fit, 100));
-    this.observer.observe(placeOf(names[0]));
-    fit();
   }
 
   // Show a range of values on an axis, which is widened by a little.
@@ -144,8 +124,11 @@ class Plots {
 export function recolourAll() {
   known.clear();
   documents.forEach(recolour);
-  allPlots.forEach((plots) => plots.recolourMaps());
+  recoloured.forEach((told) => told());
 }
+
+// Call when the theme was changed.
+export function onRecolour(told) { recoloured.push(told); }
 
 // Points of a curve in columns: those that are known, and wanted.
 export function points(x, y, isWanted = () => true) {
@@ -161,11 +144,21 @@ export function colour(name) {
   return known.get(name);
 }
 
-// Colours that stand out from the paper the more, the more flows.
-function ofFlux() {
-  const {Viridis256, YlGnBu9, interp_palette} = Bokeh.Palettes;
-  if (document.documentElement.dataset.theme === "dark") return Viridis256.slice(FAINTEST);
-  return interp_palette(YlGnBu9.slice(DEEPEST).reverse(), Viridis256.length);
+const SHAPES = { // of marks in a legend
+  circle: '<circle cx="13" cy="6" r="4"/>', square: '<rect x="9.5" y="2.5" width="7" height="7"/>',
+  triangle: '<path d="M13 1.5l4.5 8h-9z"/>', inverted_triangle: '<path d="M13 10.5l4.5-8h-9z"/>', x: '<path d="M9 2l8 8m0-8l-8 8"/>',
+};
+
+// The key of a legend: how glyphs look, in the colours of the theme.
+function keyOf(glyphs) {
+  const ink = (name, otherwise = "none") => (name ? `var(--${name})` : otherwise);
+  const parts = glyphs.map(({kind, look, colours: {line_color, fill_color}}) => {
+    const style = `stroke="${ink(line_color)}" fill="${ink(fill_color)}" fill-opacity="${look.fill_alpha ?? 1}"`;
+    if (kind === "varea" || kind === "quad") return `<rect width="26" height="12" ${style}/>`;
+    if (kind === "scatter") return `<g ${style} stroke-width="1.5">${SHAPES[look.marker ?? "circle"]}</g>`;
+    return `<path d="M0 6h26" ${style} stroke-width="2" stroke-dasharray="${look.line_dash?.value ?? ""}"/>`;
+  });
+  return element("span", {innerHTML: `<svg width="26" height="12" aria-hidden="true">${parts.join("")}</svg>`});
 }
 
 function recolour(made) {
@@ -178,10 +171,6 @@ function recolour(made) {
     LogAxis: labels,
     CategoricalAxis: labels,
     Grid: {grid_line_color: grid},
-    Legend: {label_text_color: text, title_text_color: text, background_fill_color: paper, background_fill_alpha: 0.85,
-      border_line_color: null, label_text_font_size: "11px", padding: 4},
-    ColorBar: {major_label_text_color: text, title_text_color: text, background_fill_color: null,
-      title_text_font_style: "normal"},
     Title: {text_color: text},
   };
   for (const model of made.all_models) {

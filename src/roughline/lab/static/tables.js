@@ -1,12 +1,18 @@
 // Numbers and words beside the plots: tables, lists, large figures, and what the colours of a map mean.
 import {element} from "./elements.js";
 
-// Put rows below a plot.
+const unread = new WeakMap(); // folds that are closed, and what fills them
+
+// Put rows below a plot; in a fold that is closed, when it is opened.
 export function fillTable(id, header, rows) {
+  const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details");
   const row = (cells, kind, more) => element("tr", {}, ...cells.map((textContent) => element(kind, {textContent, ...more})));
-  document.querySelector(`[data-table="${id}"]`).replaceChildren(element("table", {},
+  const fill = () => place.replaceChildren(element("table", {},
     element("thead", {}, row(header, "th", {scope: "col"})),
     element("tbody", {}, ...rows.map((cells) => row(cells, "td")))));
+  if (!fold || fold.open) { fill(); return; }
+  if (!unread.has(fold)) fold.addEventListener("toggle", () => unread.get(fold).forEach((each) => each()));
+  unread.set(fold, (unread.get(fold) ?? new Map()).set(id, fill));
 }
 
 // Fold the rows of a table behind the headlines of their groups, which are given with the number of

@@ -1,0 +1,114 @@
+"""Maps on the page: frames that are filled, what is told of a point, and profiles along a line."""
+
+import re
+
+import pytest
+
+from lab.explore_driven import SMALL, image, settled
+
+FRAME = """(name) => {
+    const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
+    const {frame, canvas_view} = Bokeh.index.find_one(root);
+    const {left, top} = canvas_view.events_el.getBoundingClientRect(), {bbox} = frame;
+    const {x_range: x, y_range: y} = root;
+    return {left: left + bbox.left, top: top + bbox.top, width: bbox.width, height: bbox.height,
+            ranges: [x.start, x.end, y.start, y.end]};
+}"""
+SOURCE = """(name) => {
+    const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
+    return Object.fromEntries(Object.entries(made.get_model_by_name(name).data)
+        .map(([key, values]) => [key, [...values]]));
+}"""
+MAPS = ["explore-topography", "explore-contact"]
+
+
+def still(page, name):
+    """Return the frame of a plot when it does not change any more."""
+    before = None
+    while (now := page.evaluate(FRAME, name)) != before:
+        before = now
+        page.wait_for_timeout(150)
+    return now
+
+
+@pytest.mark.parametrize(("width", "least"), [(1600, 280), (1200, 280), (390, 240)])
+def test_maps_fill_their_frames_which_are_alike(pages, width, least):
+    page = pages.open(SMALL, width=width, height=1000)
+    settled(page, points=64)
+    first, second = (still(page, name) for name in MAPS)
+    for frame in (first, second):
+        assert frame["ranges"] == [0, 1, 0, 1]
+        assert frame["width"] == pytest.approx(frame["height"], abs=1)
+        assert frame["width"] >= least
+    assert first["width"] == second["width"]
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= width
+    page.context.close()
+
+
+def test_a_point_tells_its_place_height_pressure_and_gap(pages):
+    page = pages.open(SMALL + "&shown=pressure&F=1")
+    settled(page, points=64, F=1)
+    pressure = image(page, "contact")
+    strongest = max(range(len(pressure)), key=lambda i: pressure[i])
+    row, column = divmod(strongest, 64)
+    for name in MAPS:
+        frame = still(page, name)
+        x, y = (column + 0.5) / 64, (row + 0.5) / 64
+        page.mouse.move(
+            frame["left"] + x * frame["width"], frame["top"] + (1 - y) * frame["height"]
+        )
+        told = page.locator(f"#{name} .point").inner_text()
+        assert f"x {x:.3f}"[:5] in told
+        assert re.search(rf"pressure {pressure[strongest]:#.3g} E\*", told)
+        assert re.search(r"height -?[\d.]+ h", told)
+        assert "in contact" in told
+    page.mouse.move(5, 5)
+    assert not page.is_visible("#explore-contact .point")
+    page.context.close()
+
+
+def draw(page, name, start, end, button="[data-profile=explore-profile]"):
+    """Press the button, and drag across a map, from and to shares of its frame."""
+    page.click(button)
+    frame = still(page, name)
+    for act, (x, y) in ((page.mouse.down, start), (page.mouse.up, end)):
+        page.mouse.move(
+            frame["left"] + x * frame["width"],
+            frame["top"] + (1 - y) * frame["height"],
+            steps=4,
+        )
+        act()
+
+
+def test_a_line_across_a_map_shows_the_profile_of_both_bodies(pages):
+    page = pages.open(SMALL + "&F=1")
+    settled(page, points=64, F=1)
+    draw(page, "explore-topography", (0.1, 0.5), (0.9, 0.5))
+    page.wait_for_selector("#explore-profile:not([hidden])")
+    surface, body = (page.evaluate(SOURCE, f"profile {which}") for which in ("surface", "body"))
+    assert surface["x"][-1] == pytest.approx(0.8, abs=0.02)
+    assert all(low <= high + 1e-6 for low, high in zip(surface["y"], body["y"], strict=True))
+    assert any(high - low < 1e-6 for low, high in zip(surface["y"], body["y"], strict=True))
+    for name in ("topography cut", "contact cut"):
+        line = page.evaluate(SOURCE, name)
+        assert line["x"] == pytest.approx([0.1, 0.9], abs=0.02)
+        assert line["y"] == pytest.approx([0.5, 0.5], abs=0.02)
+    page.fill("#explore-F-text", "0.1")  # which the profile follows
+    page.press("#explore-F-text", "Enter")
+    settled(page, points=64, F=0.1)
+    lifted = page.evaluate(SOURCE, "profile body")
+    assert sum(lifted["y"]) > sum(body["y"])
+    page.click("[data-profile=explore-profile]")
+    assert not page.is_visible("#explore-profile")
+    page.context.close()
+
+
+def test_the_scale_of_a_map_has_its_name_and_unit(pages):
+    page = pages.open(SMALL + "&shown=gap")
+    settled(page, points=64)
+    assert page.inner_text("#explore-topography .scale > span") == "height / h"
+    assert page.inner_text("#explore-contact .scale > span") == "gap / h"
+    assert page.locator("#explore-contact .scale i span").count() >= 2
+    page.select_option('[data-key="shown"]', "area")
+    assert not page.is_visible("#explore-contact .scale")
+    page.context.close()
