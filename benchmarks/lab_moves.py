@@ -21,17 +21,19 @@ from lab_in_browser import Pages, RunningLab, launched
 SERVERS = 5
 SURFACES = ((2.05, 1), (2.2, 7), (2.5, 3), (2.8, 4))  # fractal dimension and seed
 MOVES = 12  # of each slider for each surface
+DRAG, SWEEP, MOUSE = 4.0, 2.0, 1 / 125  # a long drag, from end to end, between moves of a mouse [s]
+FEWEST_PICTURES = 20  # of the reduced curve in a second of a long drag
 TARGETS = {  # [ms]
     "server started, page can be opened": 3000,
     "page opened, first contact drawn": 2000,
-    "slider moved, reduced curve drawn": 100,
-    "slider moved, contact on 128² points drawn": 250,
+    "slider moved, reduced curve drawn": 60,
+    "slider moved, contact on 128² points drawn": 120,
     "last move, contact on 512² points drawn": 2000,
     "last move, contact on 1024² points drawn": None,
 }
 RECORDER = """
 window.recorder = {
-  move: null, drawn: [], told: [],
+  move: null, drawn: [], told: [], pictures: {},
   // Return how long after the last move its pictures were drawn [ms].
   async after(wanted) {
     for (const began = performance.now(); ; ) {
@@ -49,6 +51,7 @@ addEventListener("input", ({target, timeStamp}) => {
 });
 addEventListener("drawn", ({target, detail: {what, points, numbers}}) => {
   if (what === "curve" || target.id === "plot-explore-topography") return;
+  recorder.pictures[points ?? what] = (recorder.pictures[points ?? what] ?? 0) + 1;
   recorder.drawn.push({name: points ? `${points}` : what, numbers, at: performance.now()});
   recorder.told.splice(0).forEach((tell) => tell());
 });
@@ -60,7 +63,7 @@ def main():
     parser.add_argument("--short", action="store_true", help="a few moves only; write nothing")
     short = parser.parse_args().short
     surfaces, moves = (SURFACES[:1], 4) if short else (SURFACES, MOVES)
-    times = {name: [] for name in TARGETS}
+    times, rates = {name: [] for name in TARGETS}, {}
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
         browser = launched(playwright)
         for _ in range(1 if short else SERVERS):
@@ -70,9 +73,15 @@ def main():
             for points in (512, 1024):
                 for dimension, seed in surfaces:
                     measure_moves(browser, running, times, moves, points, dimension, seed)
+            for key in ("F", "D_f", "cutoff"):
+                for points in (128, 512):
+                    rates[key, points] = [
+                        pictures_in_long_drag(browser, running, key, points, dimension, seed)
+                        for dimension, seed in surfaces
+                    ]
         finally:
             running.close()
-        write(times, browser.version, save=not short)
+        write(times, rates, browser.version, save=not short)
         browser.close()
 
 
@@ -111,6 +120,29 @@ def measure_moves(browser, running, times, moves, points, dimension, seed):
     pages.close()
 
 
+def pictures_in_long_drag(browser, running, key, points, dimension, seed):
+    """Drag a slider to and fro for seconds: pictures of the reduced curve and of 128² per second."""
+    pages = Pages(browser, running.address)
+    page = opened(pages, f"?view=explore&v=1&D_f={dimension}&seed={seed}&n={points}&F=0.1")
+    page.wait_for_selector("#plot-explore-area[data-shown]")
+    slider = page.locator(f'#explore input[type="range"][data-key="{key}"]')
+    box = slider.bounding_box()
+    y, inner = box["y"] + box["height"] / 2, 10
+    page.mouse.move(box["x"] + inner, y)
+    page.mouse.down()
+    page.evaluate("() => { recorder.pictures = {}; }")
+    began = time.perf_counter()
+    while (now := time.perf_counter() - began) < DRAG:
+        share = abs((now / SWEEP) % 2 - 1)
+        page.mouse.move(box["x"] + inner + share * (box["width"] - 2 * inner), y)
+        time.sleep(max(0.0, began + now + MOUSE - time.perf_counter()))
+    counts = page.evaluate("() => recorder.pictures")
+    page.mouse.up()
+    assert not pages.complaints, pages.complaints
+    pages.close()
+    return [counts.get(name, 0) / now for name in ("line", "128")]
+
+
 def opened(pages, query):
     """Open a page that records what it draws, and wait for its first contact."""
     page = pages.blank()
@@ -137,7 +169,7 @@ def drag(page, key, moves):
     time.sleep(0.5)
 
 
-def write(times, browser, save):
+def write(times, rates, browser, save):
     """Write the medians and percentiles, or print them alone."""
     page = Page("lab-table.md", "How soon the lab answers, measured", "lab-benchmark")
     page.say(f"Headless Chromium {browser} without a graphics card, on the same machine.\n")
@@ -146,6 +178,19 @@ def write(times, browser, save):
     for name, target in TARGETS.items():
         parts = (shown(part) for part in percentiles(times[name]))
         page.row(name, *parts, len(times[name]), shown(target))
+    page.say(
+        f"\nLong drags, {DRAG:g} s from end to end and back with a mouse that moves every "
+        f"{1e3 * MOUSE:.0f} ms; pictures per second, of all surfaces:\n"
+    )
+    page.table("slider, full grid", "reduced curve: least, median", "contact on 128²", "wanted")
+    for (key, points), found in rates.items():
+        lines, contacts = (sorted(column) for column in zip(*found, strict=True))
+        page.row(
+            f"{key}, {points}²",
+            f"{lines[0]:.0f}, {np.median(lines):.0f}",
+            f"{contacts[0]:.0f}, {np.median(contacts):.0f}",
+            f"{FEWEST_PICTURES} of the curve" if points == 128 else "-",
+        )
     page.say(
         "\nA move counts from the event of the slider until the frame in which the picture of this "
         "value is on the screen. Sliders are dragged with the mouse over the loads, fractal "

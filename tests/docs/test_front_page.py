@@ -1,4 +1,4 @@
-"""The table of the README is that of the page about the paper."""
+"""The front pages: their numbers are those of the pages that they lead to."""
 
 import re
 from pathlib import Path
@@ -6,14 +6,19 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 
 
-def test_numbers_of_the_readme_stand_on_the_page_of_the_paper():
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+def test_claims_in_short_stand_on_the_page_of_the_paper():
+    short = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     page = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
-    section = readme.split("## The paper's claims, recomputed")[1].split("\n## ")[0]
+    section = short.split("## The paper's claims in short")[1].split("```")[0]
     rows = [line.strip("|").split("|") for line in section.splitlines() if line.startswith("| ")]
     assert len(rows) > 10
     told = [number for _, found, _ in rows[1:] for number in re.findall(r"\d+\.\d+", found)]
     assert len(told) > 30
+    assert not [number for number in told if number not in page]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    found = readme.split("## What it found")[1].split("\n## ")[0]
+    told = re.findall(r"\d+\.\d+", found)
+    assert len(told) >= 4
     assert not [number for number in told if number not in page]
 
 
