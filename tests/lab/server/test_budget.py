@@ -10,7 +10,8 @@ import pytest
 import roughline as rl
 from lab.server.serving import run, running_lab, upload
 from roughline.lab.server import budget
-from roughline.lab.server.budget import Disk, limits_within, memory_of_one
+from roughline.lab.server.budget import limits_within, memory_of_one
+from roughline.lab.server.files import Disk, Files, Upload
 from roughline.lab.server.settings import ServerSettings
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
@@ -73,7 +74,9 @@ def test_all_files_of_all_pages_count(tmp_path):
     (tmp_path / "gone" / "left.pickle").write_bytes(bytes(500))
     coming = tmp_path / "page" / "coming.npy"
     coming.write_bytes(bytes(10))
-    assert disk.room(["page", "other"], {coming: 400}) == 1000 - 100 - 200 - 400
+    page, other = Files(tmp_path / "page", 1000), Files(tmp_path / "other", 1000)
+    page.uploads["key"] = Upload("key", coming, "coming.npy", 400)
+    assert disk.room([page, other]) == 1000 - 100 - 200 - 400
     assert 0 < Disk(tmp_path, None).most <= 20 * GB
     with pytest.raises(rl.InputError, match="max_disk is -1"):
         ServerSettings(max_disk=-1)

@@ -5,7 +5,6 @@ import os
 import sys
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import psutil
 import pytest
@@ -317,7 +316,7 @@ def test_the_loss_of_the_process_that_forks_is_survived(lasting):
     run(scenario, lasting=lasting)
 
 
-def test_an_answer_is_read_to_its_end_while_another_thread_ends_the_process():
+def test_an_answer_is_read_to_its_end_while_its_request_is_withdrawn():
     class Slow:
         """A connection from which an answer is read slowly."""
 
@@ -335,17 +334,21 @@ def test_an_answer_is_read_to_its_end_while_another_thread_ends_the_process():
             return said
 
     begun = threading.Event()
-    process = processes.Process(1e9)
-    slow = process._connection = Slow(process._connection)
-    with ThreadPoolExecutor(1) as threads:
-        sleep = doings.place_of("sleep")
-        asked = threads.submit(process.ask, sleep, {"seconds": 20}, lambda *_: None)
-        assert begun.wait(20)
-        process.end()
-        assert asked.result() == processes.LOST
-    assert slow.was_closed is False
-    assert slow.connection.closed
-    assert not process.is_alive
+
+    async def scenario(lane, asker):
+        asker.ask("sleep", seconds=20)
+        await becomes(lambda: "slot" in asker.steps)
+        (request,) = lane._served
+        slow = request.process._connection = Slow(request.process._connection)
+        assert await asyncio.to_thread(begun.wait, 20)
+        pid = request.process.pid
+        await asyncio.gather(*lane.withdraw("session"))
+        assert slow.was_closed is False
+        assert slow.connection.closed
+        assert not psutil.pid_exists(pid)
+        assert not asker.outcomes
+
+    run(scenario, lasting=False)
 
 
 def test_no_process_to_be_had_is_one_sentence(monkeypatch, caplog):
@@ -376,7 +379,7 @@ def test_replaced_questions_leave_nothing_behind():
             await asyncio.sleep(0.005)
         asker.ask("echo", name="last", say="")
         await asker.of("last")
-        await becomes(lambda: len(lane.pids) <= 2 and not lane._jobs and not lane._starting)
+        await becomes(lambda: len(lane.pids) <= 2 and not lane._served and not lane._starting)
         await becomes(lambda: me.num_fds() <= before + 8)
         assert threading.active_count() <= threads_before + 2 * LIMITS.most + 2
 

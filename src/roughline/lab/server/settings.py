@@ -7,7 +7,7 @@ import os
 import shlex
 import stat
 from dataclasses import dataclass, field
-from ipaddress import IPv4Address, IPv4Network, IPv6Address, IPv6Network, ip_address, ip_network
+from ipaddress import IPv4Network, IPv6Network, ip_address, ip_network
 from pathlib import Path
 
 from roughline.errors import InputError
@@ -93,10 +93,6 @@ class ServerSettings:
         """The proxies as one writes them."""
         named = (each[0] if each.num_addresses == 1 else each for each in self.proxies)
         return ",".join(map(str, named))
-
-    def is_proxy(self, address: IPv4Address | IPv6Address) -> bool:
-        """Whether an address is one of the proxies."""
-        return any(address in each for each in self.proxies)
 
     @property
     def is_local(self) -> bool:
