@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from roughline.lab.server.leftovers import folder_of_files
+from roughline.lab.server.files import folder_of_files
 
 _SNAPS = Path("/snap/bin")
 
