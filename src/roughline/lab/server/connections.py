@@ -61,25 +61,24 @@ class Connection(IOStream):
     def __init__(self, taken: socket.socket, address: str, held: set[Connection]) -> None:
         super().__init__(taken)
         self.address, self._held = address, held
-        self._read, self._written = 0, 0  # [bytes]
-        self._mark: tuple[bool, float, int] | None = None
         held.add(self)
         self.enter(Stage.WAITS)
 
     def enter(self, stage: Stage) -> None:
         """Note what it does from now on."""
         self.stage, self.since = stage, time.monotonic()
+        self._moved, self._counted = 0, self.since  # bytes, since when
 
     def read_from_fd(self, buf: bytearray | memoryview) -> int | None:
-        """Read, and count."""
+        """Read, and count; while an answer is sent, that alone counts."""
         count = super().read_from_fd(buf)
-        self._read += count or 0
+        self._moved += 0 if self.writing() else count or 0
         return count
 
     def write_to_fd(self, data: memoryview) -> int:
         """Write, and count."""
         count = super().write_to_fd(data)
-        self._written += count
+        self._moved += count
         return count
 
     def close_fd(self) -> None:
@@ -89,20 +88,14 @@ class Connection(IOStream):
 
     def is_overdue(self, patience: Patience) -> bool:
         """Whether the other side has kept the server waiting for too long."""
-        now, writes = time.monotonic(), self.writing()
-        if self.stage is Stage.WAITS and now - self.since > patience.request:
-            return True
-        if not (writes or self.stage is Stage.BRINGS):
-            self._mark = None
-            return False
-        moved = self._written if writes else self._read
-        if self._mark is None or self._mark[0] != writes:
-            self._mark = writes, now, moved
-        _, since, before = self._mark
-        if now - since < patience.stall:
-            return False
-        self._mark = writes, now, moved
-        return moved - before < patience.speed * patience.stall
+        now, moved = time.monotonic(), self._moved
+        if self.stage is Stage.WAITS:
+            return now - self.since > patience.request
+        has_to_move = self.writing() or self.stage is Stage.BRINGS
+        is_time = now - self._counted >= patience.stall
+        if is_time or not has_to_move:
+            self._moved, self._counted = 0, now
+        return has_to_move and is_time and moved < patience.speed * patience.stall
 
 
 class Connections(HTTPServer):
@@ -203,23 +196,16 @@ def most_connections(processes: int) -> int:
 
     The number of files that this process may open is raised where the system lets it.
     """
+    files = 512  # sockets that a loop can wait for on Windows
+    if sys.platform != "win32":
+        import resource
+
+        limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+        unlimited = resource.RLIM_INFINITY
+        files, most = (_MOST_FILES if each == unlimited else each for each in limits)
+        if files < (wanted := min(most, _MOST_FILES)):
+            with suppress(ValueError, OSError):  # the system has a limit of its own
+                resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, limits[1]))
+                files = wanted
     others = _OTHER_FILES + _FILES_OF_PROCESS * processes
-    return max(_FEWEST, min(_MOST, (_most_files() - others) // 2))
-
-
-def _most_files() -> int:
-    """How many files this process may open, after it has asked for more."""
-    if sys.platform == "win32":
-        return 512  # sockets that a loop can wait for
-    import resource
-
-    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
-    now, allowed = (sys.maxsize if each == resource.RLIM_INFINITY else each for each in limits)
-    wanted = min(allowed, _MOST_FILES)
-    if now >= wanted:
-        return now
-    try:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, limits[1]))
-    except (ValueError, OSError):  # the system has a limit of its own
-        return now
-    return wanted
+    return max(_FEWEST, min(_MOST, (files - others) // 2))

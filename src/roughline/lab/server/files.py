@@ -43,7 +43,10 @@ class Files:
         self.uploads: dict[str, Upload] = {}
 
     def new(self, name: str, size: int) -> Upload:
-        """Return a file that is about to come; the oldest go if they are too many or too large."""
+        """Make place for a file that is about to come, of a size that counts from now on.
+
+        The oldest go if they are too many or too large.
+        """
         shown = _NAME.sub("_", name)[-100:] or "file"
         suffix = _SUFFIX.fullmatch(Path(shown).suffix)
         self.folder.mkdir(mode=0o700, exist_ok=True)
@@ -56,6 +59,8 @@ class Files:
         path = self.folder / (secrets.token_hex(8) + (suffix[0].lower() if suffix else ""))
         upload = Upload(secrets.token_urlsafe(12), path, shown, size)
         self.uploads[upload.key] = upload
+        path.touch()
+        os.truncate(path, size)
         return upload
 
     def forget(self, key: str) -> None:
@@ -86,39 +91,33 @@ class Disk:
     def __init__(self, root: Path, most: float | None) -> None:
         self._root = root
         self.most = min(_MOST_DISK, shutil.disk_usage(root).free / 2) if most is None else most
-        self._found: dict[Path, int] = {}
-        self._looked = -_LOOKS
-
-    def room(self, kept: Iterable[Files]) -> float:
-        """Size that further files may have. [bytes]
-
-        Folders that are not kept are being deleted; uploads will have the sizes that were stated.
-        """
-        if time.monotonic() - self._looked >= _LOOKS:
-            self.look()
-        coming = {each.path: each.size for files in kept for each in files.uploads.values()}
-        folders = {files.folder for files in kept}
-        found = {
-            path: size for path, size in self._found.items() if not folders.isdisjoint(path.parents)
-        }
-        to_come = sum(max(0, size - found.get(path, 0)) for path, size in coming.items())
-        to_go = sum(self._found.values()) - sum(found.values())
-        on_disk = shutil.disk_usage(self._root).free - to_come + to_go
-        return min(self.most - sum((found | coming).values()), on_disk)
+        self.look()
 
     def look(self) -> None:
-        """Count the files that there are."""
-        self._looked = time.monotonic()
-        self._found = dict(_sizes_in(self._root))
+        """Find how large the folders are, and how much of files that come is still to be stored."""
+        self._looked, self._to_come = time.monotonic(), 0
+        self._sizes: dict[Path, int] = {}
+        for folder in self._root.iterdir():
+            found = list(_files_in(folder))
+            self._sizes[folder] = sum(each.st_size for each in found)
+            stored = (512 * getattr(each, "st_blocks", each.st_size) for each in found)
+            self._to_come += max(0, self._sizes[folder] - sum(stored))
+
+    def room(self, kept: Iterable[Path]) -> float:
+        """Size that further files may have; folders that are not kept are being deleted. [bytes]"""
+        if time.monotonic() - self._looked >= _LOOKS:
+            self.look()
+        size = sum(self._sizes.get(folder, 0) for folder in kept)
+        to_go = sum(self._sizes.values()) - size
+        return min(self.most - size, shutil.disk_usage(self._root).free - self._to_come + to_go)
 
 
-def _sizes_in(folder: Path) -> Iterator[tuple[Path, int]]:
-    """All files in a folder, at any depth, with their sizes."""
+def _files_in(folder: Path) -> Iterator[os.stat_result]:
+    """What the system knows of all files in a folder, at any depth."""
     for inner, _, names in os.walk(folder):
         for name in names:
-            path = Path(inner, name)
             with suppress(OSError):  # it was deleted meanwhile
-                yield path, path.lstat().st_size
+                yield Path(inner, name).lstat()
 
 
 @contextmanager

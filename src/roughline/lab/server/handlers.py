@@ -195,7 +195,7 @@ class _Uploads(Guarded):
         if not self._is_full:
             try:
                 self._upload = session.files.new(name, int(length))
-                self._file = self._upload.path.open("wb")
+                self._file = self._upload.path.open("r+b")
             except OSError:
                 self._give_up(is_full=True)
 

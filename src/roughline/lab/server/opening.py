@@ -18,15 +18,17 @@ _SNAPS = Path("/snap/bin")
 def open_page(address: str, opened: ExitStack) -> None:
     """Open an address in the browser through a file that only this user may read.
 
-    The command line of a browser, where an address would stand, is seen by all users.
+    The command line of a browser, where an address would stand, is seen by all users. Browsers that
+    are snaps see no folder but the user's own.
     """
-    to = html.escape(address)
+    to, home = html.escape(address), os.environ.get("HOME", "")
     content = (
         '<!doctype html><meta charset="utf-8"><title>roughline</title>'
         f'<meta http-equiv="refresh" content="0;url={to}"><a href="{to}">Open the lab</a>\n'
     )
+    parent = Path(home) if _SNAPS.is_dir() and os.access(home, os.W_OK) else None
     with suppress(OSError):  # such as a full disk; the address is printed besides
-        page = opened.enter_context(folder_of_files(_parent())) / "open.html"
+        page = opened.enter_context(folder_of_files(parent)) / "open.html"
         page.touch(mode=0o600)
         page.write_text(content, encoding="utf-8")
         with _silent_start():
@@ -47,9 +49,3 @@ def _silent_start() -> Iterator[None]:
         os.dup2(before, 2)
         os.close(before)
         os.close(nothing)
-
-
-def _parent() -> Path | None:
-    """The user's own folder if browsers are snaps, which see no other; else None."""
-    home = os.environ.get("HOME", "")
-    return Path(home) if _SNAPS.is_dir() and os.access(home, os.W_OK) else None

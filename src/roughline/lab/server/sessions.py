@@ -254,27 +254,20 @@ class Server:
             self.slow.renew()
 
     def has_room(self, size: float) -> bool:
-        """Whether there is room on the disk for files of a size. [bytes]
-
-        Sessions that wait for their pages give way, those first that have waited longest.
-        """
-        if self._room() < size:
-            self._disk.look()
-        return self._has_made_room(size)
+        """Whether there is room on the disk now for files of a size. [bytes]"""
+        self._disk.look()
+        return self._made_room(size) >= size
 
     def room_of_task(self) -> float:
         """Size of the largest file that a task may write: all tasks may write at once. [bytes]"""
-        self._has_made_room(self.settings.max_upload)
-        return self._room() / self._writers
+        return self._made_room(self.settings.max_upload) / self._writers
 
-    def _has_made_room(self, size: float) -> bool:
-        while self._room() < size:
-            if size > self._disk.most or not self.end_waiting():
-                return False
-        return True
-
-    def _room(self) -> float:
-        return self._disk.room([session.files for session in self.sessions.values()])
+    def _made_room(self, wanted: float) -> float:
+        """The room on the disk; if it is less than wanted, those go that have waited longest."""
+        while True:
+            room = self._disk.room(each.files.folder for each in self.sessions.values())
+            if room >= wanted or wanted > self._disk.most or not self.end_waiting():
+                return room
 
     async def prepare(self) -> None:
         """Start processes ahead of the first page."""

@@ -66,22 +66,19 @@ class ServerSettings:
         if self.max_memory < LEAST_MEMORY:
             raise InputError(
                 f"{self.max_memory / 1e6:g} MB of memory is too little: give a "
-                f"{called('max_memory')} of at "
-                f"least {LEAST_MEMORY / 1e6:g} MB"
+                f"{called('max_memory')} of at least {LEAST_MEMORY / 1e6:g} MB"
             )
 
     def _check_proxies(self) -> None:
         """Refuse proxies without a password, and those that cannot reach the server."""
+        name, given = "behind_proxy", self.names_of_proxies
         if not self.password:
             needed = "through a proxy other machines get in: put a password into a file and give it"
-            refuse(
-                "behind_proxy", self.names_of_proxies, f"{needed} too ({called('password_file')})"
-            )
-        if self.is_local and not any(_has_this_machine(each) for each in self.proxies):
+            refuse(name, given, f"{needed} too ({called('password_file')})")
+        here = [ip_address("127.0.0.1"), ip_address("::1")]
+        if self.is_local and not any(each in proxy for each in here for proxy in self.proxies):
             needed = f"proxies on other machines do not reach {self.host}: give an address that"
-            refuse(
-                "behind_proxy", self.names_of_proxies, f"{needed} they reach too ({called('host')})"
-            )
+            refuse(name, given, f"{needed} they reach too ({called('host')})")
 
     @property
     def lets_others_in(self) -> bool:
@@ -103,11 +100,6 @@ class ServerSettings:
             return self.host == "localhost"
 
 
-def _has_this_machine(network: IPv4Network | IPv6Network) -> bool:
-    """Whether an address of this machine alone is in a network."""
-    return any(ip_address(each) in network for each in ("127.0.0.1", "::1"))
-
-
 def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
     """Read addresses and networks of proxies, separated by commas."""
     needed = "addresses or networks are needed, such as 127.0.0.1 or 10.0.0.0/8,fd00::/8"
@@ -123,40 +115,37 @@ def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
 def password_in(file: Path) -> str:
     """Read a password: the first line of a file that only its owner may read."""
     try:
-        first = (_start_of(file).splitlines() or [b""])[0].strip()
-        if len(first) > _LONGEST_PASSWORD:
-            refuse("password_file", str(file), f"at most {_LONGEST_PASSWORD} bytes are a password")
+        wrong, start = _start_of(file)
+        first = (start.splitlines() or [b""])[0].strip()
+        if not wrong and len(first) > _LONGEST_PASSWORD:
+            wrong = f"at most {_LONGEST_PASSWORD} bytes are a password"
         password = first.decode().strip()
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "it is no text"
         needed = f"it cannot be read ({why}): give a file whose first line is the password"
         raise InputError(f"is {shown(str(file))}; {needed}", "password_file") from error
-    if not password:
-        refuse("password_file", str(file), "it has no password in its first line: write one there")
+    if wrong or not password:
+        wrong = wrong or "it has no password in its first line: write one there"
+        refuse("password_file", str(file), wrong)
     return password
 
 
-def _start_of(file: Path) -> bytes:
-    """Read the start of a file of ours; a pipe is not waited for."""
+def _start_of(file: Path) -> tuple[str, bytes]:
+    """What is wrong with a file, and else its start.
+
+    It is no file, which is not waited for, or others may read or change it; Windows does not say
+    who may.
+    """
     modes = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(file, modes)
     try:
-        _check_owner(file, os.fstat(descriptor))
-        return os.read(descriptor, _LONGEST_PASSWORD + 1)
+        found = os.fstat(descriptor)
+        if not stat.S_ISREG(found.st_mode):
+            return "it is no file: give one whose first line is the password", b""
+        if os.name == "posix" and found.st_uid not in (0, os.geteuid()):
+            return "it belongs to somebody else: give a file of your own", b""
+        if os.name == "posix" and found.st_mode & 0o077:
+            return f"others may read or change it: chmod 600 {shlex.quote(str(file))}", b""
+        return "", os.read(descriptor, _LONGEST_PASSWORD + 1)
     finally:
         os.close(descriptor)
-
-
-def _check_owner(file: Path, found: os.stat_result) -> None:
-    """Refuse what is no file, or what others may read or change; Windows does not say who may."""
-    if not stat.S_ISREG(found.st_mode):
-        refuse(
-            "password_file", str(file), "it is no file: give one whose first line is the password"
-        )
-    if os.name != "posix":
-        return
-    if found.st_uid not in (0, os.geteuid()):
-        refuse("password_file", str(file), "it belongs to somebody else: give a file of your own")
-    if found.st_mode & 0o077:
-        needed = f"others may read or change it: chmod 600 {shlex.quote(str(file))}"
-        refuse("password_file", str(file), needed)
