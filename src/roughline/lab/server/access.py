@@ -8,7 +8,6 @@ import secrets
 import time
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import lru_cache
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from urllib.parse import SplitResult, urlsplit
@@ -104,22 +103,17 @@ def _address(text: str) -> IPv4Address | IPv6Address | None:
     return getattr(number, "ipv4_mapped", None) or number
 
 
-@dataclass
 class Allowance:
-    """How often something may be done: a supply that fills up with time."""
+    """How often something may be done: a supply that fills up with time, at a rate [1 / s]."""
 
-    rate: float  # how fast it fills up [1 / s]
-    most: float  # the supply when it is full
-    _left: float = field(init=False)
-    _at: float = field(init=False)
-
-    def __post_init__(self) -> None:
-        self._left, self._at = self.most, time.monotonic()
+    def __init__(self, rate: float, most: float) -> None:
+        self._rate, self._most = rate, most
+        self._left, self._at = most, time.monotonic()
 
     def take(self) -> bool:
         """Take one, if there is one left."""
         now = time.monotonic()
-        self._left = min(self.most, self._left + self.rate * (now - self._at))
+        self._left = min(self._most, self._left + self._rate * (now - self._at))
         self._at = now
         if self._left < 1:
             return False
@@ -128,7 +122,7 @@ class Allowance:
 
     def give_back(self) -> None:
         """Give back one that was taken."""
-        self._left = min(self.most, self._left + 1)
+        self._left = min(self._most, self._left + 1)
 
 
 def allowances(rate: float, most: float) -> Callable[[str], Allowance]:

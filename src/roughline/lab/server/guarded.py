@@ -6,13 +6,7 @@ from typing import Any
 
 from tornado.web import HTTPError, RequestHandler
 
-from roughline.lab.server.access import (
-    cookie_name,
-    host_is_ours,
-    is_proxy,
-    origin_is_ours,
-    visitor,
-)
+from roughline.lab.server.access import cookie_name, host_is_ours, is_proxy, origin_is_ours, visitor
 from roughline.lab.server.connections import Connection, Stage
 from roughline.lab.server.sessions import Server, Session
 
@@ -32,30 +26,16 @@ _HEADERS = {
 
 
 class Guarded(RequestHandler):
-    """A request that is answered only to pages that may ask."""
+    """A request that is answered only to pages that may ask.
+
+    `address` says where it comes from, and `login` is the name of the browser's login, as its
+    cookie says; it is empty if it has none, or none for the name by which the server is called now.
+    """
 
     open_to_all = False
-
-    @property
-    def server(self) -> Server:
-        """The server that is asked."""
-        server: Server = self.application.settings["server"]
-        return server
-
-    @property
-    def address(self) -> str:
-        """Where the request comes from."""
-        return visitor(self.request, self.server.settings)
-
-    @property
-    def login(self) -> str:
-        """Name of the browser's login, as its cookie says; empty if it has none."""
-        return self.get_cookie(cookie_name(self.request.host)) or ""
-
-    @property
-    def is_logged_in(self) -> bool:
-        """Whether the browser is, for the name by which the server is called now."""
-        return self.server.logins.know(self.login, self.request.host.lower())
+    server: Server
+    address: str
+    login: str
 
     def note(self, stage: Stage) -> None:
         """Note what the connection of the request does from now on."""
@@ -71,16 +51,18 @@ class Guarded(RequestHandler):
     def prepare(self) -> None:
         """Refuse other ways than ours, pages of other servers, and who has not logged in."""
         self.note(Stage.IS_SERVED)
-        settings, request = self.server.settings, self.request
-        origin = request.headers.get("Origin")
-        reads = request.method in ("GET", "HEAD")
+        request, self.server = self.request, self.application.settings["server"]
+        host, origin, settings = request.host, request.headers.get("Origin"), self.server.settings
         if settings.proxies and not is_proxy(request.remote_ip or "", settings):
             raise HTTPError(403, reason="This lab is reached through its proxy only")
-        if not host_is_ours(request.host, settings):
+        if not host_is_ours(host, settings):
             raise HTTPError(403, reason="This is not a name of this server")
-        if (origin is not None or not reads) and not origin_is_ours(origin, request.host):
+        reads = request.method in ("GET", "HEAD")
+        if (origin is not None or not reads) and not origin_is_ours(origin, host):
             raise HTTPError(403, reason="Requests from pages of other servers are refused")
-        if not self.open_to_all and not self.is_logged_in:
+        self.address, login = visitor(request, settings), self.get_cookie(cookie_name(host)) or ""
+        self.login = login if self.server.logins.know(login, host.lower()) else ""
+        if not self.open_to_all and not self.login:
             raise HTTPError(401, reason="Log in first")
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:

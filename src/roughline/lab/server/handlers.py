@@ -42,7 +42,7 @@ def application(server: Server) -> Application:
             (r"/link", Link),
             (r"/upload", _Uploads),
             (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", _Results),
-            (r"/lab/(.*)", _Parts, {"path": str(server.site.parts)}),
+            (r"/lab/([\w.-]+)", _Parts, {"path": str(server.site.parts)}),
             (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(_bokeh_folder())}),
         ],
         default_handler_class=_Nothing,
@@ -106,9 +106,9 @@ class _Page(_Door):
         self.set_header("Cache-Control", "no-store")
         token = self.get_query_argument("token", None)
         address = _address_of_page(self.request.query)
-        if not self.is_logged_in and token is not None and self.server.key.is_token:
+        if not self.login and token is not None and self.server.key.is_token:
             self.enter(token, address)
-        elif not self.is_logged_in:
+        elif not self.login:
             self.redirect("/login" if address == "/" else f"/login?{urlencode({'next': address})}")
         elif token is not None:
             self.redirect(address)
@@ -121,7 +121,7 @@ class _Login(_Door):
 
     def get(self) -> None:
         leads_to = _own_page(self.get_query_argument("next", "/"))
-        if not self.is_logged_in:
+        if not self.login:
             self.ask_for_key("", leads_to)
         else:
             self.redirect(leads_to)
@@ -154,12 +154,6 @@ class _Parts(Guarded, StaticFileHandler):
     """Scripts and styles, ours and those of Bokeh."""
 
     open_to_all = True
-
-    def parse_url_path(self, url_path: str) -> str:
-        """Refuse a path that the system does not accept as a name."""
-        if "\0" in url_path:
-            raise HTTPError(404, reason="There is nothing at this address")
-        return super().parse_url_path(url_path)
 
     def set_extra_headers(self, path: str) -> None:
         """Let a browser keep Bokeh's, which change with its version only."""

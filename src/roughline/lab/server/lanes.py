@@ -6,11 +6,10 @@ import asyncio
 import logging
 import time
 from collections import Counter
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any
 
 from roughline.lab.server.budget import Limits
@@ -74,12 +73,11 @@ class Lane:
     """
 
     def __init__(self, limits: Limits, *, lasting: bool) -> None:
-        self._limits, self._lasting = limits, lasting
+        self.limits, self._lasting = limits, lasting
         self._waiting: dict[tuple[str, str], Request] = {}
-        self._served: dict[Request, asyncio.Task[None]] = {}  # with those no longer wanted
-        self._starting = 0
+        # with those no longer wanted, until their processes are free again or gone
+        self._served: dict[Request, asyncio.Task[None]] = {}
         self._idle: list[Process] = []
-        self._work: set[asyncio.Task[None]] = set()
         self._threads = ThreadPoolExecutor(2 * limits.most + 2, thread_name_prefix="roughline lab")
         self._closed = False
 
@@ -111,31 +109,21 @@ class Lane:
         stopped = [each for each in self._served if each.is_wanted and each.is_of(session, slot)]
         for each in stopped:
             each.is_wanted = False
-            if each.process is not None and not self._lasting:
+            if not self._lasting and each.process is not None:
                 each.process.stop()
         return [] if self._lasting else [self._served[each] for each in stopped]
 
-    @property
-    def pids(self) -> list[int]:
-        """Numbers of its processes in the system."""
-        busy = [each.process for each in self._served if each.process is not None]
-        return [process.pid for process in (*self._idle, *busy)]
-
-    @property
-    def most(self) -> int:
-        """Largest number of its processes that compute at once."""
-        return self._limits.most
-
     async def prepare(self) -> None:
         """Start processes ahead of the first request."""
-        await self._begin(self._fill())
+        self._fill()
+        await asyncio.gather(*(asyncio.wrap_future(each.begun) for each in self._idle))
 
     def renew(self) -> None:
         """Give back the memory of processes that have done a task and wait for the next one."""
         for process in [each for each in self._idle if each.tasks]:
             self._idle.remove(process)
             self._threads.submit(process.end)
-        self._begin(self._fill())
+        self._fill()
 
     async def close(self) -> None:
         """Stop everything, and wait until it is gone."""
@@ -145,30 +133,23 @@ class Lane:
             request.is_wanted = False
             if request.process is not None:
                 request.process.stop()
-        await asyncio.gather(*self._work, return_exceptions=True)
+        await asyncio.gather(*self._served.values(), return_exceptions=True)
         while self._idle:
             self._idle.pop().end()
         self._threads.shutdown(wait=False)
-
-    def _begin(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
-        """Begin work that has to end before the lane is closed."""
-        task = asyncio.create_task(work)
-        self._work.add(task)
-        task.add_done_callback(self._work.discard)
-        return task
 
     def _start(self) -> None:
         """Serve who is next, as far as there are processes."""
         while (request := self._next()) is not None:
             del self._waiting[request.key]
-            many = len(self._waiting) >= _CROWD * self._limits.count
+            many = len(self._waiting) >= _CROWD * self.limits.count
             crowded = many or time.monotonic() - request.since > _SOON
-            self._served[request] = self._begin(self._serve(request, crowded))
+            self._served[request] = asyncio.create_task(self._serve(request, crowded))
 
     def _next(self) -> Request | None:
         """Who is served next; none if nobody waits, or all processes are busy."""
         short = sum(not each.is_long for each in self._served)
-        if self._closed or short >= self._limits.count or len(self._served) >= self._limits.most:
+        if self._closed or short >= self.limits.count or len(self._served) >= self.limits.most:
             return None
         pages = Counter(each.session for each in self._served)
         addresses = Counter(each.address for each in self._served)
@@ -176,7 +157,7 @@ class Lane:
         free = [
             each
             for key, each in self._waiting.items()
-            if key not in running and pages[each.session] < self._limits.per_session
+            if key not in running and pages[each.session] < self.limits.per_session
         ]
 
         def turn(its: Request) -> tuple[bool, int, int]:
@@ -187,27 +168,28 @@ class Lane:
 
     async def _serve(self, request: Request, crowded: bool) -> None:
         """Serve one request, and then the next."""
-        outcome, process = LOST, None
+        process = request.process = self._spare()
+        outcome = LOST
         try:
-            process = request.process = self._spare() or await self._new_process()
+            await asyncio.wrap_future(process.begun)
             if request.is_wanted:
                 outcome = await self._outcome(request, process, crowded)
         except Exception:  # such as no process to be had, or an argument that cannot be sent
             _log.exception("%s failed in the server", request.place)
-        del self._served[request]
         request.process, request.tries = None, request.tries + 1
         if request.is_wanted and outcome is NOT_BEGUN and request.tries < _MOST_TRIES:
             self._waiting.setdefault(request.key, request)
         elif request.is_wanted:
+            request.is_wanted = False
             request.answer(outcome)
+        await self._put_back(process, has_read=request.place.reads_files)
+        del self._served[request]
         self._start()
-        if process is not None:
-            await self._put_back(process, has_read=request.place.reads_files)
-        await self._fill()
+        self._fill()
 
     async def _outcome(self, request: Request, process: Process, crowded: bool) -> Outcome:
         """Have a request done by a process."""
-        loop, seconds = asyncio.get_running_loop(), self._limits.seconds
+        loop, seconds = asyncio.get_running_loop(), self.limits.seconds
 
         def progress(done: int, total: int) -> None:
             with suppress(RuntimeError):  # the loop is closed
@@ -235,44 +217,27 @@ class Lane:
             process.lower_priority(LOWEST)
         self._start()
 
-    async def _fill(self) -> None:
+    def _fill(self) -> None:
         """Have processes stand by."""
-        try:
-            while self._wants_spare():
-                process = await self._new_process()
-                if not process.is_alive:
-                    return _log.error("a process that was started ended at once")
-                await self._put_back(process)
-        except OSError:
-            _log.exception("no process could be started")
+        wanted = max(self.limits.count - len(self._served), 0 if self._lasting else 1)
+        while not self._closed and len(self._idle) < wanted:
+            self._idle.append(self._new_process())
 
-    def _wants_spare(self) -> bool:
-        """Whether a process more should stand by."""
-        least = 0 if self._lasting else 1
-        wanted = max(self._limits.count - len(self._served), least)
-        return not self._closed and len(self._idle) + self._starting < wanted
-
-    def _spare(self) -> Process | None:
-        """A process that stands by."""
+    def _spare(self) -> Process:
+        """A process that stands by, or a new one."""
         while self._idle:
             process = self._idle.pop(0)
             if process.is_alive:
                 return process
             self._threads.submit(process.end)
-        return None
+        return self._new_process()
 
-    async def _new_process(self) -> Process:
-        loop = asyncio.get_running_loop()
-        self._starting += 1
-        try:
-            start = partial(Process, self._limits.memory, gives_way=not self._lasting)
-            return await loop.run_in_executor(self._threads, start)
-        finally:
-            self._starting -= 1
+    def _new_process(self) -> Process:
+        return Process(self._threads, self.limits.memory, gives_way=not self._lasting)
 
-    async def _put_back(self, process: Process, *, has_read: bool = False) -> None:
+    async def _put_back(self, process: Process, *, has_read: bool) -> None:
         """Keep a process for the next request, or end it; one that has read a file is ended."""
-        is_wanted = self._lasting or len(self._idle) < self._limits.count
+        is_wanted = self._lasting or len(self._idle) < self.limits.count
         is_fit = process.is_alive and process.tasks < _MOST_TASKS and not has_read
         if is_fit and is_wanted and not self._closed:
             self._idle.append(process)

@@ -11,6 +11,8 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import wait as wait_for
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from multiprocessing.connection import Connection, wait
@@ -38,28 +40,34 @@ NOT_BEGUN = Outcome(error="no process could begin this: ask again")
 class Process:
     """A process that does one task at a time, with so much memory beside the program. [bytes]
 
-    Processes that do not give way come first when both want a core. It may be stopped while a
-    thread asks it, but is ended only when that thread has its outcome.
+    It begins in one of some threads. When it has begun it is asked and ended in threads. Processes
+    that do not give way come first when both want a core.
     """
 
-    def __init__(self, memory: float, *, gives_way: bool = False) -> None:
+    def __init__(self, threads: ThreadPoolExecutor, memory: float, *, gives_way: bool) -> None:
         self.tasks = 0  # that it was asked for
+        self._process: Any = None
+        self.begun = threads.submit(self._begin, memory, gives_way)
+
+    def _begin(self, memory: float, gives_way: bool) -> None:
         self._connection, theirs = _CONTEXT.Pipe()
         with _without_interrupts():
-            self._process = _CONTEXT.Process(
-                target=_serve, args=(theirs, memory, _loaded_first), daemon=True
-            )
-            self._process.start()
+            given = theirs, memory, _loaded_first
+            process = _CONTEXT.Process(target=_serve, args=given, daemon=True)
+            process.start()
         theirs.close()
-        self.pid: int = self._process.pid
+        self._process = process
         if gives_way:
             self.lower_priority(_LOW)
 
     @property
     def is_alive(self) -> bool:
         """Whether it can be asked; one that waits has nothing to say unless it has just died."""
+        if not self.begun.done():
+            return True
         try:
-            return self._process.is_alive() and not self._connection.poll()
+            alive = self._process is not None and self._process.is_alive()
+            return alive and not self._connection.poll()
         except OSError:  # on Windows, where it has died
             return False
 
@@ -83,18 +91,21 @@ class Process:
     def lower_priority(self, nice: int) -> None:
         """Let other processes of this machine go first."""
         with suppress(AttributeError, OSError):  # not everywhere, and it may have ended
-            os.setpriority(os.PRIO_PROCESS, self.pid, nice)
+            os.setpriority(os.PRIO_PROCESS, self._process.pid, nice)
 
     def stop(self) -> None:
-        """Stop it at once, whatever it is doing."""
-        self._process.kill()
+        """Stop it at once, whatever it is doing, if it has begun."""
+        if self._process is not None:
+            self._process.kill()
 
     def end(self) -> None:
         """Stop it, wait until it is gone, and give back what the server keeps for it."""
-        self.stop()
-        self._process.join()
-        self._process.close()  # one that no signal reaches any more ends itself now
-        self._connection.close()
+        wait_for([self.begun])
+        if self._process is not None:
+            self._process.kill()
+            self._process.join()
+            self._process.close()  # one that no signal reaches any more ends itself now
+            self._connection.close()
 
 
 def start_forking(warm: str) -> None:

@@ -52,7 +52,7 @@ def serve(
         server = Server(site, settings, root)
         listening = Connections(
             application(server),
-            most=most_connections(server.quick.most + server.slow.most),
+            most=most_connections(server.quick.limits.most + server.slow.limits.most),
             proxies=lambda peer: is_proxy(peer, settings),
             max_body_size=_MOST_BODY,
             max_header_size=_MOST_HEADERS,

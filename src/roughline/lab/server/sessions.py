@@ -72,12 +72,6 @@ class Session:
         """Whether a page that comes back would find something here."""
         return bool(self.asked or self.files.uploads) or self.files.folder.exists()
 
-    def go_on(self, line: Line) -> None:
-        """Go on over another line; an older one that still seems open is closed."""
-        older, self.line = self.line, line
-        if older is not None:
-            older.close(_ELSEWHERE, "another page goes on with this one's file")
-
     def ask(self, number: int, slot: str, task: str, arguments: Mapping[str, Any]) -> None:
         """Have a task done for a part of the page, and send what came of it.
 
@@ -187,7 +181,9 @@ class Server:
         """
         before = self.sessions.get(token)
         if before is not None and before.login == login:
-            before.go_on(line)
+            older, before.line = before.line, line
+            if older is not None:  # it still seems open
+                older.close(_ELSEWHERE, "another page goes on with this one's file")
             return before, True
         most = self.settings.max_sessions
         most_of_one = max(1, most // 2) if self.settings.lets_others_in else most
@@ -202,17 +198,14 @@ class Server:
         return sum(session.address == address for session in self.sessions.values())
 
     def line_closed(self, session: Session, *, is_left: bool) -> None:
-        """Let a session wait for its page, if it has something to wait with.
+        """Let a session wait for its page.
 
         What runs goes on while a line is down. If the page was left, which may be to load it
         again, it is stopped soon.
         """
         session.line, session.since, session.is_left = None, time.monotonic(), is_left
-        if not session.has_something:
-            self.end_session(session)
-        elif len(self._waiting(session.address)) > _MOST_WAITING:
+        if len(self._waiting(session.address)) > _MOST_WAITING:
             self.end_waiting(session.address)
-        self._renew()
 
     def _waiting(self, address: str | None = None) -> list[Session]:
         """Sessions that wait for their pages, at an address or anywhere, the longest first."""
@@ -231,10 +224,12 @@ class Server:
         """End a session, and all that it has."""
         self.sessions.pop(session.token, None)
         session.end()
-        self._renew()
 
     def sweep(self) -> None:
-        """End sessions whose login has ended or that nobody came back for, and first their work."""
+        """End sessions whose login has ended or that nobody came back for, and first their work.
+
+        Those that have nothing to wait with end at once. Memory is given back when no page is open.
+        """
         now = time.monotonic()
         for session in list(self.sessions.values()):
             waits = session.line is None
@@ -246,9 +241,6 @@ class Server:
                     reason = "this browser is no longer logged in: reload the page to log in"
                     session.line.close(_REFUSED, reason)
                 self.end_session(session)
-
-    def _renew(self) -> None:
-        """Give memory back when no page is open."""
         if all(session.line is None for session in self.sessions.values()):
             self.quick.renew()
             self.slow.renew()
