@@ -12,9 +12,8 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, cast
+from typing import Any
 
-from tornado.http1connection import HTTP1ServerConnection
 from tornado.httpserver import HTTPServer
 from tornado.httputil import HTTPConnection, HTTPMessageDelegate
 from tornado.ioloop import PeriodicCallback
@@ -126,17 +125,15 @@ class Connections(HTTPServer):
         for each in self._listening:
             each.cancel()
 
-    def start_request(
-        self, server_conn: object, request_conn: HTTPConnection
-    ) -> HTTPMessageDelegate:
+    def start_request(self, server_conn: Any, request_conn: HTTPConnection) -> HTTPMessageDelegate:
         """Wait for the next request of a connection."""
-        _stream(server_conn).enter(Stage.WAITS)
+        server_conn.stream.enter(Stage.WAITS)
         return super().start_request(server_conn, request_conn)
 
-    def on_close(self, server_conn: object) -> None:
+    def on_close(self, server_conn: Any) -> None:
         """Note that a connection brings no more requests: it is closed, or a websocket now."""
         super().on_close(server_conn)
-        _stream(server_conn).enter(Stage.IS_LINKED)
+        server_conn.stream.enter(Stage.IS_LINKED)
 
     async def _listen(self, listening: socket.socket) -> None:
         """Take the connections that come; after a failure, go on a little later."""
@@ -185,10 +182,6 @@ class Connections(HTTPServer):
     def _drop_overdue(self) -> None:
         for connection in [each for each in self._held if each.is_overdue(PATIENCE)]:
             connection.close()
-
-
-def _stream(server_conn: object) -> Connection:
-    return cast(Connection, cast(HTTP1ServerConnection, server_conn).stream)
 
 
 def most_connections(processes: int) -> int:

@@ -6,7 +6,7 @@ import mimetypes
 import re
 from contextlib import suppress
 from hashlib import sha256
-from pathlib import Path
+from importlib.metadata import distribution
 from typing import BinaryIO
 from urllib.parse import parse_qsl, urlencode
 
@@ -33,6 +33,7 @@ _RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:;
 
 def application(server: Server) -> Application:
     """The handlers, by address."""
+    bokeh = distribution("bokeh").locate_file("bokeh/server/static/js")
     return Application(
         [
             (r"/", _Page),
@@ -43,7 +44,7 @@ def application(server: Server) -> Application:
             (r"/upload", _Uploads),
             (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", _Results),
             (r"/lab/([\w.-]+)", _Parts, {"path": str(server.site.parts)}),
-            (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(_bokeh_folder())}),
+            (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(bokeh)}),
         ],
         default_handler_class=_Nothing,
         server=server,
@@ -274,13 +275,3 @@ def _address_of_page(query: str) -> str:
 def _own_page(address: str) -> str:
     """An address to go on to if it is the page's own; that of the bare page otherwise."""
     return address if _PAGE.fullmatch(address) else "/"
-
-
-def _bokeh_folder() -> Path:
-    """Folder of the scripts and styles of Bokeh, in its own package."""
-    from importlib.util import find_spec
-
-    found = find_spec("bokeh")  # without loading it, which takes long
-    assert found is not None
-    assert found.origin is not None
-    return Path(found.origin).parent / "server" / "static" / "js"

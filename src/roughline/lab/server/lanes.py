@@ -8,7 +8,6 @@ import time
 from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -116,7 +115,8 @@ class Lane:
     async def prepare(self) -> None:
         """Start processes ahead of the first request."""
         self._fill()
-        await asyncio.gather(*(asyncio.wrap_future(each.begun) for each in self._idle))
+        begun = (asyncio.wrap_future(each.begun) for each in self._idle)
+        await asyncio.gather(*begun, return_exceptions=True)  # who asks is told of failures
 
     def renew(self) -> None:
         """Give back the memory of processes that have done a task and wait for the next one."""
@@ -192,8 +192,7 @@ class Lane:
         loop, seconds = asyncio.get_running_loop(), self.limits.seconds
 
         def progress(done: int, total: int) -> None:
-            with suppress(RuntimeError):  # the loop is closed
-                loop.call_soon_threadsafe(request.tell, done, total)
+            loop.call_soon_threadsafe(request.tell, done, total)
 
         arguments = {**request.arguments, "crowded": crowded}
         later = loop.call_later(_PATIENCE, self._let_pass, request, process)

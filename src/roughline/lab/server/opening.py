@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import html
 import os
+import subprocess
 import sys
-import webbrowser
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 from roughline.lab.server.files import folder_of_files
 
 _SNAPS = Path("/snap/bin")
+_OPEN = "import sys, webbrowser; webbrowser.open(sys.argv[1])"
 
 
 def open_page(address: str, opened: ExitStack) -> None:
@@ -31,21 +31,6 @@ def open_page(address: str, opened: ExitStack) -> None:
         page = opened.enter_context(folder_of_files(parent)) / "open.html"
         page.touch(mode=0o600)
         page.write_text(content, encoding="utf-8")
-        with _silent_start():
-            webbrowser.open(page.as_uri())
-
-
-@contextmanager
-def _silent_start() -> Iterator[None]:
-    """Start programs that outlive this one, such as browsers, without a place for their errors."""
-    if sys.stderr is None:
-        yield
-        return
-    before, nothing = os.dup(2), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nothing, 2)
-    try:
-        yield
-    finally:
-        os.dup2(before, 2)
-        os.close(before)
-        os.close(nothing)
+        # it outlives this program, and with it the place where its errors would go
+        command = [sys.executable, "-c", _OPEN, page.as_uri()]
+        subprocess.run(command, stderr=subprocess.DEVNULL, check=False)

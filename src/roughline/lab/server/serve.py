@@ -57,7 +57,7 @@ def serve(
             max_body_size=_MOST_BODY,
             max_header_size=_MOST_HEADERS,
         )
-        preparing = asyncio.create_task(server.prepare())
+        preparing = asyncio.gather(server.quick.prepare(), server.slow.prepare())
         try:
             listening.add_sockets(sockets)
             site.page()

@@ -90,11 +90,19 @@ class Session:
         def progress(done: int, total: int) -> None:
             if self.line is not None and self.line is asked.line and (pace.take() or done >= total):
                 left = (time.monotonic() - started) * (total - done) / done if done else None
-                told = {"id": asked.number, "done": done, "total": total, "left": left}
-                self.line.send(json.dumps(told))
+                said = {"id": asked.number, "done": done, "total": total, "left": left}
+                self.line.send(json.dumps(said))
 
         place = self.server.site.tasks[task]
-        told = {**arguments, "session": self._context()}
+        uploads = self.files.uploads
+        context = {
+            "folder": str(self.files.folder),
+            "files": {key: str(each.path) for key, each in uploads.items()},
+            "names": {str(each.path): each.name for each in uploads.values()},
+            "max_points": self.server.settings.max_points,
+            "room": self.server.room_of_task(),
+        }
+        told = {**arguments, "session": context}
         answer = partial(self._tell, slot, asked)
         lane = self.server.quick if place.is_quick else self.server.slow
         lane.submit(Request(self.address, self.token, slot, place, told, answer, progress))
@@ -143,17 +151,6 @@ class Session:
                 asked.outcome = outcome
             else:
                 del self.asked[slot]  # it is done anew when it is asked again
-
-    def _context(self) -> dict[str, Any]:
-        """What tasks are told of the session: its files and limits."""
-        uploads = self.files.uploads
-        return {
-            "folder": str(self.files.folder),
-            "files": {key: str(each.path) for key, each in uploads.items()},
-            "names": {str(each.path): each.name for each in uploads.values()},
-            "max_points": self.server.settings.max_points,
-            "room": self.server.room_of_task(),
-        }
 
 
 class Server:
@@ -260,11 +257,6 @@ class Server:
             room = self._disk.room(each.files.folder for each in self.sessions.values())
             if room >= wanted or wanted > self._disk.most or not self.end_waiting():
                 return room
-
-    async def prepare(self) -> None:
-        """Start processes ahead of the first page."""
-        await self.quick.prepare()
-        await self.slow.prepare()
 
     async def close(self) -> None:
         """End everything."""

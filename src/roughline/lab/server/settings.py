@@ -15,7 +15,6 @@ from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
 from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
 
-_LOOPBACK = "127.0.0.1"
 LEAST_POINTS = 64  # fewest points along a side that a limit may leave
 _LONGEST_PASSWORD = 1000  # [bytes]
 
@@ -25,7 +24,7 @@ class ServerSettings:
     """What the server listens to, and what a session may take."""
 
     # address to listen to; another than that of this machine itself needs a password
-    host: str = _LOOPBACK
+    host: str = "127.0.0.1"
     port: int = 5107  # 0 takes a free one
     password: str | None = None  # asked of every browser; None takes a new token instead
     # proxies that other machines come through, which are believed who comes; if there are any,
@@ -51,8 +50,15 @@ class ServerSettings:
                 f"and give it too ({called('password_file')})",
                 "host",
             )
-        if self.proxies:
-            self._check_proxies()
+        here = [ip_address("127.0.0.1"), ip_address("::1")]
+        if self.proxies and not self.password:
+            needed = "through a proxy other machines get in: put a password into a file and give it"
+            needed = f"{needed} too ({called('password_file')})"
+            refuse("behind_proxy", self.names_of_proxies, needed)
+        if self.proxies and self.is_local and not any(a in p for a in here for p in self.proxies):
+            needed = f"proxies on other machines do not reach {self.host}: give an address that"
+            needed = f"{needed} they reach too ({called('host')})"
+            refuse("behind_proxy", self.names_of_proxies, needed)
         if self.password is not None and len(self.password) < 8:
             raise InputError("the password has fewer than 8 characters; take a longer one")
         if not 0 <= self.port < 65536:
@@ -68,17 +74,6 @@ class ServerSettings:
                 f"{self.max_memory / 1e6:g} MB of memory is too little: give a "
                 f"{called('max_memory')} of at least {LEAST_MEMORY / 1e6:g} MB"
             )
-
-    def _check_proxies(self) -> None:
-        """Refuse proxies without a password, and those that cannot reach the server."""
-        name, given = "behind_proxy", self.names_of_proxies
-        if not self.password:
-            needed = "through a proxy other machines get in: put a password into a file and give it"
-            refuse(name, given, f"{needed} too ({called('password_file')})")
-        here = [ip_address("127.0.0.1"), ip_address("::1")]
-        if self.is_local and not any(each in proxy for each in here for proxy in self.proxies):
-            needed = f"proxies on other machines do not reach {self.host}: give an address that"
-            refuse(name, given, f"{needed} they reach too ({called('host')})")
 
     @property
     def lets_others_in(self) -> bool:
