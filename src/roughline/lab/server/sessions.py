@@ -195,13 +195,15 @@ class Server:
         return sum(session.address == address for session in self.sessions.values())
 
     def line_closed(self, session: Session, *, is_left: bool) -> None:
-        """Let a session wait for its page.
+        """Let a session wait for its page, if it has something to wait with.
 
         What runs goes on while a line is down. If the page was left, which may be to load it
         again, it is stopped soon.
         """
         session.line, session.since, session.is_left = None, time.monotonic(), is_left
-        if len(self._waiting(session.address)) > _MOST_WAITING:
+        if not session.has_something:
+            self.end_session(session)
+        elif len(self._waiting(session.address)) > _MOST_WAITING:
             self.end_waiting(session.address)
 
     def _waiting(self, address: str | None = None) -> list[Session]:
@@ -225,7 +227,7 @@ class Server:
     def sweep(self) -> None:
         """End sessions whose login has ended or that nobody came back for, and first their work.
 
-        Those that have nothing to wait with end at once. Memory is given back when no page is open.
+        Memory is given back when no page is open.
         """
         now = time.monotonic()
         for session in list(self.sessions.values()):
