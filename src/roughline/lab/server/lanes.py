@@ -177,15 +177,17 @@ class Lane:
         except Exception:  # such as no process to be had, or an argument that cannot be sent
             _log.exception("%s failed in the server", request.place)
         request.process, request.tries = None, request.tries + 1
-        if request.is_wanted and outcome is NOT_BEGUN and request.tries < _MOST_TRIES:
-            self._waiting.setdefault(request.key, request)
-        elif request.is_wanted:
-            request.is_wanted = False
-            request.answer(outcome)
-        await self._put_back(process, has_read=request.place.reads_files)
-        del self._served[request]
-        self._start()
-        self._fill()
+        try:
+            if request.is_wanted and outcome is NOT_BEGUN and request.tries < _MOST_TRIES:
+                self._waiting.setdefault(request.key, request)
+            elif request.is_wanted:
+                request.is_wanted = False
+                request.answer(outcome)
+            await self._put_back(process, has_read=request.place.reads_files)
+        finally:
+            del self._served[request]
+            self._start()
+            self._fill()
 
     async def _outcome(self, request: Request, process: Process, crowded: bool) -> Outcome:
         """Have a request done by a process."""

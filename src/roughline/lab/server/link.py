@@ -18,7 +18,8 @@ from roughline.lab.server.sessions import Session
 
 MOST_BYTES = 2**16  # longest message of a page; files come another way
 _SLOT_LENGTH, _TEXT_LENGTH, _MOST_DEPTH = 40, 2000, 6
-_MOST_UNSENT = 10_000_000  # answers on their way to a page until no question is taken [bytes]
+_MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
+_MOST_HELD = 16
 _LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
 
 
@@ -38,7 +39,10 @@ class Link(Guarded, WebSocketHandler):
         """Begin a session, or go on with the one that the page had before."""
         self.set_nodelay(True)
         self._refusals = Allowance(rate=1, most=300)
-        self._sending: dict[asyncio.Task[None], int] = {}  # messages, with their lengths
+        self._sending: set[asyncio.Task[None]] = set()
+        self._unsent = 0  # [bytes]
+        # questions by their slots, as the session takes them; the latest of a slot counts
+        self._held: dict[str, tuple[int, str, str, dict[str, Any]]] = {}
         found = self.server.session_for(self, self.address, self.login, self._before)
         self.session, resumed = found
         if self.session is None:
@@ -49,12 +53,11 @@ class Link(Guarded, WebSocketHandler):
         said = {"session": self.session.token, "resumed": resumed, "files": files}
         self.send(json.dumps({**said, "version": __version__}))
 
-    async def on_message(self, message: str | bytes) -> None:
-        """Take a question, or the wish to stop one; the next when the page has taken answers."""
+    def on_message(self, message: str | bytes) -> None:
+        """Take a question, or the wish to stop one."""
         if self.session is not None and self.session.line is self:
             self._take(self.session, _plain_message(message))
-        while sum(self._sending.values()) > _MOST_UNSENT:
-            await asyncio.wait(self._sending, return_when=asyncio.FIRST_COMPLETED)
+            self._ask(self.session)
 
     def _take(self, session: Session, said: dict[str, Any]) -> None:
         number, slot, task = _number(said.get("id")), said.get("slot"), said.get("task")
@@ -66,6 +69,7 @@ class Link(Guarded, WebSocketHandler):
         elif not isinstance(slot, str) or not 0 < len(slot) <= _SLOT_LENGTH:
             why = "this message is not one of the lab: reload the page"
         elif said.get("stop") is True:
+            self._held.pop(slot, None)
             session.withdraw(slot)
         elif said.get("forget") is True:
             session.forget_files()
@@ -73,10 +77,17 @@ class Link(Guarded, WebSocketHandler):
             why = "the lab has no such task: reload the page"
         elif not isinstance(arguments, dict) or not _is_plain(arguments):
             why = "what is set here is too long, or not in a form the lab knows"
+        elif slot not in self._held and len(self._held) >= _MOST_HELD:
+            why = "too many requests of this page wait: let some end first"
         else:
-            session.ask(number, slot, task, arguments)
+            self._held[slot] = number, slot, task, arguments
         if why:
             self.send(json.dumps({"id": number, "error": why, "at": ""}))
+
+    def _ask(self, session: Session) -> None:
+        """Ask what is held, as far as the page has taken what it was sent."""
+        while self._held and self._unsent <= _MOST_UNSENT:
+            session.ask(*self._held.pop(next(iter(self._held))))
 
     def on_close(self) -> None:
         """Let the session wait for its page."""
@@ -86,12 +97,16 @@ class Link(Guarded, WebSocketHandler):
     def send(self, message: str | bytes) -> None:
         """Send a message."""
         sending = asyncio.ensure_future(self._deliver(message))
-        self._sending[sending] = len(message)
-        sending.add_done_callback(self._sending.pop)
+        self._sending.add(sending)
+        sending.add_done_callback(self._sending.discard)
 
     async def _deliver(self, message: str | bytes) -> None:
+        self._unsent += len(message)
         with suppress(WebSocketClosedError, StreamClosedError):
             await self.write_message(message, binary=isinstance(message, bytes))
+        self._unsent -= len(message)
+        if self.session is not None and self.session.line is self:
+            self._ask(self.session)
 
 
 def _is_plain(content: Any, depth: int = _MOST_DEPTH) -> bool:

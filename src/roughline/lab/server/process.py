@@ -102,7 +102,7 @@ class Process:
         """Stop it, wait until it is gone, and give back what the server keeps for it."""
         wait_for([self.begun])
         if self._process is not None:
-            self._process.kill()
+            self.stop()
             self._process.join()
             self._process.close()  # one that no signal reaches any more ends itself now
             self._connection.close()
