@@ -10,7 +10,6 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
 
@@ -22,6 +21,10 @@ from tornado.iostream import IOStream
 from roughline.lab.server.access import neighbourhood
 
 _log = logging.getLogger(__name__)
+# that the other side has to complete a request, from the connection or from the answer before [s]
+_PATIENCE = 20.0
+_STALL = 60.0  # after which it is asked how much of a file, or of an answer, has moved [s]
+_SPEED = 1000.0  # at which it has to move on average over that time [bytes / s]
 _PAUSE = 1.0  # when no connection can be taken [s]
 _SEND_BUFFER = 2**17  # so that it is seen within a minute whether somebody reads [bytes]
 _MOST, _MOST_OF_ONE = 2000, 200  # connections in all, and of one address
@@ -29,20 +32,6 @@ _PROXY = "proxy"  # what stands for the address of any proxy: it has no limit of
 _FEWEST = 10
 _MOST_FILES = 4096  # that the process asks the system for
 _OTHER_FILES, _FILES_OF_PROCESS = 64, 3  # that are no connections
-
-
-@dataclass(frozen=True)
-class Patience:
-    """How long the server waits for the other side of a connection."""
-
-    # until a request is complete, counted from the connection or from the answer before [s]
-    request: float = 20.0
-    # time after which it is asked how much of a file, or of an answer, has moved [s]
-    stall: float = 60.0
-    speed: float = 1000.0  # what has to move on average over that time [bytes / s]
-
-
-PATIENCE = Patience()  # what the server has
 
 
 class Stage(IntEnum):
@@ -85,16 +74,16 @@ class Connection(IOStream):
         super().close_fd()
         self._held.discard(self)
 
-    def is_overdue(self, patience: Patience) -> bool:
+    def is_overdue(self) -> bool:
         """Whether the other side has kept the server waiting for too long."""
         now, moved = time.monotonic(), self._moved
         if self.stage is Stage.WAITS:
-            return now - self.since > patience.request
+            return now - self.since > _PATIENCE
         has_to_move = self.writing() or self.stage is Stage.BRINGS
-        is_time = now - self._counted >= patience.stall
+        is_time = now - self._counted >= _STALL
         if is_time or not has_to_move:
             self._moved, self._counted = 0, now
-        return has_to_move and is_time and moved < patience.speed * patience.stall
+        return has_to_move and is_time and moved < _SPEED * _STALL
 
 
 class Connections(HTTPServer):
@@ -112,7 +101,7 @@ class Connections(HTTPServer):
         self._most, self._most_of_one = most, max(1, min(_MOST_OF_ONE, most // 2))
         self._proxies = proxies
         self._held: set[Connection] = set()
-        self._sweep = PeriodicCallback(self._drop_overdue, 250 * min(4.0, PATIENCE.request))
+        self._sweep = PeriodicCallback(self._drop_overdue, 250 * min(4.0, _PATIENCE))
 
     def add_sockets(self, sockets: Iterable[socket.socket]) -> None:
         """Listen."""
@@ -180,7 +169,7 @@ class Connections(HTTPServer):
         return bool(may_go)
 
     def _drop_overdue(self) -> None:
-        for connection in [each for each in self._held if each.is_overdue(PATIENCE)]:
+        for connection in [each for each in self._held if each.is_overdue()]:
             connection.close()
 
 

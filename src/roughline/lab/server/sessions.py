@@ -206,18 +206,17 @@ class Server:
         elif len(self._waiting(session.address)) > _MOST_WAITING:
             self.end_waiting(session.address)
 
-    def _waiting(self, address: str | None = None) -> list[Session]:
-        """Sessions that wait for their pages, at an address or anywhere, the longest first."""
+    def _waiting(self, address: str | None) -> list[Session]:
+        """Sessions that wait for their pages, at an address or anywhere."""
         waiting = [each for each in self.sessions.values() if each.line is None]
-        here = [each for each in waiting if address in (None, each.address)]
-        return sorted(here, key=lambda each: each.since)
+        return [each for each in waiting if address in (None, each.address)]
 
     def end_waiting(self, address: str | None = None) -> bool:
         """End the session that has waited longest for its page, if one waits at an address."""
-        for session in self._waiting(address)[:1]:
-            self.end_session(session)
-            return True
-        return False
+        waiting = self._waiting(address)
+        if waiting:
+            self.end_session(min(waiting, key=lambda each: each.since))
+        return bool(waiting)
 
     def end_session(self, session: Session) -> None:
         """End a session, and all that it has."""
