@@ -12,7 +12,7 @@ ASKED = r"/(here|login|link|\?token=)\S*\)$|WebSocket|leaves for file:"
 def test_the_opened_file_leads_in_and_log_out_leads_out_of_all_pages(
     pages, lab, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(opening.webbrowser, "open", lambda file: None)
+    monkeypatch.setattr(opening.subprocess, "run", lambda *words, **options: None)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     page = pages.blank()
     page.context.clear_cookies()

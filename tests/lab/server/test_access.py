@@ -8,14 +8,15 @@ import pytest
 
 from roughline.errors import InputError
 from roughline.lab.server.access import (
+    MOST_REMEMBERED,
     Allowance,
-    Visitors,
-    comes_through_proxy,
+    Key,
+    allowances,
     host_is_ours,
     is_encrypted,
+    is_proxy,
     neighbourhood,
     origin_is_ours,
-    passwords_match,
     visitor,
 )
 from roughline.lab.server.settings import ServerSettings, networks_in, password_in
@@ -66,16 +67,19 @@ def test_an_allowance_fills_up_with_time(monkeypatch):
 
 
 def test_tries_of_a_password_are_counted_for_each_address():
-    visitors = Visitors()
-    assert [visitors.may_try("10.0.0.1") for _ in range(6)] == [True] * 5 + [False]
-    assert visitors.may_try("10.0.0.2")
+    tries = allowances(1 / 12, 5)
+    assert [tries("10.0.0.1").take() for _ in range(6)] == [True] * 5 + [False]
+    assert tries("10.0.0.2").take()
 
 
 def test_addresses_that_are_remembered_are_bounded():
-    visitors = Visitors()
-    for number in range(visitors._MOST + 10):
-        visitors.may_try(str(number))
-    assert len(visitors._logins) == visitors._MOST
+    tries = allowances(1 / 12, 1)
+    for number in range(MOST_REMEMBERED + 10):
+        tries("used again and again").take()
+        tries(str(number)).take()
+    assert not tries("used again and again").take()
+    assert not tries(str(number)).take()
+    assert tries("0").take()  # it is forgotten
 
 
 def test_a_customer_with_many_addresses_counts_once():
@@ -133,7 +137,7 @@ def test_nobody_is_believed_where_no_proxy_is_named():
     asked = Asked("127.0.0.1", X_Forwarded_For="192.0.2.7", X_Forwarded_Proto="https")
     assert visitor(asked, ServerSettings()) == "127.0.0.1"
     assert not is_encrypted(asked, ServerSettings())
-    assert not comes_through_proxy(asked, ServerSettings())
+    assert not is_proxy("127.0.0.1", ServerSettings())
 
 
 def test_only_a_proxy_says_that_the_way_is_encrypted():
@@ -141,7 +145,7 @@ def test_only_a_proxy_says_that_the_way_is_encrypted():
         assert is_encrypted(Asked("10.0.0.1", X_Forwarded_Proto=said), BEHIND) is is_so
     assert not is_encrypted(Asked("10.0.0.1"), BEHIND)
     assert not is_encrypted(Asked("192.0.2.9", X_Forwarded_Proto="https"), BEHIND)
-    assert not comes_through_proxy(Asked("192.0.2.9"), BEHIND)
+    assert not is_proxy("192.0.2.9", BEHIND)
 
 
 def test_any_name_leads_through_a_proxy():
@@ -153,8 +157,8 @@ def test_any_name_leads_through_a_proxy():
 
 
 def test_passwords_of_any_letters_are_compared():
-    assert passwords_match("größer als acht", "größer als acht")
-    assert not passwords_match("größer als ach", "größer als acht")
+    assert Key("größer als acht").opens("größer als acht")
+    assert not Key("größer als acht").opens("größer als ach")
 
 
 @pytest.mark.parametrize(

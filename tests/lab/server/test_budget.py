@@ -10,7 +10,8 @@ import pytest
 import roughline as rl
 from lab.server.serving import run, running_lab, upload
 from roughline.lab.server import budget
-from roughline.lab.server.budget import Disk, limits_within, memory_of_one
+from roughline.lab.server.budget import limits_within, memory_of_one
+from roughline.lab.server.files import Disk, Files
 from roughline.lab.server.settings import ServerSettings
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
@@ -71,9 +72,11 @@ def test_all_files_of_all_pages_count(tmp_path):
     (tmp_path / "page" / "body.pickle").write_bytes(bytes(200))
     (tmp_path / "gone").mkdir()
     (tmp_path / "gone" / "left.pickle").write_bytes(bytes(500))
-    coming = tmp_path / "page" / "coming.npy"
-    coming.write_bytes(bytes(10))
-    assert disk.room(["page", "other"], {coming: 400}) == 1000 - 100 - 200 - 400
+    page = Files(tmp_path / "page", 1000)
+    with page.new("coming.npy", 400).path.open("r+b") as coming:  # it counts as the whole
+        coming.write(bytes(10))
+    disk.look()
+    assert disk.room([tmp_path / "page", tmp_path / "other"]) == 1000 - 100 - 200 - 400
     assert 0 < Disk(tmp_path, None).most <= 20 * GB
     with pytest.raises(rl.InputError, match="max_disk is -1"):
         ServerSettings(max_disk=-1)

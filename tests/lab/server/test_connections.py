@@ -20,7 +20,7 @@ linux = pytest.mark.skipif(sys.platform != "linux", reason="addresses and limits
 HALF = b"GET / HTTP/1.1\r\nHo"
 SHORT = (
     "from roughline.lab.server import connections",
-    "connections.PATIENCE = connections.Patience(request=1, stall=1, speed=10_000)",
+    "connections._PATIENCE, connections._STALL, connections._SPEED = 1, 1, 10_000",
     "from roughline.lab.site import TASKS",
     "from roughline.lab.server.tasks import Place",
     "TASKS['fails'] = Place('json', 'loads', is_quick=True)",

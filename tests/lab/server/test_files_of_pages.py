@@ -14,8 +14,7 @@ from lab.server.serving import (
     run,
     upload,
 )
-from roughline.lab.server.session import Session
-from roughline.lab.server.settings import ServerSettings
+from roughline.lab.server.files import Files
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 
@@ -142,11 +141,10 @@ def test_a_file_that_is_read_on_windows_is_forgotten_and_goes_with_the_page(tmp_
     def refuses(path, **options):
         raise PermissionError(13, "used by another process", str(path))
 
-    unused = dict.fromkeys(("site", "quick", "slow", "room", "line"))
-    page = Session("here", "", tmp_path, settings=ServerSettings(), **unused)
-    key, upload = page.new_upload("a.txt", 1)
+    page = Files(tmp_path / "page", 1000)
+    upload = page.new("a.txt", 1)
     upload.path.write_text("1")
     monkeypatch.setattr(Path, "unlink", refuses)
-    page.forget_upload(key)
+    page.forget(upload.key)
     assert not page.uploads
     assert upload.path.parent == page.folder

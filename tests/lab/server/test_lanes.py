@@ -5,7 +5,6 @@ import os
 import sys
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import psutil
 import pytest
@@ -52,6 +51,13 @@ class Asker:
         return self.outcomes[name]
 
 
+def pids(lane):
+    """Numbers of the processes of a lane in the system."""
+    busy = [request.process for request in lane._served if request.process is not None]
+    running = [each._process for each in (*lane._idle, *busy)]
+    return [process.pid for process in running if process is not None]
+
+
 async def becomes(is_so, seconds=20):
     end = time.monotonic() + seconds
     while not is_so():
@@ -78,9 +84,9 @@ def run(scenario, *, lasting, limits=LIMITS):
         try:
             await asyncio.wait_for(scenario(lane, Asker(lane)), timeout=120)
         finally:
-            pids = lane.pids
+            left = pids(lane)
             await lane.close()
-        await becomes(lambda: not any(psutil.pid_exists(pid) for pid in pids))
+        await becomes(lambda: not any(psutil.pid_exists(pid) for pid in left))
 
     asyncio.run(main())
     assert not errors
@@ -287,12 +293,12 @@ def test_many_that_wait_are_told_to_the_task(monkeypatch):
 def test_processes_that_stand_by_are_replaced_when_they_are_killed(lasting):
     async def scenario(lane, asker):
         await lane.prepare()
-        for pid in lane.pids:
+        for pid in pids(lane):
             os.kill(pid, 9)
         await asyncio.sleep(0.1)
         asker.ask("echo", say="alive")
         assert (await asker.of("slot")).answer.startswith(b"alive")
-        await becomes(lambda: len(lane.pids) == 2)
+        await becomes(lambda: len(pids(lane)) == 2)
 
     run(scenario, lasting=lasting)
 
@@ -305,7 +311,7 @@ def test_the_loss_of_the_process_that_forks_is_survived(lasting):
 
     async def scenario(lane, asker):
         await lane.prepare()
-        before = lane.pids
+        before = pids(lane)
         os.kill(forkserver._forkserver._forkserver_pid, 9)
         await asyncio.sleep(0.1)
         for number in range(4):
@@ -317,7 +323,7 @@ def test_the_loss_of_the_process_that_forks_is_survived(lasting):
     run(scenario, lasting=lasting)
 
 
-def test_an_answer_is_read_to_its_end_while_another_thread_ends_the_process():
+def test_an_answer_is_read_to_its_end_while_its_request_is_withdrawn():
     class Slow:
         """A connection from which an answer is read slowly."""
 
@@ -335,17 +341,21 @@ def test_an_answer_is_read_to_its_end_while_another_thread_ends_the_process():
             return said
 
     begun = threading.Event()
-    process = processes.Process(1e9)
-    slow = process._connection = Slow(process._connection)
-    with ThreadPoolExecutor(1) as threads:
-        sleep = doings.place_of("sleep")
-        asked = threads.submit(process.ask, sleep, {"seconds": 20}, lambda *_: None)
-        assert begun.wait(20)
-        process.end()
-        assert asked.result() == processes.LOST
-    assert slow.was_closed is False
-    assert slow.connection.closed
-    assert not process.is_alive
+
+    async def scenario(lane, asker):
+        asker.ask("sleep", seconds=20)
+        await becomes(lambda: "slot" in asker.steps)
+        (request,) = lane._served
+        slow = request.process._connection = Slow(request.process._connection)
+        assert await asyncio.to_thread(begun.wait, 20)
+        pid = request.process._process.pid
+        await asyncio.gather(*lane.withdraw("session"))
+        assert slow.was_closed is False
+        assert slow.connection.closed
+        assert not psutil.pid_exists(pid)
+        assert not asker.outcomes
+
+    run(scenario, lasting=False)
 
 
 def test_no_process_to_be_had_is_one_sentence(monkeypatch, caplog):
@@ -353,7 +363,7 @@ def test_no_process_to_be_had_is_one_sentence(monkeypatch, caplog):
         raise BlockingIOError(11, "no more processes")
 
     async def scenario(lane, asker):
-        monkeypatch.setattr("roughline.lab.server.lanes.Process", refuse)
+        monkeypatch.setattr(processes.Process, "_begin", refuse)
         asker.ask("echo", say="alive")
         assert "ended unexpectedly" in (await asker.of("slot")).error
         monkeypatch.undo()
@@ -376,7 +386,7 @@ def test_replaced_questions_leave_nothing_behind():
             await asyncio.sleep(0.005)
         asker.ask("echo", name="last", say="")
         await asker.of("last")
-        await becomes(lambda: len(lane.pids) <= 2 and not lane._jobs and not lane._starting)
+        await becomes(lambda: len(pids(lane)) <= 2 and not lane._served)
         await becomes(lambda: me.num_fds() <= before + 8)
         assert threading.active_count() <= threads_before + 2 * LIMITS.most + 2
 
@@ -423,10 +433,10 @@ def test_what_reads_no_file_shares_processes_until_they_are_renewed():
         for number in range(3):
             asker.ask("echo", slot=str(number), say=number)
             used.append((await asker.of(str(number))).answer.split()[1])
-            await becomes(lambda: lane.pids.count(int(used[-1])) == 1)
+            await becomes(lambda: pids(lane).count(int(used[-1])) == 1)
         assert len(set(used)) <= LIMITS.count
         lane.renew()
-        assert not {int(pid) for pid in used} & set(lane.pids)
+        assert not {int(pid) for pid in used} & set(pids(lane))
         asker.ask("echo", slot="after", say="after")
         assert (await asker.of("after")).answer.split()[1] not in used
 

@@ -11,10 +11,10 @@ from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 
 from lab.server.serving import Lab, becomes, log_in, upload
-from roughline.lab.server import server as server_of_pages
+from roughline.lab.server import sessions
+from roughline.lab.server.files import Upload
 from roughline.lab.server.handlers import application
-from roughline.lab.server.server import Server
-from roughline.lab.server.session import _MOST_HELD_BYTES, Visit
+from roughline.lab.server.sessions import _MOST_HELD_BYTES, Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import Outcome
 from roughline.lab.site import site
@@ -121,7 +121,7 @@ def test_answers_that_nobody_heard_are_kept_up_to_a_size(tmp_path):
 
 
 def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, monkeypatch):
-    monkeypatch.setattr(server_of_pages, "_WAITS", 0.2)
+    monkeypatch.setattr(sessions, "_WAITS", 0.2)
 
     async def scenario(lab, server):
         async with lab.page() as page, lab.page() as bare:
@@ -142,7 +142,7 @@ def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, mo
 
 
 def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(tmp_path, monkeypatch):
-    monkeypatch.setattr(server_of_pages, "_RELOADS", 0.2)
+    monkeypatch.setattr(sessions, "_RELOADS", 0.2)
 
     async def scenario(lab, server):
         async with lab.page() as page:
@@ -209,18 +209,18 @@ def test_a_session_that_waits_ends_with_its_login(tmp_path):
 
 
 def test_sessions_that_wait_are_bounded_and_give_way_to_pages(tmp_path, monkeypatch):
-    monkeypatch.setattr(server_of_pages, "_MOST_WAITING", 3)
+    monkeypatch.setattr(sessions, "_MOST_WAITING", 3)
 
     class Opened:
         """A line to a page."""
 
-        def give_way(self):
-            pass
-
     async def scenario(lab, server):
+        def opened(address):
+            return server.session_for(Opened(), address, "", "")
+
         def waiting(address):
-            session, _ = server.session_for(Opened(), Visit(address, "", ""))
-            session.uploads["key"] = None
+            session, _ = opened(address)
+            session.files.uploads["key"] = Upload("key", tmp_path / "a", "a", 0)
             server.line_closed(session, is_left=False)
             return session
 
@@ -229,11 +229,27 @@ def test_sessions_that_wait_are_bounded_and_give_way_to_pages(tmp_path, monkeypa
         other = waiting("other")
         assert server.end_waiting("nobody") is False
         server.settings = replace(server.settings, max_sessions=4)
-        open_page, _ = server.session_for(Opened(), Visit("one", "", ""))
+        open_page, _ = opened("one")
         assert list(server.sessions.values()) == [*first[3:], other, open_page]
         for _ in range(3):
-            assert server.session_for(Opened(), Visit("third", "", ""))[0] is not None
-        assert server.session_for(Opened(), Visit("third", "", "")) == (None, False)
+            assert opened("third")[0] is not None
+        assert opened("third") == (None, False)
         assert server.end_waiting() is False
+
+    run(scenario, tmp_path)
+
+
+def test_pages_are_closed_and_sessions_end_when_the_time_of_their_login_is_over(
+    tmp_path, monkeypatch
+):
+    monkeypatch.setattr("roughline.lab.server.access.DAYS", 1 / 86_400)
+
+    async def scenario(lab, server):
+        async with lab.page() as page:
+            await upload(lab, page.token, b"1 2", "a.txt")
+            assert await page.heard() is None
+            assert page.socket.close_code == 1008
+            assert not server.sessions
+            await becomes(lambda: not list(tmp_path.iterdir()))
 
     run(scenario, tmp_path)

@@ -27,7 +27,7 @@ from lab.server.serving import (
 )
 from roughline.lab.server.handlers import application
 from roughline.lab.server.process import noted_interrupts
-from roughline.lab.server.server import Server
+from roughline.lab.server.sessions import Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.site import site
 
@@ -178,7 +178,7 @@ def test_ctrl_c_while_modules_are_loaded_is_not_lost():
 
 def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
     monkeypatch.setattr("roughline.lab.server.handlers._PING", 0.3)
-    monkeypatch.setattr("roughline.lab.server.server._WAITS", 0.3)
+    monkeypatch.setattr("roughline.lab.server.sessions._WAITS", 0.3)
 
     async def scenario():
         lab = Server(site(), ServerSettings(), tmp_path)
@@ -193,7 +193,7 @@ def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
         await page.read_message()
         await asyncio.sleep(0.7)
         (session,) = lab.sessions.values()
-        session.new_upload("a.txt", 1)[1].path.write_text("1")
+        session.files.new("a.txt", 1).path.write_text("1")
         page.protocol._handle_message = lambda opcode, data: None  # it answers no ping any more
         await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()), 15)
         page.close()

@@ -8,9 +8,9 @@ from urllib.parse import quote, unquote, urlencode, urlsplit
 import pytest
 from tornado.httpclient import HTTPClientError
 
-from lab.server.serving import becomes, entered, run, upload
+from lab.server.serving import becomes, entered, run, upload, wait_until
 from roughline.lab.server import opening
-from roughline.lab.server.logins import Key, Logins
+from roughline.lab.server.access import Key, Logins
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 STATE = "view=explore&n=64&theories=a%2Cb"
@@ -174,26 +174,22 @@ def test_who_logs_out_closes_the_pages_of_that_login_and_a_stolen_cookie_is_wort
 
 
 def test_logins_end_with_time_and_their_number_is_bounded(monkeypatch):
-    monkeypatch.setattr("roughline.lab.server.logins.DAYS", 0.2 / 86_400)
-    monkeypatch.setattr("roughline.lab.server.logins._MOST", 3)
-
-    async def scenario():
-        closed = []
-        logins = Logins(closed.append)
-        names = [logins.begin("a:1") for _ in range(3)]
-        assert not logins.know(names[0], "b:1")
-        assert logins.know(names[0], "a:1")  # it is used, so the next is the oldest
-        logins.begin("a:1")
-        assert closed == [names[1]]
-        await becomes(lambda: set(closed) >= set(names))
-        assert not any(logins.know(name, "a:1") for name in names)
-
-    run(scenario)
+    monkeypatch.setattr("roughline.lab.server.access.DAYS", 0.2 / 86_400)
+    monkeypatch.setattr("roughline.lab.server.access.MOST_REMEMBERED", 3)
+    logins = Logins()
+    names = [logins.begin("a:1") for _ in range(3)]
+    assert not logins.know(names[0], "b:1")
+    assert logins.know(names[0], "a:1")  # it is used, so the next is the oldest
+    names.append(logins.begin("a:1"))
+    assert [logins.lasts(name) for name in names] == [True, False, True, True]
+    wait_until(lambda: not any(map(logins.lasts, names)))
+    assert not any(logins.know(name, "a:1") for name in names)
 
 
 def test_a_token_is_new_at_each_start_and_told_in_any_case():
-    assert Key.of(None).secret != Key.of(None).secret
-    key = Key("f00d", is_token=True)
+    assert Key(None).secret != Key(None).secret
+    key = Key(None)
+    key.secret = "f00d"
     for given in ("f00d", " f00d\n", "http://127.0.0.1:1/?view=a&token=f00d&b=1", "?token=f00d x"):
         assert key.opens(given), given
     for given in ("", "f00", "token=", "http://127.0.0.1:1/?token=f00&x=f00d", "tökén"):
@@ -202,7 +198,7 @@ def test_a_token_is_new_at_each_start_and_told_in_any_case():
 
 def test_the_browser_is_opened_without_telling_other_users_the_token(tmp_path, monkeypatch):
     asked = []
-    monkeypatch.setattr(opening.webbrowser, "open", asked.append)
+    monkeypatch.setattr(opening.subprocess, "run", lambda words, **_: asked.append(words))
     address = "http://127.0.0.1:5107/?token=f00d"
     for parent in (tmp_path / "temporary", tmp_path / "home"):
         parent.mkdir()
@@ -212,8 +208,8 @@ def test_the_browser_is_opened_without_telling_other_users_the_token(tmp_path, m
         monkeypatch.setattr(opening, "_SNAPS", tmp_path if has_snaps else tmp_path / "none")
         with ExitStack() as opened:
             opening.open_page(address, opened)
-            said = asked.pop()
-            assert "f00d" not in said
+            *command, said = asked.pop()
+            assert "f00d" not in f"{command} {said}"
             page = opening.Path(unquote(urlsplit(said).path))
             assert page.is_relative_to(tmp_path / ("home" if has_snaps else "temporary"))
             assert stat.S_IMODE(page.stat().st_mode) == 0o600

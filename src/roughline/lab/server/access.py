@@ -1,12 +1,14 @@
-"""Who may speak to the server: host and origin, password, and how often."""
+"""Who may speak to the server: host, origin and address, password or token, and how often."""
 
 from __future__ import annotations
 
 import hmac
 import re
+import secrets
 import time
 from collections import OrderedDict
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from functools import lru_cache
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from urllib.parse import SplitResult, urlsplit
 
@@ -14,8 +16,11 @@ from tornado.httputil import HTTPServerRequest
 
 from roughline.lab.server.settings import ServerSettings
 
+DAYS = 7  # how long a login lasts
+MOST_REMEMBERED = 10_000  # logins, and addresses
 _WITH_PORT = re.compile(r"\[(.*)\](?::\d*)?|([0-9.]+):\d*")
 _OWN_NAMES = ("localhost", "127.0.0.1", "::1")
+_TOKEN = re.compile(r"token=([^&\s]*)")
 
 
 def host_is_ours(host: str, settings: ServerSettings) -> bool:
@@ -52,15 +57,10 @@ def cookie_name(host: str) -> str:
     return "roughline_lab" if port is None else f"roughline_lab_{port}"
 
 
-def comes_through_proxy(request: HTTPServerRequest, settings: ServerSettings) -> bool:
-    """Whether a request comes from one of our proxies."""
-    return is_proxy(request.remote_ip or "", settings)
-
-
 def is_proxy(peer: str, settings: ServerSettings) -> bool:
-    """Whether a connection from an address is one of our proxies'."""
+    """Whether an address is that of one of our proxies."""
     address = _address(peer)
-    return address is not None and settings.is_proxy(address)
+    return address is not None and any(address in each for each in settings.proxies)
 
 
 def visitor(request: HTTPServerRequest, settings: ServerSettings) -> str:
@@ -69,23 +69,28 @@ def visitor(request: HTTPServerRequest, settings: ServerSettings) -> str:
     Each proxy adds at the right from whom it has the request. What stands left of the first address
     that is no proxy of ours can be invented.
     """
-    address = _address(request.remote_ip or "")
-    if address is None:
-        return request.remote_ip or ""
+    address = request.remote_ip or ""
     for hop in reversed(request.headers.get("X-Forwarded-For", "").split(",")):
-        further = _address(hop)
-        if further is None or not settings.is_proxy(address):
+        if not is_proxy(address, settings) or _address(hop) is None:
             break
-        address = further
-    return neighbourhood(str(address))
+        address = hop
+    return neighbourhood(address)
 
 
 def is_encrypted(request: HTTPServerRequest, settings: ServerSettings) -> bool:
     """Whether the way from the browser is encrypted, as our proxy says."""
-    if not comes_through_proxy(request, settings):
+    if not is_proxy(request.remote_ip or "", settings):
         return request.protocol == "https"
     said = request.headers.get("X-Forwarded-Proto", "")
     return said.rpartition(",")[2].strip().lower() == "https"
+
+
+def neighbourhood(address: str) -> str:
+    """Return an IPv4 address, or the network of an IPv6 address that one customer commonly has."""
+    number = _address(address.partition("%")[0])
+    if isinstance(number, IPv6Address) and not number.is_loopback:
+        number = IPv6Address(int(number) >> 64 << 64)
+    return address if number is None else str(number)  # it is none of a socket file
 
 
 def _address(text: str) -> IPv4Address | IPv6Address | None:
@@ -98,27 +103,17 @@ def _address(text: str) -> IPv4Address | IPv6Address | None:
     return getattr(number, "ipv4_mapped", None) or number
 
 
-def passwords_match(given: str, wanted: str) -> bool:
-    """Compare two passwords in a time that does not depend on them."""
-    return hmac.compare_digest(given.encode(), wanted.encode())
-
-
-@dataclass
 class Allowance:
-    """How often something may be done: a supply that fills up with time."""
+    """How often something may be done: a supply that fills up with time, at a rate [1 / s]."""
 
-    rate: float  # how fast it fills up [1 / s]
-    most: float  # the supply when it is full
-    _left: float = field(init=False)
-    _at: float = field(init=False)
-
-    def __post_init__(self) -> None:
-        self._left, self._at = self.most, time.monotonic()
+    def __init__(self, rate: float, most: float) -> None:
+        self._rate, self._most = rate, most
+        self._left, self._at = most, time.monotonic()
 
     def take(self) -> bool:
         """Take one, if there is one left."""
         now = time.monotonic()
-        self._left = min(self.most, self._left + self.rate * (now - self._at))
+        self._left = min(self._most, self._left + self._rate * (now - self._at))
         self._at = now
         if self._left < 1:
             return False
@@ -127,51 +122,55 @@ class Allowance:
 
     def give_back(self) -> None:
         """Give back one that was taken."""
-        self._left = min(self.most, self._left + 1)
+        self._left = min(self._most, self._left + 1)
 
 
-class Visitors:
-    """How often each address may ask, and try passwords, whatever number of pages it has open."""
+def allowances(rate: float, most: float) -> Callable[[str], Allowance]:
+    """Return what gives each address an allowance; those that came last are remembered."""
+    return lru_cache(MOST_REMEMBERED)(lambda address: Allowance(rate, most))
 
-    _MOST = 10_000  # addresses that are remembered
+
+class Key:
+    """What a visitor must know: the password, or a token that is new at each start."""
+
+    def __init__(self, password: str | None) -> None:
+        self.is_token = password is None
+        self.secret = password or secrets.token_hex(16)
+
+    def opens(self, given: str) -> bool:
+        """Whether it is what was given; a token may come in the address that carries it."""
+        if self.is_token:
+            found = _TOKEN.search(given)
+            given = found[1] if found else given.strip()
+        return hmac.compare_digest(given.encode(), self.secret.encode())
+
+
+class Logins:
+    """All logins, by a random name that only the browser's cookie has besides."""
 
     def __init__(self) -> None:
-        self._questions: OrderedDict[str, Allowance] = OrderedDict()
-        self._logins: OrderedDict[str, Allowance] = OrderedDict()
+        # the host by which each called the server, and when its time is over
+        self._known: OrderedDict[str, tuple[str, float]] = OrderedDict()
 
-    def may_ask(self, address: str) -> bool:
-        """Take one question."""
-        return self._of(self._questions, address, 2000, 8000).take()
+    def begin(self, host: str) -> str:
+        """Begin a login, which ends by itself after some days; returns its name."""
+        while len(self._known) >= MOST_REMEMBERED:
+            self._known.popitem(last=False)
+        name = secrets.token_urlsafe(16)
+        self._known[name] = host, time.monotonic() + DAYS * 86_400
+        return name
 
-    def may_try(self, address: str) -> bool:
-        """Take one try of the password or token."""
-        return self._tries(address).take()
+    def lasts(self, name: str) -> bool:
+        """Whether there is a login of a name."""
+        return name in self._known and time.monotonic() < self._known[name][1]
 
-    def succeeded(self, address: str) -> None:
-        """Give a try back that was right: only wrong ones count."""
-        self._tries(address).give_back()
+    def know(self, name: str, host: str) -> bool:
+        """Whether there is one for the host that is called now."""
+        if not self.lasts(name) or self._known[name][0] != host:
+            return False
+        self._known.move_to_end(name)  # the oldest unused one goes first
+        return True
 
-    def _tries(self, address: str) -> Allowance:
-        return self._of(self._logins, address, 1 / 12, 5)
-
-    def _of(
-        self, known: OrderedDict[str, Allowance], address: str, rate: float, most: float
-    ) -> Allowance:
-        allowance = known.pop(address, None) or Allowance(rate, most)
-        known[address] = allowance  # the latest is last
-        while len(known) > self._MOST:
-            known.popitem(last=False)
-        return allowance
-
-
-def neighbourhood(address: str) -> str:
-    """Return an IPv4 address, or the network of an IPv6 address that one customer commonly has."""
-    try:
-        number = ip_address(address.partition("%")[0])
-    except ValueError:  # such as a socket file
-        return address
-    if isinstance(number, IPv6Address) and not number.is_loopback:
-        if number.ipv4_mapped is not None:
-            return str(number.ipv4_mapped)
-        return str(IPv6Address(int(number) >> 64 << 64))
-    return str(number)
+    def end(self, name: str) -> None:
+        """End a login."""
+        self._known.pop(name, None)

@@ -1,14 +1,8 @@
-"""What all tasks and all files together may take: one budget for memory, and one for disk."""
+"""What all tasks together may take of the memory, and how many of them run at once."""
 
 from __future__ import annotations
 
-import os
-import shutil
-import time
-from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 
 from roughline.computing.cores import available_cores
 from roughline.computing.memory import free_memory
@@ -21,8 +15,6 @@ _PROCESS = 100_000_000  # of each process, beside its task [bytes]
 _QUICK_SECONDS, _QUICK_MEMORY = 20.0, 1_000_000_000
 _FOR_QUICK = 1 / 3  # of the memory, where it is scarce
 _MOST_SLOW = 20  # processes for tasks that take long, unless there are more cores
-_MOST_DISK = 20_000_000_000  # [bytes]
-_LOOKS = 1.0  # after which files are counted again [s]
 
 
 @dataclass(frozen=True)
@@ -73,46 +65,3 @@ def limits_within(memory: float, max_memory: float, seconds: float) -> tuple[Lim
         Limits(min(cores, quick), quick, cores, _QUICK_SECONDS, quick_memory),
         Limits(min(cores, slow), slow, 2, seconds, slow_memory),
     )
-
-
-class Disk:
-    """The room for the files of all sessions, in the folder of all of them.
-
-    They may have `most` bytes together; None takes half of what is free.
-    """
-
-    def __init__(self, root: Path, most: float | None) -> None:
-        self._root = root
-        self.most = min(_MOST_DISK, shutil.disk_usage(root).free / 2) if most is None else most
-        self._found: dict[Path, int] = {}
-        self._looked = -_LOOKS
-
-    def room(self, tokens: Iterable[str], announced: dict[Path, int]) -> float:
-        """Size that further files may have. [bytes]
-
-        Sessions without a token here are being deleted; announced files will have these sizes.
-        """
-        if time.monotonic() - self._looked >= _LOOKS:
-            self.look()
-        kept = {self._root / token for token in tokens}
-        found = {
-            path: size for path, size in self._found.items() if not kept.isdisjoint(path.parents)
-        }
-        to_come = sum(max(0, size - found.get(path, 0)) for path, size in announced.items())
-        to_go = sum(self._found.values()) - sum(found.values())
-        on_disk = shutil.disk_usage(self._root).free - to_come + to_go
-        return min(self.most - sum((found | announced).values()), on_disk)
-
-    def look(self) -> None:
-        """Count the files that there are."""
-        self._looked = time.monotonic()
-        self._found = dict(_files_in(self._root))
-
-
-def _files_in(folder: Path) -> Iterable[tuple[Path, int]]:
-    """All files in a folder, at any depth, with their sizes."""
-    for inner, _, names in os.walk(folder):
-        for name in names:
-            path = Path(inner, name)
-            with suppress(OSError):  # it was deleted meanwhile
-                yield path, path.lstat().st_size

@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import socket
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from contextlib import suppress
 from enum import IntEnum
-from functools import partial
-from typing import Any, cast
+from typing import Any
 
-from tornado.http1connection import HTTP1ServerConnection
 from tornado.httpserver import HTTPServer
 from tornado.httputil import HTTPConnection, HTTPMessageDelegate
-from tornado.ioloop import IOLoop, PeriodicCallback
+from tornado.ioloop import PeriodicCallback
 from tornado.iostream import IOStream
 
 from roughline.lab.server.access import neighbourhood
 
 _log = logging.getLogger(__name__)
-_AT_ONCE = 128  # connections that are taken before others are served
+# that the other side has to complete a request, from the connection or from the answer before [s]
+_PATIENCE = 20.0
+_STALL = 60.0  # after which it is asked how much of a file, or of an answer, has moved [s]
+_SPEED = 1000.0  # at which it has to move on average over that time [bytes / s]
 _PAUSE = 1.0  # when no connection can be taken [s]
 _SEND_BUFFER = 2**17  # so that it is seen within a minute whether somebody reads [bytes]
 _MOST, _MOST_OF_ONE = 2000, 200  # connections in all, and of one address
@@ -29,20 +32,6 @@ _PROXY = "proxy"  # what stands for the address of any proxy: it has no limit of
 _FEWEST = 10
 _MOST_FILES = 4096  # that the process asks the system for
 _OTHER_FILES, _FILES_OF_PROCESS = 64, 3  # that are no connections
-
-
-@dataclass(frozen=True)
-class Patience:
-    """How long the server waits for the other side of a connection."""
-
-    # until a request is complete, counted from the connection or from the answer before [s]
-    request: float = 20.0
-    # time after which it is asked how much of a file, or of an answer, has moved [s]
-    stall: float = 60.0
-    speed: float = 1000.0  # what has to move on average over that time [bytes / s]
-
-
-PATIENCE = Patience()  # what the server has
 
 
 class Stage(IntEnum):
@@ -55,52 +44,46 @@ class Stage(IntEnum):
 
 
 class Connection(IOStream):
-    """One connection, and how it gets on; `closed` is told when it is closed."""
+    """One connection of an address, among all that are held, and how it gets on."""
 
-    def __init__(self, taken: socket.socket, closed: Callable[[Connection], None]) -> None:
+    def __init__(self, taken: socket.socket, address: str, held: set[Connection]) -> None:
         super().__init__(taken)
-        self._told = closed
-        self._moved = {Stage.BRINGS: 0, Stage.IS_SERVED: 0}  # bytes in, and out
-        self._mark: tuple[Stage, float, int] | None = None
+        self.address, self._held = address, held
+        held.add(self)
         self.enter(Stage.WAITS)
 
     def enter(self, stage: Stage) -> None:
         """Note what it does from now on."""
         self.stage, self.since = stage, time.monotonic()
+        self._moved, self._counted = 0, self.since  # bytes, since when
 
     def read_from_fd(self, buf: bytearray | memoryview) -> int | None:
-        """Read, and count."""
+        """Read, and count; while an answer is sent, that alone counts."""
         count = super().read_from_fd(buf)
-        self._moved[Stage.BRINGS] += count or 0
+        self._moved += 0 if self.writing() else count or 0
         return count
 
     def write_to_fd(self, data: memoryview) -> int:
         """Write, and count."""
         count = super().write_to_fd(data)
-        self._moved[Stage.IS_SERVED] += count
+        self._moved += count
         return count
 
     def close_fd(self) -> None:
-        """Close, and tell."""
+        """Close."""
         super().close_fd()
-        self._told(self)
+        self._held.discard(self)
 
-    def is_overdue(self, patience: Patience) -> bool:
+    def is_overdue(self) -> bool:
         """Whether the other side has kept the server waiting for too long."""
-        now = time.monotonic()
-        if self.stage is Stage.WAITS and now - self.since > patience.request:
-            return True
-        if not (self.stage is Stage.BRINGS or self.writing()):
-            self._mark = None
-            return False
-        way = Stage.IS_SERVED if self.writing() else Stage.BRINGS
-        if self._mark is None or self._mark[0] is not way:
-            self._mark = way, now, self._moved[way]
-        _, since, before = self._mark
-        if now - since < patience.stall:
-            return False
-        self._mark = way, now, self._moved[way]
-        return self._moved[way] - before < patience.speed * patience.stall
+        now, moved = time.monotonic(), self._moved
+        if self.stage is Stage.WAITS:
+            return now - self.since > _PATIENCE
+        has_to_move = self.writing() or self.stage is Stage.BRINGS
+        is_time = now - self._counted >= _STALL
+        if is_time or not has_to_move:
+            self._moved, self._counted = 0, now
+        return has_to_move and is_time and moved < _SPEED * _STALL
 
 
 class Connections(HTTPServer):
@@ -117,56 +100,43 @@ class Connections(HTTPServer):
         super().initialize(application, **limits)  # type: ignore[arg-type]
         self._most, self._most_of_one = most, max(1, min(_MOST_OF_ONE, most // 2))
         self._proxies = proxies
-        self._held: dict[str, set[Connection]] = {}
-        self._sweep = PeriodicCallback(self._drop_overdue, 250 * min(4.0, PATIENCE.request))
+        self._held: set[Connection] = set()
+        self._sweep = PeriodicCallback(self._drop_overdue, 250 * min(4.0, _PATIENCE))
 
     def add_sockets(self, sockets: Iterable[socket.socket]) -> None:
         """Listen."""
-        for each in sockets:
-            self._sockets[each.fileno()] = each
-            self._handlers[each.fileno()] = partial(IOLoop.current().remove_handler, each)
-            self._listen(each)
+        self._listening = [asyncio.ensure_future(self._listen(each)) for each in sockets]
         self._sweep.start()
 
     def stop(self) -> None:
         """Listen no more."""
         self._sweep.stop()
-        super().stop()
+        for each in self._listening:
+            each.cancel()
 
-    def start_request(
-        self, server_conn: object, request_conn: HTTPConnection
-    ) -> HTTPMessageDelegate:
+    def start_request(self, server_conn: Any, request_conn: HTTPConnection) -> HTTPMessageDelegate:
         """Wait for the next request of a connection."""
-        _stream(server_conn).enter(Stage.WAITS)
+        server_conn.stream.enter(Stage.WAITS)
         return super().start_request(server_conn, request_conn)
 
-    def on_close(self, server_conn: object) -> None:
+    def on_close(self, server_conn: Any) -> None:
         """Note that a connection brings no more requests: it is closed, or a websocket now."""
         super().on_close(server_conn)
-        _stream(server_conn).enter(Stage.IS_LINKED)
+        server_conn.stream.enter(Stage.IS_LINKED)
 
-    def _listen(self, listening: socket.socket) -> None:
-        if not self._stopped:
-            accept = partial(self._accept, listening)
-            IOLoop.current().add_handler(listening, accept, IOLoop.READ)
-
-    def _accept(self, listening: socket.socket, *_: object) -> None:
-        """Take the connections that wait; after a failure, begin again a little later."""
-        for _turn in range(_AT_ONCE):
-            if self._stopped:
-                return
-            try:
-                taken, name = listening.accept()
-            except BlockingIOError:
-                return
-            except ConnectionError:  # it was given up meanwhile
-                continue
-            except OSError as error:  # such as no free descriptor, or no memory
-                _log.warning("no connection can be taken for a moment: %s", error.strerror)
-                IOLoop.current().remove_handler(listening)
-                IOLoop.current().call_later(_PAUSE, self._listen, listening)
-                return
-            self._take(taken, name)
+    async def _listen(self, listening: socket.socket) -> None:
+        """Take the connections that come; after a failure, go on a little later."""
+        with listening:
+            while True:
+                await asyncio.sleep(0)  # others are served between two of them
+                try:
+                    taken, name = await asyncio.get_running_loop().sock_accept(listening)
+                    self._take(taken, name)
+                except ConnectionError:  # it was given up meanwhile
+                    continue
+                except Exception as error:  # such as no free descriptor, or no memory
+                    _log.warning("no connection can be taken for a moment: %s", error)
+                    await asyncio.sleep(_PAUSE)
 
     def _take(self, taken: socket.socket, name: tuple[Any, ...]) -> None:
         """Begin with a connection if there is a place for it."""
@@ -174,50 +144,33 @@ class Connections(HTTPServer):
         if not self._has_place(address):
             taken.close()
             return
-        try:
+        with suppress(OSError):
             taken.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER)
-        except OSError:  # it was given up meanwhile
-            taken.close()
-            return
-        connection = Connection(taken, partial(self._forget, address))
-        self._held.setdefault(address, set()).add(connection)
-        self.handle_stream(connection, name)
-
-    def _forget(self, address: str, connection: Connection) -> None:
-        held = self._held[address]
-        held.discard(connection)
-        if not held:
-            del self._held[address]
+        self.handle_stream(Connection(taken, address, self._held), name)
 
     def _has_place(self, address: str) -> bool:
         """Whether an address may have one more connection; another one may have to go for it."""
-        own = 0 if address == _PROXY else len(self._held.get(address, ()))
+        numbers = Counter(each.address for each in self._held if each.address != _PROXY)
+        own = numbers[address]
         if own >= self._most_of_one:
             return self._drop(address, Stage.WAITS)
-        if sum(map(len, self._held.values())) < self._most:
+        if len(self._held) < self._most:
             return True
-        numbers = {each: len(held) for each, held in self._held.items() if each != _PROXY}
-        greedier = [each for each, number in numbers.items() if number > own]
-        by_number = sorted(greedier, key=lambda each: numbers[each], reverse=True)
-        return any(self._drop(each, Stage.IS_SERVED) for each in by_number) or (
+        greedier = [each for each, number in numbers.most_common() if number > own]
+        return any(self._drop(each, Stage.IS_SERVED) for each in greedier) or (
             self._drop(address, Stage.WAITS)
         )
 
     def _drop(self, address: str, last: Stage) -> bool:
         """Close the oldest connection in the first stage that there is; whether one was closed."""
-        may_go = [each for each in self._held.get(address, ()) if each.stage <= last]
+        may_go = [each for each in self._held if each.address == address and each.stage <= last]
         if may_go:
             min(may_go, key=lambda each: (each.stage, each.since)).close()
         return bool(may_go)
 
     def _drop_overdue(self) -> None:
-        for connection in [each for held in self._held.values() for each in held]:
-            if connection.is_overdue(PATIENCE):
-                connection.close()
-
-
-def _stream(server_conn: object) -> Connection:
-    return cast(Connection, cast(HTTP1ServerConnection, server_conn).stream)
+        for connection in [each for each in self._held if each.is_overdue()]:
+            connection.close()
 
 
 def most_connections(processes: int) -> int:
@@ -225,23 +178,16 @@ def most_connections(processes: int) -> int:
 
     The number of files that this process may open is raised where the system lets it.
     """
+    files = 512  # sockets that a loop can wait for on Windows
+    if sys.platform != "win32":
+        import resource
+
+        limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+        unlimited = resource.RLIM_INFINITY
+        files, most = (_MOST_FILES if each == unlimited else each for each in limits)
+        if files < (wanted := min(most, _MOST_FILES)):
+            with suppress(ValueError, OSError):  # the system has a limit of its own
+                resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, limits[1]))
+                files = wanted
     others = _OTHER_FILES + _FILES_OF_PROCESS * processes
-    return max(_FEWEST, min(_MOST, (_most_files() - others) // 2))
-
-
-def _most_files() -> int:
-    """How many files this process may open, after it has asked for more."""
-    if sys.platform == "win32":
-        return 512  # sockets that a loop can wait for
-    import resource
-
-    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
-    now, allowed = (sys.maxsize if each == resource.RLIM_INFINITY else each for each in limits)
-    wanted = min(allowed, _MOST_FILES)
-    if now >= wanted:
-        return now
-    try:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, limits[1]))
-    except (ValueError, OSError):  # the system has a limit of its own
-        return now
-    return wanted
+    return max(_FEWEST, min(_MOST, (files - others) // 2))

@@ -4,23 +4,21 @@ from __future__ import annotations
 
 import mimetypes
 import re
-import secrets
 from contextlib import suppress
-from dataclasses import replace
 from hashlib import sha256
-from pathlib import Path
+from importlib.metadata import distribution
 from typing import BinaryIO
 from urllib.parse import parse_qsl, urlencode
 
 from tornado.iostream import StreamClosedError
 from tornado.web import Application, HTTPError, StaticFileHandler, stream_request_body
 
-from roughline.lab.server.access import cookie_name
+from roughline.lab.server.access import DAYS, cookie_name, is_encrypted
 from roughline.lab.server.connections import Stage
+from roughline.lab.server.files import Files, Upload
 from roughline.lab.server.guarded import Guarded
 from roughline.lab.server.link import MOST_BYTES, Link
-from roughline.lab.server.server import Server
-from roughline.lab.server.session import Session, Upload
+from roughline.lab.server.sessions import Server
 
 _PING = 20  # a page that does not answer within this time is gone [s]
 _MOST_DIGITS = 15  # of the size of a file that is to come
@@ -35,6 +33,7 @@ _RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:;
 
 def application(server: Server) -> Application:
     """The handlers, by address."""
+    bokeh = distribution("bokeh").locate_file("bokeh/server/static/js")
     return Application(
         [
             (r"/", _Page),
@@ -44,12 +43,11 @@ def application(server: Server) -> Application:
             (r"/link", Link),
             (r"/upload", _Uploads),
             (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", _Results),
-            (r"/lab/(.*)", _Parts, {"path": str(server.site.parts)}),
-            (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(_bokeh_folder())}),
+            (r"/lab/([\w.-]+)", _Parts, {"path": str(server.site.parts)}),
+            (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(bokeh)}),
         ],
         default_handler_class=_Nothing,
         server=server,
-        cookie_secret=secrets.token_hex(32),
         websocket_max_message_size=MOST_BYTES,
         websocket_ping_interval=_PING,
         websocket_ping_timeout=_PING,
@@ -58,28 +56,60 @@ def application(server: Server) -> Application:
 
 
 class _Nothing(Guarded):
-    """An address at which there is nothing."""
+    """An address at which there is nothing, as is said to pages that may ask."""
 
     def prepare(self) -> None:
-        """Say so to pages that may ask."""
         super().prepare()
-        if not self._finished:
-            raise HTTPError(404, reason="There is nothing at this address")
+        raise HTTPError(404, reason="There is nothing at this address")
 
 
-class _Page(Guarded):
-    """The page itself."""
+class _Door(Guarded):
+    """Where one comes in, with the password or token."""
 
     open_to_all = True
 
+    def enter(self, given: str, leads_to: str) -> None:
+        """Let in who has given the password or token, and go on; ask again otherwise."""
+        key, tries, host = self.server.key, self.server.tries(self.address), self.request.host
+        may_try = tries.take()
+        # nobody guesses a token, so a stranger's tries need not keep out who has it
+        if (may_try or key.is_token) and key.opens(given):
+            if may_try:  # only wrong ones count
+                tries.give_back()
+            self.set_cookie(
+                cookie_name(host),
+                self.server.logins.begin(host.lower()),
+                expires_days=DAYS,
+                httponly=True,
+                samesite="Strict",
+                secure=is_encrypted(self.request, self.server.settings),
+            )
+            self.redirect(leads_to, status=303)
+        elif not may_try:
+            self.set_status(429)
+            self.ask_for_key("Too many tries: wait a minute.", leads_to)
+        else:
+            self.set_status(403)
+            wanted = "token of the lab that runs now" if key.is_token else "password"
+            self.ask_for_key(f"This is not the {wanted}.", leads_to)
+
+    def ask_for_key(self, complaint: str, leads_to: str) -> None:
+        """Send the page that asks for the password or token."""
+        self.set_header("Referrer-Policy", "same-origin")  # "no-referrer" hides a form's origin
+        self.set_header("Cache-Control", "no-store")
+        self.finish(self.server.site.login_page(self.server.key.is_token, complaint, leads_to))
+
+
+class _Page(_Door):
+    """The page itself, for who is logged in."""
+
     def get(self) -> None:
-        """Send it, to who is logged in."""
         self.set_header("Cache-Control", "no-store")
         token = self.get_query_argument("token", None)
         address = _address_of_page(self.request.query)
-        if not self.is_logged_in and token is not None and self.server.key.is_token:
+        if not self.login and token is not None and self.server.key.is_token:
             self.enter(token, address)
-        elif not self.is_logged_in:
+        elif not self.login:
             self.redirect("/login" if address == "/" else f"/login?{urlencode({'next': address})}")
         elif token is not None:
             self.redirect(address)
@@ -87,41 +117,36 @@ class _Page(Guarded):
             self.finish(self.server.site.page())
 
 
-class _Login(Guarded):
+class _Login(_Door):
     """Where the password or token is asked for."""
 
-    open_to_all = True
-
     def get(self) -> None:
-        """Ask who is not logged in."""
         leads_to = _own_page(self.get_query_argument("next", "/"))
-        if not self.is_logged_in:
+        if not self.login:
             self.ask_for_key("", leads_to)
         else:
             self.redirect(leads_to)
 
     def post(self) -> None:
-        """Check what was given."""
         given = "token" if self.server.key.is_token else "password"
         leads_to = _own_page(self.get_body_argument("next", "/"))
         self.enter(self.get_body_argument(given, "", strip=False), leads_to)
 
 
 class _Logout(Guarded):
-    """Where a browser logs out."""
+    """Where a browser ends its login, and with it all its pages."""
 
     def post(self) -> None:
-        """End its login, and with it all its pages."""
-        self.server.logins.end(self.login_name)
+        self.server.logins.end(self.login)
+        self.server.sweep()
         self.clear_cookie(cookie_name(self.request.host))
         self.redirect("/login", status=303)
 
 
 class _Here(Guarded):
-    """Where a page asks whether its browser is still logged in."""
+    """Where a page asks whether its browser is still logged in; who is not is refused before."""
 
     def get(self) -> None:
-        """Say yes; who is not logged in was refused before."""
         self.set_header("Cache-Control", "no-store")
         self.set_status(204)
 
@@ -130,12 +155,6 @@ class _Parts(Guarded, StaticFileHandler):
     """Scripts and styles, ours and those of Bokeh."""
 
     open_to_all = True
-
-    def parse_url_path(self, url_path: str) -> str:
-        """Refuse a path that the system does not accept as a name."""
-        if "\0" in url_path:
-            raise HTTPError(404, reason="There is nothing at this address")
-        return super().parse_url_path(url_path)
 
     def set_extra_headers(self, path: str) -> None:
         """Let a browser keep Bokeh's, which change with its version only."""
@@ -147,17 +166,16 @@ class _Parts(Guarded, StaticFileHandler):
 class _Uploads(Guarded):
     """A file that a page brings, written to disk as it comes."""
 
-    _session: Session | None = None
-    _key = ""
+    _files: Files
     _upload: Upload | None = None
     _file: BinaryIO | None = None
-    _is_full = False
+    _is_full = False  # said when the file has come, as browsers listen only then
 
     def prepare(self) -> None:
         """Refuse a file that is too large before it comes, or that there is no room for."""
         super().prepare()
         session = self.session_of(self.get_query_argument("session", ""))
-        most = self.server.settings.max_upload
+        name, most = self.get_query_argument("name", "file"), self.server.settings.max_upload
         self.request.connection.set_max_body_size(int(most))  # type: ignore[union-attr]
         if not session.allowance.take():
             raise HTTPError(429, reason="Too many files at once: wait a moment")
@@ -167,31 +185,27 @@ class _Uploads(Guarded):
         if len(length) > _MOST_DIGITS or int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
         self.note(Stage.BRINGS)
-        if not self.server.has_room(int(length)):
-            self._is_full = True  # said when the file has come, as browsers listen only then
-            return
-        name = self.get_query_argument("name", "file")
-        self._session = session
-        self._digest = sha256()
-        try:
-            self._key, self._upload = session.new_upload(name, int(length))
-            self._file = self._upload.path.open("wb")
-        except OSError:
-            self._is_full = True
+        self._files, self._digest = session.files, sha256()
+        self._is_full = not self.server.has_room(int(length))
+        if not self._is_full:
+            try:
+                self._upload = session.files.new(name, int(length))
+                self._file = self._upload.path.open("r+b")
+            except OSError:
+                self._give_up(is_full=True)
 
     def data_received(self, chunk: bytes) -> None:
         """Write what has come, as long as somebody wants it."""
-        if self._session is None or self._file is None or self._is_full:
-            return
-        if self._key not in self._session.uploads:
-            self._file.close()
-            self._session = None
+        if self._upload is None or self._file is None:
             return
         try:
             self._file.write(chunk)
             self._digest.update(chunk)
         except OSError:
-            self._is_full = True
+            self._give_up(is_full=True)
+        else:
+            if self._upload.key not in self._files.uploads:
+                self._give_up()
 
     def post(self) -> None:
         """Tell the page what its file is called here."""
@@ -203,30 +217,30 @@ class _Uploads(Guarded):
             self._is_full = True
         if self._is_full:
             raise HTTPError(507, reason=_NO_ROOM)
-        if self._session is None or self._upload is None:
+        if self._upload is None:
             raise HTTPError(410, reason="The page of this file is closed, or sent too many files")
-        digest = self._digest.hexdigest()[:_DIGEST]
-        if self._key in self._session.uploads:  # it was not forgotten meanwhile
-            self._session.uploads[self._key] = replace(self._upload, digest=digest)
-        self._session = None  # the file is whole, and stays
-        self.finish({"file": self._key, "name": self._upload.name, "digest": digest})
+        upload, self._upload = self._upload, None  # the file is whole, and stays
+        upload.digest = self._digest.hexdigest()[:_DIGEST]
+        self.finish({"file": upload.key, "name": upload.name, "digest": upload.digest})
 
     def on_finish(self) -> None:
         """Delete what came of a file that was refused or could not be written."""
-        self._forget()
+        self._give_up()
 
     def on_connection_close(self) -> None:
         """Delete what came of a file that was broken off."""
         super().on_connection_close()
-        self._forget()
+        self._give_up()
 
-    def _forget(self) -> None:
+    def _give_up(self, *, is_full: bool = False) -> None:
+        """Delete what has come, unless it is whole."""
+        self._is_full = self._is_full or is_full
         if self._file is not None:
             with suppress(OSError):
                 self._file.close()
-        if self._session is not None:
-            self._session.forget_upload(self._key)
-            self._session = None
+        if self._upload is not None:
+            self._files.forget(self._upload.key)
+            self._upload = None
 
 
 class _Results(Guarded):
@@ -234,7 +248,7 @@ class _Results(Guarded):
 
     async def get(self, token: str, name: str) -> None:
         """Send one, piece by piece."""
-        folder = (self.session_of(token).folder / "results").resolve()
+        folder = (self.session_of(token).files.folder / "results").resolve()
         path = (folder / name).resolve()
         if path.parent != folder or not path.is_file():
             raise HTTPError(404, reason="This file no longer exists: make it again")
@@ -246,12 +260,10 @@ class _Results(Guarded):
             self.set_header("Content-Security-Policy", _RESULTS_POLICY)
         if self.get_query_argument("save", ""):
             self.set_header("Content-Disposition", f'attachment; filename="{path.name}"')
-        for piece in StaticFileHandler.get_content(str(path)):
-            self.write(piece)
-            try:
+        with suppress(StreamClosedError):  # the page wants it no more
+            for piece in StaticFileHandler.get_content(str(path)):
+                self.write(piece)
                 await self.flush()
-            except StreamClosedError:  # the page wants it no more
-                return
 
 
 def _address_of_page(query: str) -> str:
@@ -263,13 +275,3 @@ def _address_of_page(query: str) -> str:
 def _own_page(address: str) -> str:
     """An address to go on to if it is the page's own; that of the bare page otherwise."""
     return address if _PAGE.fullmatch(address) else "/"
-
-
-def _bokeh_folder() -> Path:
-    """Folder of the scripts and styles of Bokeh, in its own package."""
-    from importlib.util import find_spec
-
-    found = find_spec("bokeh")  # without loading it, which takes long
-    assert found is not None
-    assert found.origin is not None
-    return Path(found.origin).parent / "server" / "static" / "js"

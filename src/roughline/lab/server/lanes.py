@@ -6,11 +6,9 @@ import asyncio
 import logging
 import time
 from collections import Counter
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import dataclass, field
 from typing import Any
 
 from roughline.lab.server.budget import Limits
@@ -26,7 +24,7 @@ _MOST_TRIES = 5  # of processes that may be gone before they have their task
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Request:
     """One thing that a page asks for."""
 
@@ -43,26 +41,25 @@ class Request:
     progress: Callable[[int, int], None]  # told (steps done, steps in all)
     # when it, or an older one that it replaced, began to wait, on the monotonic clock [s]
     since: float = field(default_factory=time.monotonic)
+    # while it is served: by which process, and whether it is still wanted, and takes long
+    process: Process | None = field(default=None, init=False)
+    is_wanted: bool = field(default=True, init=False)
+    is_long: bool = field(default=False, init=False)
+    tries: int = field(default=0, init=False)
 
     @property
     def key(self) -> tuple[str, str]:
         """What a newer request must share to take its place."""
         return self.session, self.slot
 
-    @property
-    def refines(self) -> bool:
-        """Whether it makes an answer finer that is there already."""
-        return self.arguments.get("refines") is True
+    def is_of(self, session: str, slot: str | None) -> bool:
+        """Whether it is for a part of a page, or for any."""
+        return self.session == session and slot in (None, self.slot)
 
-
-@dataclass(eq=False)
-class _Job:
-    """A request that is being served."""
-
-    request: Request
-    process: Process | None = None
-    is_wanted: bool = True
-    is_long: bool = False
+    def tell(self, done: int, total: int) -> None:
+        """Tell of progress whoever still wants the answer."""
+        if self.is_wanted:
+            self.progress(done, total)
 
 
 class Lane:
@@ -75,178 +72,132 @@ class Lane:
     """
 
     def __init__(self, limits: Limits, *, lasting: bool) -> None:
-        self._limits, self._lasting = limits, lasting
+        self.limits, self._lasting = limits, lasting
         self._waiting: dict[tuple[str, str], Request] = {}
-        self._running: dict[tuple[str, str], _Job] = {}  # those that are wanted
-        self._jobs: set[_Job] = set()
-        self._starting = 0
+        # with those no longer wanted, until their processes are free again or gone
+        self._served: dict[Request, asyncio.Task[None]] = {}
         self._idle: list[Process] = []
-        self._work: set[asyncio.Task[None]] = set()
         self._threads = ThreadPoolExecutor(2 * limits.most + 2, thread_name_prefix="roughline lab")
         self._closed = False
 
     def submit(self, request: Request) -> None:
         """Take a request; it replaces one that waits for the same part of the same page."""
-        asked = sum(key[0] == request.session for key in self._waiting)
-        if request.key not in self._waiting and asked >= _MOST_PARTS:
+        if (older := self._waiting.get(request.key)) is not None:
+            request.since = older.since
+        elif sum(each.session == request.session for each in self._waiting.values()) >= _MOST_PARTS:
             return request.answer(
                 Outcome(error="too many requests of this page wait: let some end, then ask again")
             )
-        older = self._waiting.get(request.key, request)
-        self._waiting[request.key] = replace(request, since=older.since)
+        self._waiting[request.key] = request
         if not self._lasting:
-            self._stop(request.key)
+            self._stop(request.session, request.slot)
         self._start()
 
-    def withdraw(self, session: str, slot: str | None = None) -> list[Process]:
-        """Forget what a page has asked for, or one part of it; returns processes that are stopped.
+    def withdraw(self, session: str, slot: str | None = None) -> list[asyncio.Task[None]]:
+        """Forget what a page has asked for, or one part of it.
 
-        A lasting process finishes its short task, and its answer is ignored.
+        Returns the work that ends when what is stopped is gone. A lasting process finishes its
+        short task, and its answer is ignored.
         """
+        for each in [each for each in self._waiting.values() if each.is_of(session, slot)]:
+            del self._waiting[each.key]
+        return self._stop(session, slot)
 
-        def is_meant(key: tuple[str, str]) -> bool:
-            return key[0] == session and slot in (None, key[1])
-
-        for key in filter(is_meant, list(self._waiting)):
-            del self._waiting[key]
-        stopped = [self._stop(key) for key in filter(is_meant, list(self._running))]
-        return [process for process in stopped if process is not None]
-
-    @property
-    def pids(self) -> list[int]:
-        """Numbers of its processes in the system."""
-        busy = [job.process.pid for job in self._jobs if job.process is not None]
-        return [process.pid for process in self._idle] + busy
-
-    @property
-    def most(self) -> int:
-        """Largest number of its processes that compute at once."""
-        return self._limits.most
+    def _stop(self, session: str, slot: str | None) -> list[asyncio.Task[None]]:
+        """Stop what is done for a page, or for one part of it."""
+        stopped = [each for each in self._served if each.is_wanted and each.is_of(session, slot)]
+        for each in stopped:
+            each.is_wanted = False
+            if not self._lasting and each.process is not None:
+                each.process.stop()
+        return [] if self._lasting else [self._served[each] for each in stopped]
 
     async def prepare(self) -> None:
         """Start processes ahead of the first request."""
-        await self._begin(self._fill())
+        self._fill()
+        begun = (asyncio.wrap_future(each.begun) for each in self._idle)
+        await asyncio.gather(*begun, return_exceptions=True)  # who asks is told of failures
 
     def renew(self) -> None:
         """Give back the memory of processes that have done a task and wait for the next one."""
-        used = [process for process in self._idle if process.tasks]
-        self._idle = [process for process in self._idle if not process.tasks]
-        for process in used:
+        for process in [each for each in self._idle if each.tasks]:
+            self._idle.remove(process)
             self._threads.submit(process.end)
-        self._begin(self._fill())
+        self._fill()
 
     async def close(self) -> None:
         """Stop everything, and wait until it is gone."""
         self._closed = True
         self._waiting.clear()
-        for job in self._jobs:
-            job.is_wanted = False
-            if job.process is not None:
-                job.process.stop()
-        await asyncio.gather(*self._work, return_exceptions=True)
+        for request in self._served:
+            request.is_wanted = False
+            if request.process is not None:
+                request.process.stop()
+        await asyncio.gather(*self._served.values(), return_exceptions=True)
         while self._idle:
             self._idle.pop().end()
         self._threads.shutdown(wait=False)
-
-    def _begin(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
-        """Begin work that has to end before the lane is closed."""
-        task = asyncio.create_task(work)
-        self._work.add(task)
-        task.add_done_callback(self._work.discard)
-        return task
-
-    async def _fill(self) -> None:
-        """Have processes stand by."""
-        while not self._closed and self._wants_spare():
-            try:
-                process = await self._new_process()
-            except OSError:
-                return _log.exception("no process could be started")
-            if not process.is_alive:
-                return _log.error("a process that was started ended at once")
-            await self._put_back(process)
-
-    def _wants_spare(self) -> bool:
-        """Whether a process more should stand by."""
-        least = 0 if self._lasting else 1
-        wanted = max(self._limits.count - len(self._jobs), least)
-        return len(self._idle) + self._starting < wanted
 
     def _start(self) -> None:
         """Serve who is next, as far as there are processes."""
         while (request := self._next()) is not None:
             del self._waiting[request.key]
-            job = _Job(request)
-            self._jobs.add(job)
-            self._running[request.key] = job
-            many = len(self._waiting) >= _CROWD * self._limits.count
+            many = len(self._waiting) >= _CROWD * self.limits.count
             crowded = many or time.monotonic() - request.since > _SOON
-            self._begin(self._do(job, crowded))
+            self._served[request] = asyncio.create_task(self._serve(request, crowded))
 
     def _next(self) -> Request | None:
         """Who is served next; none if nobody waits, or all processes are busy."""
-        short = sum(not job.is_long for job in self._jobs)
-        if self._closed or short >= self._limits.count or len(self._jobs) >= self._limits.most:
+        short = sum(not each.is_long for each in self._served)
+        if self._closed or short >= self.limits.count or len(self._served) >= self.limits.most:
             return None
-        pages = Counter(job.request.session for job in self._jobs)
-        addresses = Counter(job.request.address for job in self._jobs)
+        pages = Counter(each.session for each in self._served)
+        addresses = Counter(each.address for each in self._served)
+        running = {each.key for each in self._served if each.is_wanted}
         free = [
-            request
-            for key, request in self._waiting.items()
-            if key not in self._running and pages[request.session] < self._limits.per_session
+            each
+            for key, each in self._waiting.items()
+            if key not in running and pages[each.session] < self.limits.per_session
         ]
 
         def turn(its: Request) -> tuple[bool, int, int]:
-            return its.refines, addresses[its.address], pages[its.session]
+            refines = its.arguments.get("refines") is True
+            return refines, addresses[its.address], pages[its.session]
 
         return min(free, key=turn, default=None)
 
-    async def _do(self, job: _Job, crowded: bool) -> None:
+    async def _serve(self, request: Request, crowded: bool) -> None:
         """Serve one request, and then the next."""
+        process = request.process = self._spare()
         outcome = LOST
         try:
-            outcome = await self._outcome(job, crowded)
+            await asyncio.wrap_future(process.begun)
+            if request.is_wanted:
+                outcome = await self._outcome(request, process, crowded)
         except Exception:  # such as no process to be had, or an argument that cannot be sent
-            _log.exception("%s failed in the server", job.request.place)
+            _log.exception("%s failed in the server", request.place)
+        request.process, request.tries = None, request.tries + 1
+        try:
+            if request.is_wanted and outcome is NOT_BEGUN and request.tries < _MOST_TRIES:
+                self._waiting.setdefault(request.key, request)
+            elif request.is_wanted:
+                request.is_wanted = False
+                request.answer(outcome)
+            await self._put_back(process, has_read=request.place.reads_files)
         finally:
-            self._jobs.discard(job)
-            if self._running.get(job.request.key) is job:
-                del self._running[job.request.key]
-            if job.is_wanted:
-                job.request.answer(outcome)
+            del self._served[request]
             self._start()
-            if job.process is not None:
-                await self._put_back(job.process, job.request.place)
-        await self._fill()
+            self._fill()
 
-    async def _outcome(self, job: _Job, crowded: bool) -> Outcome:
-        """Have a request done by a process, or by another one if the first had already ended."""
-        outcome = NOT_BEGUN
-        for _ in range(_MOST_TRIES):
-            process = job.process = self._spare() or await self._new_process()
-            if not job.is_wanted:
-                return LOST
-            outcome = await self._outcome_of(process, job, crowded)
-            if outcome is not NOT_BEGUN or not job.is_wanted:
-                break
-            self._threads.submit(process.end)
-        return outcome
-
-    async def _outcome_of(self, process: Process, job: _Job, crowded: bool) -> Outcome:
-        """Have a request done by this process."""
-        loop = asyncio.get_running_loop()
-        request, seconds = job.request, self._limits.seconds
-
-        def tell(done: int, total: int) -> None:
-            if job.is_wanted:
-                request.progress(done, total)
+    async def _outcome(self, request: Request, process: Process, crowded: bool) -> Outcome:
+        """Have a request done by a process."""
+        loop, seconds = asyncio.get_running_loop(), self.limits.seconds
 
         def progress(done: int, total: int) -> None:
-            with suppress(RuntimeError):  # the loop is closed
-                loop.call_soon_threadsafe(tell, done, total)
+            loop.call_soon_threadsafe(request.tell, done, total)
 
         arguments = {**request.arguments, "crowded": crowded}
-        later = loop.call_later(_PATIENCE, self._let_pass, job)
+        later = loop.call_later(_PATIENCE, self._let_pass, request, process)
         asked = loop.run_in_executor(self._threads, process.ask, request.place, arguments, progress)
         try:
             return await asyncio.wait_for(asyncio.shield(asked), seconds)
@@ -260,48 +211,36 @@ class Lane:
         finally:
             later.cancel()
 
-    def _let_pass(self, job: _Job) -> None:
+    def _let_pass(self, request: Request, process: Process) -> None:
         """Let others start beside a task that takes long, and go before it."""
-        job.is_long = True
-        if job.process is not None and not self._lasting:
-            job.process.lower_priority(LOWEST)
+        request.is_long = True
+        if not self._lasting:
+            process.lower_priority(LOWEST)
         self._start()
 
-    def _spare(self) -> Process | None:
-        """A process that stands by."""
+    def _fill(self) -> None:
+        """Have processes stand by."""
+        wanted = max(self.limits.count - len(self._served), 0 if self._lasting else 1)
+        while not self._closed and len(self._idle) < wanted:
+            self._idle.append(self._new_process())
+
+    def _spare(self) -> Process:
+        """A process that stands by, or a new one."""
         while self._idle:
             process = self._idle.pop(0)
             if process.is_alive:
                 return process
             self._threads.submit(process.end)
-        return None
+        return self._new_process()
 
-    async def _new_process(self) -> Process:
-        loop = asyncio.get_running_loop()
-        self._starting += 1
-        try:
-            start = partial(Process, self._limits.memory, gives_way=not self._lasting)
-            return await loop.run_in_executor(self._threads, start)
-        finally:
-            self._starting -= 1
+    def _new_process(self) -> Process:
+        return Process(self._threads, self.limits.memory, gives_way=not self._lasting)
 
-    async def _put_back(self, process: Process, did: Place | None = None) -> None:
+    async def _put_back(self, process: Process, *, has_read: bool) -> None:
         """Keep a process for the next request, or end it; one that has read a file is ended."""
-        has_read = did is not None and did.reads_files
-        is_wanted = self._lasting or len(self._idle) < self._limits.count
+        is_wanted = self._lasting or len(self._idle) < self.limits.count
         is_fit = process.is_alive and process.tasks < _MOST_TASKS and not has_read
         if is_fit and is_wanted and not self._closed:
             self._idle.append(process)
         else:
             await asyncio.get_running_loop().run_in_executor(self._threads, process.end)
-
-    def _stop(self, key: tuple[str, str]) -> Process | None:
-        """Stop what runs for a part of a page, if anything does."""
-        job = self._running.pop(key, None)
-        if job is None:
-            return None
-        job.is_wanted = False
-        if self._lasting or job.process is None:
-            return None
-        job.process.stop()
-        return job.process

@@ -11,6 +11,8 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import wait as wait_for
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from multiprocessing.connection import Connection, wait
@@ -38,37 +40,36 @@ NOT_BEGUN = Outcome(error="no process could begin this: ask again")
 class Process:
     """A process that does one task at a time, with so much memory beside the program. [bytes]
 
-    Processes that do not give way come first when both want a core.
+    It begins in one of some threads. When it has begun it is asked and ended in threads. Processes
+    that do not give way come first when both want a core.
     """
 
-    def __init__(self, memory: float, *, gives_way: bool = False) -> None:
+    def __init__(self, threads: ThreadPoolExecutor, memory: float, *, gives_way: bool) -> None:
         self.tasks = 0  # that it was asked for
-        self._ending, self._reading = threading.Lock(), threading.Lock()
+        self._process: Any = None
+        self.begun = threads.submit(self._begin, memory, gives_way)
+
+    def _begin(self, memory: float, gives_way: bool) -> None:
         self._connection, theirs = _CONTEXT.Pipe()
         with _without_interrupts():
-            self._process = _CONTEXT.Process(
-                target=_serve,
-                args=(theirs, memory, _loaded_first),
-                daemon=True,
-                name="roughline lab",
-            )
-            self._process.start()
+            given = theirs, memory, _loaded_first
+            process = _CONTEXT.Process(target=_serve, args=given, daemon=True)
+            process.start()
         theirs.close()
-        self.pid: int = self._process.pid
+        self._process = process
         if gives_way:
             self.lower_priority(_LOW)
 
     @property
     def is_alive(self) -> bool:
         """Whether it can be asked; one that waits has nothing to say unless it has just died."""
-        if not self._ending.acquire(blocking=False):  # another thread ends it
-            return False
+        if not self.begun.done():
+            return True
         try:
-            return self._process.is_alive() and not self._connection.poll()
-        except (ValueError, OSError):  # it was ended
+            alive = self._process is not None and self._process.is_alive()
+            return alive and not self._connection.poll()
+        except OSError:  # on Windows, where it has died
             return False
-        finally:
-            self._ending.release()
 
     def ask(
         self, place: Place, arguments: Mapping[str, Any], progress: Callable[[int, int], None]
@@ -76,38 +77,35 @@ class Process:
         """Have a task done; waits for it, so it is called from a thread."""
         self.tasks += 1
         outcome = NOT_BEGUN
-        with self._reading:
-            try:
-                self._connection.send((place, arguments))
-                while True:
-                    said = self._connection.recv()
-                    if isinstance(said, Outcome):
-                        return said
-                    if said is None:  # it has the task
-                        outcome = LOST
-                    else:
-                        progress(*said)
-            except (EOFError, OSError):  # it was stopped, or died
-                return outcome
+        try:
+            self._connection.send((place, arguments))
+            while not isinstance(said := self._connection.recv(), Outcome):
+                if said is None:  # it has the task
+                    outcome = LOST
+                else:
+                    progress(*said)
+        except (EOFError, OSError):  # it was stopped, or died
+            return outcome
+        return said
 
     def lower_priority(self, nice: int) -> None:
         """Let other processes of this machine go first."""
         with suppress(AttributeError, OSError):  # not everywhere, and it may have ended
-            os.setpriority(os.PRIO_PROCESS, self.pid, nice)
+            os.setpriority(os.PRIO_PROCESS, self._process.pid, nice)
 
     def stop(self) -> None:
-        """Stop it at once, whatever it is doing."""
-        with suppress(ValueError, AttributeError):  # it was ended, or another thread ends it now
+        """Stop it at once, whatever it is doing, if it has begun."""
+        if self._process is not None:
             self._process.kill()
 
     def end(self) -> None:
         """Stop it, wait until it is gone, and give back what the server keeps for it."""
-        self.stop()
-        with self._ending, suppress(ValueError):  # it was ended
+        wait_for([self.begun])
+        if self._process is not None:
+            self.stop()
             self._process.join()
             self._process.close()  # one that no signal reaches any more ends itself now
-            with self._reading:  # an answer that is on its way is read to its end
-                self._connection.close()
+            self._connection.close()
 
 
 def start_forking(warm: str) -> None:
@@ -166,7 +164,9 @@ def _serve(connection: Connection, memory: float, warm: str | None) -> None:
     threading.Thread(target=_end_with_server, daemon=True).start()
     if warm is not None:
         import_module(warm).up()
-    _limit(memory)
+    from roughline.computing.memory import limit_process  # here because the server needs it not
+
+    limit_process(int(memory))
     with suppress(EOFError, OSError):  # the server is gone
         while True:
             place, arguments = connection.recv()
@@ -184,22 +184,11 @@ def _end_with_server() -> None:
         os._exit(1)
 
 
-def _limit(memory: float) -> None:
-    """Refuse more memory than allowed beside what is loaded, and huge files, where possible."""
-    from roughline.computing.memory import limit_process  # here because the server needs it not
-
-    limit_process(int(memory))
-    if sys.platform == "linux":
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-
-
 def _limit_files(most: float) -> None:
-    """Refuse larger files from now on, where possible."""
+    """Refuse larger files from now on, and leave no image of memory, where possible."""
     if sys.platform == "linux":
         import resource
 
         size = int(min(max(0, most), _LARGEST_FILE))
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, _LARGEST_FILE))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

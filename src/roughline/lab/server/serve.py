@@ -10,6 +10,7 @@ import socket
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from ipaddress import ip_address
+from pathlib import Path
 
 from tornado.netutil import bind_sockets
 
@@ -18,9 +19,9 @@ from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
 from roughline.lab.server.access import is_proxy
 from roughline.lab.server.connections import Connections, most_connections
+from roughline.lab.server.files import folder_of_files
 from roughline.lab.server.handlers import application
-from roughline.lab.server.leftovers import folder_of_files
-from roughline.lab.server.server import Server
+from roughline.lab.server.sessions import Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import Site
 
@@ -42,44 +43,37 @@ def serve(
     opened; `interrupted` says whether Ctrl-C came before the server listens to it.
     """
     logging.getLogger("tornado.general").setLevel(logging.ERROR)  # refusals are told to the page
+
+    async def run(root: Path, sockets: list[socket.socket]) -> None:
+        stopped = asyncio.Event()
+        for name in ("SIGINT", "SIGTERM"):
+            with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
+                asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
+        server = Server(site, settings, root)
+        listening = Connections(
+            application(server),
+            most=most_connections(server.quick.limits.most + server.slow.limits.most),
+            proxies=lambda peer: is_proxy(peer, settings),
+            max_body_size=_MOST_BODY,
+            max_header_size=_MOST_HEADERS,
+        )
+        preparing = asyncio.gather(server.quick.prepare(), server.slow.prepare())
+        try:
+            listening.add_sockets(sockets)
+            site.page()
+            with suppress(TimeoutError):
+                await asyncio.wait_for(asyncio.shield(preparing), _READY)
+            if not interrupted() and not stopped.is_set():
+                ready(_address(server, sockets[0]))
+                await stopped.wait()
+        finally:
+            listening.stop()
+            await server.close()
+            await preparing
+
     with suppress(KeyboardInterrupt), ExitStack() as opened:
         sockets = [opened.enter_context(each) for each in _listening(settings)]
-        server = Server(site, settings, opened.enter_context(folder_of_files()))
-        asyncio.run(_serve(server, sockets, ready, interrupted))
-
-
-async def _serve(
-    server: Server,
-    sockets: list[socket.socket],
-    ready: Callable[[str], None],
-    interrupted: Callable[[], bool],
-) -> None:
-    stopped = asyncio.Event()
-    for name in ("SIGINT", "SIGTERM"):
-        with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
-            asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
-    if interrupted():
-        stopped.set()
-    listening = Connections(
-        application(server),
-        most=most_connections(server.quick.most + server.slow.most),
-        proxies=lambda peer: is_proxy(peer, server.settings),
-        max_body_size=_MOST_BODY,
-        max_header_size=_MOST_HEADERS,
-    )
-    preparing = asyncio.create_task(server.prepare())
-    try:
-        listening.add_sockets(sockets)
-        server.site.page()
-        with suppress(TimeoutError):
-            await asyncio.wait_for(asyncio.shield(preparing), _READY)
-        if not stopped.is_set():
-            ready(_address(server, sockets[0]))
-        await stopped.wait()
-    finally:
-        listening.stop()
-        await server.close()
-        await preparing
+        asyncio.run(run(opened.enter_context(folder_of_files()), sockets))
 
 
 def _listening(settings: ServerSettings) -> list[socket.socket]:

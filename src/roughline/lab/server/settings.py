@@ -7,7 +7,7 @@ import os
 import shlex
 import stat
 from dataclasses import dataclass, field
-from ipaddress import IPv4Address, IPv4Network, IPv6Address, IPv6Network, ip_address, ip_network
+from ipaddress import IPv4Network, IPv6Network, ip_address, ip_network
 from pathlib import Path
 
 from roughline.errors import InputError
@@ -15,7 +15,6 @@ from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
 from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
 
-_LOOPBACK = "127.0.0.1"
 LEAST_POINTS = 64  # fewest points along a side that a limit may leave
 _LONGEST_PASSWORD = 1000  # [bytes]
 
@@ -25,7 +24,7 @@ class ServerSettings:
     """What the server listens to, and what a session may take."""
 
     # address to listen to; another than that of this machine itself needs a password
-    host: str = _LOOPBACK
+    host: str = "127.0.0.1"
     port: int = 5107  # 0 takes a free one
     password: str | None = None  # asked of every browser; None takes a new token instead
     # proxies that other machines come through, which are believed who comes; if there are any,
@@ -51,8 +50,15 @@ class ServerSettings:
                 f"and give it too ({called('password_file')})",
                 "host",
             )
-        if self.proxies:
-            self._check_proxies()
+        here = [ip_address("127.0.0.1"), ip_address("::1")]
+        if self.proxies and not self.password:
+            needed = "through a proxy other machines get in: put a password into a file and give it"
+            needed = f"{needed} too ({called('password_file')})"
+            refuse("behind_proxy", self.names_of_proxies, needed)
+        if self.proxies and self.is_local and not any(a in p for a in here for p in self.proxies):
+            needed = f"proxies on other machines do not reach {self.host}: give an address that"
+            needed = f"{needed} they reach too ({called('host')})"
+            refuse("behind_proxy", self.names_of_proxies, needed)
         if self.password is not None and len(self.password) < 8:
             raise InputError("the password has fewer than 8 characters; take a longer one")
         if not 0 <= self.port < 65536:
@@ -66,21 +72,7 @@ class ServerSettings:
         if self.max_memory < LEAST_MEMORY:
             raise InputError(
                 f"{self.max_memory / 1e6:g} MB of memory is too little: give a "
-                f"{called('max_memory')} of at "
-                f"least {LEAST_MEMORY / 1e6:g} MB"
-            )
-
-    def _check_proxies(self) -> None:
-        """Refuse proxies without a password, and those that cannot reach the server."""
-        if not self.password:
-            needed = "through a proxy other machines get in: put a password into a file and give it"
-            refuse(
-                "behind_proxy", self.names_of_proxies, f"{needed} too ({called('password_file')})"
-            )
-        if self.is_local and not any(_has_this_machine(each) for each in self.proxies):
-            needed = f"proxies on other machines do not reach {self.host}: give an address that"
-            refuse(
-                "behind_proxy", self.names_of_proxies, f"{needed} they reach too ({called('host')})"
+                f"{called('max_memory')} of at least {LEAST_MEMORY / 1e6:g} MB"
             )
 
     @property
@@ -94,10 +86,6 @@ class ServerSettings:
         named = (each[0] if each.num_addresses == 1 else each for each in self.proxies)
         return ",".join(map(str, named))
 
-    def is_proxy(self, address: IPv4Address | IPv6Address) -> bool:
-        """Whether an address is one of the proxies."""
-        return any(address in each for each in self.proxies)
-
     @property
     def is_local(self) -> bool:
         """Whether it listens to this machine only."""
@@ -105,11 +93,6 @@ class ServerSettings:
             return ip_address(self.host).is_loopback
         except ValueError:
             return self.host == "localhost"
-
-
-def _has_this_machine(network: IPv4Network | IPv6Network) -> bool:
-    """Whether an address of this machine alone is in a network."""
-    return any(ip_address(each) in network for each in ("127.0.0.1", "::1"))
 
 
 def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
@@ -127,40 +110,37 @@ def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
 def password_in(file: Path) -> str:
     """Read a password: the first line of a file that only its owner may read."""
     try:
-        first = (_start_of(file).splitlines() or [b""])[0].strip()
-        if len(first) > _LONGEST_PASSWORD:
-            refuse("password_file", str(file), f"at most {_LONGEST_PASSWORD} bytes are a password")
+        wrong, start = _start_of(file)
+        first = (start.splitlines() or [b""])[0].strip()
+        if not wrong and len(first) > _LONGEST_PASSWORD:
+            wrong = f"at most {_LONGEST_PASSWORD} bytes are a password"
         password = first.decode().strip()
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "it is no text"
         needed = f"it cannot be read ({why}): give a file whose first line is the password"
         raise InputError(f"is {shown(str(file))}; {needed}", "password_file") from error
-    if not password:
-        refuse("password_file", str(file), "it has no password in its first line: write one there")
+    if wrong or not password:
+        wrong = wrong or "it has no password in its first line: write one there"
+        refuse("password_file", str(file), wrong)
     return password
 
 
-def _start_of(file: Path) -> bytes:
-    """Read the start of a file of ours; a pipe is not waited for."""
+def _start_of(file: Path) -> tuple[str, bytes]:
+    """What is wrong with a file, and else its start.
+
+    It is no file, which is not waited for, or others may read or change it; Windows does not say
+    who may.
+    """
     modes = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(file, modes)
     try:
-        _check_owner(file, os.fstat(descriptor))
-        return os.read(descriptor, _LONGEST_PASSWORD + 1)
+        found = os.fstat(descriptor)
+        if not stat.S_ISREG(found.st_mode):
+            return "it is no file: give one whose first line is the password", b""
+        if os.name == "posix" and found.st_uid not in (0, os.geteuid()):
+            return "it belongs to somebody else: give a file of your own", b""
+        if os.name == "posix" and found.st_mode & 0o077:
+            return f"others may read or change it: chmod 600 {shlex.quote(str(file))}", b""
+        return "", os.read(descriptor, _LONGEST_PASSWORD + 1)
     finally:
         os.close(descriptor)
-
-
-def _check_owner(file: Path, found: os.stat_result) -> None:
-    """Refuse what is no file, or what others may read or change; Windows does not say who may."""
-    if not stat.S_ISREG(found.st_mode):
-        refuse(
-            "password_file", str(file), "it is no file: give one whose first line is the password"
-        )
-    if os.name != "posix":
-        return
-    if found.st_uid not in (0, os.geteuid()):
-        refuse("password_file", str(file), "it belongs to somebody else: give a file of your own")
-    if found.st_mode & 0o077:
-        needed = f"others may read or change it: chmod 600 {shlex.quote(str(file))}"
-        refuse("password_file", str(file), needed)

@@ -20,6 +20,9 @@ from roughline.errors import RoughlineError
 _NO_ROOM = (
     "the lab has no room for the files of this now: close other pages of it, or come back later"
 )
+_NO_MEMORY = (
+    "this needs more memory than one session may have: take fewer points or a smaller piece"
+)
 _UNKNOWN = (
     "the computation failed for a reason that the lab does not know; the terminal in which the lab "
     "was started shows more. Change a setting and ask again"
@@ -73,30 +76,21 @@ def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -
     try:
         task: _Task = getattr(import_module(place.module), place.function)
         return Outcome(task(arguments, progress))
-    except (RoughlineError, OSError, RuntimeError) as error:
+    except MemoryError:
+        return Outcome(error=_NO_MEMORY)
+    except Exception as error:
         if is_full(error):
             return Outcome(error=_NO_ROOM)
         if isinstance(error, RoughlineError):
             sentence = " ".join(without_paths(str(error), arguments).split())
             return Outcome(error=sentence, at=getattr(error, "at", ""))
+        with suppress(OSError):  # the terminal is a file, and there is no room for more
+            traceback.print_exc(file=sys.stderr)
         if isinstance(error, OSError) and error.errno:
             why = os.strerror(error.errno)
-            return _failure(f"a file of the lab could not be read or written ({why}): ask again")
-        return _failure()
-    except MemoryError:
-        return Outcome(
-            error="this needs more memory than one session may have: take fewer points or a "
-            "smaller piece"
-        )
-    except Exception:
-        return _failure()
-
-
-def _failure(sentence: str = _UNKNOWN) -> Outcome:
-    """The outcome of a task that failed as nobody expected; the terminal shows why."""
-    with suppress(OSError):  # the terminal is a file, and there is no room for more
-        traceback.print_exc(file=sys.stderr)
-    return Outcome(error=sentence)
+            sentence = f"a file of the lab could not be read or written ({why}): ask again"
+            return Outcome(error=sentence)
+        return Outcome(error=_UNKNOWN)
 
 
 def without_paths(text: str, arguments: Mapping[str, Any]) -> str:

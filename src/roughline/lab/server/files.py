@@ -1,0 +1,149 @@
+"""Files on the disk of the server: those of a page, the room for all, and what servers leave."""
+
+from __future__ import annotations
+
+import os
+import re
+import secrets
+import shutil
+import stat
+import tempfile
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+_PREFIX = "roughline-lab-"
+_ROOT = re.compile(_PREFIX + r"(?P<pid>\d+)-\w+")
+_MOST_FILES = 20  # of one page at once
+_MOST_UPLOADS = 3  # largest files that a page's files may make together
+_NAME = re.compile(r"[^\w.()+ -]")
+_SUFFIX = re.compile(r"\.[A-Za-z0-9]{1,8}")
+_MOST_DISK = 20_000_000_000  # [bytes]
+_LOOKS = 1.0  # after which files are counted again [s]
+
+
+@dataclass
+class Upload:
+    """A file that a page has brought."""
+
+    key: str  # by which the page knows it
+    path: Path  # where it lies, under a random name
+    name: str  # name that its owner gave it
+    size: int  # as the page stated it in advance [bytes]
+    digest: str = ""  # of its content; empty until it is whole
+
+
+class Files:
+    """What a page has brought, by keys, in a folder of its own that is there from the first on."""
+
+    def __init__(self, folder: Path, largest: float) -> None:
+        self.folder, self._largest = folder, largest
+        self.uploads: dict[str, Upload] = {}
+
+    def new(self, name: str, size: int) -> Upload:
+        """Make place for a file that is about to come, of a size that counts from now on.
+
+        The oldest go if they are too many or too large.
+        """
+        shown = _NAME.sub("_", name)[-100:] or "file"
+        suffix = _SUFFIX.fullmatch(Path(shown).suffix)
+        self.folder.mkdir(mode=0o700, exist_ok=True)
+        while self.uploads and (
+            len(self.uploads) >= _MOST_FILES
+            or sum(each.size for each in self.uploads.values()) + size
+            > _MOST_UPLOADS * self._largest
+        ):
+            self.forget(next(iter(self.uploads)))
+        path = self.folder / (secrets.token_hex(8) + (suffix[0].lower() if suffix else ""))
+        upload = Upload(secrets.token_urlsafe(12), path, shown, size)
+        self.uploads[upload.key] = upload
+        path.touch()
+        os.truncate(path, size)
+        return upload
+
+    def forget(self, key: str) -> None:
+        """Delete a file."""
+        upload = self.uploads.pop(key, None)
+        if upload is not None:
+            with suppress(PermissionError):  # of Windows, while it is read; its folder goes later
+                upload.path.unlink(missing_ok=True)
+
+    def take_away(self) -> Path:
+        """Have no files any more; returns the folder of those that were, which may be deleted."""
+        self.uploads.clear()
+        gone = self.folder.with_name(f"{self.folder.name}-{secrets.token_hex(4)}")
+        try:
+            with suppress(FileNotFoundError):
+                self.folder.rename(gone)
+        except PermissionError:  # of Windows, while one of the files is read
+            return self.folder
+        return gone
+
+
+class Disk:
+    """The room for the files of all pages, which are in folders in the folder `root`.
+
+    They may have `most` bytes together; None takes half of what is free.
+    """
+
+    def __init__(self, root: Path, most: float | None) -> None:
+        self._root = root
+        self.most = min(_MOST_DISK, shutil.disk_usage(root).free / 2) if most is None else most
+        self.look()
+
+    def look(self) -> None:
+        """Find how large the folders are, and how much of files that come is still to be stored."""
+        self._looked, self._to_come = time.monotonic(), 0
+        self._sizes: dict[Path, int] = {}
+        for folder in self._root.iterdir():
+            found = list(_files_in(folder))
+            self._sizes[folder] = sum(each.st_size for each in found)
+            stored = (512 * getattr(each, "st_blocks", each.st_size) for each in found)
+            self._to_come += max(0, self._sizes[folder] - sum(stored))
+
+    def room(self, kept: Iterable[Path]) -> float:
+        """Size that further files may have; folders that are not kept are being deleted. [bytes]"""
+        if time.monotonic() - self._looked >= _LOOKS:
+            self.look()
+        size = sum(self._sizes.get(folder, 0) for folder in kept)
+        to_go = sum(self._sizes.values()) - size
+        return min(self.most - size, shutil.disk_usage(self._root).free - self._to_come + to_go)
+
+
+def _files_in(folder: Path) -> Iterator[os.stat_result]:
+    """What the system knows of all files in a folder, at any depth."""
+    for inner, _, names in os.walk(folder):
+        for name in names:
+            with suppress(OSError):  # it was deleted meanwhile
+                yield Path(inner, name).lstat()
+
+
+@contextmanager
+def folder_of_files(parent: Path | None = None) -> Iterator[Path]:
+    """Give a folder that only its owner may enter, and delete it with all that is in it.
+
+    It lies among the system's temporary files, or in `parent`; so do the folders of servers that no
+    longer run, which are deleted now.
+    """
+    import psutil  # here because it is wanted once
+
+    parent = parent or Path(tempfile.gettempdir())
+    for folder in parent.glob(f"{_PREFIX}*"):
+        named = _ROOT.fullmatch(folder.name)
+        with suppress(OSError):
+            if named and _is_own_folder(folder) and not psutil.pid_exists(int(named["pid"])):
+                shutil.rmtree(folder, ignore_errors=True)
+    root = Path(tempfile.mkdtemp(prefix=f"{_PREFIX}{os.getpid()}-", dir=parent))
+    try:
+        yield root
+    finally:
+        shutil.rmtree(root, ignore_errors=True)
+
+
+def _is_own_folder(path: Path) -> bool:
+    """Whether it is a folder, not a link to one, of the user who runs this."""
+    found = path.lstat()
+    is_own = not hasattr(os, "getuid") or found.st_uid == os.getuid()
+    return stat.S_ISDIR(found.st_mode) and is_own
