@@ -22,8 +22,8 @@ def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) ->
         fields.gap / height,
         fields.displacement / height,
     )
-    return {
-        "area": area_map(state, fields),
+    maps = {
+        "area": Map(fields.contact.astype(np.uint8), "marks", 0, 2, marks=("ink",)),
         "pressure": _scaled(
             pressure, "Viridis256", "pressure over E*; blank where nothing touches", _PRESSED
         ),
@@ -32,17 +32,9 @@ def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) ->
             displacement, "Cividis256", "deflection of the half-space in rms heights"
         ),
     }
-
-
-def area_map(state: ExploreState, fields: rl.Fields) -> Map:
-    """Where bodies touch, and where they yield or pull each other."""
-    if state.w is not None:
-        return Map(
-            *(fields.contact + 2 * fields.pulling.astype(np.uint8), "pull", 0, 2),
-            marks=("ink", "pull"),
-        )
-    marks = ("ink",) if state.hardness_bar is None else ("ink", "plastic")
-    return Map(fields.contact.astype(np.uint8) + fields.plastic, "marks", 0, 2, marks=marks)
+    for each in state.added:
+        maps |= each.maps_of(fields, state)
+    return maps
 
 
 def _scaled(values: NDArray[Any], palette: str, caption: str, low: float = 0.0) -> Map:
