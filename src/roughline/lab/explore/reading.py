@@ -18,8 +18,8 @@ from roughline.lab.controls import (
     texts_of,
     usable,
 )
+from roughline.lab.explore import physics
 from roughline.lab.explore.controls import CHOICES, NUMBERS, Quantity
-from roughline.lab.explore.physics import PHYSICS, numbers, shown_choice
 from roughline.lab.explore.state import OF_THE_SURFACE, ExploreState
 from roughline.lab.server.tasks import Arguments
 from roughline.units import engineering, in_si, load_in_newtons
@@ -50,7 +50,7 @@ def state_of(said: Texts, most_points: int) -> ExploreState:
         If the version is another, or a text cannot be used; it says at which control.
     """
     known = {each.name for each in fields(ExploreState)} - {"added"}
-    refuse_strange(said, {*known, *(each.key for each in PHYSICS), *numbers(), "H"})
+    refuse_strange(said, {*known, *(each.key for each in physics.PHYSICS), *physics.numbers(), "H"})
     state = ExploreState(
         D_f=_dimension(said.get("D_f"), said.get("H")),
         rms=CHOICES["rms"].read_in(said),
@@ -58,7 +58,7 @@ def state_of(said: Texts, most_points: int) -> ExploreState:
         seed=int(NUMBERS["seed"].read_in(said)),
         n=_points(said.get("n"), most_points),
         boundary=CHOICES["boundary"].read_in(said),
-        shown=shown_choice().read_in(said),
+        shown=physics.shown_choice().read_in(said),
         L=_quantity(said.get("L", ExploreState.L), "m", "L", "side of the surface", _SIDES),
         E=_quantity(said.get("E", ExploreState.E), "Pa", "E", "contact modulus", _MODULI),
         theories=_theories(said.get("theories", "")),
@@ -70,7 +70,7 @@ def state_of(said: Texts, most_points: int) -> ExploreState:
     }
     state = replace(state, **lengths)
     _refuse_waves(state)
-    added = (each for kind in PHYSICS if (each := kind.read(said, state)))
+    added = (each for kind in physics.PHYSICS if (each := kind.read(said, state)))
     state = replace(state, added=tuple(added))
     state = replace(state, F=_force_bar(said.get("F", str(ExploreState.F)), state))
     _refuse_together(state)

@@ -50,6 +50,7 @@ class Explore {
   async open(said) {
     this.#take(said);
     this.#stale = new Set(this.#finer);
+    this.#dim(["contact", ...this.#stale]);
     this.#askNow();
     this.#plots = await embedded(() => exploreFigures(this.#panels));
     for (const {key, cursor} of this.#cursors) {
@@ -110,6 +111,7 @@ class Explore {
       if (maps.includes(shown) && !this.#isAdded(key)) this.#controls.put("shown", "area");
       this.#showPhysics(key);
     }
+    this.#stale = new Set([...this.#stale].filter((each) => this.#finer.includes(each)));
     for (const each of this.#finer) if (key !== "F" || this.#physics[each]?.follows === "load") this.#stale.add(each);
     for (const each of this.#stale) this.#leave(each);
     this.#dim(["contact", ...this.#stale]);
@@ -165,6 +167,7 @@ class Explore {
       this.#drawContact(header, args, turn);
       if (header.is_coarse) return; // many ask at once
       for (const each of this.#stale) {
+        if (each !== "curve" && !header.state[each]) { this.#dim([each], false); continue; } // it is refused
         const task = each === "curve" ? "curve" : "further";
         ask(task, each, {...args, of: each}, (found) => this.#drawCurves(each, found), (message) => this.#tellProgress(each, message));
       }
@@ -214,7 +217,9 @@ class Explore {
     if (!this.#plots) return;
     for (const [key, {series}] of Object.entries(before.panels ?? {})) {
       for (const name of Object.keys(series)) if (!header.panels?.[key]?.series[name]) this.#mark(key, name, {x: [], y: []});
-      if (before.panels[key].rows && !header.panels?.[key]?.rows) this.#fillRows(key);
+      if (header.panels?.[key]) continue;
+      this.#fillRows(key);
+      this.#remark(key, "");
     }
     for (const [key, filled] of Object.entries(header.panels ?? {})) this.#fill(what, key, filled, header.numbers);
     const said = (header.strip ?? []).map(({key}) => key);
@@ -227,7 +232,7 @@ class Explore {
     for (const [name, value] of Object.entries(legends)) this.#plots.model(`${key} ${name} label`).label = {value};
     if (y) this.#placeZeros(key);
     if (caption) this.#captionOf(key).textContent = caption;
-    if (remarks !== undefined) this.#find(`[data-remarks="${key}"]`).replaceChildren(...withSubscripts(remarks));
+    if (remarks !== undefined) this.#remark(key, remarks);
     if (!rows) return;
     this.#fillRows(key);
     this.#plots.shows(`explore-${key}`, {what, numbers});
@@ -235,6 +240,8 @@ class Explore {
     if (task === what) classList.remove("dimmed");
     if (task === what || what === "line") classList.remove("empty");
   }
+
+  #remark(key, text) { this.#find(`[data-remarks="${key}"]`).replaceChildren(...withSubscripts(text)); }
 
   // The table of a panel has the rows of all answers; those of the lines stand below.
   #fillRows(key) {
@@ -308,7 +315,9 @@ class Explore {
   }
 
   // Dim panels whose tasks have no answer to what is asked now.
-  #dim(tasks) { for (const task of tasks) for (const panel of this.#root.querySelectorAll(`[data-task="${task}"]`)) panel.classList.add("dimmed"); }
+  #dim(tasks, isDimmed = true) {
+    for (const task of tasks) for (const panel of this.#root.querySelectorAll(`[data-task="${task}"]`)) panel.classList.toggle("dimmed", isDimmed);
+  }
 
   #tellProgress(task, {done, total}) {
     for (const place of this.#root.querySelectorAll(`[data-task="${task}"] [data-progress]`)) place.textContent = `, ${done} of ${total}`;
