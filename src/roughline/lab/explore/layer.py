@@ -31,7 +31,7 @@ class Layer(Physics):
     )
     controls = (
         Quantity(
-            *("t", "t/L", "thickness of the layer", 1e-3, 1.0, 0.05),
+            *("t", "t/L", "thickness of the layer", 2e-3, 1.0, 0.05),
             "Thickness of the layer. Relative to the side of the surface, or with a unit: 2 um. "
             "It has to be half a cell of the grid at least.",
             unit="m",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -58,11 +58,6 @@ class Panel:
         new = {each.name: each for each in others if each.name not in known}
         return replace(self, series=(*self.series, *new.values()))
 
-    @property
-    def declared(self) -> dict[str, Any]:
-        """All of it, as the page reads it."""
-        return asdict(self)
-
 
 @dataclass
 class Filled:
@@ -75,10 +70,6 @@ class Filled:
     x: tuple[float, float] | None = None  # ranges of the axes
     y: tuple[float, float] | None = None
     legends: dict[str, str] = field(default_factory=dict)  # other names of series
-
-    def told(self) -> dict[str, Any]:
-        """What the page is told, without what is not said."""
-        return {name: value for name, value in vars(self).items() if value is not None}
 
 
 def marks(name: str, legend: str, colour: str, **look: Any) -> Series:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
 from roughline.lab.controls import Choice, Control
@@ -71,5 +72,5 @@ def declared() -> dict[str, Any]:
     return {
         "strip": order,
         "physics": kinds,
-        "panels": [panel.declared for panel in panels().values()],
+        "panels": [asdict(panel) for panel in panels().values()],
     }

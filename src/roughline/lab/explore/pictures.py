@@ -167,7 +167,7 @@ def _message(
 ) -> bytes:
     """An answer, with what the page is told of its controls: what counts, and what does not."""
     arrays = {**(arrays or {}), **{name: each.values for name, each in (maps or {}).items()}}
-    panels = {name: each.told() for name, each in told.get("panels", {}).items()}
+    panels = {name: vars(each) for name, each in told.get("panels", {}).items()}
     looks = {name: each.look for name, each in (maps or {}).items()}
     return frame(
         {**_settled(state, refused), **told, "panels": panels, "maps": looks},

@@ -232,7 +232,7 @@ class Explore {
     for (const [name, value] of Object.entries(legends)) this.#plots.model(`${key} ${name} label`).label = {value};
     if (y) this.#placeZeros(key);
     if (caption) this.#captionOf(key).textContent = caption;
-    if (remarks !== undefined) this.#remark(key, remarks);
+    if (remarks !== null) this.#remark(key, remarks);
     if (!rows) return;
     this.#fillRows(key);
     this.#plots.shows(`explore-${key}`, {what, numbers});
