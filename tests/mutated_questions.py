@@ -18,9 +18,10 @@ STATES = {
 SLOW = ("measured.report", "explore.download", "published.claims")
 """Tasks that take seconds."""
 
-_OTHERS = ("which", "name", "model", "row", "map", "presses", "sides", "refines")
+_OTHERS = ("of", "which", "name", "model", "row", "map", "presses", "sides", "refines")
 _UNUSED = (
     *("hardness_bar", "H", "theories", "rms", "h", "slope", "E", "roll_off", "cutoff", "view", "v"),
+    *("t", "E_l", "nu_l", "nu_b", "w", "h0", "fluid", "shown"),
     *("crop", "low_pass", "resample", "hardness", "joint_area", "friction", "frequency", "bodies"),
     *("trend", "outliers", "fill", "most_missing", "channel", "example", "elastic"),
 )

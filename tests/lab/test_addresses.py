@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
-from roughline.lab.explore.state import state_of as explore_state
+from roughline.lab.explore import physics
+from roughline.lab.explore.reading import state_of as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, question_of, said_of
 from roughline.lab.published import controls as published
@@ -17,9 +18,9 @@ from roughline.lab.published.state import state_of as published_state
 from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
-NUMBERS = [each for key, each in explore.NUMBERS.items() if key != "seed"]
+NUMBERS = [each for key, each in physics.numbers().items() if key != "seed"]
 DIMENSIONS = [f"{each:g}" for each in published.DIMENSIONS]
-WORDS = (explore.CHOICES["rms"], explore.CHOICES["boundary"], explore.CHOICES["shown"])
+WORDS = (explore.CHOICES["rms"], explore.CHOICES["boundary"], physics.shown_choice())
 
 
 def texts(control):
@@ -61,6 +62,7 @@ WITH_UNITS = some(
         "cutoff": quantities("m", 1e-7, 1e-1),
         "F": quantities("N", 1e-3, 1e3) | quantities("Pa", 1e3, 1e9),
         "hardness_bar": quantities("Pa", 1e6, 1e11),
+        **{"t": quantities("m", 1e-6, 1e-2), "E_l": quantities("Pa", 1e8, 1e13)},
     }
 )
 

@@ -6,6 +6,7 @@ import pytest
 
 from lab.explore_driven import address, drawn, sentence, settled, typed
 from roughline.lab.explore import controls as explore
+from roughline.lab.explore import physics
 from roughline.lab.published import controls as published
 
 OPENED = "?view=explore&v=1&D_f=2.4&seed=3&n=128"
@@ -48,8 +49,7 @@ def complaints(page, view="explore"):
 
 
 def test_every_text_that_a_slider_writes_is_read(page_of_explore):
-    for view, controls in {"explore": explore, "published": published}.items():
-        known = controls.NUMBERS
+    for view, known in {"explore": physics.numbers(), "published": published.NUMBERS}.items():
         for key, texts in page_of_explore.evaluate(SAID_AT_EVERY_STEP, f"#{view}").items():
             control = known[key]
             numbers = [control.read(text) for text in texts]
@@ -78,10 +78,12 @@ def test_every_slider_of_explore_reaches_both_ends_and_its_default(page_of_explo
     page = page_of_explore
     page.check(f'#explore [data-key="rms"][value="{rms}"]')
     controls = (
-        SLIDERS if rms == "height" else (explore.NUMBERS["slope"], explore.NUMBERS["hardness_bar"])
+        SLIDERS
+        if rms == "height"
+        else (explore.NUMBERS["slope"], physics.numbers()["hardness_bar"])
     )
     if rms == "slope":
-        page.check("#explore-yields")
+        page.check("#explore-adds-hardness_bar")
     for control in controls:
         slider, key = page.locator(f"#explore-{control.key}"), control.key
         low = 2 / 128 if key == "cutoff" else control.low  # the grid carries no shorter waves

@@ -1,6 +1,8 @@
 """Explore: its addresses, and its numbers, which are those of the library."""
 
+import json
 import math
+import re
 import shlex
 import subprocess
 import sys
@@ -15,9 +17,10 @@ from lab.unpacked import unpacked
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
-from roughline.lab.explore.state import ExploreState, state_of
+from roughline.lab.explore.panels import BACK
+from roughline.lab.explore.reading import state_of
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
-from roughline.report.values import value_and_interval, with_interval
 from roughline.units import supported_digits
 
 SMALL = {"n": "64", "D_f": "2.4", "seed": "3", "F": "0.2", "cutoff": "0.0625"}
@@ -31,6 +34,19 @@ def arguments(state, folder=None, **others):
 
 def answer(task, state, **others):
     return unpacked(task(arguments(state, **others), lambda done, total: None))
+
+
+def loads(header, panel, *names):
+    """Return forces and values of a panel, of some series, by rising force."""
+    found = [header["panels"][panel]["series"][name] for name in names or ("curve", "unsure")]
+    columns = [np.concatenate([each[axis] for each in found]) for axis in ("x", "y")]
+    order = np.argsort(columns[0])
+    return columns[0][order], columns[1][order]
+
+
+def numbers_in(text):
+    """Return the numbers of a text."""
+    return [float(each) for each in re.findall(r"-?\d+\.?\d*", text)]
 
 
 @pytest.fixture(scope="module")
@@ -65,8 +81,8 @@ def test_a_message_is_read_as_it_was_written():
 def test_the_contact_is_that_of_the_library(curve):
     header, arrays = answer(pictures.full, SMALL)
     fields = curve.fields[0]
-    assert header["curve"]["stiffness_bar"] == curve.stiffness_bar.tolist()
-    assert header["curve"]["area"] == curve.area_fraction_corrected.tolist()
+    assert loads(header, "stiffness", "here")[1] == pytest.approx(curve.stiffness_bar, rel=1e-12)
+    assert loads(header, "area", "here")[1].tolist() == curve.area_fraction_corrected.tolist()
     np.testing.assert_array_equal(arrays["area"], fields.contact.T)
     np.testing.assert_array_equal(arrays["pressure"], (fields.pressure / E_STAR).astype("f4").T)
     for name in ("gap", "displacement"):
@@ -79,15 +95,18 @@ def test_the_answer_strip_says_what_the_library_says(curve, surface):
     said = {item["key"]: item for item in header["strip"]}
     k, error = curve.stiffness[0], curve.stiffness_error[0]
     ends = k / (1 + error / k), k + error
-    assert said["stiffness_3d"]["value"] == (
-        f"{curve.stiffness_bar[0]:.{supported_digits(k, ends, 3)}g}"
-    )
-    assert said["stiffness_3d"]["below"] == with_interval(k, ends, "N/m")
+    k_bar = f"{curve.stiffness_bar[0]:.{supported_digits(k, ends, 3)}g}"
+    assert said["stiffness_3d"]["value"] == k_bar
+    assert numbers_in(said["stiffness_3d"]["below"])[1:] == [
+        float(f"{end / 1e6:.3g}") for end in ends
+    ]
+    assert said["stiffness_3d"]["below"].count("MN/m") == 2
     area = 100 * curve.area_fraction_corrected[0]
     assert float(said["area"]["value"].rstrip("%")) == pytest.approx(area, rel=0.05)
     in_contact = curve.force[0] / (curve.area_fraction[0] * surface.area) / E_STAR
     assert said["pressure"]["value"] == f"{in_contact:.3g} E*"
-    assert said["depth"]["value"] == f"{curve.depth[0] / HEIGHT:.3g} h"
+    assert said["depth"]["value"] == f"{curve.depth[0] / HEIGHT:#.3g} h"
+    assert said["roughness"]["value"] == "1.00 µm"
     assert said["roughness"]["below"] == f"slope {surface.rms_slope:.3g}"
 
 
@@ -110,13 +129,13 @@ def test_the_line_is_the_mean_of_lines_with_the_same_waves():
 
 def test_the_curve_is_that_of_the_library(surface):
     header, _ = answer(pictures.curve, {**SMALL, "theories": "persson"})
-    forces = np.array(header["curve"]["force_bar"])
+    forces, stiffness = loads(header, "stiffness")
     pressed = rl.press(surface, E_star=E_STAR, forces=forces * (E_STAR * HEIGHT * LENGTH))
-    np.testing.assert_allclose(header["curve"]["stiffness_bar"], pressed.stiffness_bar, rtol=1e-9)
-    persson = header["theories"][0]
-    pressures = np.array(persson["force_bar"]) * E_STAR * HEIGHT * LENGTH / surface.area
+    np.testing.assert_allclose(stiffness, pressed.stiffness_bar, rtol=1e-9)
+    given, areas = loads(header, "area", "theory persson")
+    pressures = given * E_STAR * HEIGHT * LENGTH / surface.area
     wanted = rl.theory("persson", surface, E_STAR, pressures)
-    np.testing.assert_allclose(persson["area"], wanted.area_fraction, rtol=1e-12)
+    np.testing.assert_allclose(areas, wanted.area_fraction, rtol=1e-12)
 
 
 def test_a_coarse_answer_has_the_waves_of_its_grid():
@@ -135,13 +154,13 @@ def test_periodic_contacts_are_those_of_the_library(surface):
     header, _ = answer(pictures.full, {**SMALL, "boundary": "periodic"})
     force = 0.2 * E_STAR * HEIGHT * LENGTH
     pressed = rl.press(surface, E_star=E_STAR, forces=[force], periodic=True)
-    assert header["curve"]["stiffness_bar"] == pytest.approx(pressed.stiffness_bar.tolist())
+    assert loads(header, "stiffness", "here")[1] == pytest.approx(pressed.stiffness_bar)
 
 
 def test_an_rms_slope_is_that_of_the_surface():
     header, _ = answer(pictures.full, {**SMALL, "rms": "slope", "slope": "0.05"})
     said = {item["key"]: item["below"] for item in header["strip"]}
-    assert said["roughness"] == "slope 0.05"
+    assert said["roughness"] == "slope 0.0500"
 
 
 @pytest.mark.parametrize(
@@ -162,7 +181,9 @@ def test_an_rms_slope_is_that_of_the_surface():
     ],
 )
 def test_numbers_may_have_units(said, name, value):
-    assert getattr(state_of(said, 1024), name) == pytest.approx(value)
+    state = state_of(said, 1024)
+    found = {key: value for each in state.added for key, value in each.numbers.items()}
+    assert (found | vars(state)).get(name) == pytest.approx(value)
 
 
 def test_an_address_gives_its_state_again():
@@ -237,14 +258,27 @@ def test_as_python_gives_the_same_numbers(curve):
 def test_as_command_gives_the_same_numbers(curve, tmp_path):
     header, _ = answer(code.code, SMALL, which="command")
     for line in header["text"].splitlines():
-        command = f"{sys.executable} -m {line}"
+        command = f"{sys.executable} -m {line}" + " --json" * ("press" in line)
         done = subprocess.run(
             command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=True
         )
-    page = {item["key"]: item for item in answer(pictures.full, SMALL)[0]["strip"]}
-    for key in ("stiffness_3d", "area"):
-        for part in value_and_interval(page[key]["below"]):
-            assert part.strip("()") in done.stdout
+    intervals_are_those_of(SMALL, json.loads(done.stdout), "stiffness", "area_fraction")
+
+
+SHOWN = {
+    "stiffness": ("stiffness_3d", 1e-6),
+    "unloading_stiffness": ("unloading", 1e-6),
+    "area_fraction": ("area", 100),
+}
+
+
+def intervals_are_those_of(state, report, *names):
+    """Check that the strip has the intervals of a report."""
+    page = {item["key"]: item for item in answer(pictures.full, state)[0]["strip"]}
+    for name in names:
+        key, scale = SHOWN[name]
+        ends = [float(f"{end[0] * scale:.3g}") for end in report[f"{name}_interval"]]
+        assert numbers_in(page[key]["below"])[-2:] == ends
 
 
 @pytest.mark.parametrize("name", downloads.FILES)
@@ -291,8 +325,8 @@ def test_plastic_spots_are_those_of_the_library(yielding):
     assert 0 < fields.plastic.sum() < fields.contact.sum()
     np.testing.assert_array_equal(arrays["area"], (fields.contact.astype(int) + fields.plastic).T)
     said = {item["key"]: item for item in header["strip"]}
-    assert said["plastic"]["value"] == f"{100 * yielding.plastic_fraction[0]:.3g}%"
-    assert said["indentation"]["value"] == f"{yielding.indentation[0] / HEIGHT:.3g} h"
+    assert said["plastic"]["value"] == f"{100 * yielding.plastic_fraction[0]:#.3g}%"
+    assert said["indentation"]["value"] == f"{yielding.indentation[0] / HEIGHT:#.3g} h"
     k_u = yielding.unloading_stiffness[0] / 1e6
     assert float(said["unloading"]["below"].split(" MN/m")[0]) == pytest.approx(k_u, rel=0.05)
     elastic = {item["key"] for item in answer(pictures.full, SMALL)[0]["strip"]}
@@ -300,20 +334,22 @@ def test_plastic_spots_are_those_of_the_library(yielding):
 
 
 def test_the_way_back_is_that_of_the_library(yielding):
-    header, _ = answer(pictures.unloading, YIELDING)
+    header, _ = answer(pictures.further, YIELDING, of="hardness_bar")
     ratio = yielding.unloading_stiffness / yielding.stiffness[0]
-    found = np.array(header["curve"]["unloading_bar"])
-    np.testing.assert_allclose(found, ratio * header["curve"]["stiffness_bar"][0], rtol=1e-9)
-    assert header["stiffness_table"][-1] == ["0", "0", "3D, way back"]
+    _, found = loads(header, "stiffness", "back")
+    first = loads(answer(pictures.full, YIELDING)[0], "stiffness", "here")[1][0]
+    np.testing.assert_allclose(found[::-1], (ratio * first)[:-1], rtol=1e-6)
+    assert header["panels"]["stiffness"]["rows"][-1] == ["0", "0", BACK.legend]
     curve, _ = answer(pictures.curve, YIELDING)
-    assert {row[2] for row in curve["stiffness_table"]} == {"3D", "3D, k_u"}
+    assert {row[2] for row in curve["panels"]["stiffness"]["rows"]} == {"3D", "3D, on unloading"}
 
 
 def test_loads_of_the_curve_are_borne():
     soft = {**SMALL, "hardness_bar": "0.02", "F": "0.01"}
     header, _ = answer(pictures.curve, soft)
-    assert all(header["curve"]["converged"])
-    assert len(header["curve"]["force_bar"]) < 13
+    rows = [row for row in header["panels"]["area"]["rows"] if row[2] == "3D"]
+    assert all(numbers_in(row[1]) for row in rows)
+    assert len(rows) < 13
 
 
 def test_code_with_a_hardness_gives_the_same_numbers(
@@ -324,15 +360,14 @@ def test_code_with_a_hardness_gives_the_same_numbers(
     numbers = [float(line.split()[1]) for line in capsys.readouterr().out.splitlines()[3:5]]
     wanted = [yielding.unloading_stiffness[0], yielding.plastic_fraction[0]]
     np.testing.assert_allclose(numbers, wanted, rtol=1e-9)
-    for line in answer(code.code, YIELDING, which="command")[0]["text"].splitlines():
+    generate, press = answer(code.code, YIELDING, which="command")[0]["text"].splitlines()
+    for line in (generate, press, f"{press} --json"):
         exit_code, out, errors = invoke(*shlex.split(line)[1:])
         assert exit_code == 0, errors
-    assert "unloaded to 75%" in out
+        assert "unloaded to 75%" in out or line != press
     # values and intervals of the page, where loads that follow have no part in the interval
-    page = {item["key"]: item for item in answer(pictures.full, YIELDING)[0]["strip"]}
-    for key in ("stiffness_3d", "unloading", "area"):
-        for part in value_and_interval(page[key]["below"]):
-            assert part.strip("()") in out
+    names = ("stiffness", "unloading_stiffness", "area_fraction")
+    intervals_are_those_of(YIELDING, json.loads(out), *names)
 
 
 def test_a_saved_curve_has_both_branches(tmp_path):

@@ -10,10 +10,11 @@ import pytest
 from matplotlib import image
 
 import roughline as rl
-from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer
+from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
-from roughline.lab.explore.state import ExploreState, state_of, usable_state
+from roughline.lab.explore.reading import state_of, usable_state
+from roughline.lab.explore.state import ExploreState
 
 SCALE = E_STAR * HEIGHT * LENGTH
 STICKS = {"n": "64", "D_f": "2.2", "seed": "7", "F": "0.08", "w": "1", "h0": "0.5"}
@@ -40,7 +41,11 @@ def pull_off(pressed):
 
 @pytest.fixture(scope="module")
 def cycle():
-    return answer(pictures.cycle, STICKS)
+    return answer(pictures.further, STICKS, of="w")
+
+
+def of_cycle(header):
+    return header["panels"]["cycle"]["series"]
 
 
 def said(header):
@@ -63,7 +68,7 @@ def test_the_map_shows_where_bodies_touch_and_where_they_pull(pressed):
     assert fields.pulling.any()
     np.testing.assert_array_equal(arrays["area"].T, fields.contact + 2 * fields.pulling)
     found = said(header)
-    assert found["pulling"]["value"] == f"{100 * pressed.pulling_fraction[0]:.3g}%"
+    assert found["pulling"]["value"] == f"{100 * pressed.pulling_fraction[0]:#.3g}%"
     mean = fields.pressure[fields.contact].mean()
     assert found["pressure"]["value"] == f"{mean / E_STAR:.3g} E*"
 
@@ -72,30 +77,28 @@ def test_the_way_back_and_the_pull_off_are_those_of_the_library(pressed, pull_of
     header, arrays = cycle
     fields = pressed.fields[2]
     np.testing.assert_array_equal(arrays["retreat"].T, fields.contact + 2 * fields.pulling)
-    assert header["here"]["x"] == pytest.approx(pressed.depth[[0, 2]] / HEIGHT, rel=1e-5)
-    assert header["here"]["y"] == pytest.approx([0.08, 0.08])
-    [pull], [depth] = header["pull_off"]["y"], header["pull_off"]["x"]
+    assert of_cycle(header)["here"]["x"] == pytest.approx(pressed.depth[[0, 2]] / HEIGHT, rel=1e-5)
+    assert of_cycle(header)["here"]["y"] == pytest.approx([0.08, 0.08])
+    [pull], [depth] = of_cycle(header)["pull-off"]["y"], of_cycle(header)["pull-off"]["x"]
     assert pull == pytest.approx(pull_off[1] / SCALE, rel=5e-3)
     assert depth == pytest.approx(pull_off[0] / HEIGHT, abs=0.02)
     found = said(header)
-    assert found["pull_off"]["value"] == f"{pull:.3g}"
-    assert found["retreat"]["value"] == f"{100 * pressed.area_fraction_corrected[2]:.3g}%"
+    assert found["pull_off"]["value"] == f"{pull:#.3g}"
+    assert found["retreat"]["value"] == f"{100 * pressed.area_fraction_corrected[2]:#.3g}%"
     assert pressed.area_fraction[2] > pressed.area_fraction[0]
 
 
 def test_both_ways_go_from_out_of_reach_to_twice_the_load_and_back(cycle):
     header, _ = cycle
-    depth, force, there = (
-        np.array(header["curve"]["depth"]),
-        np.array(header["curve"]["force_bar"]),
-        np.array(header["on_approach"]),
-    )
+    there, back = (of_cycle(header)[way] for way in ("there", "back"))
+    depth, force = (np.array(there[axis] + back[axis]) for axis in ("x", "y"))
+    there = np.arange(depth.size) < len(there["x"])
     assert force[0] == force[-1] == 0
     assert force.max() == pytest.approx(0.16, rel=1e-4)
     assert (np.diff(depth[there]) > 0).all()
     assert (np.diff(depth[~there]) < 0).all()
-    assert force[~there].min() == pytest.approx(header["pull_off"]["y"][0], rel=0.1)
-    assert {row[-1] for row in header["table"]} == {"there", "back"}
+    assert force[~there].min() == pytest.approx(of_cycle(header)["pull-off"]["y"][0], rel=0.1)
+    assert {row[-1] for row in header["panels"]["cycle"]["rows"]} == {"there", "back"}
 
 
 def test_a_zone_of_fewer_than_four_cells_is_told():
@@ -108,8 +111,8 @@ def test_a_zone_of_fewer_than_four_cells_is_told():
 
 
 def test_without_a_pull_off_it_says_that_the_grid_does_not_resolve_it():
-    header, _ = answer(pictures.cycle, {**STICKS, "h0": "0.3"})
-    assert header["pull_off"] == {"x": [], "y": []}
+    header, _ = answer(pictures.further, {**STICKS, "h0": "0.3"}, of="w")
+    assert of_cycle(header)["pull-off"] == {"x": [], "y": []}
     assert said(header)["pull_off"]["value"] == "not known"
 
 
@@ -135,8 +138,7 @@ def test_works_and_ranges_may_have_units():
     work, height = 110e9 * HEIGHT**2 / LENGTH, "400 nm"
     state, sentences = refused(w=f"{1e3 * work:.10g} mJ/m^2", h0=height)
     assert not sentences
-    assert state.w == pytest.approx(1)
-    assert state.h0 == pytest.approx(0.4)
+    assert state.added[0].numbers == pytest.approx({"w": 1, "h0": 0.4})
 
 
 def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
@@ -145,21 +147,21 @@ def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
     assert state_of(state.address(), 1024) == state
     assert ExploreState().law is None
     with pytest.raises(ControlError) as error:
-        answer(pictures.cycle, {**STICKS, "w": ""})
+        answer(pictures.further, {**STICKS, "w": ""}, of="w")
     assert error.value.at == "w"
 
 
 def test_grids_of_pictures_resolve_the_pull_where_that_of_the_state_does():
     state = state_of({**STICKS, "n": "1024", "h0": "0.25"}, 1024)
     assert state.points(64) == 256
-    assert state.zone(256) >= 4 > state.zone(128)
+    assert state.added[0].zone(state, 256) >= 4 > state.added[0].zone(state, 128)
     assert state_of({**STICKS, "n": "1024", "w": ""}, 1024).points(128) == 128
 
 
 def test_a_fluid_flows_between_bodies_that_stick(pressed):
     header, _ = answer(pictures.full, {**STICKS, "fluid": "x"})
     aperture = rl.flow(pressed.fields[0]).hydraulic_aperture
-    assert header["curve"]["aperture"] == pytest.approx([aperture / HEIGHT], rel=1e-3)
+    assert loads(header, "aperture", "here")[1] == pytest.approx([aperture / HEIGHT], rel=1e-3)
 
 
 def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
@@ -171,8 +173,10 @@ def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
     assert 100 * float(there.split()[-1]) == pytest.approx(
         float(found["area"]["value"][:-1]), rel=0.1
     )
-    assert f"{100 * float(back.split()[-1]):.3g}%" == said(cycle[0])["retreat"]["value"]
-    assert float(pull.split()[1]) / SCALE == pytest.approx(cycle[0]["pull_off"]["y"][0], rel=1e-2)
+    assert f"{100 * float(back.split()[-1]):#.3g}%" == said(cycle[0])["retreat"]["value"]
+    assert float(pull.split()[1]) / SCALE == pytest.approx(
+        of_cycle(cycle[0])["pull-off"]["y"][0], rel=1e-2
+    )
     *commands, without = answer(code.code, STICKS, which="command")[0]["text"].splitlines()
     assert without.startswith("# the way back and the pull-off")
     monkeypatch.chdir(tmp_path)
@@ -188,7 +192,8 @@ def test_a_saved_curve_has_both_ways(tmp_path, cycle):
     with (tmp_path / "results" / header["file"]).open() as file:
         rows = list(csv.DictReader(file))
     forces = np.array([float(row["force [N]"]) for row in rows]) / SCALE
-    np.testing.assert_allclose(forces, cycle[0]["curve"]["force_bar"], rtol=1e-6, atol=1e-9)
+    drawn = [*of_cycle(cycle[0])["there"]["y"], *of_cycle(cycle[0])["back"]["y"]]
+    np.testing.assert_allclose(forces, drawn, rtol=1e-6, atol=1e-9)
     assert {row["on_approach"] for row in rows} == {"0", "1"}
 
 

@@ -10,7 +10,7 @@ from lab.looks import asked, cut_off, faint
 from lab.test_explore_adhesion import LAW, STICKS
 from lab.test_explore_fluid_page import source
 from roughline import press
-from roughline.lab.explore.state import state_of
+from roughline.lab.explore.reading import state_of
 
 WITHOUT = "?" + urlencode({"view": "explore", "v": "1", **STICKS, "w": ""})
 WITH = WITHOUT.replace("w=&", "w=1&")
@@ -35,7 +35,7 @@ def fresh(small, pages):
 def at_rest(page, **wanted):
     """Wait until everything at rest is drawn, with both ways."""
     settled(page, **wanted)
-    drawn(page, "cycle", what="cycle")
+    drawn(page, "cycle", what="w")
     page.wait_for_selector("#explore .cancel", state="hidden")
 
 
@@ -53,9 +53,9 @@ def test_the_tick_shows_both_ways_with_this_load_on_each_and_takes_them_away_aga
     elastic = strip(small)
     assert not small.is_visible("#tab-cycle")
     assert not small.is_visible('#explore [data-text="w"]')
-    small.check("#explore-sticks")
+    small.check("#explore-adds-w")
     at_rest(small, points=64)
-    drawn(small, "cycle", what="cycle")
+    drawn(small, "cycle", what="w")
     assert small.is_visible("#plot-explore-cycle")
     depths, forces = source(small, "cycle here")
     assert forces == pytest.approx([0.08, 0.08])
@@ -74,7 +74,7 @@ def test_the_tick_shows_both_ways_with_this_load_on_each_and_takes_them_away_aga
     surface = state_of(STICKS, 64).surface(64)
     there = press(surface, E_star=110e9, law=LAW, forces=[0.08 * 110], fields=True)
     assert wider > there.fields[0].contact.sum()
-    small.uncheck("#explore-sticks")
+    small.uncheck("#explore-adds-w")
     settled(small, points=64)
     small.wait_for_function("() => !document.querySelector('[data-answer=pull_off]')")
     assert strip(small) == elastic
@@ -88,7 +88,7 @@ def test_the_tick_shows_both_ways_with_this_load_on_each_and_takes_them_away_aga
 def test_a_link_shows_the_same_ways(fresh, pages):
     other = pages.open("?" + urlencode(address(fresh)))
     at_rest(other, points=64)
-    assert other.is_checked("#explore-sticks")
+    assert other.is_checked("#explore-adds-w")
     assert other.is_visible("#plot-explore-cycle")
     assert strip(other) == strip(fresh)
     assert table(other, "cycle") == table(fresh, "cycle")
@@ -109,9 +109,9 @@ def test_a_range_that_the_grid_does_not_resolve_is_refused_and_the_rest_lives(fr
 
 
 def test_a_hardness_beside_is_refused_at_its_control(fresh):
-    fresh.check("#explore-yields")
+    fresh.check("#explore-adds-hardness_bar")
     sentence(fresh, "hardness_bar").filter(has_text="stick and yield").wait_for()
-    fresh.uncheck("#explore-yields")
+    fresh.uncheck("#explore-adds-hardness_bar")
     at_rest(fresh, points=64)
     assert sentence(fresh, "hardness_bar").inner_text() == ""
     assert "pull_off" in strip(fresh)

@@ -34,7 +34,7 @@ def fresh(small, pages):
 def at_rest(page, **wanted):
     """Wait until everything at rest is drawn, with what flows."""
     settled(page, **wanted)
-    drawn(page, "aperture", what="flow")
+    drawn(page, "aperture", what="fluid")
 
 
 def pressed(force_bar=0.2):
@@ -84,9 +84,9 @@ def told_of(cell):
 def test_the_tick_shows_where_the_fluid_goes_and_how_much_and_takes_it_away_again(small):
     elastic = strip(small)
     assert not small.is_visible("#tab-aperture")
-    small.check("#explore-fluid")
+    small.check("#explore-adds-fluid")
     at_rest(small, points=64)
-    drawn(small, "aperture", what="flow")
+    drawn(small, "aperture", what="fluid")
     flow = rl.flow(pressed().fields[0])
     flux = np.hypot(*flow.flux) * LENGTH / flow.inflow
     flux[flow.gap == 0] = np.nan
@@ -104,8 +104,8 @@ def test_the_tick_shows_where_the_fluid_goes_and_how_much_and_takes_it_away_agai
     assert float(said["aperture"][0].removesuffix(" h")) == pytest.approx(aperture, rel=0.01)
     assert address(small)["fluid"] == "x"
     assert address(small)["shown"] == "flux"
-    assert "Bruggeman" in small.inner_text('[data-caption="theories of the flow"]')
-    small.uncheck("#explore-fluid")
+    assert "Bruggeman" in small.inner_text('[data-remarks="aperture"]')
+    small.uncheck("#explore-adds-fluid")
     settled(small, points=64)
     small.wait_for_function("() => !document.querySelector('[data-answer=aperture]')")
     assert strip(small) == elastic
@@ -115,7 +115,7 @@ def test_the_tick_shows_where_the_fluid_goes_and_how_much_and_takes_it_away_agai
     assert "fluid" not in address(small)
     assert set(image(small, "contact")) == {0, 1}
     assert source(small, "ring") == [[], []]
-    assert small.inner_text('[data-caption="theories of the flow"]') == ""
+    assert small.inner_text('[data-remarks="aperture"]') == ""
 
 
 def test_a_link_shows_the_same_flow(fresh, pages):
@@ -126,7 +126,7 @@ def test_a_link_shows_the_same_flow(fresh, pages):
     assert other.input_value('#explore [data-key="shown"]') == "gap"
     assert image(other, "contact") == image(fresh, "contact")
     assert table(other, "aperture") == table(fresh, "aperture")
-    assert other.is_checked("#explore-fluid")
+    assert other.is_checked("#explore-adds-fluid")
     other.context.close()
 
 
@@ -135,7 +135,7 @@ def test_the_map_tells_place_gap_and_flux_where_the_mouse_is(fresh):
     gap, flux = told_of(CELL)
     place = fresh.locator("#explore [data-at]")
     assert place.inner_text() == (
-        f"x 0.633 L, y 0.352 L; gap {gap:.3g} h; flux {flux:.3g} of its mean"
+        f"x 0.633 L, y 0.352 L; gap {gap:#.3g} h; flux {flux:.3g} of its mean"
     )
     touching = tuple(np.argwhere(pressed().fields[0].contact)[0])
     fresh.mouse.move(*on_the_map(fresh, *middle_of(touching)))
@@ -149,7 +149,7 @@ def test_a_finger_is_told_the_same(pages):
     at_rest(page, points=64)
     page.touchscreen.tap(*on_the_map(page, *middle_of(CELL)))
     gap, _ = told_of(CELL)
-    page.locator("#explore [data-at]").filter(has_text=f"gap {gap:.3g} h; flux").wait_for()
+    page.locator("#explore [data-at]").filter(has_text=f"gap {gap:#.3g} h; flux").wait_for()
     page.context.close()
 
 
@@ -192,7 +192,7 @@ def test_the_tick_and_its_curve_are_reached_by_keys(small, pages):
     small.focus("#tab-spectrum")
     small.keyboard.press("ArrowRight")
     assert small.evaluate("() => document.activeElement.id") == "tab-area"  # there is no other
-    small.focus("#explore-fluid")
+    small.focus("#explore-adds-fluid")
     small.keyboard.press("Space")
     at_rest(small, points=64)
     small.focus("#tab-spectrum")
@@ -221,5 +221,5 @@ def test_a_picture_of_the_flow_arrives(fresh, tmp_path):
     with fresh.expect_download() as coming:
         fresh.click("#save")
     assert coming.value.suggested_filename == "flow.png"
-    fresh.uncheck("#explore-fluid")
+    fresh.uncheck("#explore-adds-fluid")
     assert fresh.input_value("#saved") == "contact.png"

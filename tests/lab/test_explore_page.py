@@ -12,8 +12,8 @@ from matplotlib import image as pictures
 import roughline as rl
 from lab.explore_driven import SMALL, address, drawn, image, sentence, settled, strip, table, typed
 from lab_in_browser import NO_LINE, Pages, RunningLab
-from roughline.report.values import with_interval
-from roughline.units import decimal, supported_digits
+from roughline.lab.explore.words import bounded, figure
+from roughline.units import supported_digits
 
 E_STAR, HEIGHT, LENGTH = 110e9, 1e-6, 1e-3
 SCALE = E_STAR * HEIGHT * LENGTH
@@ -53,7 +53,7 @@ def test_it_opens_on_a_surface_of_512_points_solved(pages):
     settled(page, points=512, D_f=2.2, F=0.1)
     surface = spectrum(2.2, 1 / 256).surface(512, 7)
     pressed = rl.press(surface, E_star=E_STAR, forces=[0.1 * SCALE], fields=True)
-    assert strip(page)["stiffness_3d"][0] == decimal(float(pressed.stiffness_bar[0]), 3)
+    assert strip(page)["stiffness_3d"][0] == figure(float(pressed.stiffness_bar[0]))
     assert sum(image(page, "contact")) == pressed.fields[0].contact.sum()
     status = page.locator("#explore [data-status]").inner_text()
     assert re.fullmatch(r"512², \d+ convolutions, residual \S+ certified, .* s", status)
@@ -74,30 +74,30 @@ def test_strip_and_tables_say_what_the_library_says(fresh):
     of_area = interval(area, pressed.area_fraction_error[0])
     of_area = of_area[0], min(of_area[1], pressed.area_fraction_most[0])
     assert said["stiffness_3d"] == [
-        decimal(pressed.stiffness_bar[0], supported_digits(k, of_k, 3)),
-        with_interval(k, of_k, "N/m"),
+        figure(pressed.stiffness_bar[0], supported_digits(k, of_k, 3)),
+        bounded(k, of_k, "N/m"),
     ]
-    assert said["area"][0] == decimal(100 * area, supported_digits(area, of_area, 3)) + "%"
-    assert said["force"] == ["22 N", "22 MPa over the nominal area"]
-    assert said["roughness"][0] == "1 µm"
+    assert said["area"][0] == figure(100 * area, supported_digits(area, of_area, 3)) + "%"
+    assert said["force"] == ["22.0 N", "22.0 MPa over the nominal area"]
+    assert said["roughness"][0] == "1.00 µm"
     under_map = {row[0]: row[1] for row in table(fresh, "contact")}
     assert under_map["k̄ (3D)"] == said["stiffness_3d"][0]
     assert under_map["contact"] == said["area"][0]
     assert all(row[3] for row in table(fresh, "contact") + table(fresh, "topography"))
     curve = rl.press(surface, E_star=E_STAR, forces=np.geomspace(1e-3, 3, 13) * SCALE)
     rows = table(fresh, "stiffness")
-    assert [row[0] for row in rows[:13]] == [decimal(x, 3) for x in curve.force_bar]
+    assert [row[0] for row in rows[:13]] == [figure(x) for x in curve.force_bar]
     assert [row[1].removesuffix(" *") for row in rows[:13]] == [
-        decimal(x, 3) for x in curve.stiffness_bar
+        figure(x) for x in curve.stiffness_bar
     ]
     assert ["*" in row[1] for row in rows[:13]] == [not each for each in curve.resolved]
     assert [row[1].removesuffix(" *") for row in table(fresh, "area")] == [
-        decimal(x, 3) for x in curve.area_fraction_corrected
+        figure(x) for x in curve.area_fraction_corrected
     ]
     measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d[measured.C_2d > 0]
     assert [row[1] for row in table(fresh, "spectrum")] == [
-        decimal(x, 3) for x in known[:: -(-known.size // 40)]
+        figure(x) for x in known[:: -(-known.size // 40)]
     ]
 
 
@@ -107,9 +107,9 @@ def the_line_is_in_strip_and_table(fresh):
         rl.press(line, E_star=E_STAR, forces=[0.2 * E_STAR * line.rms_height * LENGTH])
         for line in lines
     ]
-    wanted = decimal(float(np.mean([each.stiffness_bar[0] for each in stiffness])), 3)
+    wanted = figure(float(np.mean([each.stiffness_bar[0] for each in stiffness])))
     assert strip(fresh)["stiffness_1d"][0] == wanted
-    assert ["0.2", wanted, "1D"] in table(fresh, "stiffness")
+    assert ["0.200", wanted, "1D"] in table(fresh, "stiffness")
 
 
 @pytest.mark.parametrize("shown", ["pressure", "gap", "displacement"])
@@ -164,7 +164,7 @@ def test_a_slider_goes_by_keys_and_numbers_are_typed_with_their_units(fresh):
     settled(fresh, points=64, D_f=2.2, h=1.5e-4)
     said = strip(fresh)
     assert said["roughness"][0] == "300 nm"
-    assert said["force"][0] == "10 N"
+    assert said["force"][0] == "10.0 N"
     assert fresh.input_value("#explore-h-text") == "0.3 um"
     assert float(fresh.input_value("#explore-D_f")) == pytest.approx(2.2)
 
@@ -184,7 +184,7 @@ def test_a_link_shows_the_same(fresh, pages):
     )].map((each) => each.matches("[type=radio], [type=checkbox]") ? each.checked : each.value)"""
     assert other.evaluate(state) == fresh.evaluate(state)
     assert image(other, "contact") == image(fresh, "contact")
-    assert "Persson" in other.inner_text('[data-caption="theories"]')
+    assert "Persson" in other.inner_text('[data-remarks="area"]')
     other.context.close()
 
 
@@ -202,7 +202,7 @@ def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(small, pages):
 
 def test_a_surface_yields_and_does_so_no_more(fresh, pages):
     elastic = strip(fresh)
-    fresh.check("#explore-yields")
+    fresh.check("#explore-adds-hardness_bar")
     typed(fresh, "hardness_bar", "0.3")
     settled(fresh, points=64, hardness_bar=0.3)
     fresh.wait_for_function(
@@ -221,7 +221,7 @@ def test_a_surface_yields_and_does_so_no_more(fresh, pages):
         image(fresh, "contact"), (fields.contact.astype(int) + fields.plastic).T.ravel()
     )
     said = strip(fresh)
-    assert said["plastic"][0] == decimal(100 * float(pressed.plastic_fraction[0]), 3) + "%"
+    assert said["plastic"][0] == figure(100 * float(pressed.plastic_fraction[0])) + "%"
     assert said.keys() - elastic.keys() == {"unloading", "plastic", "indentation"}
     assert "at the hardness" in fresh.inner_text('[data-caption="shown"]')
     for name in ("stiffness unloading", "stiffness back", "area back"):
@@ -229,11 +229,11 @@ def test_a_surface_yields_and_does_so_no_more(fresh, pages):
     other = pages.open("?" + urlencode(address(fresh)))
     settled(other, points=64, hardness_bar=0.3)
     assert strip(other) == said
-    assert other.is_checked("#explore-yields")
+    assert other.is_checked("#explore-adds-hardness_bar")
     other.context.close()
     typed(fresh, "hardness_bar", "7")
     sentence(fresh, "hardness_bar").filter(has_text="from 0.02 to 5").wait_for()
-    fresh.uncheck("#explore-yields")
+    fresh.uncheck("#explore-adds-hardness_bar")
     settled(fresh, points=64)
     fresh.wait_for_function("() => !document.querySelector('[data-answer=plastic]')")
     assert strip(fresh) == elastic

@@ -6,8 +6,9 @@ import pytest
 from lab.unpacked import unpacked
 from roughline.lab.controls import usable
 from roughline.lab.explore import controls as explore
+from roughline.lab.explore.physics import PHYSICS
+from roughline.lab.explore.reading import state_of as explore_state
 from roughline.lab.explore.state import ExploreState
-from roughline.lab.explore.state import state_of as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import PublishedState
@@ -36,9 +37,14 @@ def test_texts_of_explore():
     def read(texts):
         return explore_state(texts, 128)
 
-    for key in [each.name for each in ExploreState.__dataclass_fields__.values()]:
+    added = {
+        control.key: {kind.key: f"{kind.controls[0].default}"}
+        for kind in PHYSICS
+        for control in kind.controls
+    }
+    for key in {*ExploreState().texts(), *added, "fluid"}:
         for text in TEXTS:
-            state = {"n": "64", "F": "0.3", "D_f": "2.4", key: text}
+            state = {"n": "64", "F": "0.3", "D_f": "2.4", **added.get(key, {}), key: text}
             found, refused = usable({"state": state}, read, ExploreState.texts)
             check(key, text, refused)
             assert refused or text not in ("abc", "nan", "inf", "٣", "<b>x</b>")

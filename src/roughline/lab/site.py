@@ -15,6 +15,7 @@ import roughline as rl
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
+from roughline.lab.explore import physics
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.examples import EXAMPLES
 from roughline.lab.published import controls as published
@@ -36,9 +37,7 @@ TASKS: Mapping[str, Place] = {
     "explore.coarse": _place("explore.pictures", "coarse", is_quick=True),
     "explore.full": _place("explore.pictures", "full"),
     "explore.curve": _place("explore.pictures", "curve"),
-    "explore.flow": _place("explore.pictures", "flow"),
-    "explore.cycle": _place("explore.pictures", "cycle"),
-    "explore.unloading": _place("explore.pictures", "unloading"),
+    "explore.further": _place("explore.pictures", "further"),
     "explore.code": _place("explore.code", "code", is_quick=True),
     "explore.download": _place("explore.downloads", "download"),
     "measured.look": _place("measured.file", "look", reads_files=True),
@@ -80,6 +79,7 @@ def page() -> str:
     return template.render(
         version=rl.__version__,
         explore=explore,
+        physics=physics,
         measured=measured,
         published=published,
         examples=EXAMPLES,

@@ -16,7 +16,7 @@ def up() -> None:
     session = {"max_points": 64}
     for special in (
         *({}, {"boundary": "periodic"}),
-        *({"hardness_bar": "0.5"}, {"fluid": "x"}, {"w": "1"}),
+        *({"hardness_bar": "0.5"}, {"fluid": "x"}, {"w": "1"}, {"t": "0.05"}),
     ):
         arguments = {"state": {"n": "64", **special}, "session": session, "crowded": True}
         for task in (pictures.reduced, pictures.full):

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,30 +12,187 @@ from matplotlib.colors import ListedColormap
 
 import roughline as rl
 from roughline.lab.controls import ControlError, as_code
+from roughline.lab.explore.controls import Quantity
+from roughline.lab.explore.panels import BACK, FORCE, Filled, Panel, Series, kept, linear_span
 from roughline.lab.explore.pressing import pressed_under
-from roughline.lab.explore.state import ExploreState
-from roughline.lab.explore.words import item, number_rows
+from roughline.lab.explore.state import OF_THE_SURFACE, Answer, ExploreState, Item, Physics
+from roughline.lab.explore.words import engineering_figure, figure, item, number_rows
+from roughline.lab.maps import Map
 from roughline.lab.server.tasks import Progress
 from roughline.plot.pixels import draw_map
-from roughline.units import decimal, engineering
 
-_DIGITS = 3
 _COARSE, _FINER = 128, 256  # points along a side of the surface that is followed, at first and then
 _HISTORY = 1.0, 2.0, 1.0, 0.0  # over the present load: beyond it, back to it, to none
-BACK = 2
-"""Number of the load of the history that comes back to the present one."""
+_BACK = 2  # number of the load of the history that comes back to the present one
 _THERE, _AWAY = 25, 35  # depths on both ways
 _BEYOND = 1.5  # times the largest pull of the depths: more than is borne
 _LOADS = 69  # of all, a few of which the forces add
 
 
-def points(state: ExploreState, *, refines: bool = True) -> int:
-    """Points along a side of the surface that is followed."""
-    return state.points(_FINER if refines else _COARSE)
+def _way(name: str, colour: str, marker: str) -> Series:
+    return Series(
+        name, name, colour, {"line": {"line_width": 2}, "scatter": {"size": 4, "marker": marker}}
+    )
+
+
+def _mark(name: str, legend: str, colour: str, marker: str, edge: str) -> Series:
+    look = {"size": 13, "line_width": 1.5, "marker": marker}
+    return Series(name, legend, colour, {"scatter": look}, edge)
+
+
+@dataclass(frozen=True)
+class Adhesion(Physics):
+    """Bodies that pull each other across small gaps."""
+
+    w: float
+    h0: float
+
+    key = "w"
+    tick = "bodies stick"
+    meaning = (
+        "The bodies pull each other across small gaps: they jump together, hold each other on the "
+        "way back, and come off under a pull. Without a hardness alone."
+    )
+    controls = (
+        Quantity(
+            *("w", "w L/(E*h²)", "work of adhesion", 1e-4, 10.0, 1.0),
+            "Work to separate a unit of area, over E* h² / L, or with a unit, such as 50 mJ/m^2. "
+            "About 1 is what it takes to flatten the longest waves.",
+            unit="J/m**2",
+            scale_of=lambda state: float(state.E_star * state.rms_height**2 / state.length),
+            over="E* h² / L",
+        ),
+        Quantity(
+            *("h0", "h_0/h", "range of the pull", 1e-3, 2.0, 0.5),
+            "Largest gap across which the bodies pull each other, evenly with w / h_0, over the "
+            "rms height, or with a unit, such as 5 nm. A shorter one takes a finer grid.",
+            unit="m",
+            scale_of=lambda state: float(state.rms_height),
+            over="h",
+        ),
+    )
+    unlike = "without adhesion"
+    excludes: ClassVar = {
+        "hardness_bar": "bodies that stick and yield have no law here: take the hardness away, or "
+        "the adhesion"
+    }
+    maps: ClassVar = {"retreat": "area, way back"}
+    strip: ClassVar = {
+        "retreat": "roughness",
+        "pull_off": "retreat",
+        "pulling": "pull_off",
+        "zone": "pulling",
+    }
+    panels = (
+        Panel(
+            *("cycle", "Force over depth", "depth d / h", FORCE),
+            ranges=((-1, 1), (-1, 1)),
+            series=(
+                _way("there", "dark-line", "circle"),
+                _way("back", "here", "square"),
+                _mark("here", "this load on both ways", "mark", "circle", "paper"),
+                _mark("pull-off", "pull-off", "pull", "inverted_triangle", "text"),
+            ),
+            columns=("d/h", "F̄", "A/A₀", "k̄", "way"),
+            task="w",
+            waits="both ways are being followed",
+            is_logarithmic=False,
+            cursor="width",
+        ),
+    )
+    series: ClassVar = {"stiffness": (BACK,), "area": (BACK,)}
+    follows = "load"
+
+    def law(self, state: ExploreState) -> rl.Dugdale:
+        """An even pull up to a range."""
+        work = self.w * state.E_star * state.rms_height**2 / state.length
+        return rl.Dugdale(work_of_adhesion=work, range=self.h0 * state.rms_height)
+
+    def check(self, state: ExploreState) -> None:
+        """Refuse a grid that does not resolve the pull."""
+        cell = state.length / state.n
+        try:  # the grid is refused alike under a flat body of few cells, far away
+            flat = rl.Surface(np.zeros((2, 2)), sizes=(2 * cell, 2 * cell))
+            depths = [-4 * self.h0 * state.rms_height]
+            rl.press(flat, half_space=state.half_space, law=state.law, depths=depths)
+        except rl.InputError as error:
+            raise ControlError(str(error), "h0", "w", "n", *OF_THE_SURFACE) from None
+
+    def zone(self, state: ExploreState, n: int) -> float:
+        """Cells across the zone that pulls about a contact, with so many along a side. [1]"""
+        at_surface = state.half_space.E_star / state.E_star
+        return n * at_surface * self.h0**2 / (math.pi * self.w)
+
+    def is_resolved(self, state: ExploreState, n: int) -> bool:
+        """Whether the zone that pulls has enough cells."""
+        return self.zone(state, n) >= rl.Dugdale.resolved_zone
+
+    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+        """Where bodies pull each other at the load, and how well the grid resolves that."""
+        assert pressed.pulling_fraction is not None
+        cells, needed = float(pressed.settings["pulling_zone_cells"]), rl.Dugdale.resolved_zone
+        is_resolved = cells >= needed
+        return [
+            item(
+                *("pulling", "pulled", f"{figure(100 * float(pressed.pulling_fraction[0]))}%"),
+                "Share of the nominal area across whose gap the bodies pull each other, on the way "
+                "to this load.",
+            ),
+            item(
+                *("zone", "pulling zone", f"{figure(cells, 2)} cells{'' if is_resolved else ' *'}"),
+                "Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = w / h_0, "
+                f"in cells of this grid; {needed:g} resolve it.",
+                "" if is_resolved else f"{needed:g} are needed: a longer range, or a finer grid",
+            ),
+        ]
+
+    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
+        """Where bodies touch, and where they pull each other."""
+        return {"area": _area_map(fields)}
+
+    def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
+        """Follow both ways: beyond the load, back to it, and off."""
+        n = state.points(_FINER if refines else _COARSE)
+        found = _cycle(state, self, n, progress)
+        fields = found.by_forces.fields[_BACK]
+        told = {
+            "panels": _panels(found, state, n),
+            "strip": _words(found, state, n),
+            "is_coarse": n < state.points(_FINER),
+        }
+        return told, {} if fields is None else {"retreat": _area_map(fields)}
+
+    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
+        """The law, both ways, and what pulls the bodies apart."""
+        before = (
+            f"work = {as_code(self.w)} * E_star * surface.rms_height**2 / length  # J/m²\n"
+            f"h_0 = {as_code(self.h0)} * surface.rms_height  # m\n"
+            "law = rl.Dugdale(work_of_adhesion=work, range=h_0)\n"
+        )
+        arguments = "law=law, forces=[force, 2 * force, force, 0.0]"
+        return before, arguments, _IN_PYTHON.format(body=state.body_as_code)
+
+    def in_command(self, state: ExploreState) -> tuple[list[str], str]:
+        """The law."""
+        settings = self.law(state).settings
+        work, reach = (as_code(float(settings[name])) for name in ("work_of_adhesion", "range"))
+        left_out = "the way back and the pull-off need two materials"
+        return ["--adhesion", f"{work} J/m^2 over {reach} m"], left_out
+
+
+_IN_PYTHON = """print("area_fraction_corrected, way back", curve.area_fraction_corrected[2])
+
+apart = -2 * h_0 - math.sqrt(2 * math.sqrt(math.pi) * work * length / E_star)
+depths = [curve.depth[1] + i / 35 * (apart - curve.depth[1]) for i in range(36)]
+back = rl.press(surface, {body}, law=law, depths=depths)
+forces = [2 * force, 1.5 * back.pull_off_force]  # the second is more than is borne
+off = rl.press(surface, {body}, law=law, forces=forces, throw=False)
+print("pull_off_force", off.pull_off_force, "N")
+"""
 
 
 @dataclass(frozen=True, eq=False)
-class Cycle:
+class _Cycle:
     """Bodies that stick: to a load, beyond, back and off."""
 
     by_forces: rl.Curve  # to the load, beyond, back to it, and to none
@@ -44,12 +200,14 @@ class Cycle:
     pull_off: tuple[float, float]  # depth and force; NaN where the grid does not resolve them
 
 
-def cycle(
-    state: ExploreState, n: int, progress: Progress, measures: Sequence[rl.Measure] = ()
-) -> Cycle:
+def _cycle(
+    state: ExploreState,
+    pull: Adhesion,
+    n: int,
+    progress: Progress,
+    measures: tuple[rl.Measure, ...] = (),
+) -> _Cycle:
     """Follow the surface on so many points along a side."""
-    if state.w is None:
-        raise ControlError("the bodies do not stick: mark that they do", "w")
     surface = state.surface(n)
     done_before = 0
 
@@ -57,26 +215,20 @@ def cycle(
         progress(done_before + done, _LOADS)
 
     forces = state.F * np.array(_HISTORY)
-    by_forces = pressed_under(state, surface, forces, step, fields=[0, BACK])
+    by_forces = pressed_under(state, surface, forces, step, fields=[0, _BACK])
     depth = by_forces.depth
     if not np.isfinite(depth).all():
         raise ControlError("a load was not solved, so that no way back is known", "F")
     height, deepest = state.rms_height, float(depth[1])
-    reach = 2 * state.h0 * height
-    drawn = height * math.sqrt(2 * math.sqrt(math.pi) * state.w)  # a disc as wide as the surface
+    reach = 2 * pull.h0 * height
+    softest = min(state.half_space.E_star / state.E_star, 1.0)  # of a layer and its base
+    # a disc as wide as the surface
+    drawn = height * math.sqrt(2 * math.sqrt(math.pi) * pull.w / softest)
     there = np.union1d(np.linspace(-reach, deepest, _THERE), depth[0])
-    back = np.union1d(np.linspace(deepest, -reach - drawn, _AWAY + 1)[1:], depth[BACK:])
+    back = np.union1d(np.linspace(deepest, -reach - drawn, _AWAY + 1)[1:], depth[_BACK:])
     done_before = depth.size
-    by_depths = rl.press(
-        surface,
-        E_star=state.E_star,
-        law=state.law,
-        depths=np.append(there, back[::-1]),
-        periodic=state.periodic,
-        measures=measures,
-        throw=False,
-        progress=step,
-    )
+    depths = np.append(there, back[::-1])
+    by_depths = pressed_under(state, surface, None, step, depths=depths, measures=measures)
     found = by_depths.pull_off_depth, by_depths.pull_off_force
     if math.isfinite(found[1]):  # to the tolerance, by a pull that is not much more
         done_before += by_depths.depth.size
@@ -84,109 +236,99 @@ def cycle(
         off = pressed_under(state, surface, pulls, step)
         ends = found, (off.pull_off_depth, off.pull_off_force)
         found = min(ends, key=lambda each: math.inf if math.isnan(each[1]) else each[1])
-    return Cycle(by_forces, by_depths, found)
+    return _Cycle(by_forces, by_depths, found)
 
 
-def contact_words(pressed: rl.Curve, state: ExploreState) -> list[dict[str, str]]:
-    """Where bodies that stick pull each other at the load, and how well the grid resolves that."""
-    if state.w is None:
-        return []
-    assert pressed.pulling_fraction is not None
-    cells, needed = float(pressed.settings["pulling_zone_cells"]), rl.Dugdale.resolved_zone
-    is_resolved = cells >= needed
+def _area_map(fields: rl.Fields) -> Map:
+    touching_and_pulling = fields.contact + 2 * fields.pulling.astype(np.uint8)
+    return Map(touching_and_pulling, "pull", 0, 2, marks=("ink", "pull"))
+
+
+def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
+    """What the page draws of both ways, on so many points along a side."""
+    by_forces, by_depths, (depth, pull) = found.by_forces, found.by_depths, found.pull_off
+    assert by_depths.on_approach is not None
+    assert by_depths.area_fraction is not None
+    height, there = by_forces.rms_height, by_depths.on_approach
+    depths, forces = by_depths.depth / height, state.force_bars(by_depths)
+    here, is_known = [0, _BACK], math.isfinite(pull)
+    series: dict[str, Any] = {
+        "there": kept(depths, forces, there & by_depths.converged),
+        "back": kept(depths, forces, ~there & by_depths.converged),
+        "here": {"x": by_forces.depth[here] / height, "y": state.force_bars(by_forces)[here]},
+        "pull-off": {"x": [depth / height] * is_known, "y": [pull / state.force(1.0)] * is_known},
+    }
+    columns = number_rows(
+        *(depths, forces, by_depths.area_fraction, state.stiffness_bars(by_depths.stiffness))
+    )
+    is_borne = (forces != 0) & by_depths.converged
+    turned = slice(1, _BACK + 1)
+    of_turn = {
+        panel: Filled({"back": kept(state.force_bars(by_forces)[turned], values[turned])})
+        for panel, values in state.over_force(by_forces).items()
+        if panel != "aperture"
+    }
+    return of_turn | {
+        "cycle": Filled(
+            series,
+            [
+                [*row, "there" if nearer else "back"]
+                for row, nearer in zip(columns, there, strict=True)
+            ],
+            f"by depths to twice this load and back, on {n}² points; under a force bodies jump "
+            "where it falls",
+            x=linear_span(depths[is_borne]),
+            y=linear_span(forces[is_borne]),
+            legends={"pull-off": f"pull-off, {_pull_off(found, state)}"},
+        )
+    }
+
+
+def _pull_off(found: _Cycle, state: ExploreState) -> str:
+    pull = found.pull_off[1]
+    return figure(pull / state.force(1.0)) if math.isfinite(pull) else "not known"
+
+
+def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
+    """The contact on the way back, and the pull-off."""
+    by_forces, pull = found.by_forces, found.pull_off[1]
+    assert by_forces.area_fraction_corrected is not None
+    area = float(by_forces.area_fraction_corrected[_BACK])
+    pressure = engineering_figure(pull / by_forces.length**2, "Pa")
     return [
         item(
-            *("pulling", "pulled", f"{decimal(100 * float(pressed.pulling_fraction[0]), 3)}%"),
-            "Share of the nominal area across whose gap the bodies pull each other, on the way to "
-            "this load.",
+            *("retreat", "contact, way back", f"{figure(100 * area)}%"),
+            "Real contact area at this load on the way back from twice as much, beside that on the "
+            "way there.",
+            f"on {n}² points",
         ),
         item(
-            *("zone", "pulling zone", f"{decimal(cells, 2)} cells{'' if is_resolved else ' *'}"),
-            "Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = w / h_0, in "
-            f"cells of this grid; {needed:g} resolve it.",
-            "" if is_resolved else f"{needed:g} are needed: a longer range, or a finer grid",
+            *("pull_off", "pull-off", _pull_off(found, state)),
+            "Largest pull F / (E* h L) that the contact bears on the way back; below it with its "
+            "unit, and over the nominal area.",
+            f"{engineering_figure(pull, 'N')}, {pressure}, on {n}² points"
+            if math.isfinite(pull)
+            else "the grid does not resolve the pull",
         ),
     ]
 
 
-def of_cycle(found: Cycle, state: ExploreState, n: int) -> dict[str, Any]:
-    """What the page draws and says of both ways, on so many points along a side."""
-    by_forces, by_depths, (depth, pull) = found.by_forces, found.by_depths, found.pull_off
-    assert by_depths.on_approach is not None
-    assert by_depths.area_fraction is not None
-    assert by_forces.area_fraction_corrected is not None
-    height, here = by_forces.rms_height, [0, BACK]
-    area = by_forces.area_fraction_corrected[BACK]
-    is_known = math.isfinite(pull)
-    pressure = engineering(pull / by_forces.length**2, "Pa", _DIGITS)
-    return {
-        "grid": f"{n}²",
-        "on_approach": by_depths.on_approach,
-        "here": {"x": by_forces.depth[here] / height, "y": by_forces.force_bar[here]},
-        "pull_off": {"x": [depth / height] * is_known, "y": [pull / state.force(1.0)] * is_known},
-        "strip": [
-            item(
-                *("retreat", "contact, way back", f"{decimal(100 * float(area), _DIGITS)}%"),
-                "Real contact area at this load on the way back from twice as much, beside that on "
-                "the way there.",
-                f"on {n}² points",
-            ),
-            item(
-                *("pull_off", "pull-off"),
-                decimal(pull / state.force(1.0), _DIGITS) if is_known else "not known",
-                "Largest pull F / (E* h L) that the contact bears on the way back; below it with "
-                "its unit, and over the nominal area.",
-                f"{engineering(pull, 'N', _DIGITS)}, {pressure}, on {n}² points"
-                if is_known
-                else "the grid does not resolve the pull",
-            ),
-        ],
-        "table": [
-            [*row, "there" if nearer else "back"]
-            for row, nearer in zip(
-                number_rows(
-                    by_depths.depth / height,
-                    by_depths.force_bar,
-                    by_depths.area_fraction,
-                    by_depths.stiffness_bar,
-                ),
-                by_depths.on_approach,
-                strict=True,
-            )
-        ],
-    }
+def both_ways(state: ExploreState, progress: Progress) -> rl.Curve | None:
+    """The curve of bodies that stick, there and back; None of others."""
+    pull = next((each for each in state.added if isinstance(each, Adhesion)), None)
+    if pull is None:
+        return None
+    return _cycle(state, pull, state.points(_FINER), progress, state.measures).by_depths
 
 
-def in_python(state: ExploreState) -> str:
-    """Lines that define the law."""
-    assert state.w is not None
-    return (
-        f"work = {as_code(state.w)} * E_star * surface.rms_height**2 / length  # J/m²\n"
-        f"h_0 = {as_code(state.h0)} * surface.rms_height  # m\n"
-        "law = rl.Dugdale(work_of_adhesion=work, range=h_0)\n"
-    )
-
-
-FORCES = "law=law, forces=[force, 2 * force, force, 0.0]"
-"""Arguments of a press in Python, with the same history."""
-ANSWERS = """print("area_fraction_corrected, way back", curve.area_fraction_corrected[2])
-
-apart = -2 * h_0 - math.sqrt(2 * math.sqrt(math.pi) * work * length / E_star)
-depths = [curve.depth[1] + i / 35 * (apart - curve.depth[1]) for i in range(36)]
-back = rl.press(surface, E_star=E_star, law=law, depths=depths{periodic})
-forces = [2 * force, 1.5 * back.pull_off_force]  # the second is more than is borne
-off = rl.press(surface, E_star=E_star, law=law, forces=forces{periodic}, throw=False)
-print("pull_off_force", off.pull_off_force, "N")
-"""
-"""Lines that print what it gives."""
-
-
-def draw_curve(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
+def _draw_curve(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
     """Force over depth, there and back."""
-    rl.plot.curve(cycle(state, points(state), progress).by_depths, "depth", "force", axes)
+    curve = both_ways(state, progress)
+    assert curve is not None
+    rl.plot.curve(curve, "depth", "force", axes)
 
 
-def draw_contact(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
+def _draw_contact(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
     """Where bodies touch at the load on the way there, and where they pull each other."""
     pressed = pressed_under(state, surface, np.array([state.F]), progress, fields=True)
     rl.plot.contact(pressed, axes=axes)
@@ -196,5 +338,4 @@ def draw_contact(axes: Axes, state: ExploreState, surface: rl.Surface, progress:
         axes.set_title(axes.get_title() + "\nblue: pulled across a gap")
 
 
-PICTURES = {"curve": draw_curve, "contact": draw_contact}
-"""What files show in the place of elastic bodies, by their names."""
+Adhesion.drawings = {"curve": _draw_curve, "contact": _draw_contact}

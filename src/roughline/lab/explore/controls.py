@@ -2,7 +2,62 @@
 
 from __future__ import annotations
 
-from roughline.lab.controls import Choice, Control
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import roughline as rl
+from roughline.errors.checks import shown
+from roughline.lab.controls import Choice, Control, ControlError, has_unit, rounded
+from roughline.units import engineering, in_si
+
+
+@dataclass(frozen=True)
+class Quantity(Control):
+    """A number that may be given with its unit, and is then divided by a scale."""
+
+    unit: str = "1"
+    scale_of: Callable[[Any], float] = float  # gives the scale of a state, in the unit
+    over: str = ""  # what the scale is called
+
+    def read_over(self, text: str, state: Any) -> float:
+        """Return the number in a text, over the scale of a state.
+
+        Raises
+        ------
+        ControlError
+            If it is none, has another unit, or is out of range.
+        """
+        if not has_unit(text):
+            return self.read(text)
+        try:
+            value = in_si(text, self.unit, self.name)
+        except rl.UnitError as error:
+            raise ControlError(str(error), self.key) from None
+        scale = self.scale_of(state)
+        try:
+            return self.checked(rounded(value / scale))
+        except ControlError:
+            unit = self.unit.replace("**2", "²")
+            low, high = (engineering(end * scale, unit, 3) for end in (self.low, self.high))
+            raise ControlError(
+                f"{self.name} is {shown(text.strip())}; give one from {low} to {high}, which is "
+                f"{self.range} {self.over}",
+                self.key,
+            ) from None
+
+
+def _length(
+    key: str, symbol: str, name: str, low: float, high: float, default: float, meaning: str
+) -> Quantity:
+    """A length over the side of the surface."""
+    return Quantity(
+        *(key, symbol, name, low, high, default, meaning),
+        unit="m",
+        scale_of=lambda state: float(state.length),
+        over="sides",
+    )
+
 
 _NUMBERS = (
     Control(
@@ -16,7 +71,7 @@ _NUMBERS = (
         "the Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
         scale="linear",
     ),
-    Control(
+    _length(
         "roll_off",
         "λ_r/L",
         "roll-off wavelength",
@@ -26,7 +81,7 @@ _NUMBERS = (
         "The spectrum is flat for waves longer than this. Relative to the side of the surface, "
         "or with a unit, such as 0.2 mm; at 1 there is no plateau.",
     ),
-    Control(
+    _length(
         "cutoff",
         "λ_s/L",
         "cutoff wavelength",
@@ -36,7 +91,7 @@ _NUMBERS = (
         "Length of the shortest wave. Relative to the side of the surface, or with a unit; n "
         "points along a side carry no waves shorter than 2/n, which is the default of each grid.",
     ),
-    Control(
+    _length(
         "h",
         "h/L",
         "rms height",
@@ -77,36 +132,6 @@ _NUMBERS = (
         "Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean "
         "pressure such as 2 MPa.",
     ),
-    Control(
-        "hardness_bar",
-        "H/(E*∇h)",
-        "hardness",
-        0.02,
-        5.0,
-        0.5,
-        "Largest pressure that a point bears, over E* times the rms slope on the grid, or with a "
-        "unit, such as 2 GPa. Where it is reached, the surface is permanently indented.",
-    ),
-    Control(
-        "w",
-        "w L/(E*h²)",
-        "work of adhesion",
-        1e-4,
-        10.0,
-        1.0,
-        "Work to separate a unit of area, over E* h² / L, or with a unit, such as 50 mJ/m^2. About "
-        "1 is what it takes to flatten the longest waves.",
-    ),
-    Control(
-        "h0",
-        "h_0/h",
-        "range of the pull",
-        1e-3,
-        2.0,
-        0.5,
-        "Largest gap across which the bodies pull each other, evenly with w / h_0, over the rms "
-        "height, or with a unit, such as 5 nm. A shorter one takes a finer grid.",
-    ),
 )
 _CHOICES = (
     Choice(
@@ -135,20 +160,11 @@ _CHOICES = (
         "shown",
         "contact as",
         {
-            **{"area": "area", "pressure": "pressure", "gap": "gap"},
-            **{"displacement": "displacement", "flux": "flux", "retreat": "area, way back"},
+            **{"area": "area", "pressure": "pressure"},
+            **{"gap": "gap", "displacement": "displacement"},
         },
         "area",
-        "Quantity that the second map shows; the flux is there with a fluid alone, the way back of "
-        "bodies that stick.",
-    ),
-    Choice(
-        "fluid",
-        "a fluid flows from left to right",
-        {"": "none", "x": "from left to right"},
-        "",
-        "A fluid flows where the bodies do not touch: the map shows where it goes, the curve how "
-        "much comes through, and at which load the contact seals.",
+        "Quantity that the second map shows.",
     ),
     Choice(
         "theories",
@@ -162,8 +178,6 @@ _CHOICES = (
         "Theories for the same waves, drawn with the curves; they hold for periodic surfaces.",
     ),
 )
-WITH_ALONE = {"flux": "fluid", "retreat": "w"}
-"""Quantities of the map that are there with a control alone."""
 NUMBERS = {each.key: each for each in _NUMBERS}
 """Numbers by their keys."""
 CHOICES = {each.key: each for each in _CHOICES}

@@ -2,97 +2,171 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, ClassVar
 
 import numpy as np
+from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.lab.explore.state import ExploreState
-from roughline.lab.explore.words import item, number_rows
-from roughline.lab.maps import throttled_at
-from roughline.report.values import value_and_interval, with_interval
+from roughline.assessment.question import UNLOADING
+from roughline.lab.controls import ControlError
+from roughline.lab.explore.panels import (
+    Filled,
+    Points,
+    Series,
+    loads,
+    marks,
+    note_of,
+    over_force,
+    span,
+    theory_lines,
+)
+from roughline.lab.explore.pressing import CURVE_POINTS, borne, pressed_under
+from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
+from roughline.lab.explore.words import bounded, figure, item, number_rows
+from roughline.lab.maps import Map, flux_map, throttled_at
+from roughline.lab.server.tasks import Progress
 from roughline.theories.theory_curve import TheoryCurve
-from roughline.units import decimal, engineering, supported_digits
+from roughline.units import engineering, supported_digits
 
 _APERTURE = rl.hydraulic_aperture("x")
-_DIGITS = 3
 _THEORIES = {"critical-junction": "critical junction", "bruggeman": "Bruggeman"}
-FORCES, _THEORY_FORCES = np.geomspace(1e-3, 9, 14), np.geomspace(1e-3, 9, 27)
-"""Dimensionless forces of the curve; the largest seal most surfaces."""
+# dimensionless; the largest seal most surfaces
+_FORCES, _THEORY_FORCES = np.geomspace(1e-3, 9, 14), np.geomspace(1e-3, 9, 27)
 _SEALED = "sealed"
+_LOWEST = 3  # factor between the smallest aperture and the end of the axis
+_MEANING = (
+    "Hydraulic aperture: gap of two flat plates that let as much fluid through, from left to "
+    "right; a leak is proportional to its cube. The interval shows how far finer grids may "
+    "change it."
+)
+_IN_PYTHON = """flow = rl.flow(curve.fields[0])
+print("hydraulic aperture over rms height", flow.hydraulic_aperture / surface.rms_height)
+print("sealed", flow.is_sealed)
+"""
 
 
-def measures(state: ExploreState, first: list[rl.Flow] | None = None) -> list[rl.Measure]:
-    """What is measured of each load, if there is a fluid; a list gets the flow of the first."""
-    if not state.fluid:
-        return []
-    if first is None:
-        return [_APERTURE]
-
-    def aperture(fields: rl.Fields) -> float:
-        flow = rl.flow(fields)
-        if not first:
-            first.append(flow)
-        return flow.hydraulic_aperture
-
-    return [replace(_APERTURE, value=aperture)]
+def _cross(name: str, legend: str, colour: str) -> Series:
+    return marks(name, legend, colour, marker="x", size=9, line_width=2)
 
 
-def apertures(pressed: rl.Curve) -> NDArray[np.float64] | None:
-    """Hydraulic apertures over the rms height, zero where sealed; None without a fluid. [1]"""
-    measured = pressed.measured.get(_APERTURE.name)
-    return None if measured is None else measured.values / pressed.rms_height
+@dataclass(frozen=True)
+class Fluid(Physics):
+    """A fluid that flows through the gap, from left to right."""
 
-
-def flow_words(pressed: rl.Curve, flow: rl.Flow) -> list[dict[str, str]]:
-    """What comes through at the load, and the channel that carries most of it."""
-    aperture, ends = flow.hydraulic_aperture, None
-    measured = pressed.measured[_APERTURE.name]
-    if measured.low is not None and measured.high is not None:
-        ends = float(measured.low[0]), float(measured.high[0])
+    key = "fluid"
+    word = "x"
+    tick = "a fluid flows from left to right"
     meaning = (
-        "Hydraulic aperture: gap of two flat plates that let as much fluid through, from left to "
-        "right; a leak is proportional to its cube. The interval shows how far finer grids may "
-        "change it."
+        "A fluid flows where the bodies do not touch: the map shows where it goes, the curve how "
+        "much comes through, and at which load the contact seals."
     )
-    if flow.is_sealed:
-        below = f"at most {engineering(ends[1], 'm', _DIGITS)}" if ends and ends[1] > 0 else ""
-        return [item("aperture", "u_h", _SEALED, meaning, below)]
-    doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
-    value = decimal(aperture / pressed.rms_height, supported_digits(aperture, ends, _DIGITS))
-    below = " ".join(filter(None, value_and_interval(with_interval(aperture, ends, "m"))))
-    x, y = (decimal(share, _DIGITS) for share in throttled_at(flow))
-    share = f"{decimal(100 * flow.largest_share, _DIGITS)}%" if flow.largest_share else "none"
-    gap = decimal(float(flow.gap[flow.constriction]) / pressed.rms_height, _DIGITS)
-    return [
-        item(
-            *("aperture", "u_h", f"{value} h" + (" *" if doubt else "")),
-            meaning + (f" But {doubt}." if doubt else ""),
-            below,
+    maps: ClassVar = {"flux": "flux"}
+    opens = "flux"
+    strip: ClassVar = {"aperture": "area", "channel": "aperture"}
+    panels = (
+        over_force(
+            *("aperture", "Aperture over force", "hydraulic aperture uₕ / h"),
+            (
+                *theory_lines(_THEORIES),
+                _cross("theory sealed", "theory, sealed", "theory"),
+                _cross("sealed", "3D, sealed: nothing comes through", "dark-line"),
+            ),
+            theories=None,
+            ranges=((1e-4, 10.0), (1e-2, 10.0)),
+            columns=("F̄", "uₕ/h", "model"),
+            task="fluid",
+            waits="the flow under every load is being computed",
         ),
-        item(
-            *("channel", "largest channel", share),
-            "Largest share of the flow that one channel between two places of contact carries. "
-            "Below: where the fluid is throttled most, the ring in the map, and the gap there.",
-            f"ring: x {x} L, y {y} L, gap {gap} h",
-        ),
-    ]
+    )
+    follows = "surface"
+    files: ClassVar = {"flow": "flow", "aperture": "aperture"}
+
+    def measures(self) -> tuple[rl.Measure, ...]:
+        """The hydraulic aperture."""
+        return (replace(_APERTURE, value=lambda fields: _flow(fields).hydraulic_aperture),)
+
+    def over_force(self, pressed: rl.Curve) -> dict[str, NDArray[np.float64]]:
+        """Hydraulic apertures over the rms height, zero where sealed. [1]"""
+        measured = pressed.measured.get(_APERTURE.name)
+        return {} if measured is None else {"aperture": measured.values / pressed.rms_height}
+
+    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+        """What comes through at the load, and the channel that carries most of it."""
+        flow, ends = _flow(fields), None
+        aperture = flow.hydraulic_aperture
+        measured = pressed.measured[_APERTURE.name]
+        if measured.low is not None and measured.high is not None:
+            ends = float(measured.low[0]), float(measured.high[0])
+        if flow.is_sealed:
+            below = f"at most {engineering(ends[1], 'm', 3)}" if ends and ends[1] > 0 else ""
+            return [item("aperture", "u_h", _SEALED, _MEANING, below)]
+        doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
+        value = figure(aperture / pressed.rms_height, supported_digits(aperture, ends, 3))
+        x, y = map(figure, throttled_at(flow))
+        share = f"{figure(100 * flow.largest_share)}%" if flow.largest_share else "none"
+        gap = figure(float(flow.gap[flow.constriction]) / pressed.rms_height)
+        return [
+            item(
+                *("aperture", "u_h", f"{value} h" + (" *" if doubt else "")),
+                _MEANING + (f" But {doubt}." if doubt else ""),
+                bounded(aperture, ends, "m"),
+            ),
+            item(
+                *("channel", "largest channel", share),
+                "Largest share of the flow that one channel between two places of contact carries. "
+                "Below: where the fluid is throttled most, the ring in the map, and the gap there.",
+                f"ring: x {x} L, y {y} L, gap {gap} h",
+            ),
+        ]
+
+    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
+        """Where the fluid goes."""
+        return {"flux": flux_map(_flow(fields))}
+
+    def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
+        """What flows through the gap over force, and what theories of the flow say."""
+        surface = state.surface(state.points(CURVE_POINTS))
+        forces = borne(state, _FORCES)
+        pressed = pressed_under(state, surface, forces, progress, measures=self.measures())
+        apertures = self.over_force(pressed)["aperture"]
+        of_theories = _theories(state, surface)
+        drawn = {"sealed": _points(forces[apertures == 0], apertures[apertures == 0])}
+        drawn |= loads(forces, apertures, pressed)
+        rows = _rows(forces, apertures, "3D")
+        sealed = []
+        for name, (_, found) in of_theories.items():
+            drawn[f"theory {name}"] = _points(_THEORY_FORCES[found > 0], found[found > 0])
+            sealed += _THEORY_FORCES[found == 0][:1].tolist()  # the first such load alone
+            rows += _rows(_THEORY_FORCES, found, _THEORIES[name])
+        drawn["theory sealed"] = {"x": sealed, "y": [0] * len(sealed)}
+        least = apertures[apertures > 0].min(initial=np.inf) / _LOWEST
+        known = [*apertures, *(found[0] for _, found in of_theories.values()), least]
+        remarks = [f"{_THEORIES[name]}: {each.validity}" for name, (each, _) in of_theories.items()]
+        caption = f"{_where_sealed(forces, apertures)}; {note_of(pressed, len(surface.heights))}"
+        filled = Filled(drawn, rows, caption, f"{'. '.join(remarks)}.", y=span(known))
+        return {"panels": {"aperture": filled}}, {}
+
+    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
+        """The aperture at the load."""
+        return "", "", _IN_PYTHON
+
+    def in_command(self, state: ExploreState) -> tuple[list[str], str]:
+        """Nothing, as a leak needs two materials."""
+        return [], "the flow through the gap under a contact modulus has no command"
 
 
-def of_curve(pressed: rl.Curve, state: ExploreState, surface: rl.Surface) -> dict[str, Any]:
-    """Theories beside a curve with a fluid, all as a table, and in words where it seals."""
-    of_theories, table = _drawn(state, surface), rows(pressed, "3D")
-    for each in of_theories:
-        table += _rows(each["force_bar"], each["aperture"], each["name"])
-    return {"theories": of_theories, "table": table, "words": _where_sealed(pressed)}
+@lru_cache(maxsize=4)
+def _flow(fields: rl.Fields) -> rl.Flow:
+    """The flow through a gap, once for all that is asked of it."""
+    return rl.flow(fields)
 
 
-def rows(pressed: rl.Curve, name: str) -> list[list[str]]:
-    """Rows of F̄, the hydraulic aperture or that it is sealed, and a name; none without a fluid."""
-    found = apertures(pressed)
-    return [] if found is None else _rows(pressed.force_bar, found, name)
+def _points(x: NDArray[Any], y: NDArray[Any]) -> Points:
+    return {"x": x, "y": y}
 
 
 def _rows(forces: NDArray[Any], found: NDArray[Any], name: str) -> list[list[str]]:
@@ -102,36 +176,52 @@ def _rows(forces: NDArray[Any], found: NDArray[Any], name: str) -> list[list[str
     ]
 
 
-def _where_sealed(pressed: rl.Curve) -> str:
+def _where_sealed(forces: NDArray[Any], apertures: NDArray[Any]) -> str:
     """Say between which loads of a rising curve it seals."""
-    is_open = np.flatnonzero(
-        pressed.measured[_APERTURE.name].values != 0
-    )  # and those that were not solved
+    is_open = np.flatnonzero(apertures != 0)  # and those that were not solved
     if not is_open.size:
         return "sealed under every load"
-    open_until, *sealed_from = (
-        decimal(float(force), _DIGITS) for force in pressed.force_bar[is_open[-1] :][:2]
-    )
+    open_until, *sealed_from = map(figure, forces[is_open[-1] :][:2])
     if not sealed_from:
         return f"no load up to F̄ = {open_until} seals"
     return f"seals between F̄ = {open_until} and {sealed_from[0]}: marks at the foot"
 
 
-def theories(state: ExploreState, surface: rl.Surface) -> list[TheoryCurve]:
-    """Theories of the flow for the waves of the surface."""
+def _theories(
+    state: ExploreState, surface: rl.Surface
+) -> dict[str, tuple[TheoryCurve, NDArray[np.float64]]]:
+    """Theories of the flow for the waves of the surface, with their apertures over its height."""
     pressures = state.force(_THEORY_FORCES) / surface.area
-    return [rl.theory(name, surface, state.E_star, pressures) for name in _THEORIES]
-
-
-def _drawn(state: ExploreState, surface: rl.Surface) -> list[dict[str, Any]]:
-    """The same as the page draws them."""
-    return [
-        {
-            "name": _THEORIES[each.name],
-            "force_bar": _THEORY_FORCES,
-            "aperture": each.hydraulic_aperture / surface.rms_height,
-            "validity": each.validity,
-        }
-        for each in theories(state, surface)
-        if each.hydraulic_aperture is not None
+    half_space = state.half_space
+    curves = [
+        rl.theory(name, surface, pressure=pressures, half_space=half_space) for name in _THEORIES
     ]
+    return {
+        each.name: (each, each.hydraulic_aperture / surface.rms_height)
+        for each in curves
+        if each.hydraulic_aperture is not None
+    }
+
+
+def _draw_flow(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
+    """Where the fluid goes at the load."""
+    curve = pressed_under(state, surface, np.array([state.F]), progress, fields=True)
+    if curve.fields[0] is None:
+        raise ControlError("the load was not solved, so that no flow is known", "F")
+    rl.plot.flow(rl.flow(curve.fields[0]), "m", axes)
+
+
+def _draw_apertures(
+    axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress
+) -> None:
+    """How much comes through over the load, and on the way back from it if points yield."""
+    forces = np.union1d(borne(state, _FORCES), state.F)
+    if isinstance(state.law, rl.Yielding):
+        back = state.F * np.array(UNLOADING[:-1])  # without zero, which has no place on the axis
+        forces = np.concatenate([forces[forces <= state.F], back])
+    curve = pressed_under(state, surface, forces, progress, measures=state.measures)
+    of_theories = [each for each, _ in _theories(state, surface).values()]
+    rl.plot.hydraulic_aperture(curve, of_theories, axes=axes)
+
+
+Fluid.drawings = {"flow": _draw_flow, "aperture": _draw_apertures}

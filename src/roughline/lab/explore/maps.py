@@ -19,11 +19,11 @@ def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) ->
     height = surface.rms_height
     heights = (surface.heights - surface.heights.mean()) / height
     gap = np.where(fields.contact, np.nan, fields.gap / height)
-    return {
+    maps = {
         "height": Map(
             *(heights, "Cividis256", float(heights.min()), float(heights.max())), "height", "/ h"
         ),
-        "area": area_map(state, fields),
+        "area": Map(fields.contact.astype(np.uint8), "marks", 0, 2, marks=("ink",)),
         "pressure": _scaled(
             *(fields.pressure / state.E_star, "Viridis256", "pressure", "/ E*", _PRESSED),
             caption="blank where nothing touches",
@@ -38,17 +38,9 @@ def contact_maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) ->
             caption="of the half-space",
         ),
     }
-
-
-def area_map(state: ExploreState, fields: rl.Fields) -> Map:
-    """Where bodies touch, and where they yield or pull each other."""
-    if state.w is not None:
-        return Map(
-            *(fields.contact + 2 * fields.pulling.astype(np.uint8), "pull", 0, 2),
-            marks=("ink", "pull"),
-        )
-    marks = ("ink",) if state.hardness_bar is None else ("ink", "plastic")
-    return Map(fields.contact.astype(np.uint8) + fields.plastic, "marks", 0, 2, marks=marks)
+    for each in state.added:
+        maps |= each.maps_of(fields, state)
+    return maps
 
 
 def _scaled(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
@@ -11,24 +12,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
-from roughline.lab.explore import adhesion, fluid
-from roughline.lab.explore.maps import area_map, contact_maps
-from roughline.lab.explore.pressing import borne, pressed_under
-from roughline.lab.explore.state import ExploreState, usable_state
+from roughline.lab.explore.controls import CHOICES
+from roughline.lab.explore.maps import contact_maps
+from roughline.lab.explore.panels import Filled, Points, kept, loads, note_of, span
+from roughline.lab.explore.pressing import CURVE_POINTS, borne, pressed_under
+from roughline.lab.explore.reading import usable_state
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import (
     contact_words,
     line_words,
     number_rows,
+    rows_of,
     status,
-    unloading_bar,
+    unlike,
 )
 from roughline.lab.frames import frame
-from roughline.lab.maps import Map, flux_map
+from roughline.lab.maps import Map
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
+from roughline.theories.theory import OF_ONE_MATERIAL, why_not
 
 _COARSE, _COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
@@ -39,8 +43,8 @@ _FEWEST_SPRINGS = 2**13
 _FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
-_CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
-_CURVE_FORCES = np.geomspace(1e-3, 3, 13)
+_CURVE_FORCES, _THEORY_FORCES = np.geomspace(1e-3, 3, 13), np.geomspace(1e-3, 3, 31)
+_AT_LEAST = {"stiffness": (1e-3, 1.3), "area": (1e-4, 1.0)}  # that their axes show
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
@@ -55,21 +59,16 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
     here = int(np.searchsorted(forces, state.F))
-    return frame(
-        {
-            **_settled(state, refused),
-            "line": {
-                "force_bar": forces,
-                "stiffness_bar": mean,
-                "low": stiffness.min(axis=0),
-                "high": stiffness.max(axis=0),
-            },
-            "stiffness_bar_1d": float(mean[here]),
-            "table": [[*row, "1D"] for row in number_rows(forces, mean)],
-            "strip": line_words(state, float(mean[here]), len(lines)),
-            "is_coarse": len(lines) < _LINES,
-        }
-    )
+    rows = [[*row, "1D"] for row in number_rows(forces, mean)]
+    line = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
+    filled = Filled({"line": line}, rows, legends={"line": _line_legend(state)})
+    told = {
+        "panels": {"stiffness": filled},
+        "stiffness_bar_1d": float(mean[here]),
+        "strip": line_words(state, float(mean[here]), len(lines)),
+        "is_coarse": len(lines) < _LINES,
+    }
+    return _message(state, refused, told)
 
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
@@ -93,77 +92,36 @@ def full(arguments: Arguments, progress: Progress) -> bytes:
 def curve(arguments: Arguments, progress: Progress) -> bytes:
     """Stiffness and area over force of the surface, and of theories."""
     state, refused = usable_state(arguments)
-    n = state.points(_CURVE_POINTS)
-    surface = state.surface(n)
+    surface = state.surface(state.points(CURVE_POINTS))
     pressed = pressed_under(state, surface, borne(state, _CURVE_FORCES), progress)
-    return frame(
-        {
-            **_settled(state, refused),
-            "curve": _of_curve(pressed),
-            "grid": f"{n}²",
-            "theories": [_of_theory(name, surface, state) for name in state.theories],
-            "stiffness_table": _stiffness_rows(pressed),
-            "area_table": _area_rows(pressed),
-        }
-    )
+    forces, note = state.force_bars(pressed), note_of(pressed, len(surface.heights))
+    theories, remarks = _theories(state, surface)
+    panels = {}
+    for panel, values in state.over_force(pressed).items():
+        filled = Filled(loads(forces, values, pressed), rows_of(forces, values, pressed, "3D"))
+        filled.series |= theories[panel]
+        filled.caption = note
+        panels[panel] = filled
+    panels["area"].remarks = " ".join(f"{each}." for each in remarks)
+    for each in state.added:
+        for panel, more in each.beside_curve(pressed, state).items():
+            panels[panel].series |= more.series
+            panels[panel].rows = [*(panels[panel].rows or []), *(more.rows or [])]
+    for panel, (low, high) in _AT_LEAST.items():
+        marks = [each["y"] for name, each in panels[panel].series.items() if "theory" not in name]
+        panels[panel].y = span(np.concatenate(marks), low, high)
+    return _message(state, refused, {"panels": panels})
 
 
-def flow(arguments: Arguments, progress: Progress) -> bytes:
-    """What flows through the gap over force, and what theories of the flow say."""
+def further(arguments: Arguments, progress: Progress) -> bytes:
+    """What comes later than the contact of a physics that is added: `of` is its key."""
     state, refused = usable_state(arguments)
-    if not state.fluid:
-        raise ControlError("there is no fluid: mark that one flows through the gap", "fluid")
-    n = state.points(_CURVE_POINTS)
-    surface = state.surface(n)
-    measures = fluid.measures(state)
-    pressed = pressed_under(state, surface, borne(state, fluid.FORCES), progress, measures=measures)
-    return frame(
-        {
-            **_settled(state, refused),
-            "curve": _of_curve(pressed),
-            "grid": f"{n}²",
-            **fluid.of_curve(pressed, state, surface),
-        }
-    )
-
-
-def cycle(arguments: Arguments, progress: Progress) -> bytes:
-    """Both ways of bodies that stick: beyond the load, back to it, and off."""
-    state, refused = usable_state(arguments)
-    n = adhesion.points(state, refines=arguments.get("refines") is True)
-    found = adhesion.cycle(state, n, progress)
-    fields = found.by_forces.fields[adhesion.BACK]
-    maps = {} if fields is None else {"retreat": area_map(state, fields)}
-    turn = {name: each for name, each in _of_curve(found.by_forces).items() if each is not None}
-    return frame(
-        {
-            **_settled(state, refused),
-            **adhesion.of_cycle(found, state, n),
-            "curve": _of_curve(found.by_depths),
-            "turn": {name: values[1 : adhesion.BACK + 1] for name, values in turn.items()},
-            "is_coarse": n < adhesion.points(state),
-            "maps": {name: each.look for name, each in maps.items()},
-        },
-        {name: each.values.T for name, each in maps.items()},
-    )
-
-
-def unloading(arguments: Arguments, progress: Progress) -> bytes:
-    """The way back from the load of the state to none."""
-    state, refused = usable_state(arguments)
-    n = state.points(_CURVE_POINTS)
-    loads = state.F * np.array([1.0, *UNLOADING])
-    measures = fluid.measures(state)
-    pressed = pressed_under(state, state.surface(n), loads, progress, measures=measures)
-    return frame(
-        {
-            **_settled(state, refused),
-            "curve": _of_curve(pressed),
-            "stiffness_table": _unloading_rows(pressed),
-            "area_table": _area_rows(pressed),
-            "aperture_table": fluid.rows(pressed, "3D, way back"),
-        }
-    )
+    kind = next((each for each in state.added if each.key == arguments.get("of")), None)
+    if kind is None:
+        sentence = "this is not computed without its tick: mark it first"
+        raise ControlError(sentence, str(arguments.get("of", "")))
+    told, maps = kind.further(state, arguments.get("refines") is True, progress)
+    return _message(state, refused, told, maps)
 
 
 def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: Progress) -> bytes:
@@ -171,35 +129,46 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
     started = time.perf_counter()
     is_coarse = n < state.n
     surface = state.surface(n)
-    flows: list[rl.Flow] = []
     pressed = pressed_under(
         *(state, surface, np.array([state.F]), progress),
         fields=True,
         grid_error=not is_coarse,
-        measures=fluid.measures(state, flows),
+        measures=state.measures,
     )
     fields = pressed.fields[0]
-    maps: dict[str, Map] = {}
-    strip = contact_words(pressed, fields, surface)
-    if fields is not None:
-        maps = contact_maps(state, surface, fields)
-        strip += adhesion.contact_words(pressed, state)
-        if flows:
-            maps["flux"] = flux_map(flows[0])
-            strip += fluid.flow_words(pressed, flows[0])
+    maps = {} if fields is None else contact_maps(state, surface, fields)
+    strip = contact_words(pressed, fields, surface, state)
+    is_known, force = pressed.converged, state.force_bars(pressed)
+    panels = {
+        panel: Filled({"here": kept(force, values, is_known)})
+        for panel, values in state.over_force(pressed).items()
+    }
+    if not is_coarse:
+        panels["spectrum"] = _spectrum(surface, state)
     seconds = time.perf_counter() - started
-    arrays = {"topography": shaded(surface)} | {name: each.values for name, each in maps.items()}
+    told = {
+        "points": n,
+        "is_coarse": is_coarse,
+        "panels": panels,
+        "strip": strip,
+        "status": status(pressed, n, seconds, is_coarse=is_coarse),
+    }
+    return _message(state, refused, told, maps, {"topography": shaded(surface)})
+
+
+def _message(
+    state: ExploreState,
+    refused: Mapping[str, str],
+    told: dict[str, Any],
+    maps: Mapping[str, Map] | None = None,
+    arrays: Mapping[str, NDArray[Any]] | None = None,
+) -> bytes:
+    """An answer, with what the page is told of its controls: what counts, and what does not."""
+    arrays = {**(arrays or {}), **{name: each.values for name, each in (maps or {}).items()}}
+    panels = {name: vars(each) for name, each in told.get("panels", {}).items()}
+    looks = {name: each.look for name, each in (maps or {}).items()}
     return frame(
-        {
-            **_settled(state, refused),
-            "points": n,
-            "is_coarse": is_coarse,
-            "curve": _of_curve(pressed),
-            **({} if is_coarse else _of_spectrum(surface, state)),
-            "maps": {name: each.look for name, each in maps.items()},
-            "strip": strip,
-            "status": status(pressed, n, seconds, is_coarse=is_coarse),
-        },
+        {**_settled(state, refused), **told, "panels": panels, "maps": looks},
         {name: values.T for name, values in arrays.items()},  # rows of an image run along x
     )
 
@@ -215,14 +184,22 @@ def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
         finest = f"{as_text(state.shortest)} sides"
         why = f"{state.n} points carry no waves shorter than {finest}; that is used meanwhile"
         refused = {"cutoff": why, **refused}
-    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "n", "F", "hardness_bar", "w", "h0")
+    names = ("D_f", "roll_off", "h", "slope", "seed", "n", "F")
     values = {name: getattr(state, name) for name in names} | {"cutoff": state.cutoff_used}
+    for each in state.added:
+        values |= each.numbers
     return {
         "state": state.address(),
-        "numbers": {name: float(value) for name, value in values.items() if value is not None},
+        "numbers": {name: float(value) for name, value in values.items()},
         "lows": {"cutoff": state.shortest},
         "refused": refused,
     }
+
+
+def _line_legend(state: ExploreState) -> str:
+    """What the line of the reduced model is called, with what it leaves out."""
+    without = unlike(state)
+    return f"1D {without}, mean and range" if without else "1D, mean and range of single lines"
 
 
 def _lines_of(state: ExploreState, count: int) -> tuple[rl.Line, ...]:
@@ -242,21 +219,7 @@ def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float6
     return rl.press(line, E_star=state.E_star, forces=force_bars * scale)
 
 
-def _of_curve(pressed: rl.Curve) -> dict[str, Any]:
-    """What the page draws of a curve; a load that was not solved is left out there."""
-    return {
-        "force_bar": pressed.force_bar,
-        "stiffness_bar": pressed.stiffness_bar,
-        "unloading_bar": None if pressed.hardness is None else unloading_bar(pressed),
-        "area": pressed.area_fraction_corrected,
-        "aperture": fluid.apertures(pressed),
-        "depth": pressed.depth / pressed.rms_height,
-        "resolved": pressed.resolved,
-        "converged": pressed.converged,
-    }
-
-
-def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
+def _spectrum(surface: rl.Surface, state: ExploreState) -> Filled:
     """Spectrum of the surface, and the law that it is drawn from, over waves in the side."""
     measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d > 0
@@ -264,57 +227,28 @@ def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     law = state.spectrum(state.n).lattice(state.n).C_2d(q)
     waves = q * state.length / (2 * np.pi)
     shown = slice(None, None, -(-waves.size // _MOST_ROWS))
-    return {
-        "spectrum": {"waves": waves, "C_2d": power, "law": np.where(law > 0, law, np.nan)},
-        "spectrum_table": number_rows(waves[shown], power[shown], law[shown]),
-    }
+    rows = number_rows(waves[shown], power[shown], law[shown])
+    series = {"surface": kept(waves, power), "law": kept(waves, law)}
+    return Filled(series, rows, x=span(waves), y=span(power))
 
 
-def _of_theory(name: str, surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
-    """A theory for the waves of the surface, dimensionless like the curve."""
-    import warnings
-
-    forces = np.geomspace(1e-3, 3, 31)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", rl.ContinuumWarning)  # its sentence is in the validity
-        found = rl.theory(name, surface, state.E_star, state.force(forces) / surface.area)
-    stiffness = None
-    if found.stiffness is not None:
-        stiffness = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)
-    return {
-        "name": found.name,
-        "force_bar": forces,
-        "area": found.area_fraction,
-        "stiffness_bar": stiffness,
-        "validity": found.validity,
-    }
-
-
-def _stiffness_rows(pressed: rl.Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the stiffness: F̄, k̄ and the model."""
-    rows = [[*row, "3D"] for row in _rows(pressed, pressed.stiffness_bar)]
-    if pressed.hardness is not None:
-        rows += [[*row, "3D, k_u"] for row in _rows(pressed, unloading_bar(pressed))]
-    return rows
-
-
-def _unloading_rows(pressed: rl.Curve) -> list[list[str]]:
-    """The same of the way back from a load, which is the first."""
-    return [[*row, "3D, way back"] for row in _rows(pressed, unloading_bar(pressed))]
-
-
-def _area_rows(pressed: rl.Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the area: F̄ and A / A_0."""
-    assert pressed.area_fraction_corrected is not None
-    return _rows(pressed, pressed.area_fraction_corrected)
-
-
-def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
-    """Rows of a quantity over force; a star marks loads with too few cells in contact."""
-    rows = number_rows(pressed.force_bar, values)
-    for i, row in enumerate(rows):
-        if not pressed.converged[i]:
-            row[1] = rl.Status(pressed.status[i]).reason
-        elif not pressed.resolved[i] and pressed.force[i] > 0:
-            row[1] += " *"
-    return rows
+def _theories(
+    state: ExploreState, surface: rl.Surface
+) -> tuple[dict[str, dict[str, Points]], list[str]]:
+    """Theories for the waves of the surface, as panels draw them, and how far they hold."""
+    drawn: dict[str, dict[str, Points]] = {"stiffness": {}, "area": {}}
+    remarks, pressures = [], state.force(_THEORY_FORCES) / surface.area
+    for name in state.theories:
+        called = CHOICES["theories"].options[name]
+        if name in OF_ONE_MATERIAL and (reason := why_not(name, surface, state.half_space)):
+            remarks.append(f"{called}: not drawn, {reason}")
+            continue
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", rl.ContinuumWarning)  # its sentence is in the validity
+            found = rl.theory(name, surface, pressure=pressures, half_space=state.half_space)
+        remarks.append(f"{called}: {found.validity}")
+        drawn["area"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": found.area_fraction}
+        if found.stiffness is not None:
+            values = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)
+            drawn["stiffness"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": values}
+    return drawn, remarks

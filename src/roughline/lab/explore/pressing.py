@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,34 +11,30 @@ import roughline as rl
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.server.tasks import Progress
 
-_MOST_OF_HARDNESS = 0.9  # of the force under which all yields, where curves end
+CURVE_POINTS = 256
+"""Points along a side of the surface whose whole curve is computed."""
+_MOST_OF_LARGEST = 0.9  # of the force that all of the area bears, where curves end
 
 
 def borne(state: ExploreState, force_bar: NDArray[np.float64]) -> NDArray[np.float64]:
     """Those of dimensionless forces that the surface bears. [1]"""
-    return force_bar[force_bar < _MOST_OF_HARDNESS * state.most_force_bar]
+    return force_bar[force_bar < _MOST_OF_LARGEST * state.most_force_bar]
 
 
 def pressed_under(
     state: ExploreState,
     surface: rl.Surface,
-    force_bar: NDArray[Any],
+    force_bar: NDArray[Any] | None,
     progress: Progress,
-    *,
-    fields: bool | Sequence[int] = False,
-    grid_error: bool = False,
-    measures: Sequence[rl.Measure] = (),
+    **others: Any,
 ) -> rl.Curve:
-    """Press a surface of the state under dimensionless forces."""
+    """Press a surface of the state under dimensionless forces, or under what others say."""
     return rl.press(
         surface,
-        E_star=state.E_star,
+        half_space=state.half_space,
         law=state.law,
-        forces=state.force(force_bar),
-        periodic=state.periodic,
-        fields=fields,
-        grid_error=grid_error,
-        measures=measures,
+        forces=None if force_bar is None else state.force(force_bar),
         throw=False,
         progress=progress,
+        **others,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,160 +11,99 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.assessment.uncertainty import intervals_of
 from roughline.contact.quantities import RESOLVED_FROM
-from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
-from roughline.engineering.intervals import Intervals
-from roughline.lab.explore.state import ExploreState
-from roughline.report.values import value_and_interval, with_interval
-from roughline.units import decimal, engineering, supported_digits
+from roughline.lab.explore.state import ExploreState, Item
+from roughline.report.values import scale_of
+from roughline.units import decimal, supported_digits
 
 _DIGITS = 3
 
-_Item = dict[str, str]
-"""One number of the answer strip: its key, symbol, value, unit and meaning."""
 
-
-def line_words(state: ExploreState, stiffness: float, lines: int) -> list[_Item]:
+def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
     """What the reduced model gives at the load."""
-    without = "" if state.hardness_bar is None else " Its springs do not yield."
-    without += "" if state.w is None else " Its springs do not stick."
     return [
         item(
-            "stiffness_1d",
-            "k̄ (1D)",
-            decimal(stiffness, _DIGITS),
+            *("stiffness_1d", "k̄ (1D)", figure(stiffness)),
             f"Stiffness k / (E* L) of the reduced model, mean of {lines} lines with the same "
-            f"waves. It is made for the free half-space.{without}",
+            "waves. It is made for the free half-space of one material, dry and elastic.",
+            unlike(state),
         )
     ]
 
 
-def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surface) -> list[_Item]:
+def unlike(state: ExploreState) -> str:
+    """Say what the reduced model leaves out of a state."""
+    return ", ".join(each.unlike for each in state.added if each.unlike)
+
+
+def contact_words(
+    pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surface, state: ExploreState
+) -> list[Item]:
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
         return [item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
-    intervals = intervals_of(pressed)
     return [
-        _stiffness(pressed, intervals),
-        _area(pressed, intervals),
-        *_pressure_and_depth(pressed, fields, surface),
-        *_of_yield(pressed, intervals, surface),
-        _roughness(surface),
+        *_stiffness_and_area(pressed, state),
+        *_pressure_and_depth(pressed, fields, state),
+        item(
+            *("roughness", "h", engineering_figure(surface.rms_height, "m")),
+            "Rms height; the rms slope on this grid is given below.",
+            f"slope {figure(surface.rms_slope)}",
+        ),
+        *(word for each in state.added for word in each.words(pressed, fields, state)),
     ]
 
 
-def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
-    unsure = not pressed.resolved[0]
-    sticks = isinstance(pressed.law, rl.Dugdale)
-    ends = _first(intervals.stiffness) if intervals else None
-    return item(
-        "stiffness_3d",
-        "k̄ (3D)",
-        decimal(float(pressed.stiffness_bar[0]), _digits(pressed.stiffness, ends))
-        + (" *" if unsure else ""),
-        "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
-        "square punch. The interval shows how far finer grids may change it."
-        + (" It is that at a given reach of the pull: along a branch the slope is less." * sticks)
-        + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
-        with_interval(float(pressed.stiffness[0]), ends, "N/m"),
-    )
-
-
-def _area(pressed: rl.Curve, intervals: Intervals | None) -> _Item:
+def _stiffness_and_area(pressed: rl.Curve, state: ExploreState) -> list[Item]:
+    intervals, unsure = intervals_of(pressed), not pressed.resolved[0]
     assert pressed.area_fraction_corrected is not None
-    area = float(pressed.area_fraction_corrected[0])
-    ends = _first(intervals.area) if intervals else None
-    written = with_interval(area, ends, "%")
-    return item(
-        "area",
-        "contact",
-        f"{decimal(100 * area, supported_digits(area, ends, _DIGITS))}%",
-        "Real contact area over the nominal one, corrected for the steps of its outline. The "
-        "interval shows how much finer grids, with finer roughness, may change it.",
-        *value_and_interval(written)[1:],
+    stiffness, area = float(pressed.stiffness[0]), float(pressed.area_fraction_corrected[0])
+    of_k, of_area = (
+        (first(intervals.stiffness), first(intervals.area)) if intervals else (None, None)
     )
+    sticks = isinstance(pressed.law, rl.Dugdale)
+    return [
+        item(
+            *("stiffness_3d", "k̄ (3D)"),
+            figure(state.stiffness_bars(stiffness), supported_digits(stiffness, of_k, _DIGITS))
+            + (" *" if unsure else ""),
+            "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
+            "square punch. The interval shows how far finer grids may change it."
+            + " It is that at a given reach of the pull: along a branch the slope is less." * sticks
+            + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
+            bounded(stiffness, of_k, "N/m"),
+        ),
+        item(
+            *("area", "contact"),
+            f"{figure(100 * area, supported_digits(area, of_area, _DIGITS))}%",
+            "Real contact area over the nominal one, corrected for the steps of its outline. The "
+            "interval shows how much finer grids, with finer roughness, may change it.",
+            bounded(area, of_area, "%").partition(" ")[2],
+        ),
+    ]
 
 
-def _pressure_and_depth(pressed: rl.Curve, fields: rl.Fields, surface: rl.Surface) -> list[_Item]:
+def _pressure_and_depth(pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
     force, depth = float(pressed.force[0]), float(pressed.depth[0])
     in_contact = float(fields.pressure[fields.contact].mean())
+    over_hardness = f", {figure(in_contact / pressed.hardness)} H" if pressed.hardness else ""
     return [
         item(
-            "pressure",
-            "p_c",
-            f"{decimal(in_contact / pressed.E_star, _DIGITS)} E*",
+            *("pressure", "p_c", f"{figure(in_contact / state.E_star)} E*"),
             "Mean pressure within the contact, over the cells that touch.",
-            engineering(in_contact, "Pa", _DIGITS)
-            + (
-                f", {decimal(in_contact / pressed.hardness, _DIGITS)} H" if pressed.hardness else ""
-            ),
+            engineering_figure(in_contact, "Pa") + over_hardness,
         ),
         item(
-            "depth",
-            "d",
-            f"{decimal(depth / surface.rms_height, _DIGITS)} h",
+            *("depth", "d", f"{figure(depth / pressed.rms_height)} h"),
             "Depth since the first touch of the highest summit.",
-            engineering(depth, "m", _DIGITS),
+            engineering_figure(depth, "m"),
         ),
         item(
-            "force",
-            "F",
-            engineering(force, "N", _DIGITS),
+            *("force", "F", engineering_figure(force, "N")),
             "Total force on the surface, for the side and the contact modulus that are set.",
-            f"{engineering(force / surface.area, 'Pa', _DIGITS)} over the nominal area",
+            f"{engineering_figure(force / state.length**2, 'Pa')} over the nominal area",
         ),
     ]
-
-
-def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surface) -> list[_Item]:
-    """Stiffness on unloading, share of the contact that yields, and indentation."""
-    if pressed.hardness is None:
-        return []
-    assert pressed.unloading_stiffness is not None
-    assert pressed.plastic_fraction is not None
-    assert pressed.indentation is not None
-    ends = _first(intervals.unloading) if intervals else None
-    indentation = float(pressed.indentation[0])
-    return [
-        item(
-            "unloading",
-            "k̄_u (3D)",
-            decimal(float(unloading_bar(pressed)[0]), _digits(pressed.unloading_stiffness, ends)),
-            "Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs back, while on "
-            "loading the spots at the hardness bear no more. Ultrasound and currents depend on it.",
-            with_interval(float(pressed.unloading_stiffness[0]), ends, "N/m"),
-        ),
-        item(
-            "plastic",
-            "plastic",
-            f"{decimal(100 * float(pressed.plastic_fraction[0]), _DIGITS)}%",
-            "Share of the contact that is at the hardness; the hardness is given below.",
-            f"H {engineering(pressed.hardness, 'Pa', _DIGITS)}",
-        ),
-        item(
-            "indentation",
-            "indentation",
-            f"{decimal(indentation / surface.rms_height, _DIGITS)} h",
-            "Largest permanent indentation, which remains after unloading.",
-            engineering(indentation, "m", _DIGITS),
-        ),
-    ]
-
-
-def unloading_bar(pressed: rl.Curve) -> NDArray[np.float64]:
-    """Stiffness on unloading, dimensionless as that on loading. [1]"""
-    assert pressed.unloading_stiffness is not None
-    return stiffness_bar(pressed.unloading_stiffness, pressed.E_star, pressed.length, PAPER_PUNCH)
-
-
-def _roughness(surface: rl.Surface) -> _Item:
-    return item(
-        "roughness",
-        "h",
-        engineering(surface.rms_height, "m", _DIGITS),
-        "Rms height; the rms slope on this grid is given below.",
-        f"slope {decimal(surface.rms_slope, _DIGITS)}",
-    )
 
 
 def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str:
@@ -172,25 +112,58 @@ def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str
     certified = "certified" if pressed.converged[0] else "NOT CONVERGED"
     return (
         f"{n}²{' (coarse)' if is_coarse else ''}, {int(pressed.convolutions[0])} convolutions, "
-        f"residual {pressed.residual[0]:.1g} {certified}, {decimal(seconds, 2)} s"
+        f"residual {pressed.residual[0]:.1g} {certified}, {figure(seconds, 2)} s"
     )
 
 
-def _digits(stiffness: NDArray[np.float64], ends: tuple[float, float] | None) -> int:
-    """Digits that the interval of a stiffness at the first load supports."""
-    return supported_digits(float(stiffness[0]), ends, _DIGITS)
-
-
-def _first(ends: Any) -> tuple[float, float] | None:
+def first(ends: Any) -> tuple[float, float] | None:
     """Both ends of an interval at the first load; None where there is no interval."""
     return None if ends is None else (float(ends[0][0]), float(ends[1][0]))
 
 
+def figure(value: float, digits: int = _DIGITS) -> str:
+    """A number with significant digits, its zeros kept."""
+    text = decimal(value, digits)
+    if not value or not math.isfinite(value) or "e" in text:
+        return text
+    exponent = math.floor(math.log10(abs(float(text))))
+    return f"{float(text):.{max(digits - 1 - exponent, 0)}f}"
+
+
+def engineering_figure(value: float, unit: str, digits: int = _DIGITS) -> str:
+    """A value with its unit and a prefix, its zeros kept."""
+    factor, sign = scale_of(value, unit, digits)
+    return f"{figure(factor * value, digits)}{sign}"
+
+
+def bounded(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+    """A value with its unit, and its interval with the same unit in brackets."""
+    if ends is None or not np.isfinite([value, *ends]).all():
+        return engineering_figure(value, unit)
+    digits = supported_digits(value, ends, _DIGITS)
+    factor, sign = scale_of(value, unit, digits)
+    low, high = (figure(factor * end) for end in ends)
+    return f"{figure(factor * value, digits)}{sign} ({low} to {high}{sign})"
+
+
 def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
     """Rows of a table of numbers."""
-    return [[decimal(float(value), _DIGITS) for value in row] for row in zip(*columns, strict=True)]
+    return [[figure(float(value)) for value in row] for row in zip(*columns, strict=True)]
 
 
-def item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> _Item:
+def rows_of(
+    forces: NDArray[np.float64], values: NDArray[np.float64], pressed: rl.Curve, name: str
+) -> list[list[str]]:
+    """Rows of loads and a quantity; a star marks those with too few cells in contact."""
+    rows = [[*row, name] for row in number_rows(forces, values)]
+    for i, row in enumerate(rows):
+        if not pressed.converged[i]:
+            row[1] = rl.Status(pressed.status[i]).reason
+        elif not pressed.resolved[i] and pressed.force[i] > 0:
+            row[1] += " *"
+    return rows
+
+
+def item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> Item:
     """One number of the answer strip."""
     return {"key": key, "symbol": symbol, "value": value, "below": below, "meaning": meaning}

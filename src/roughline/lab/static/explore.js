@@ -1,28 +1,21 @@
-// Explore: a random surface under both models, as sliders move.
+// Explore: a random surface under both models, as sliders move. What can be added to the contact, and which curves
+// there are, the server declares.
 import {Controls} from "./controls.js";
 import {exploreFigures} from "./explore-figures.js";
 import {onDraw} from "./hands.js";
 import {Maps, layersOf} from "./maps.js";
 import {embedded, points} from "./plots.js";
-import {Strip} from "./strip.js";
+import {Strip, withSubscripts} from "./strip.js";
 import {fillCaption, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
 import {TakeAlong} from "./take_along.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
-const DASHES = ["– –", "· · ·", "– ·"]; // as theories are drawn
-const MOST_THEORIES = DASHES.length;
-const CONTACT = ["topography", "contact"], CURVES = ["stiffness", "area", "spectrum"]; // panels
-const OVER_FORCE = {stiffness: "stiffness_bar", area: "area", aperture: "aperture"}; // panels with loads, what they show
-const CURSORS = [...Object.keys(OVER_FORCE), "cycle"]; // panels with the line of the load
-const STRIP = ["stiffness_3d", "unloading", "stiffness_1d", "area", "aperture", "channel", "plastic", "pressure", "depth",
-  "indentation", "force", "roughness", "retreat", "pull_off", "pulling", "zone"];
-const FINER = ["full", "curve", "flow", "unloading", "cycle"]; // what is asked at rest
-const NOT_ALWAYS = ["unloading", "plastic", "indentation", "aperture", "channel", "retreat", "pull_off", "pulling", "zone"]; // in the strip
-const FOOT = 0.04; // of an axis: how far above its end sealed loads stand
-const ROOM_ABOUT = 0.06; // of what is drawn on linear axes
-const ROOM = 3; // between them and the smallest aperture
+const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
+const MAPS = ["explore-topography", "explore-contact"];
+const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
+const LEFT_BY_OTHERS = "curves belong to the contact before";
 
 export async function open(link, address, said) {
   const view = new Explore(link, address);
@@ -33,80 +26,109 @@ export async function open(link, address, said) {
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
   #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
+  #physics; #panels; #cursors; // as the server declares them
 
   constructor(link, address) {
     this.#link = link;
     this.#address = address;
+    const {physics, panels, strip} = JSON.parse(this.#find("[data-declared]").dataset.declared);
+    this.#physics = physics;
+    this.#panels = panels;
+    this.#cursors = panels.filter(({cursor}) => cursor);
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
-    this.#waiting = new Waiting(this.#root.querySelector(".status"), link, (works) => this.#cancelled(works));
+    this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
     new TakeAlong(this.#root, link, () => ({state: this.#controls.used}), this.#waiting, (...said) => this.#refuse(...said));
-    this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
-    this.#bindButtons();
+    this.#strip = new Strip(this.#find(".strip"), strip);
+    this.#find("#another").addEventListener("click", () => this.#controls.put("seed", String(Math.floor(Math.random() * 1e6))));
+    for (const key of Object.keys(physics)) this.#find(`[data-tick="${key}"]`).addEventListener("change", () => this.#ticked(key));
+    for (const panel of this.#root.querySelectorAll(".panel:not(.wide)")) panel.classList.add("empty");
+    for (const {key, task} of panels) this.#panelOf(key).dataset.task = task;
+    for (const map of MAPS) this.#find(`#${map}`).dataset.task = "contact";
+    bindTabs(this.#root);
+    keepInSight(this.#find(".controls"));
   }
 
   async open(said) {
     this.#take(said);
-    this.#dimAll();
+    this.#stale = new Set(this.#finer);
+    this.#dim(["contact", ...this.#stale]);
     this.#askNow();
-    this.#plots = await embedded(exploreFigures);
-    for (const name of CURSORS) {
-      this.#plots.onMove(`${name} cursor`, (force) => this.#cursorMoved(force));
-      onDraw(this.#plots.root(`explore-${name}`), this.#root.querySelector(`[data-draw="${name}"]`),
-        (from, {x, y}) => { this.#plots.model(`${name} cursor`).location = name === "cycle" ? y : x; });
+    this.#plots = await embedded(() => exploreFigures(this.#panels));
+    for (const {key, cursor} of this.#cursors) {
+      this.#plots.onMove(`${key} cursor`, (force) => this.#cursorMoved(force));
+      onDraw(this.#plots.root(`explore-${key}`), this.#find(`[data-draw="${key}"]`),
+        (from, {x, y}) => { this.#plots.model(`${key} cursor`).location = cursor === "width" ? y : x; });
     }
-    this.#maps = new Maps(this.#plots, "explore", CONTACT, "profile");
+    this.#maps = new Maps(this.#plots, "explore", ["topography", "contact"], "profile");
     this.#maps.frame([1, 1], "/ L");
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
   }
 
+  shown() { this.#address.write("explore", this.#last?.state ?? {}); }
+
+  #find(selector) { return this.#root.querySelector(selector); }
+  #isAdded(key) { return Boolean(this.#controls.said[key]); }
+
   // Take the texts of an address, or none.
   #take({view, theme, H, ...texts}) {
     this.#controls.take(H === undefined ? texts : {...texts, D_f: `H = ${H}`});
     this.#showHeightOrSlope();
-    this.#showHardness();
-    this.#showFluid();
-    this.#showSticking();
-    if (this.#sticks) this.#root.querySelector("#tab-cycle").click();
+    for (const key of Object.keys(this.#physics)) this.#showPhysics(key);
   }
 
-  shown() { this.#address.write("explore", this.#last?.state ?? {}); }
+  #ticked(key) {
+    const text = this.#find(`[data-text="${key}"]`)?.value || this.#find(`input[type="range"][data-key="${key}"]`)?.dataset.default;
+    this.#controls.set(key, this.#find(`[data-tick="${key}"]`).checked ? this.#physics[key].word || text : "");
+  }
+
+  // Show what there is with a physics alone; its first curve is opened with it, and its maps are left without it.
+  #showPhysics(key) {
+    const isAdded = this.#isAdded(key), {panels} = this.#physics[key];
+    this.#find(`[data-tick="${key}"]`).checked = isAdded;
+    for (const each of this.#root.querySelectorAll(`[data-of="${key}"]`)) each.hidden = !isAdded;
+    for (const select of this.#root.querySelectorAll(`select:has([data-of="${key}"]:checked)`)) if (!isAdded) select.selectedIndex = 0;
+    const tabs = panels.map((panel) => this.#find(`#tab-${panel}`));
+    if (isAdded) tabs[0]?.click();
+    else if (tabs.some((tab) => tab.ariaSelected === "true")) this.#find("[role=tab]").click();
+    if (isAdded) return;
+    this.#show(key, {});
+    for (const panel of panels) this.#panelOf(panel).classList.replace("dimmed", "empty");
+  }
 
   #missed = []; // answers that came before the plots were there
   #draw(action) { if (this.#plots) action(); else this.#missed.push(action); }
 
   #changed(key, isFinal) {
     if (key === "shown") {
-      if (this.#last) { this.#drawField(this.#last); this.#writeAddress(this.#last.state); }
+      if (this.#last) { this.#drawField(); this.#writeAddress(this.#last.state); }
       return;
     }
     this.#ofLink = "";
     if (key === "rms") this.#showHeightOrSlope();
-    if (key === "hardness_bar") this.#showHardness();
-    if (key === "fluid") {
-      this.#controls.put("shown", this.#flows ? "flux" : "area");
-      this.#showFluid();
+    if (key in this.#physics && this.#isAdded(key) === this.#find(`[data-adds="${key}"]`).hidden) { // on or off
+      const {opens, maps} = this.#physics[key], {shown} = this.#controls.said;
+      if (opens && this.#isAdded(key)) this.#controls.put("shown", opens);
+      if (maps.includes(shown) && !this.#isAdded(key)) this.#controls.put("shown", "area");
+      this.#showPhysics(key);
     }
-    if (key === "w" && this.#sticks === this.#root.querySelector('[data-control="w"]').hidden) { // on or off
-      if (this.#controls.said.shown === "retreat") this.#controls.put("shown", "area");
-      this.#showSticking();
-      this.#root.querySelector(this.#sticks ? "#tab-cycle" : "#tab-area").click();
-    }
-    this.#forgetWayBack();
-    if (key === "F") this.#dim([...CONTACT, ...(this.#sticks ? ["cycle"] : [])]);
-    else this.#dimAll();
+    this.#stale = new Set([...this.#stale].filter((each) => this.#finer.includes(each)));
+    for (const each of this.#finer) if (key !== "F" || this.#physics[each]?.follows === "load") this.#stale.add(each);
+    for (const each of this.#stale) this.#leave(each);
+    this.#dim(["contact", ...this.#stale]);
     this.#askNow();
     clearTimeout(this.#rest);
-    this.#waiting.stop(FINER);
+    this.#waiting.stop(["full", ...this.#finer]);
     this.#rest = setTimeout(() => this.#sharpen(), isFinal ? 0 : REST);
   }
 
+  // What is asked once the contact is known, by the panels' tasks.
+  get #finer() { return ["curve", ...Object.keys(this.#physics).filter((key) => this.#physics[key].follows && this.#isAdded(key))]; }
+  #stale = new Set(); // of these, what belongs to another contact
+
   #cancelled(works) {
     this.#stopped = this.#turn;
-    const left = {full: "the coarse answer is shown", curve: "the marks of the curves belong to the previous surface",
-      flow: "the apertures belong to the previous surface",
-      unloading: "the way back is not shown", cycle: "both ways belong to the contact before", download: "nothing was saved"};
-    this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
+    this.#say(`stopped: ${[...new Set(works.map((work) => LEFT[work] ?? LEFT_BY_OTHERS))].join(", and ")}`, true);
   }
 
   #askNow() {
@@ -127,54 +149,55 @@ class Explore {
       answer: (header) => this.#draw(() => this.#drawContact(header, args, turn)), error});
   }
 
-  #sharpen(refines = false) {
+  #sharpen() {
     if (!this.#plots) return;
-    const turn = this.#turn, args = {...this.#controls.asked, refines};
+    const turn = this.#turn, args = this.#controls.asked;
     const error = (sentence, at) => {
-      if (turn === this.#turn) this.#waiting.stop(FINER);
+      if (turn === this.#turn) this.#waiting.stop(["full", ...this.#finer]);
       this.#refuse(sentence, at, turn);
     };
-    const ask = (what, asked, answer) => this.#waiting.ask(`explore.${what}`, what, asked, {answer, error});
-    ask("full", args, (header) => {
+    const ask = (task, slot, asked, answer, progress) => this.#waiting.ask(`explore.${task}`, slot, asked, {
+      answer: (header) => {
+        answer(header);
+        if (header.is_coarse && !asked.refines) ask(task, slot, {...asked, refines: true}, answer, progress);
+      },
+      error,
+      progress,
+    });
+    ask("full", "full", args, (header) => {
       this.#drawContact(header, args, turn);
-      if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
-      if (header.state.w) {
-        ask("cycle", {...args, refines: false}, (cycle) => {
-          this.#drawCycle(cycle);
-          if (cycle.is_coarse) ask("cycle", {...args, refines: true}, (finer) => this.#drawCycle(finer));
-        });
+      if (header.is_coarse) return; // many ask at once
+      for (const each of this.#stale) {
+        if (each !== "curve" && !header.state[each]) { this.#dim([each], false); continue; } // it is refused
+        const task = each === "curve" ? "curve" : "further";
+        ask(task, each, {...args, of: each}, (found) => this.#drawCurves(each, found), (message) => this.#tellProgress(each, message));
       }
-      if (this.#stale.has("curve")) ask("curve", {...args, refines: true}, (curve) => this.#drawCurve(curve));
-      if (this.#stale.has("flow") && header.state.fluid) ask("flow", {...args, refines: true}, (flow) => this.#drawFlow(flow));
-      if (header.state.hardness_bar) ask("unloading", args, (back) => this.#drawWayBack(back));
     });
   }
 
   #drawLine(header, asked, turn) {
-    const {numbers, line, table, strip} = header;
     this.#settled(header, asked, turn);
-    this.#plots.shows("explore-stiffness", {what: "line", numbers});
-    this.#plots.set("stiffness line", {x: line.force_bar, y: line.stiffness_bar, low: line.low, high: line.high});
-    this.#strip.add(strip);
-    this.#lineTable = table;
+    this.#show("line", header);
   }
 
   #drawContact(header, asked, turn) {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
     this.#last = header;
     this.#settled(header, asked, turn);
-    const what = {what: "contact", points: header.points, numbers: header.numbers};
-    for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
-    if (header.maps.height) this.#maps.show("topography", header.arrays.topography, header.maps.height);
-    this.#drawField(header);
-    this.#drawHere(header.curve);
-    const said = header.strip.map(({key}) => key);
-    this.#strip.add(header.strip, NOT_ALWAYS.filter((key) => !said.includes(key)));
-    this.#fillTables(header.strip);
+    const {strip, points: n, numbers} = header;
+    for (const plot of MAPS) this.#plots.shows(plot, {what: "contact", points: n, numbers});
+    this.#show("contact", header);
+    this.#drawField();
+    this.#fillTables(strip);
     const wasStopped = header.is_coarse && turn === this.#stopped; // and says so already
     if (!wasStopped) this.#say(header.status, !header.is_coarse);
-    this.#undim([...CONTACT, ...(header.state.fluid ? [] : ["aperture"])]);
-    if (!header.is_coarse) this.#drawSpectrum(header);
+    for (const plot of MAPS) this.#find(`#${plot}`).classList.remove("dimmed", "empty");
+  }
+
+  #drawCurves(what, header) {
+    if (!header.is_coarse) this.#stale.delete(what);
+    this.#show(what, header);
+    if (this.#last && Object.keys(header.maps).length) this.#drawField();
   }
 
   #fillTables(strip) {
@@ -184,156 +207,97 @@ class Explore {
     fillTable("explore-contact", columns, rows(({key}) => key !== "roughness"));
   }
 
-  #drawSpectrum({spectrum: {waves, C_2d, law}, spectrum_table}) {
-    this.#plots.span("explore-spectrum", "x", waves);
-    this.#plots.span("explore-spectrum", "y", C_2d);
-    this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
-    fillTable("explore-spectrum", ["waves along the side", "C_2d [m⁴]", "law [m⁴]"], spectrum_table);
+  #answers = new Map(); // the last of each kind: of the line, the contact, the curves, and of what is added
+
+  // Show what an answer has for the panels and the strip, in the place of the last of its kind.
+  #show(what, header) {
+    const before = this.#answers.get(what) ?? {};
+    this.#answers.delete(what);
+    this.#answers.set(what, header); // those that came last are at the end
+    if (!this.#plots) return;
+    for (const [key, {series}] of Object.entries(before.panels ?? {})) {
+      for (const name of Object.keys(series)) if (!header.panels?.[key]?.series[name]) this.#mark(key, name, {x: [], y: []});
+      if (header.panels?.[key]) continue;
+      this.#fillRows(key);
+      this.#remark(key, "");
+    }
+    for (const [key, filled] of Object.entries(header.panels ?? {})) this.#fill(what, key, filled, header.numbers);
+    const said = (header.strip ?? []).map(({key}) => key);
+    this.#strip.add(header.strip ?? [], (before.strip ?? []).map(({key}) => key).filter((key) => !said.includes(key)));
   }
 
-  #drawField({maps, arrays}) {
-    const {shown: wanted} = this.#controls.said, shown = wanted in maps ? wanted : "area";
+  #fill(what, key, {series, legends, rows, caption, remarks, x, y}, numbers) {
+    for (const [axis, range] of Object.entries({x, y})) if (range) this.#plots.range(`explore-${key}`, axis, ...range);
+    for (const [name, columns] of Object.entries(series)) this.#mark(key, name, columns);
+    for (const [name, value] of Object.entries(legends)) this.#plots.call(`${key} ${name}`, value);
+    if (y) this.#placeZeros(key);
+    if (caption) this.#captionOf(key).textContent = caption;
+    if (remarks !== null) this.#remark(key, remarks);
+    if (!rows) return;
+    this.#fillRows(key);
+    this.#plots.shows(`explore-${key}`, {what, numbers});
+    const {task} = this.#panels.find((panel) => panel.key === key), {classList} = this.#panelOf(key);
+    if (task === what) classList.remove("dimmed");
+    if (task === what || what === "line") classList.remove("empty");
+  }
+
+  #remark(key, text) { this.#find(`[data-remarks="${key}"]`).replaceChildren(...withSubscripts(text)); }
+
+  // The table of a panel has the rows of all answers; those of the lines stand below.
+  #fillRows(key) {
+    const rows = [...this.#answers].sort(([a], [b]) => (a === "line") - (b === "line"))
+      .flatMap(([, {panels}]) => panels?.[key]?.rows ?? []);
+    fillTable(`explore-${key}`, this.#panels.find((panel) => panel.key === key).columns, rows);
+  }
+
+  // Draw points, and name them in the legend if there are any; zeros stand at the foot of a logarithmic axis.
+  #mark(key, name, {x, y, ...others}) {
+    const {start, end} = this.#plots.root(`explore-${key}`).y_range, {is_logarithmic} = this.#panels.find((panel) => panel.key === key);
+    const foot = start * (end / start) ** FOOT;
+    const drawn = "low" in others ? {x, y, ...others} : points(x, is_logarithmic ? y.map((value) => (value === 0 ? foot : value)) : y);
+    this.#plots.set(`${key} ${name}`, drawn);
+  }
+
+  // Put zeros of all answers at the foot of an axis whose range has changed.
+  #placeZeros(key) {
+    for (const {panels} of this.#answers.values()) {
+      for (const [name, columns] of Object.entries(panels?.[key]?.series ?? {})) {
+        if (columns.y.includes(0)) this.#mark(key, name, columns);
+      }
+    }
+  }
+
+  // Take away what belongs to another load from the panels that others fill.
+  #leave(what) {
+    const header = this.#answers.get(what), {panels = [], follows} = this.#physics[what] ?? {};
+    if (!header?.panels || follows !== "load") return;
+    this.#show(what, {...header, panels: Object.fromEntries(Object.entries(header.panels).filter(([key]) => panels.includes(key)))});
+  }
+
+  #drawField() {
+    const {shown: wanted} = this.#controls.said, {maps, arrays} = this.#fields, shown = wanted in maps ? wanted : "area";
     if (!(shown in maps)) return; // the load was not solved
     const {caption, marks, ring} = maps[shown];
     fillCaption(this.#captionOf("shown"), caption, marks);
+    this.#maps.show("topography", arrays.topography, maps.height);
     this.#maps.show("contact", arrays[shown], maps[shown]);
     this.#plots.set("contact rings", {x: ring ? [ring[0]] : [], y: ring ? [ring[1]] : []});
     this.#maps.tell(layersOf(maps, arrays));
   }
 
-  #stale = new Set(["curve", "flow"]); // what belongs to another surface
-
-  #dimAll() {
-    this.#stale = new Set(["curve", "flow"]);
-    this.#dim([...CONTACT, ...CURVES, ...(this.#flows ? ["aperture"] : []), ...(this.#sticks ? ["cycle"] : [])]);
+  // Maps of the contact and of what is added.
+  get #fields() {
+    const all = [...this.#answers.values()].filter(({maps}) => maps);
+    return {maps: Object.assign({}, ...all.map(({maps}) => maps)), arrays: Object.assign({}, ...all.map(({arrays}) => arrays))};
   }
 
-  #dim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.add("dimmed"); }
-  #undim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.remove("dimmed"); }
-
-  #drawCurve({curve, grid, theories, stiffness_table, area_table}) {
-    this.#stale.delete("curve");
-    this.#undim(CURVES);
-    this.#setMarks("stiffness unloading", curve.force_bar, curve.unloading_bar ?? []);
-    for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
-    for (const name of ["stiffness", "area"]) this.#drawLoads(name, curve);
-    for (let i = 0; i < MOST_THEORIES; i++) {
-      const {force_bar = [], stiffness_bar = null, area = []} = theories[i] ?? {};
-      this.#plots.set(`stiffness theory ${i}`, {x: stiffness_bar ? force_bar : [], y: stiffness_bar ?? []});
-      this.#plots.set(`area theory ${i}`, {x: force_bar, y: area});
-    }
-    this.#plots.span("explore-stiffness", "y", [...curve.stiffness_bar, ...(curve.unloading_bar ?? [])], [1e-3, 1.3]);
-    this.#plots.span("explore-area", "y", curve.area, [1e-4, 1]);
-    const called = (name) => this.#root.querySelector(`[data-key="theories"][value="${name}"]`).parentElement.textContent.trim();
-    const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${called(name)}: ${validity}`);
-    for (const name of ["stiffness", "area"]) this.#caption(name, noteOf(curve, grid));
-    this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));
-    this.#curveTables = [stiffness_table, area_table];
-    this.#fillCurveTables();
+  // Dim panels whose tasks have no answer to what is asked now.
+  #dim(tasks, isDimmed = true) {
+    for (const task of tasks) for (const panel of this.#root.querySelectorAll(`[data-task="${task}"]`)) panel.classList.toggle("dimmed", isDimmed);
   }
 
-  #drawFlow({curve, grid, theories, table, words}) {
-    this.#stale.delete("flow");
-    this.#undim(["aperture"]);
-    const known = curve.aperture.filter((value) => value > 0);
-    this.#plots.span("explore-aperture", "y", [...known, ...theories.map(({aperture}) => aperture[0]), Math.min(...known) / ROOM]);
-    this.#plots.shows("explore-aperture", {what: "flow", grid});
-    this.#drawLoads("aperture", curve);
-    this.#drawSealed("aperture sealed", [curve]);
-    for (const [i, {force_bar, aperture}] of theories.entries()) {
-      this.#plots.set(`aperture theory ${i}`, points(force_bar, aperture, (j) => aperture[j] > 0));
-    }
-    this.#drawSealed("aperture theory sealed", theories.map(({force_bar, aperture}) => {
-      const first = aperture.indexOf(0); // of a theory the first sealed load alone
-      return first < 0 ? {force_bar: [], aperture: []} : {force_bar: [force_bar[first]], aperture: [0]};
-    }));
-    if (this.#last) this.#drawHere(this.#last.curve);
-    this.#caption("aperture", `${words}; ${noteOf(curve, grid)}`);
-    this.#caption("theories of the flow", theories.map(({name, validity}, i) => `${DASHES[i]} ${name}: ${validity}.`).join(" "));
-    this.#flowTable = table;
-    this.#fillCurveTables();
-  }
-
-  // Draw both ways of bodies that stick, and what the strip and the map have of them.
-  #drawCycle({curve, turn, on_approach, here, pull_off, grid, strip, maps, arrays, table}) {
-    this.#undim(["cycle"]);
-    this.#plots.shows("explore-cycle", {what: "cycle", grid});
-    const ways = {there: (i) => on_approach[i], back: (i) => !on_approach[i]};
-    for (const [way, isOn] of Object.entries(ways)) this.#plots.set(`cycle ${way}`, points(curve.depth, curve.force_bar, isOn));
-    this.#plots.set("cycle here", here);
-    this.#plots.set("cycle pull-off", pull_off);
-    const label = `pull-off, ${strip.find(({key}) => key === "pull_off").value}`;
-    this.#plots.call("cycle pull-off", label);
-    const borne = points(curve.depth, curve.force_bar, (i) => curve.force_bar[i] !== 0);
-    for (const [axis, known] of [["x", borne.x], ["y", borne.y]]) {
-      const [low, high] = [Math.min(...known), Math.max(...known)], room = ROOM_ABOUT * (high - low);
-      this.#plots.range("explore-cycle", axis, low - room, high + room);
-    }
-    for (const name of ["stiffness", "area"]) this.#setMarks(`${name} back`, turn.force_bar, turn[OVER_FORCE[name]]);
-    this.#caption("cycle", `by depths to twice this load and back, on ${grid} points; under a force bodies jump where it falls`);
-    fillTable("explore-cycle", ["d/h", "F̄", "A/A_0", "k̄", "way"], table);
-    this.#strip.add(strip);
-    if (!this.#last) return;
-    Object.assign(this.#last.maps, maps);
-    Object.assign(this.#last.arrays, arrays);
-    this.#drawField(this.#last);
-  }
-
-  // Draw sealed loads at the foot of the axis.
-  #drawSealed(name, curves) {
-    const x = curves.flatMap(({force_bar, aperture}) => force_bar.filter((_, i) => aperture[i] === 0));
-    this.#plots.set(name, {x, y: x.map(() => this.#foot)});
-  }
-
-  get #foot() {
-    const {start, end} = this.#plots.root("explore-aperture").y_range;
-    return start * (end / start) ** FOOT;
-  }
-
-  // Draw the loads of a curve; those with too few cells in contact are hollow.
-  #drawLoads(name, curve) {
-    const values = curve[OVER_FORCE[name]], isKnown = (i) => curve.converged[i] && values[i] > 0;
-    const few = points(curve.force_bar, values, (i) => isKnown(i) && !curve.resolved[i]);
-    this.#plots.set(`${name} curve`, points(curve.force_bar, values, (i) => isKnown(i) && curve.resolved[i]));
-    this.#plots.set(`${name} unsure`, few);
-  }
-
-  // Draw the present load, at the foot where it is sealed.
-  #drawHere(curve) {
-    for (const [name, quantity] of Object.entries(OVER_FORCE)) {
-      const values = curve[quantity] ?? [], y = name === "aperture" ? values.map((value) => value || this.#foot) : values;
-      this.#plots.set(`${name} here`, {x: y.length ? curve.force_bar : [], y});
-    }
-  }
-
-  #drawWayBack({curve, stiffness_table, area_table, aperture_table}) {
-    this.#setMarks("stiffness back", curve.force_bar, curve.unloading_bar);
-    this.#setMarks("area back", curve.force_bar, curve.area);
-    this.#setMarks("aperture back", curve.force_bar, curve.aperture ?? []);
-    this.#backTables = [stiffness_table, area_table.map(([force, area]) => [force, `${area} (way back)`]), aperture_table];
-    this.#fillCurveTables();
-  }
-
-  #forgetWayBack() {
-    if (!this.#plots?.model("area back").data.x.length) return;
-    for (const name of Object.keys(OVER_FORCE)) this.#setMarks(`${name} back`, [], []);
-    this.#backTables = [[], [], []];
-    this.#fillCurveTables();
-  }
-
-  // Draw what is positive, as logarithmic axes can, and name it in the legend if there is any.
-  #setMarks(name, x, y) {
-    const marks = points(x, y, (i) => x[i] > 0 && y[i] > 0);
-    this.#plots.set(name, marks);
-  }
-
-  #lineTable = []; #curveTables = [[], []]; #backTables = [[], [], []]; #flowTable = [];
-
-  #fillCurveTables() {
-    const [stiffness, area] = [0, 1].map((i) => [...this.#curveTables[i], ...this.#backTables[i]]);
-    fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness, ...this.#lineTable]);
-    fillTable("explore-area", ["F̄", "A/A_0"], area);
-    fillTable("explore-aperture", ["F̄", "u_h/h", "model"], [...this.#flowTable, ...this.#backTables[2]]);
+  #tellProgress(task, {done, total}) {
+    for (const place of this.#root.querySelectorAll(`[data-task="${task}"] [data-progress]`)) place.textContent = `, ${done} of ${total}`;
   }
 
   #stopped = null; // turn whose finer answer was cancelled
@@ -353,7 +317,7 @@ class Explore {
 
   #cursorTo(force) {
     this.#fromCursor = true;
-    for (const name of CURSORS) this.#plots.model(`${name} cursor`).location = force;
+    for (const {key} of this.#cursors) this.#plots.model(`${key} cursor`).location = force;
     this.#fromCursor = false;
   }
 
@@ -382,72 +346,25 @@ class Explore {
 
   // Write the status; at rest it is spoken too, with the numbers.
   #say(text, atRest) {
-    this.#root.querySelector("[data-status]").textContent = text;
-    if (atRest) this.#root.querySelector("[data-spoken]").textContent = `${text}; ${this.#strip.spoken}`;
-  }
-  #captionOf(name) { return this.#root.querySelector(`[data-caption="${name}"]`); }
-  #caption(name, text) { this.#captionOf(name).textContent = text; }
-
-  #showHardness() {
-    const yields = Boolean(this.#controls.said.hardness_bar);
-    this.#root.querySelector("#explore-yields").checked = yields;
-    this.#root.querySelector('[data-control="hardness_bar"]').hidden = !yields;
+    this.#find("[data-status]").textContent = text;
+    if (atRest) this.#find("[data-spoken]").textContent = `${text}; ${this.#strip.spoken}`;
   }
 
-  get #sticks() { return Boolean(this.#controls.said.w); }
-
-  // Show what there is of bodies that stick alone.
-  #showSticking() {
-    const sticks = this.#sticks;
-    this.#root.querySelector("#explore-sticks").checked = sticks;
-    for (const key of ["w", "h0"]) this.#root.querySelector(`[data-control="${key}"]`).hidden = !sticks;
-    this.#showOf("w", sticks);
-    if (!sticks) this.#undim(["cycle"]);
-  }
-
-  get #flows() { return Boolean(this.#controls.said.fluid); }
-
-  // Show what there is with a fluid alone, and its curve.
-  #showFluid() {
-    const flows = this.#flows;
-    this.#showOf("fluid", flows);
-    this.#root.querySelector(flows ? "#tab-aperture" : "#tab-area").click();
-    this.#caption("theories of the flow", "");
-    if (!flows) this.#undim(["aperture"]);
-  }
-
-  // Show or hide what belongs to a control that is set; a hidden choice is left.
-  #showOf(key, isSet) {
-    for (const each of this.#root.querySelectorAll(`[data-of="${key}"]`)) each.hidden = !isSet;
-    for (const select of this.#root.querySelectorAll(`select:has([data-of="${key}"]:checked)`)) if (!isSet) select.selectedIndex = 0;
-  }
+  #captionOf(name) { return this.#find(`[data-caption="${name}"]`); }
+  #panelOf(key) { return this.#find(`#explore-${key}`); }
 
   #showHeightOrSlope() {
     const bySlope = this.#controls.said.rms === "slope";
-    this.#root.querySelector('[data-control="h"]').hidden = bySlope;
-    this.#root.querySelector('[data-control="slope"]').hidden = !bySlope;
-  }
-
-  #bindButtons() {
-    const find = (selector) => this.#root.querySelector(selector);
-    find("#another").addEventListener("click", () => {
-      this.#controls.put("seed", String(Math.floor(Math.random() * 1e6)));
-    });
-    for (const [tick, key] of [["#explore-yields", "hardness_bar"], ["#explore-sticks", "w"]]) {
-      find(tick).addEventListener("change", ({target}) => {
-        const text = find(`#explore-${key}-text`).value || find(`#explore-${key}`).dataset.default;
-        this.#controls.set(key, target.checked ? text : "");
-      });
-    }
-    bindTabs(this.#root);
+    this.#find('[data-control="h"]').hidden = bySlope;
+    this.#find('[data-control="slope"]').hidden = !bySlope;
   }
 }
 
-// Say of a curve what its marks are, and which loads have none.
-function noteOf({converged, resolved}, grid) {
-  const failed = converged.filter((each) => !each).length;
-  const unsure = resolved.some((each) => !each) ? "; hollow, and * in the table: fewer than ten cells touch" : "";
-  return `marks of the curve on ${grid} points${unsure}${failed ? `; ${failed} loads were not solved` : ""}`;
+// Let controls stay in sight while the page scrolls: by their end, if they are longer than the window.
+function keepInSight(controls) {
+  const fit = () => controls.style.setProperty("top", `${Math.min(0, innerHeight - controls.offsetHeight)}px`);
+  new ResizeObserver(fit).observe(controls);
+  addEventListener("resize", fit);
 }
 
 function sameState(first, second) { return JSON.stringify(first) === JSON.stringify(second); }

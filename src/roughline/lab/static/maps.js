@@ -61,14 +61,16 @@ export class Maps {
     for (const name of names) this.#bind(name);
     if (profile) this.#bindProfile(this.#plot(profile));
     const observer = new ResizeObserver(() => this.#fit());
-    for (const place of Object.values(this.#places)) observer.observe(place.parentElement);
+    for (const {parentElement: room} of Object.values(this.#places)) observer.observe(room);
     onRecolour(() => { for (const name of names) if (this.#looks[name]) this.#colour(name); });
   }
 
   #bind(name) {
     const place = this.#places[name], point = element("span", {className: "point", hidden: true});
-    place.before(element("div", {className: "scale"}));
-    place.parentElement.querySelector("figcaption").append(point);
+    const room = element("div", {className: "room"});
+    place.before(element("div", {className: "scale"}), room);
+    room.append(place);
+    room.parentElement.querySelector("figcaption").append(point);
     onPoint(this.#plots.root(this.#plot(name)), (at) => {
       point.textContent = at ? this.#told(at) : "";
       point.hidden = !point.textContent;
@@ -112,20 +114,24 @@ export class Maps {
     const wanted = MARKS[palette]?.map(colour) ?? (palette === "flux" ? ofFlux() : Bokeh.Palettes[palette]);
     this.#plots.model(`${name} colours`)?.setv({palette: wanted, low, high: high > low ? high : low + 1, low_color: colour("paper"),
       nan_color: colour(blank)});
-    const place = this.#places[name].parentElement.querySelector(".scale");
+    const place = scaleAbove(this.#places[name]);
     place.hidden = palette in MARKS;
     if (!place.hidden) place.replaceChildren(...scaleOf(title, unit, wanted, [low, high], isLogarithmic));
   }
 
-  // Give all maps the size at which the sides of the surface fill the frame.
+  // Give all maps the size at which the sides of the surface fill the frame: as wide as their rooms, and as high as
+  // these, or as a part of the window where rooms are as high as what is in them.
   #fit() {
     const [along, up] = this.#sizes, places = Object.values(this.#places).filter((each) => each.offsetParent !== null);
     if (!places.length) return;
-    const room = Math.min(...places.map(({parentElement}) => inner(parentElement))) - BORDERS.left - BORDERS.right;
-    const scale = Math.min(room / along, Math.max(AT_LEAST, HIGHEST * innerHeight) / up);
+    const rooms = places.map(({parentElement}) => parentElement), isGiven = getComputedStyle(rooms[0]).contain.includes("size");
+    const across = Math.min(...rooms.map(({clientWidth}) => clientWidth)) - BORDERS.left - BORDERS.right;
+    const high = isGiven ? Math.min(...rooms.map(({clientHeight}) => clientHeight)) - BORDERS.top - BORDERS.bottom
+      : Math.max(AT_LEAST, HIGHEST * innerHeight);
+    const scale = Math.max(Math.min(across / along, high / up), 1 / Math.max(along, up));
     for (const place of places) {
       const width = `${Math.round(scale * along) + BORDERS.left + BORDERS.right}px`;
-      place.style.width = place.previousElementSibling.style.width = width;
+      place.style.width = scaleAbove(place).style.width = width;
       place.style.height = `${Math.max(Math.round(scale * up), LOWEST) + BORDERS.top + BORDERS.bottom}px`;
     }
   }
@@ -213,10 +219,7 @@ function roundNumbers(low, high, isWhole) {
 
 function css(shown) { return typeof shown === "string" ? shown : `#${shown.toString(16).padStart(8, "0").slice(0, 6)}`; }
 
-function inner(panel) {
-  const {paddingLeft, paddingRight} = getComputedStyle(panel);
-  return panel.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight);
-}
+function scaleAbove({parentElement: room}) { return room.previousElementSibling; }
 
 // Colours that stand out from the paper the more, the more flows.
 function ofFlux() {

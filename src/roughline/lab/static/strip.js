@@ -44,6 +44,6 @@ function write(item, {symbol, value, below, meaning}) {
 }
 
 // A text whose letter after an underscore is set low.
-function withSubscripts(text) {
+export function withSubscripts(text) {
   return text.split(/_(\w)/).map((part, i) => (i % 2 ? element("sub", {textContent: part}) : part));
 }

@@ -19,12 +19,12 @@ export class Waiting {
   }
 
   // Ask for a task, and wait for its answer.
-  ask(task, slot, args, {answer, error}) {
+  ask(task, slot, args, {answer, error, progress = () => {}}) {
     this.begin(slot);
     this.#link.ask(task, slot, args, {
       answer: (header) => { this.end(slot); answer(header); },
       error: (sentence, at) => { this.end(slot); error(sentence, at); },
-      progress: (message) => this.progress(message),
+      progress: (message) => { this.progress(message); progress(message); },
     });
   }
 

@@ -1,0 +1,118 @@
+"""A layer of another material on the body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import roughline as rl
+from roughline.lab.controls import Control, ControlError, as_code
+from roughline.lab.explore.controls import Quantity
+from roughline.lab.explore.state import ExploreState, Item, Physics
+from roughline.lab.explore.words import engineering_figure, figure, item
+
+_THINNEST = 0.5  # of a cell, below which the library refuses a layer
+
+
+@dataclass(frozen=True)
+class Layer(Physics):
+    """A layer that is bonded to the body; the rough surface is rigid."""
+
+    t: float
+    E_l: float
+    nu_l: float
+    nu_b: float
+
+    key = "t"
+    tick = "a layer lies on the body"
+    meaning = (
+        "A layer of another material is bonded to the flat body. E* stays that of the body below, "
+        "the base: F̄, k̄, p_c, the hardness and the work of adhesion are over it."
+    )
+    controls = (
+        Quantity(
+            *("t", "t/L", "thickness of the layer", 2e-3, 1.0, 0.05),
+            "Thickness of the layer. Relative to the side of the surface, or with a unit: 2 um. "
+            "It has to be half a cell of the grid at least.",
+            unit="m",
+            scale_of=lambda state: float(state.length),
+            over="sides",
+        ),
+        Quantity(
+            *("E_l", "E*_l/E*", "modulus of the layer", 1e-3, 1e3, 0.1),
+            "Contact modulus E/(1-ν²) of the layer over E*, which is that of the base; or with a "
+            "unit: 110 GPa.",
+            unit="Pa",
+            scale_of=lambda state: float(state.E_star),
+            over="E*",
+        ),
+        Control(
+            *("nu_l", "ν_l", "Poisson's ratio of the layer", 0.0, 0.5, 0.3),
+            "Of the layer, without unit, at the same contact modulus; at 0.5 it keeps its volume.",
+            scale="linear",
+            step=0.01,
+        ),
+        Control(
+            *("nu_b", "ν_b", "Poisson's ratio of the base", 0.0, 0.5, 0.3),
+            "Of the base, without unit, at the same contact modulus.",
+            scale="linear",
+            step=0.01,
+        ),
+    )
+    unlike = "on the homogeneous base"
+    strip: ClassVar = {"layer": "roughness"}
+
+    def half_space(self, state: ExploreState) -> rl.HalfSpace:
+        """The layer on its base."""
+        return rl.Layered(*self._constants(state), periodic=state.periodic)
+
+    def _constants(self, state: ExploreState) -> tuple[float, float, float, float, float]:
+        """Young's modulus, Poisson's ratio and thickness of the layer, and those of the base."""
+        return (
+            *(self.E_l * state.E_star * (1 - self.nu_l**2), self.nu_l, self.t * state.length),
+            *(state.E_star * (1 - self.nu_b**2), self.nu_b),
+        )
+
+    def check(self, state: ExploreState) -> None:
+        """Refuse a layer that the grid does not resolve."""
+        if not self.is_resolved(state, state.n):
+            least = _THINNEST / state.n
+            raise ControlError(
+                f"a layer of {self.t:.3g} sides is less than half a cell of {state.n} points, "
+                f"where its base alone is felt: give {least:.3g} or more, or take more points",
+                *("t", "n"),
+            )
+
+    def is_resolved(self, state: ExploreState, n: int) -> bool:
+        """Whether it is half a cell thick."""
+        return self.t * n >= _THINNEST
+
+    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+        """Its thickness on the grid, and its modulus."""
+        thickness, modulus = self.t * state.length, self.E_l * state.E_star
+        cells = self.t * fields.gap.shape[0]
+        return [
+            item(
+                *("layer", "layer", f"{figure(cells)} cells"),
+                "Thickness of the layer in cells of this grid; with its unit, and the contact "
+                "modulus of the layer, below.",
+                f"{engineering_figure(thickness, 'm')}, E*_l {engineering_figure(modulus, 'Pa')}",
+            )
+        ]
+
+    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
+        """The layer on its base."""
+        names = ("young", "poisson", "thickness", "base_young", "base_poisson")
+        given = [
+            f"{name}={as_code(value)}"
+            for name, value in zip(names, self._constants(state), strict=True)
+        ]
+        given += ["periodic=True"] * state.periodic
+        layered = "\n".join(f"    {each}," for each in given)
+        return f"half_space = rl.Layered(\n{layered}\n)\n", "", ""
+
+    def materials(self, state: ExploreState) -> tuple[str, str]:
+        """The layer on its base, under a rigid surface."""
+        young, poisson, thickness, base, of_base = map(as_code, self._constants(state))
+        layer = f"E={young} Pa nu={poisson} {thickness} m"
+        return f"{layer} on E={base} Pa nu={of_base}", "rigid"

@@ -1,0 +1,76 @@
+"""All kinds of physics that the lab can add to a contact, and what the page has of them."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from roughline.lab.controls import Choice, Control
+from roughline.lab.explore.adhesion import Adhesion
+from roughline.lab.explore.controls import CHOICES, NUMBERS
+from roughline.lab.explore.fluid import Fluid
+from roughline.lab.explore.layer import Layer
+from roughline.lab.explore.panels import PANELS, Panel
+from roughline.lab.explore.state import Physics
+from roughline.lab.explore.yielding import Yielding
+
+PHYSICS: tuple[type[Physics], ...] = (Layer, Yielding, Adhesion, Fluid)
+"""All kinds, in the order of their ticks."""
+_STRIP = (*("stiffness_3d", "stiffness_1d", "area", "pressure", "depth", "force", "roughness"),)
+
+
+def numbers() -> dict[str, Control]:
+    """All numbers that can be set, by their keys."""
+    return NUMBERS | {control.key: control for kind in PHYSICS for control in kind.controls}
+
+
+def shown_choice() -> Choice:
+    """The choice of the second map, with the maps that kinds add."""
+    shown = CHOICES["shown"]
+    options = dict(shown.options)
+    for kind in PHYSICS:
+        options |= kind.maps
+    return Choice(shown.key, shown.name, options, shown.default, shown.meaning)
+
+
+def panels() -> dict[str, Panel]:
+    """All panels of curves by their keys, with the series that kinds add."""
+    own = [panel for kind in PHYSICS for panel in kind.panels]
+    return {
+        panel.key: panel.with_series(
+            *(each for kind in PHYSICS for each in kind.series.get(panel.key, ()))
+        )
+        for panel in (*PANELS, *own)
+    }
+
+
+def owners() -> dict[str, str]:
+    """Keys of the kinds that maps and panels are there with alone, by their names."""
+    return {
+        name: kind.key
+        for kind in PHYSICS
+        for name in (*kind.maps, *(panel.key for panel in kind.panels))
+    }
+
+
+def declared() -> dict[str, Any]:
+    """What the script of the page knows of all kinds and panels."""
+    order = list(_STRIP)
+    for kind in PHYSICS:
+        for key, before in kind.strip.items():
+            order.insert(order.index(before) + 1, key)
+    kinds = {
+        kind.key: {
+            "word": kind.word,
+            "follows": kind.follows,
+            "opens": kind.opens,
+            "maps": list(kind.maps),
+            "panels": [panel.key for panel in kind.panels],
+        }
+        for kind in PHYSICS
+    }
+    return {
+        "strip": order,
+        "physics": kinds,
+        "panels": [asdict(panel) for panel in panels().values()],
+    }

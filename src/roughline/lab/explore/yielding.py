@@ -1,0 +1,140 @@
+"""Points that yield at a hardness, and are permanently indented."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+import roughline as rl
+from roughline.assessment.question import UNLOADING
+from roughline.assessment.uncertainty import intervals_of
+from roughline.lab.controls import as_code
+from roughline.lab.explore.controls import Quantity
+from roughline.lab.explore.panels import BACK, Filled, kept, marks
+from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
+from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
+from roughline.lab.explore.words import bounded, engineering_figure, figure, first, item, rows_of
+from roughline.lab.maps import Map
+from roughline.lab.server.tasks import Progress
+from roughline.units import supported_digits
+
+_IN_PYTHON = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
+print("plastic_fraction", curve.plastic_fraction[0])
+print("largest indentation over rms height", curve.indentation[0] / surface.rms_height)
+"""
+
+
+@dataclass(frozen=True)
+class Yielding(Physics):
+    """Points that bear no more than the hardness."""
+
+    hardness_bar: float
+
+    key = "hardness_bar"
+    tick = "points yield at a hardness"
+    meaning = (
+        "Points at which the pressure reaches the hardness bear no more and are permanently "
+        "indented; without a hardness both bodies are elastic."
+    )
+    controls = (
+        Quantity(
+            *("hardness_bar", "H/(E*∇h)", "hardness", 0.02, 5.0, 0.5),
+            "Largest pressure that a point bears, over E* times the rms slope on the grid, or with "
+            "a unit, such as 2 GPa. Where it is reached, the surface is permanently indented.",
+            unit="Pa",
+            scale_of=lambda state: float(state.E_star * state.rms_slope),
+            over="E* ∇h",
+        ),
+    )
+    unlike = "without yield"
+    strip: ClassVar = {"unloading": "stiffness_3d", "plastic": "area", "indentation": "depth"}
+    series: ClassVar = {
+        "stiffness": (
+            marks("unloading", "3D, on unloading", "mark", marker="triangle", size=7, fill_alpha=0),
+            BACK,
+        ),
+        "area": (BACK,),
+        "aperture": (BACK,),
+    }
+    follows = "load"
+
+    def hardness(self, state: ExploreState) -> float:
+        """Hardness, the same on every grid. [Pa]"""
+        return self.hardness_bar * state.E_star * state.rms_slope
+
+    def law(self, state: ExploreState) -> rl.ContactLaw:
+        """No more than the hardness."""
+        return rl.Yielding(self.hardness(state))
+
+    def beside_curve(self, pressed: rl.Curve, state: ExploreState) -> dict[str, Filled]:
+        """The stiffness on unloading of every load."""
+        forces, values = state.force_bars(pressed), state.stiffness_bars(_unloading(pressed))
+        rows = rows_of(forces, values, pressed, "3D, on unloading")
+        return {"stiffness": Filled({"unloading": kept(forces, values)}, rows)}
+
+    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+        """Stiffness on unloading, share of the contact that yields, and indentation."""
+        assert pressed.plastic_fraction is not None
+        assert pressed.indentation is not None
+        intervals, unloading = intervals_of(pressed), float(_unloading(pressed)[0])
+        ends = first(intervals.unloading) if intervals else None
+        indentation = float(pressed.indentation[0])
+        digits = supported_digits(unloading, ends, 3)
+        return [
+            item(
+                *("unloading", "k̄_u (3D)"),
+                figure(state.stiffness_bars(unloading), digits),
+                "Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs back, "
+                "while on loading the spots at the hardness bear no more. Ultrasound and currents "
+                "depend on it.",
+                bounded(unloading, ends, "N/m"),
+            ),
+            item(
+                *("plastic", "plastic", f"{figure(100 * float(pressed.plastic_fraction[0]))}%"),
+                "Share of the contact that is at the hardness; the hardness is given below.",
+                f"H {engineering_figure(self.hardness(state), 'Pa')}",
+            ),
+            item(
+                *("indentation", "indentation"),
+                f"{figure(indentation / pressed.rms_height)} h",
+                "Largest permanent indentation, which remains after unloading.",
+                bounded(indentation, None, "m"),
+            ),
+        ]
+
+    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
+        """Where points of the contact are at the hardness."""
+        area = fields.contact.astype(np.uint8) + fields.plastic
+        return {"area": Map(area, "marks", 0, 2, marks=("ink", "plastic"))}
+
+    def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
+        """Follow the way back from the load to none."""
+        forces = state.F * np.array([1.0, *UNLOADING])
+        surface = state.surface(state.points(CURVE_POINTS))
+        pressed = pressed_under(state, surface, forces, progress, measures=state.measures)
+        values = state.over_force(pressed)
+        values["stiffness"] = state.stiffness_bars(_unloading(pressed))
+        panels = {
+            panel: Filled({"back": kept(forces, each)}, rows_of(forces, each, pressed, BACK.legend))
+            for panel, each in values.items()
+        }
+        return {"panels": panels}, {}
+
+    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
+        """The hardness, and the way back."""
+        bar = as_code(self.hardness_bar)
+        path = f"[force * share for share in {(1.0, *UNLOADING)}]"  # the last ones unload
+        before = f"hardness = {bar} * E_star * surface.rms_slope  # Pa\n"
+        return before, f"hardness=hardness, forces={path}", _IN_PYTHON
+
+    def in_command(self, state: ExploreState) -> tuple[list[str], str]:
+        """The hardness, and the way back."""
+        return ["--hardness", f"{as_code(self.hardness(state))} Pa", "--unload"], ""
+
+
+def _unloading(pressed: rl.Curve) -> NDArray[np.float64]:
+    assert pressed.unloading_stiffness is not None
+    return pressed.unloading_stiffness

@@ -1,0 +1,28 @@
+"""A physics that is not of the lab: a body that is softer."""
+
+from dataclasses import dataclass
+
+import roughline as rl
+from roughline.lab.controls import Control
+from roughline.lab.explore.state import Physics
+from roughline.lab.explore.words import item
+
+
+@dataclass(frozen=True)
+class Softer(Physics):
+    """A body that is so many times softer."""
+
+    times: float
+
+    key = "times"
+    tick = "the body is softer"
+    meaning = "The body gives way so many times as far."
+    controls = (Control("times", "s", "softness", 1.0, 10.0, 2.0, "Of the body."),)
+    unlike = "on the harder body"
+    strip = {"times": "area"}  # noqa: RUF012
+
+    def half_space(self, state):
+        return rl.Homogeneous(state.E_star / self.times, periodic=state.periodic)
+
+    def words(self, pressed, fields, state):
+        return [item("times", "s", f"{self.times:g}", "How many times the body is softer.")]
