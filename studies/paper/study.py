@@ -30,14 +30,18 @@ from roughline.paper.results import (
 )
 from roughline.paper.windows import Windows
 from roughline.plot.style import save, styled
+from roughline.report.json_output import plain
 from roughline.report.page import render_markdown
 from roughline.statistics.averages import relative_difference
 from studies.paper import shown
+from studies.paper.lab_figures import lab_figures
 from studies.paper.trust import trust_map_figure, trust_page
 from studies.reduced_data import finished, refuse_other_settings
-from studies.study import DOCS, show
+from studies.study import DOCS, PICTURES, show
 
 PLAN = Path(__file__).parent / "plan.toml"
+FIGURES = PICTURES / "figures.json"
+"""Data of the lab's figures of the paper."""
 _FIGURES = DOCS / "figures" / "paper"
 DATA = published_folder()
 MAP = DATA.parents[1] / "contact" / "comparison" / "trust_map.csv"
@@ -125,6 +129,11 @@ def publish() -> None:
     _publish_paper(results)
     _publish_map()
     show(shown.summary(results), shown.drawings(results))
+    data = json.dumps(plain(lab_figures(results)), ensure_ascii=False)
+    # five digits are more than a figure shows
+    rounded = json.loads(data, parse_float=lambda x: float(f"{float(x):.5g}"))
+    kept = json.dumps(rounded, ensure_ascii=False, separators=(",", ":")) + "\n"
+    FIGURES.write_text(kept, encoding="utf-8")
 
 
 def refuse_another_plan() -> None:

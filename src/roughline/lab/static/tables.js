@@ -1,9 +1,9 @@
 // Numbers and words beside the plots: tables, lists, large figures, and what the colours of a map mean.
 import {element} from "./elements.js";
 
-// Put rows below a plot.
+// Put rows below a plot; a cell is a text, or pieces of one.
 export function fillTable(id, header, rows) {
-  const row = (cells, kind, more) => element("tr", {}, ...cells.map((textContent) => element(kind, {textContent, ...more})));
+  const row = (cells, kind, more) => element("tr", {}, ...cells.map((cell) => element(kind, more, ...[cell].flat())));
   document.querySelector(`[data-table="${id}"]`).replaceChildren(element("table", {},
     element("thead", {}, row(header, "th", {scope: "col"})),
     element("tbody", {}, ...rows.map((cells) => row(cells, "td")))));
