@@ -50,7 +50,8 @@ def _body(gallery: xarray.Dataset, row: int) -> StudyPicture:
         f"Figure 1 {body_name(gallery, row)}",
         "Rough line, topography, real contact area and deflection of the half-space under the "
         f"force F̄ = {gallery.attrs['force_bar']:g}: {contact:.1%} of {gallery.attrs['n']}² points "
-        f"touch, and the deflection reaches {deepest:.2f} h.",
+        f"touch (dark: squares of 1/128 of the side with some contact), and the deflection reaches "
+        f"{deepest:.2f} h.",
         f"Four pictures of one body: its line has heights from {float(body.line_heights.min()):.2f}"
         f" to {float(body.line_heights.max()):.2f} h, its surface from "
         f"{float(body.heights.min()):.2f} to {float(body.heights.max()):.2f} h; the contact is "

@@ -22,7 +22,7 @@ from roughline.lab.server.tasks import Place, Site
 from roughline.paper.studies import study_summaries
 from roughline.statistics.verdict import Verdict
 
-_SYMBOL = re.compile(r"_([A-Za-z0-9]+)|\^(-?[\wα-ω]+(?:\.\d+)?)")
+_SYMBOL = re.compile(r"_([A-Za-z0-9]+)|(\^|(?<=\d)e)(-?)0*([\wα-ω]+(?:\.\d+)?)")
 
 
 def _place(
@@ -103,8 +103,10 @@ def _typeset(text: str) -> Markup:
     """A text with symbols such as D_f and 2^20: what follows is set low, or high."""
 
     def mark(found: re.Match[str]) -> str:
-        low, high = found.groups()
-        return f"<sub>{low}</sub>" if low else f"<sup>{high.replace('-', '−')}</sup>"
+        low, base, sign, high = found.groups()
+        if low:
+            return f"<sub>{low}</sub>"
+        return f"{'·10' if base == 'e' else ''}<sup>{sign and '−'}{high}</sup>"
 
     return Markup(_SYMBOL.sub(mark, str(escape(text))))
 

@@ -47,6 +47,7 @@ _OPEN_MARKS = (
     "fewer than ten springs or cells are in contact, so that the grid decides. The shaded range "
     "is the window of the fit."
 )
+_BLOCKS = 128  # along a side, of the contact in a small picture
 _COUNTS = ("no", "one", "two", "three", "four")
 _CAPTIONS = {
     "figure_1": (
@@ -144,7 +145,9 @@ def body_figure(gallery: xarray.Dataset, row: int) -> Figure:
     """Draw one row of Figure 1 alone, two pictures abreast."""
     figure = new_figure(4.4, 4.2)
     grid = figure.add_gridspec(2, 2, width_ratios=[1, 1.15])
-    _draw_body(figure, [grid[i // 2, i % 2] for i in range(4)], gallery, row, is_last=True)
+    _draw_body(
+        figure, [grid[i // 2, i % 2] for i in range(4)], gallery, row, is_last=True, blocks=_BLOCKS
+    )
     return figure
 
 
@@ -160,8 +163,12 @@ def _draw_body(
     row: int,
     *,
     is_last: bool,
+    blocks: int = 0,
 ) -> None:
-    """Draw one row of Figure 1; axes along x are named in the last."""
+    """Draw one row of Figure 1; axes along x are named in the last.
+
+    A small picture shows the contact in blocks, those that have some of it in black.
+    """
     body, deepest = gallery.isel(fractal_dimension=row), float(gallery.displacement.max())
     image: Any = {"extent": (0, 1, 0, 1), "origin": "lower", "interpolation": "nearest"}
     marks = LinearSegmentedColormap.from_list("", [mpl.rcParams["axes.facecolor"], ink()])
@@ -172,7 +179,11 @@ def _draw_body(
     line.set_title(body_name(gallery, row).replace("D_f", " $D_f$"), loc="left")
     _draw_topography(figure.add_subplot(places[1], projection="3d"), body.heights.values)
     contact = figure.add_subplot(places[2])
-    contact.imshow(body.contact.values.T, cmap=marks, **image)
+    touched = body.contact.values.T
+    if blocks and touched.shape[0] % blocks == 0:
+        side = touched.shape[0] // blocks
+        touched = touched.reshape(blocks, side, blocks, side).max(axis=(1, 3)) > 0
+    contact.imshow(touched, cmap=marks, **image)
     fraction = float(body.contact.mean())
     contact.set_title(f"contact {fraction:.1%}", fontsize=8)
     deflection = figure.add_subplot(places[3])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,6 @@ from roughline.lab.server.tasks import Arguments
 from roughline.paper.laws import converged_stiffness
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import published_dataset
-from roughline.statistics.averages import Averaging
 from roughline.statistics.power_law import PowerLaw, fit_power_law
 
 if TYPE_CHECKING:
@@ -58,27 +57,24 @@ def window_of(state: PublishedState, model: ModelLabel) -> Window:
     return low, high
 
 
-def curve_of(state: PublishedState, model: ModelLabel, dimension: float) -> MeanCurve:
+@lru_cache(maxsize=64)
+def curve_of(model: ModelLabel, dimension: float, averaging: Any) -> MeanCurve:
     """The mean raw stiffness of one fractal dimension over force."""
-    return _curve(model, dimension, cast(Averaging, state.words["mean"]))
+    return mean_curve(ensemble(model, dimension), 1.0, averaging)
 
 
 def law_of(state: PublishedState, model: ModelLabel, dimension: float) -> PowerLaw:
     """The power law of one fractal dimension in the window of its model, as it is normalised."""
-    law = _law(model, dimension, window_of(state, model), cast(Averaging, state.words["mean"]))
+    law = _law(model, dimension, window_of(state, model), state.words["mean"])
     punch = _PUNCHES[state.words["punch"]] if model == "3D" else 1.0
     first, last = law.prefactor_interval
-    ends = (first / punch, last / punch)
-    return replace(law, prefactor=law.prefactor / punch, prefactor_interval=ends)
-
-
-@lru_cache(maxsize=64)
-def _curve(model: ModelLabel, dimension: float, averaging: Averaging) -> MeanCurve:
-    return mean_curve(ensemble(model, dimension), 1.0, averaging)
+    return replace(
+        law, prefactor=law.prefactor / punch, prefactor_interval=(first / punch, last / punch)
+    )
 
 
 @lru_cache(maxsize=1024)
-def _law(model: ModelLabel, dimension: float, window: Window, averaging: Averaging) -> PowerLaw:
+def _law(model: ModelLabel, dimension: float, window: Window, averaging: Any) -> PowerLaw:
     one = ensemble(model, dimension)
     stiffness = converged_stiffness(one, window)
     return fit_power_law(one.force_bar.values, stiffness, window, averaging=averaging)

@@ -38,7 +38,10 @@ class _Fit:
 
     @classmethod
     def of(cls, state: PublishedState, model: ModelLabel, dimension: float) -> _Fit:
-        law, curve = law_of(state, model, dimension), curve_of(state, model, dimension)
+        law, curve = (
+            law_of(state, model, dimension),
+            curve_of(model, dimension, state.words["mean"]),
+        )
         inside = inside_window(curve.force_bar, law.window)
         is_saturated = curve.mean[inside].max() >= SATURATED * curve.mean.max()
         return cls(dimension, law, bool(is_saturated), bool(curve.resolved[inside].all()))
@@ -80,15 +83,12 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
         answer["words"][f"doubt-{model}"] = _doubt(found)
         answer["words"][f"note-{model}"] = _note(state.words["mean"], window, model, found)
         answer["strip"] += _strip(model, found)
+    rows = [answer["tables"][f"fit-{model}"]["rows"] for model in MODELS]
     answer["tables"]["published-exponents"] = {
         "header": ["D_f", *(f"α {model}" for model in MODELS), *_FORMULAS.values()],
         "rows": [
-            [
-                f"{lines.dimension:.1f}",
-                *(estimate_cell(each.alpha, " to ") for each in (lines, surfaces)),
-                *(f"{law(lines.dimension):.3f}" for law in (scaling_exponent, linear_exponent)),
-            ]
-            for lines, surfaces in zip(*every.values(), strict=True)
+            [*one[:2], three[1], f"{scaling_exponent(d):.3f}", f"{linear_exponent(d):.3f}"]
+            for d, one, three in zip(state.dimensions, *rows, strict=True)
         ],
     }
     return frame({**settled, **answer})
@@ -147,21 +147,13 @@ def _strip(model: ModelLabel, found: list[_Fit]) -> list[dict[str, str]]:
     if last is not first:
         alpha = f"{first.alpha.value:.3f} to {last.alpha.value:.3f}"
         place += f" to {last.dimension:.1f}"
-    return [
-        {
-            "key": f"exponent_{model}",
-            "symbol": f"α ({model})",
-            "value": alpha,
-            "below": place,
-            "meaning": "Exponent of the stiffness over force in the window of Figure "
-            f"{3 if model == '1D' else 4}, of {_BODIES[model][0]}.",
-        },
-        {
-            "key": f"stated_{model}",
-            "symbol": f"paper: {_FORMULAS[model]}",
-            "value": str(joint_verdict(judged)) if judged else "not judged",
-            "below": f"within ± {within}: {'at every D_f' if words in set(Verdict) else words}",
-            "meaning": "The exponent that the paper states, judged by the intervals of this "
-            "window; one refuted fractal dimension refutes it.",
-        },
-    ]
+    below = f"within ± {within}: {'at every D_f' if words in set(Verdict) else words}"
+    whole = str(joint_verdict(judged)) if judged else "not judged"
+    said = f"Exponent of the stiffness over force in the window, of {_BODIES[model][0]}."
+    other = "What the paper states; one refuted fractal dimension refutes it."
+    items = (
+        (f"exponent_{model}", f"α ({model})", alpha, place, said),
+        (f"stated_{model}", f"paper: {_FORMULAS[model]}", whole, below, other),
+    )
+    names = ("key", "symbol", "value", "below", "meaning")
+    return [dict(zip(names, item, strict=True)) for item in items]

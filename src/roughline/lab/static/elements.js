@@ -11,8 +11,8 @@ const SYMBOL = /(_[A-Za-z0-9]+|\^-?[\wα-ω]+(?:\.\d+)?|(?<=\d)e-?\d+)/;
 export function typeset(text) {
   return text.split(SYMBOL).filter(Boolean).flatMap((part) => {
     if (!SYMBOL.test(part)) return part;
-    const textContent = part.slice(1).replace("-", "−");
-    if (part[0] === "_") return element("sub", {textContent});
-    return [...(part[0] === "e" ? ["·10"] : []), element("sup", {textContent})];
+    if (part[0] === "_") return element("sub", {textContent: part.slice(1)});
+    const textContent = part.slice(1).replace(/^-0*/, "−");
+    return [part[0] === "e" ? "·10" : "", element("sup", {textContent})];
   });
 }

@@ -9,14 +9,13 @@ const WINDOW = {movable: "x", resizable: "x", fill_alpha: 0.12, line_alpha: 0.6,
 
 // Figures 3 to 5, the area law, and the panels of the trust map, by their roll-off ratios.
 export function publishedFigures(rollOffs) {
-  const ranges = [[7.5e-4, 4.217], [1.95, 3.05]].map(([start, end]) => new Bokeh.Range1d({start, end}));
   return {
     "published-stiffness-1D": stiffness("1D"),
     "published-stiffness-3D": stiffness("3D"),
     "published-exponents": exponents(),
     "published-area": area(),
     "published-kappa": kappa(),
-    ...Object.fromEntries(rollOffs.map((each) => [`published-trust-${each}`, trust(each, ranges)])),
+    ...Object.fromEntries(rollOffs.map((each) => [`published-trust-${each}`, trust(each)])),
   };
 }
 
@@ -38,7 +37,7 @@ function stiffness(model) {
 function drawDimensions(made, name) {
   const look = {line_color: {field: "colour"}};
   draw(made, "patches", `${name} bands`, {fill_color: {field: "colour"}, fill_alpha: 0.25, line_color: null});
-  draw(made, "multi_line", `${name} all`, {...look, line_width: 1, line_dash: "dashed"});
+  draw(made, "multi_line", `${name} all`, {...look, line_dash: "dashed"});
   draw(made, "multi_line", `${name} sure`, {...look, line_width: 1.6});
   draw(made, "scatter", `${name} marks`, {marker: {field: "marker"}, size: 6, color: {field: "colour"}, legend_field: "D_f"});
   legendBelow(made, {title: "fractal dimension", orientation: "horizontal"});
@@ -47,7 +46,7 @@ function drawDimensions(made, name) {
 // Put the legend where it covers nothing.
 function legendBelow(made, look) {
   const {legend} = made;
-  legend.setv({location: "center", spacing: 8, glyph_width: 14, ...look});
+  legend.setv({location: "center", spacing: 8, margin: 0, glyph_width: 14, ...look});
   made.center = made.center.filter((each) => each !== legend);
   made.add_layout(legend, "below");
 }
@@ -89,8 +88,8 @@ function kappa() {
 }
 
 // One panel of the trust map, with the point that is asked about.
-function trust(rollOff, ranges) {
-  const made = plot([null, null], ranges, {x_axis_type: "log", tools: [], toolbar_location: null});
+function trust(rollOff) {
+  const made = plot([null, null], [[7.5e-4, 4.217], [1.95, 3.05]], {x_axis_type: "log", tools: [], toolbar_location: null});
   draw(made, "quad", `trust ${rollOff}`, {fill_color: {field: "colour"}, line_color: {field: "colour"}});
   draw(made, "quad", `trust ${rollOff} unsure`, {fill_color: null, line_color: null, ...HATCH});
   for (const [line_color, line_width] of [["#ffffff", 5], ["#000000", 2]]) { // seen on any colour

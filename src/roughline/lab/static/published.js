@@ -47,9 +47,15 @@ class Published {
     this.#showCurves();
     this.#plots = await embedded(() => publishedFigures(this.#panels.map(({id}) => id.replace(PANEL, ""))));
     for (const model of Object.keys(EDGES)) this.#bindWindow(model);
-    for (const {id} of this.#panels) this.#bindPanel(id);
+    for (const {id} of this.#panels) {
+      onTouch(this.#plots.root(id), ({x, y}) => {
+        const point = {roll_off: id.replace(PANEL, ""), map_F: this.#controls.within("map_F", x), map_D_f: this.#controls.within("map_D_f", y)};
+        this.#controls.take({...this.#controls.said, ...point});
+        this.#ask("point");
+      });
+    }
     this.#root.querySelector("[data-legend]").replaceChildren(...this.#constants.legend.map(([background, text]) => {
-      const patch = element("span");
+      const patch = element("span", {className: "patch"});
       patch.style.background = background;
       return element("li", {}, patch, text);
     }));
@@ -168,14 +174,5 @@ class Published {
       this.#moving = null;
       this.#draw({}, {[name]: this.#looks[name]});
     }, 400);
-  }
-
-  #bindPanel(id) {
-    onTouch(this.#plots.root(id), ({x, y}) => {
-      const roll_off = id.replace(PANEL, "");
-      const [map_F, map_D_f] = [this.#controls.within("map_F", x), this.#controls.within("map_D_f", y)];
-      this.#controls.take({...this.#controls.said, roll_off, map_F, map_D_f});
-      this.#changed("map_F");
-    });
   }
 }
