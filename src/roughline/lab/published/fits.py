@@ -79,7 +79,7 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
             "header": ["D_f", "α", "ζ", "paper: 1 / (4 - D_f)", f"paper: {_OTHER[model]}"],
             "rows": [_row(model, each) for each in found],
         }
-        answer["words"][f"error-{model}"] = " ".join(filter(None, refused))
+        answer["words"][f"error-{model}"] = next(filter(None, refused), "")
         answer["words"][f"doubt-{model}"] = _doubt(found)
         answer["words"][f"note-{model}"] = _note(state.words["mean"], window, model, found)
         answer["strip"] += _strip(model, found)
