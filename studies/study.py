@@ -13,13 +13,16 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from roughline.paper.results import published_folder
-from roughline.paper.studies import StudyPanel, StudySummary
+from roughline.paper.studies import StudySummary
 from roughline.plot.style import save, styled
 from roughline.report.page import Table, markdown_table
 from roughline.statistics.verdict import Claim
+from studies.panels import StudyPanel
 
 DOCS = Path(__file__).parents[1] / "docs"
 SUMMARIES = published_folder() / "studies"
+PICTURES = published_folder().parents[1] / "lab" / "static" / "paper"
+_SHARPNESS = 88  # of pictures, which are compressed as photographs are
 
 
 @dataclass(frozen=True)
@@ -46,10 +49,16 @@ class Study:
         """The study in short, for the lab."""
         title, answer, *_ = self.page.split("\n\n")
         table = self.verdicts()
-        panels = self.panels() if self.panels else ()
+        pictures = [each.picture(file) for file, each in self._panels.items()]
         return StudySummary(
-            self.folder.name, title.removeprefix("# "), answer, table.header, table.rows, panels
+            self.folder.name, title.removeprefix("# "), answer, table.header, table.rows, pictures
         )
+
+    @cached_property
+    def _panels(self) -> dict[str, StudyPanel]:
+        """Its panels by the names of their files."""
+        panels = self.panels() if self.panels else ()
+        return {f"{self.folder.name}-{i}": each for i, each in enumerate(panels)}
 
     def publish(self) -> None:
         """Write the page and its figures into ``docs``, and into the package what the lab shows."""
@@ -63,13 +72,20 @@ class Study:
                 pdf.unlink()
         (DOCS / f"{name}.md").write_text(text, encoding="utf-8")
         if self.panels:
-            # five digits are more than a figure shows
-            rounded = json.loads(
-                json.dumps(asdict(self.summary)), parse_float=lambda x: float(f"{float(x):.5g}")
-            )
-            kept = json.dumps(rounded, ensure_ascii=False, indent=0) + "\n"
-            SUMMARIES.mkdir(exist_ok=True)
-            (SUMMARIES / f"{name}.json").write_text(kept, encoding="utf-8")
+            show(self.summary, [each.figure for each in self._panels.values()])
+
+
+def show(summary: StudySummary, drawings: Sequence[Callable[[], Figure]]) -> None:
+    """Write into the package what the lab shows: words, and pictures for both themes."""
+    for folder in (SUMMARIES, PICTURES):
+        folder.mkdir(exist_ok=True)
+    for picture, draw in zip(summary.pictures, drawings, strict=True):
+        for theme in ("light", "dark"):
+            with styled(dark=theme == "dark"):
+                file = PICTURES / f"{picture.file}-{theme}.webp"
+                draw().savefig(file, pil_kwargs={"quality": _SHARPNESS, "method": 6})
+    kept = json.dumps(asdict(summary), ensure_ascii=False, indent=0) + "\n"
+    (SUMMARIES / f"{summary.name}.json").write_text(kept, encoding="utf-8")
 
 
 def filled(text: str, told: Mapping[str, object]) -> str:

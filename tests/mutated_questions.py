@@ -15,7 +15,7 @@ STATES = {
 }
 """Texts of the controls by view, of questions that are answered; "key" is that of a file."""
 
-SLOW = ("measured.report", "explore.download", "published.claims")
+SLOW = ("measured.report", "explore.download")
 """Tasks that take seconds."""
 
 _OTHERS = ("of", "which", "name", "model", "row", "map", "presses", "sides", "refines")

@@ -7,12 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughline.computing.arrays import Real
-from roughline.paper.studies import StudyCurve, StudyPanel
 from roughline.plot.style import MARKERS, PAGE, colours, new_figure
 from roughline.statistics.averages import average
 from roughline.theories import bush_gibson_thomas, persson
 from studies.area.claims import MIDDLE, common_law
 from studies.area.measure import BANDS, HURSTS, Sample, kappa, sample
+from studies.panels import StudyCurve, StudyPanel
 
 _KAPPA = r"$\kappa = A\,E^* \nabla h\,/\,F$"
 _SHOWN = (0.01, MIDDLE, 0.15)

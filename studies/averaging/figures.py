@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughline.paper.studies import StudyCurve, StudyPanel
 from roughline.paper.windows import Window
 from roughline.plot.style import PAGE, colours, new_figure
 from studies.averaging.measure import (
@@ -18,6 +17,7 @@ from studies.averaging.measure import (
     exponent,
     windows,
 )
+from studies.panels import StudyCurve, StudyPanel
 
 _FIXED = dict(zip(("force", "depth", "level"), colours(3), strict=True))
 _MARKS = {"arithmetic": ("o", "-"), "geometric": ("s", "--")}

@@ -79,7 +79,7 @@ def _verdict_table(bodies: str) -> Table:
     """Return what every window and mean reproduces."""
     return _table(
         bodies,
-        tuple(PUBLISHED),
+        tuple(f"{law} ± {EXPONENT_TOLERANCE:g}" for law in PUBLISHED),
         lambda window, choice: [_reproduced(bodies, window, choice, law) for law in PUBLISHED],
     )
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughline.paper.studies import StudyCurve, StudyPanel
 from roughline.plot.style import PAGE, colours, new_figure
 from studies.finite_size.claims import GAMMAS
 from studies.finite_size.crossover import local_exponents, scaling_exponent_of
@@ -20,6 +19,7 @@ from studies.finite_size.samples import (
     Sample,
     sample,
 )
+from studies.panels import StudyCurve, StudyPanel
 
 _STYLES: dict[Geometry, str] = {"periodic": "-", "free": "--", "lines": ":"}
 _WIDE_STYLE = "-."

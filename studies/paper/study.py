@@ -22,16 +22,26 @@ from roughline.campaign.run import log_of
 from roughline.contact.comparison.trust import COLUMNS, TrustMap
 from roughline.paper.laws import exponents_of
 from roughline.paper.page import compose
-from roughline.paper.results import published_dataset, published_folder, published_results
+from roughline.paper.results import (
+    PaperResults,
+    published_dataset,
+    published_folder,
+    published_results,
+)
 from roughline.paper.windows import Windows
 from roughline.plot.style import save, styled
+from roughline.report.json_output import plain
 from roughline.report.page import render_markdown
 from roughline.statistics.averages import relative_difference
+from studies.paper import shown
+from studies.paper.lab_figures import lab_figures
 from studies.paper.trust import trust_map_figure, trust_page
 from studies.reduced_data import finished, refuse_other_settings
-from studies.study import DOCS
+from studies.study import DOCS, PICTURES, show
 
 PLAN = Path(__file__).parent / "plan.toml"
+FIGURES = PICTURES / "figures.json"
+"""Data of the lab's figures of the paper."""
 _FIGURES = DOCS / "figures" / "paper"
 DATA = published_folder()
 MAP = DATA.parents[1] / "contact" / "comparison" / "trust_map.csv"
@@ -115,8 +125,15 @@ def publish() -> None:
     refuse_another_plan()
     shutil.rmtree(_FIGURES, ignore_errors=True)
     _FIGURES.mkdir(parents=True)
-    _publish_paper()
+    results = published_results()
+    _publish_paper(results)
     _publish_map()
+    show(shown.summary(results), shown.drawings(results))
+    data = json.dumps(plain(lab_figures(results)), ensure_ascii=False)
+    # five digits are more than a figure shows
+    rounded = json.loads(data, parse_float=lambda x: float(f"{float(x):.5g}"))
+    kept = json.dumps(rounded, ensure_ascii=False, separators=(",", ":")) + "\n"
+    FIGURES.write_text(kept, encoding="utf-8")
 
 
 def refuse_another_plan() -> None:
@@ -128,9 +145,8 @@ def refuse_another_plan() -> None:
         refuse_other_settings(attributes, plan.ensemble(ensemble), path.name)
 
 
-def _publish_paper() -> None:
+def _publish_paper(results: PaperResults) -> None:
     """Draw the page "The paper, recomputed"."""
-    results = published_results()
     with TemporaryDirectory() as folder:
         text = render_markdown(*compose(results, Path(folder)), "figures/paper")
         for picture in (Path(folder) / "figures").glob("*.png"):

@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughline.computing.arrays import Real
-from roughline.paper.studies import StudyCurve, StudyPanel
 from roughline.plot.style import MARKERS, PAGE, colours, new_figure
 from roughline.statistics.averages import average
+from studies.panels import StudyCurve, StudyPanel
 from studies.sealing.body import ELASTIC, Case
 from studies.sealing.claims import KINDS, SEALING, THEORIES
 from studies.sealing.measure import LARGEST, OF_GAPS, Data, mean, theory_of

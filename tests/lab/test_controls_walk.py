@@ -155,7 +155,7 @@ def test_sliders_and_texts_of_the_paper(pages):
     page.locator("#published-low_3D-text").fill("9")
     page.locator("#published-low_3D-text").press("Tab")
     page.locator('#published [data-error="low_3D"]', has_text="0.01 is used").wait_for()
-    point = page.locator("#published [data-point]")
+    point = page.locator("[data-words=point]")
     for control in map(published.NUMBERS.get, ("tolerance", "map_D_f", "map_F")):
         slider = page.locator(f"#published-{control.key}")
         for share, end in ((0, control.low), (1, control.high)):
@@ -164,14 +164,14 @@ def test_sliders_and_texts_of_the_paper(pages):
             shown = float(page.input_value(f"#published-{control.key}-text"))
             assert math.isclose(shown, end, rel_tol=5e-4)
             page.wait_for_function(
-                "(text) => document.querySelector('#published [data-point]').innerText !== text",
+                "(text) => document.querySelector('[data-words=point]').innerText !== text",
                 arg=before,
             )
         slider.dblclick()
         assert float(page.input_value(f"#published-{control.key}-text")) == control.default
     assert complaints(page, "published") == [
         page.inner_text('#published [data-error="low_3D"]'),
-        page.inner_text('#published [data-fit-error="3D"]'),
+        page.inner_text('#published [data-words="error-3D"]'),
     ]
     page.click("#published-windows")  # all four edges as they were
     # sliders move up as sentences above them go

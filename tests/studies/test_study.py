@@ -6,7 +6,6 @@ import pytest
 
 import roughline as rl
 from roughline import campaign
-from roughline.paper import studies as summaries
 from roughline.plot.style import new_figure
 from roughline.report.page import Table
 from roughline.statistics.power_law import scaling_exponent
@@ -14,6 +13,7 @@ from roughline.statistics.verdict import Verdict, around
 from studies import study as skeleton
 from studies.__main__ import main
 from studies.judged import Found, claim_on
+from studies.panels import StudyCurve, StudyPanel
 from studies.reduced_data import Reduced
 from studies.study import Study, claims_table, filled
 
@@ -97,8 +97,8 @@ class Toy:
 
     def panels(self):
         laws = self.measure()
-        curve = summaries.StudyCurve("α", list(laws), [law.exponent for law in laws.values()])
-        return [summaries.StudyPanel("α over D_f", "D_f", "α", (2, 3), (0, 1), [curve], False)]
+        curve = StudyCurve("α", list(laws), [law.exponent for law in laws.values()])
+        return [StudyPanel("α over D_f", "D_f", "α", (2, 3), (0, 1), [curve], False)]
 
 
 @pytest.fixture(scope="module")
@@ -115,6 +115,7 @@ def toy(tmp_path_factory):
 def test_data_verdicts_page_figures_and_summary_come_from_the_skeleton(toy, tmp_path, monkeypatch):
     monkeypatch.setattr(skeleton, "DOCS", tmp_path / "docs")
     monkeypatch.setattr(skeleton, "SUMMARIES", tmp_path / "summaries")
+    monkeypatch.setattr(skeleton, "PICTURES", tmp_path / "pictures")
     toy.study.publish()
     assert toy.reduced.data["lines"].stiffness.shape == (3, 12, 9)
     assert toy.reduced.unsolved_loads() == (0, 3 * 12 * 9)
@@ -132,6 +133,9 @@ def test_data_verdicts_page_figures_and_summary_come_from_the_skeleton(toy, tmp_
     kept = (tmp_path / "summaries" / "toy.json").read_text("utf-8")
     assert '"title": "Do springs obey eq. 14?"' in kept
     assert claim.cases in kept
+    assert f"α over D_f, from left to right: α: {float(exponents[0]):.2f}"[:-1] in kept
+    pictures = {path.name for path in (tmp_path / "pictures").iterdir()}
+    assert pictures == {"toy-0-light.webp", "toy-0-dark.webp"}
 
 
 def test_a_page_whose_data_are_refused_leaves_what_is_there(toy, tmp_path, monkeypatch):

@@ -21,8 +21,9 @@ from roughline.lab.measured.examples import EXAMPLES
 from roughline.lab.published import controls as published
 from roughline.lab.server.tasks import Place, Site
 from roughline.paper.studies import study_summaries
+from roughline.statistics.verdict import Verdict
 
-_SUBSCRIPT = re.compile(r"_(\w)")
+_SYMBOL = re.compile(r"_([A-Za-z0-9]+)|(\^|(?<=\d)e)(-?)0*([\wα-ω]+(?:\.\d+)?)")
 
 
 def _place(
@@ -48,15 +49,8 @@ TASKS: Mapping[str, Place] = {
     "measured.compare": _place("measured.answers", "compare", reads_files=True),
     "measured.report": _place("measured.documents", "report", reads_files=True),
     "measured.code": _place("measured.documents", "code", reads_files=True),
-    "published.curves": _place("published.stiffness", "curves", is_quick=True),
-    "published.fits": _place("published.stiffness", "fits", is_quick=True),
-    "published.exponents": _place("published.laws", "exponents", is_quick=True),
-    "published.area": _place("published.laws", "area", is_quick=True),
-    "published.trust": _place("published.trust", "trust", is_quick=True),
+    "published.fits": _place("published.fits", "fits", is_quick=True),
     "published.point": _place("published.trust", "point", is_quick=True),
-    "published.claims": _place("published.laws", "claims"),
-    "published.studies": _place("published.laws", "studies", is_quick=True),
-    "published.body": _place("published.bodies", "body"),
 }
 """All tasks by name."""
 
@@ -101,10 +95,22 @@ def _environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
     )
-    environment.filters["subscripts"] = _subscripts
+    environment.filters |= {"typeset": _typeset, "verdict": _verdict}
     return environment
 
 
-def _subscripts(symbol: str) -> Markup:
-    """A symbol such as D_f or λ_r/L, with its letters after an underscore set low."""
-    return Markup(_SUBSCRIPT.sub(r"<sub>\1</sub>", str(escape(symbol))))
+def _typeset(text: str) -> Markup:
+    """A text with symbols such as D_f and 2^20: what follows is set low, or high."""
+
+    def mark(found: re.Match[str]) -> str:
+        low, base, sign, high = found.groups()
+        if low:
+            return f"<sub>{low}</sub>"
+        return f"{'·10' if base == 'e' else ''}<sup>{sign and '−'}{high}</sup>"
+
+    return Markup(_SYMBOL.sub(mark, str(escape(text))))
+
+
+def _verdict(text: str) -> str:
+    """The verdict that a text begins with; empty if it is none."""
+    return next((each for each in Verdict if text.startswith(each)), "")

@@ -84,7 +84,8 @@ class Numbers:
         if not self.known:
             return not_judged(statement, basis, needed)
         told = found.replace("{}", self.with_places)
-        return Claim.of(statement, told, self.intervals, self.judged(allowed), basis)
+        cases = self.judged(allowed)
+        return Claim.of(statement, told, self.intervals, cases, basis, in_range(allowed, self.form))
 
 
 def not_judged(statement: str, basis: str, needed: str) -> Claim:
@@ -100,9 +101,15 @@ def exact_claim(
     on_it: Verdict,
     remark: str = "",
     interval: str = "exact",
+    allowed: str = "-",
 ) -> Claim:
     """Return a claim that no interval decides, with a remark on its verdict."""
-    return Claim(statement, found, interval, basis, on_it, f"{on_it}{remark}")
+    return Claim(statement, found, interval, basis, on_it, f"{on_it}{remark}", allowed)
+
+
+def in_range(allowed: Range, form: str) -> str:
+    """Write the range that a statement allows."""
+    return f"{allowed[0]:{form}} to {allowed[1]:{form}}"
 
 
 def at(dimension: float) -> str:

@@ -165,7 +165,8 @@ def _ends_of_reduced(model: _Model) -> Claim:
     elsewhere = [law.exponent for law in at_ends[-1].reduced_elsewhere if law.points]
     if elsewhere:
         found += f"; in other windows {min(elsewhere):.3f} to {max(elsewhere):.3f} at the latter"
-    return Claim.of(statement, found, ends.intervals, off.judged(_NO_CHANGE), model.basis)
+    allowed = f"± {EXPONENT_TOLERANCE:g} of {', '.join(f'{x:g}' for x in ENDS_OF_REDUCED.values())}"
+    return Claim.of(statement, found, ends.intervals, off.judged(_NO_CHANGE), model.basis, allowed)
 
 
 def _great_accuracy(model: _Model) -> Claim:

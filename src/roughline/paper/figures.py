@@ -6,8 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import matplotlib as mpl
 import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
 
 from roughline.contact import scaling
 from roughline.paper.added_figures import added_drawings
@@ -19,6 +22,7 @@ from roughline.plot.style import (
     SHADE,
     colours,
     dimension_label,
+    ink,
     label_decades,
     legend_dimensions,
     looks,
@@ -43,6 +47,7 @@ _OPEN_MARKS = (
     "fewer than ten springs or cells are in contact, so that the grid decides. The shaded range "
     "is the window of the fit."
 )
+_BLOCKS = 128  # along a side, of the contact in a small picture
 _COUNTS = ("no", "one", "two", "three", "four")
 _CAPTIONS = {
     "figure_1": (
@@ -118,7 +123,7 @@ def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
     drawings: dict[str, Callable[[], Figure]] = {}
     if gallery is not None:
         drawings["figure_1"] = lambda: _figure_1(gallery)
-        drawings["figure_2"] = lambda: _figure_2(gallery)
+        drawings["figure_2"] = lambda: indented_figure(gallery)
     drawings["figure_3"] = lambda: _figure_3(reduced, dimensions, windows.reduced)
     drawings["figure_4"] = lambda: _figure_4(full, windows.full)
     drawings["figure_5"] = lambda: _figure_5(results.exponents, laws, windows.full)
@@ -130,47 +135,80 @@ def _figure_1(gallery: xarray.Dataset) -> Figure:
     rows = gallery.sizes["fractal_dimension"]
     figure = new_figure(PAGE, 1.75 * rows)
     grid = figure.add_gridspec(rows, 4, width_ratios=[1.15, 1.25, 1, 1.2])
-    image: Any = {"extent": (0, 1, 0, 1), "origin": "lower", "interpolation": "nearest"}
-    deepest = float(gallery.displacement.max())
     for row in range(rows):
-        body = gallery.isel(fractal_dimension=row)
-        line = figure.add_subplot(grid[row, 0])
-        position = np.arange(body.sizes["s"]) / body.sizes["s"]
-        line.plot(position, body.line_heights, color="k", linewidth=0.4)
-        line.set(xlim=(0, 1), ylim=(-3.6, 3.6), ylabel="height $z/h$")
-        letter = "abcdefgh"[row]
-        name = _as_fraction(float(body.fractal_dimension))
-        line.set_title(f"{letter})  $D_f$ = {name}", loc="left")
-        _draw_topography(figure.add_subplot(grid[row, 1], projection="3d"), body.heights.values)
-        contact = figure.add_subplot(grid[row, 2])
-        contact.imshow(body.contact.values.T, cmap="binary", **image)
-        fraction = float(body.contact.mean())
-        contact.set_title(f"contact {fraction:.1%}", fontsize=8)
-        deflection = figure.add_subplot(grid[row, 3])
-        shown = deflection.imshow(
-            body.displacement.values.T, cmap="cividis", vmin=0, vmax=deepest, **image
-        )
-        figure.colorbar(shown, ax=deflection, label="deflection $u/h$", shrink=0.85)
-        for axes in (contact, deflection):
-            axes.set(xticks=[0, 1], yticks=[0, 1])
-        contact.set_ylabel("$y/L$", labelpad=-6)
-        if row == rows - 1:
-            line.set_xlabel("$x/L$")
-            contact.set_xlabel("$x/L$")
-            deflection.set_xlabel("$x/L$")
+        places = [grid[row, column] for column in range(4)]
+        _draw_body(figure, places, gallery, row, is_last=row == rows - 1)
     return figure
 
 
-def _figure_2(gallery: xarray.Dataset) -> Figure:
-    """Draw the indented line: springs in contact, and the force as the area above the level."""
+def body_figure(gallery: xarray.Dataset, row: int) -> Figure:
+    """Draw one row of Figure 1 alone, two pictures abreast."""
+    figure = new_figure(4.4, 4.2)
+    grid = figure.add_gridspec(2, 2, width_ratios=[1, 1.15])
+    _draw_body(
+        figure, [grid[i // 2, i % 2] for i in range(4)], gallery, row, is_last=True, blocks=_BLOCKS
+    )
+    return figure
+
+
+def body_name(gallery: xarray.Dataset, row: int) -> str:
+    """Name a row of Figure 1 by its letter; "a) D_f = 2" is the first."""
+    return f"{'abcdefgh'[row]}) D_f = {_as_fraction(float(gallery.fractal_dimension[row]))}"
+
+
+def _draw_body(
+    figure: Figure,
+    places: list[SubplotSpec],
+    gallery: xarray.Dataset,
+    row: int,
+    *,
+    is_last: bool,
+    blocks: int = 0,
+) -> None:
+    """Draw one row of Figure 1; axes along x are named in the last.
+
+    A small picture shows the contact in blocks, those that have some of it in black.
+    """
+    body, deepest = gallery.isel(fractal_dimension=row), float(gallery.displacement.max())
+    image: Any = {"extent": (0, 1, 0, 1), "origin": "lower", "interpolation": "nearest"}
+    marks = LinearSegmentedColormap.from_list("", [mpl.rcParams["axes.facecolor"], ink()])
+    line = figure.add_subplot(places[0])
+    position = np.arange(body.sizes["s"]) / body.sizes["s"]
+    line.plot(position, body.line_heights, color=ink(), linewidth=0.4)
+    line.set(xlim=(0, 1), ylim=(-3.6, 3.6), ylabel="height $z/h$")
+    line.set_title(body_name(gallery, row).replace("D_f", " $D_f$"), loc="left")
+    _draw_topography(figure.add_subplot(places[1], projection="3d"), body.heights.values)
+    contact = figure.add_subplot(places[2])
+    touched = body.contact.values.T
+    if blocks and touched.shape[0] % blocks == 0:
+        side = touched.shape[0] // blocks
+        touched = touched.reshape(blocks, side, blocks, side).max(axis=(1, 3)) > 0
+    contact.imshow(touched, cmap=marks, **image)
+    fraction = float(body.contact.mean())
+    contact.set_title(f"contact {fraction:.1%}", fontsize=8)
+    deflection = figure.add_subplot(places[3])
+    shown = deflection.imshow(
+        body.displacement.values.T, cmap="cividis", vmin=0, vmax=deepest, **image
+    )
+    figure.colorbar(shown, ax=deflection, label="deflection $u/h$", shrink=0.85)
+    for axes in (contact, deflection):
+        axes.set(xticks=[0, 1], yticks=[0, 1])
+    contact.set_ylabel("$y/L$", labelpad=-6)
+    if is_last:
+        for axes in (line, contact, deflection):
+            axes.set_xlabel("$x/L$")
+
+
+def indented_figure(gallery: xarray.Dataset) -> Figure:
+    """Draw Figure 2, the indented line: springs in contact, and the force above the level."""
     figure = new_figure(COLUMN, 2.4)
     axes = figure.add_subplot()
     body = gallery.isel(fractal_dimension=min(_INDENTED, gallery.sizes["fractal_dimension"] - 1))
     heights = body.line_heights.values
     position = np.arange(heights.size) / heights.size
     level = heights.max() - float(body.line_depth)
-    axes.plot(position, heights, color="0.35", linewidth=0.5, label="rough line")
-    axes.axhline(level, color="k", linewidth=0.8, linestyle="--", label="level $z = z_{max} - d$")
+    axes.plot(position, heights, color=ink(), alpha=0.65, linewidth=0.5, label="rough line")
+    axes.axhline(level, color=ink(), linewidth=0.8, linestyle="--", label="level $z = z_{max} - d$")
     axes.fill_between(
         position,
         level,
@@ -178,11 +216,11 @@ def _figure_2(gallery: xarray.Dataset) -> Figure:
         where=heights > level,
         color=colours(2)[1],
         linewidth=0,
-        label=r"$F/E^*$ = shaded area",
+        label=r"$F/E^*$",
     )
     bottom = heights.min() - 1.2
     for start, end in _runs(heights > level):
-        axes.plot(position[[start, end]], [bottom, bottom], color="k", linewidth=3)
+        axes.plot(position[[start, end]], [bottom, bottom], color=ink(), linewidth=3)
     axes.annotate(
         "springs in contact: $k = E^*\\,\\sum L_i$",
         (0.03, bottom + 0.3),
@@ -190,8 +228,8 @@ def _figure_2(gallery: xarray.Dataset) -> Figure:
         xycoords="data",
     )
     axes.set(xlabel="$x/L$", ylabel="height $z/h$", xlim=(0, 1))
-    axes.set_ylim(bottom - 0.25, heights.max() + 1.6)
-    axes.legend(loc="upper left", ncols=2)
+    axes.set_ylim(bottom - 0.25, heights.max() + 0.4)
+    figure.legend(loc="outside upper center", ncols=3, columnspacing=1.2)
     return figure
 
 

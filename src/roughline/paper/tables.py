@@ -70,11 +70,11 @@ def constant_table(laws: list[DimensionLaws]) -> Table:
     return Table(header, rows, numbers=range(len(header)))
 
 
-def estimate_cell(number: IntervalEstimate) -> str:
+def estimate_cell(number: IntervalEstimate, to: str = "-") -> str:
     """Write a number with its interval, as all tables of the study do."""
     if np.isnan(number.low):
         return number_cell(number.value)
-    return f"{number.value:.3f} ({number.low:.3f}-{number.high:.3f})"
+    return f"{number.value:.3f} ({number.low:.3f}{to}{number.high:.3f})"
 
 
 def trust_cell(difference: Difference) -> str:
@@ -83,6 +83,11 @@ def trust_cell(difference: Difference) -> str:
         return "-"
     star = "" if difference.resolved else " *"
     return f"{difference.value:+.0%} ({difference.low:+.0%} to {difference.high:+.0%}){star}"
+
+
+def three_digits(value: float) -> str:
+    """Write a number with three digits, its zeros kept."""
+    return f"{value:#.3g}".rstrip(".") if abs(value) >= 1e-4 else f"{value:.2e}"
 
 
 def number_cell(value: float) -> str:

@@ -45,6 +45,12 @@ _RC: Any = {
     "savefig.dpi": 200,
     "figure.constrained_layout.use": True,
 }
+_PAPER, _INK, _FRAME = "#16181c", "#ececea", "#7d7d78"  # of the dark theme of the lab
+_DARK: Any = {
+    **dict.fromkeys(("figure.facecolor", "axes.facecolor", "savefig.facecolor"), _PAPER),
+    **dict.fromkeys(("text.color", "axes.labelcolor", "xtick.color", "ytick.color"), _INK),
+    "axes.edgecolor": _FRAME,
+}
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -53,14 +59,15 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 @contextmanager
-def styled() -> Iterator[None]:
-    """Context in which figures are drawn and saved.
+def styled(*, dark: bool = False) -> Iterator[None]:
+    """Context in which figures are drawn and saved, with light ink on dark paper if wanted.
 
     It gives back its own settings alone. The first figure of a notebook makes all later pictures
     appear, by another setting, which has to stay.
     """
-    before = {name: mpl.rcParams[name] for name in _RC}
-    mpl.rcParams.update(_RC)
+    settings = _RC | _DARK if dark else _RC
+    before = {name: mpl.rcParams[name] for name in settings}
+    mpl.rcParams.update(settings)
     try:
         yield
     finally:
@@ -78,10 +85,16 @@ def drawing_on(axes: Axes | None, width: float = 4.5, height: float = 3.2) -> It
         yield axes
 
 
+def ink() -> str:
+    """Return the colour of text and frames, which differs from the paper most."""
+    return str(mpl.rcParams["text.color"])
+
+
 def colours(count: int) -> list[tuple[float, float, float, float]]:
-    """Return colours that differ in lightness too (viridis, without its palest end)."""
+    """Return colours that differ in lightness too (viridis, without the end next to the paper)."""
     ramp = mpl.colormaps["viridis"]
-    return [ramp(0.88 * i / max(count - 1, 1)) for i in range(count)]
+    first, last = (0.3, 1.0) if ink() == _INK else (0.0, 0.88)
+    return [ramp(first + (last - first) * i / max(count - 1, 1)) for i in range(count)]
 
 
 def looks(dimensions: NDArray[np.float64]) -> Iterator[tuple[float, Any, str]]:

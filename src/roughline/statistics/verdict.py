@@ -86,14 +86,21 @@ class Claim:
     basis: str  # what the number is of: window, averaging, grid
     verdict: Verdict  # on the statement as a whole: one refuted case refutes it
     cases: str  # the verdict in words, case by case where the cases differ
+    allowed: str = "-"  # the range that the statement allows, in words
 
     @classmethod
     def of(
-        cls, statement: str, found: str, interval: str, cases: Sequence[Case], basis: str = ""
+        cls,
+        statement: str,
+        found: str,
+        interval: str,
+        cases: Sequence[Case],
+        basis: str = "",
+        allowed: str = "-",
     ) -> Claim:
         """Return a claim about several cases, which are judged one by one."""
         whole = joint_verdict(each.verdict for each in cases if each.verdict)
-        return cls(statement, found, interval, basis, whole, in_words(cases))
+        return cls(statement, found, interval, basis, whole, in_words(cases), allowed)
 
 
 def in_words(cases: Sequence[Case]) -> str:

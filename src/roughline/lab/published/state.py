@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from roughline.errors.checks import shown
 from roughline.lab.controls import VERSION, ControlError, Texts, as_text, refuse_strange
-from roughline.lab.published.controls import CHOICES, DIMENSIONS, MODELS, NUMBERS, WINDOWS
+from roughline.lab.published.controls import CHOICES, DIMENSIONS, NUMBERS, WINDOWS, ModelLabel
 
 Window = tuple[float, float]
 
@@ -18,35 +17,19 @@ class PublishedState:
     """What is chosen, by the keys of the controls, which say what each means."""
 
     dimensions: tuple[float, ...]  # fractal dimensions that are shown
-    mean: Any
-    punch: str
-    windows: Mapping[str, Window]  # smallest and largest F̄ of the fit, by model
-    tolerance: float
-    roll_off: float
-    map_D_f: float
-    map_F: float
-    claims: str
+    words: Mapping[str, str]
+    numbers: Mapping[str, float]
 
     def address(self) -> dict[str, str]:
         """What the address says of this state: the version, and all that is chosen."""
-        return {
-            "v": VERSION,
-            "D_f": ",".join(f"{each:g}" for each in self.dimensions),
-            "mean": self.mean,
-            "punch": self.punch,
-            **{key: as_text(value) for key, value in self.numbers().items()},
-            "roll_off": f"{self.roll_off:g}",
-            "claims": self.claims,
-        }
+        numbers = {key: as_text(value) for key, value in self.numbers.items()}
+        shown = ",".join(f"{each:g}" for each in self.dimensions)
+        return {"v": VERSION, "D_f": shown, **self.words, **numbers}
 
-    def numbers(self) -> dict[str, float]:
-        """What the sliders of the page stand at."""
-        edges = {
-            edge.key: value
-            for model, window in self.windows.items()
-            for edge, value in zip(WINDOWS[model], window, strict=True)
-        }
-        return edges | {key: getattr(self, key) for key in ("tolerance", "map_D_f", "map_F")}
+    def window(self, model: ModelLabel) -> Window:
+        """Return the smallest and the largest F̄ of the fit of a model."""
+        low, high = (self.numbers[edge.key] for edge in WINDOWS[model])
+        return low, high
 
 
 def state_of(said: Texts) -> PublishedState:
@@ -58,29 +41,20 @@ def state_of(said: Texts) -> PublishedState:
         If the version is another, or a text cannot be used; it says at which control.
     """
     refuse_strange(said, {*NUMBERS, *CHOICES, "D_f"})
-    return PublishedState(
-        dimensions=_dimensions(said.get("D_f")),
-        mean=CHOICES["mean"].read_in(said),
-        punch=CHOICES["punch"].read_in(said),
-        windows={model: _window(said, model) for model in MODELS},
-        tolerance=NUMBERS["tolerance"].read_in(said),
-        roll_off=float(CHOICES["roll_off"].read_in(said)),
-        map_D_f=NUMBERS["map_D_f"].read_in(said),
-        map_F=NUMBERS["map_F"].read_in(said),
-        claims=CHOICES["claims"].read_in(said),
+    state = PublishedState(
+        _dimensions(said.get("D_f")),
+        {key: each.read_in(said) for key, each in CHOICES.items()},
+        {key: each.read_in(said) for key, each in NUMBERS.items()},
     )
-
-
-def _window(said: Texts, model: str) -> Window:
-    low, high = WINDOWS[model]
-    window = low.read_in(said), high.read_in(said)
-    if not window[0] < window[1]:
-        raise ControlError(
-            f"the window of the {model} model begins at F̄ = {window[0]:.4g} and ends at "
-            f"{window[1]:.4g}: its end must be the larger one",
-            *(high.key, low.key),
-        )
-    return window
+    for model, edges in WINDOWS.items():
+        low, high = (state.numbers[edge.key] for edge in edges)
+        if not low < high:
+            raise ControlError(
+                f"the window of the {model} model begins at F̄ = {low:.4g} and ends at {high:.4g}: "
+                "its end must be the larger one",
+                *(edge.key for edge in reversed(edges)),
+            )
+    return state
 
 
 def _dimensions(text: str | None) -> tuple[float, ...]:

@@ -1,11 +1,12 @@
 // Explore: a random surface under both models, as sliders move. What can be added to the contact, and which curves
 // there are, the server declares.
 import {Controls} from "./controls.js";
+import {typeset} from "./elements.js";
 import {exploreFigures} from "./explore-figures.js";
 import {onDraw} from "./hands.js";
 import {Maps, layersOf} from "./maps.js";
 import {embedded, points} from "./plots.js";
-import {Strip, withSubscripts} from "./strip.js";
+import {Strip} from "./strip.js";
 import {fillCaption, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
 import {TakeAlong} from "./take_along.js";
@@ -241,7 +242,7 @@ class Explore {
     if (task === what || what === "line") classList.remove("empty");
   }
 
-  #remark(key, text) { this.#find(`[data-remarks="${key}"]`).replaceChildren(...withSubscripts(text)); }
+  #remark(key, text) { this.#find(`[data-remarks="${key}"]`).replaceChildren(...typeset(text)); }
 
   // The table of a panel has the rows of all answers; those of the lines stand below.
   #fillRows(key) {

@@ -34,19 +34,20 @@ function tools(match_aspect = false) {
 // What the legend of a plot names: of each glyph its source, its words, and how it looks.
 const legends = new WeakMap();
 export function legendOf(plot) { return legends.get(plot) ?? []; }
+export function name(plot, ...glyphs) { legends.set(plot, [...legendOf(plot), ...glyphs]); }
 
 // Let a plot draw the columns of a source, which several glyphs may share, and name it in its legend.
-export function draw(plot, kind, name, {columns, colours = {}, legend, ...look} = {}) {
+export function draw(plot, kind, source_name, {columns, colours = {}, legend, ...look} = {}) {
   const fields = Object.fromEntries(Object.entries({...COLUMNS[kind], ...columns}).map(([key, field]) => [key, {field}]));
   if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
-  const source = plot.renderers.find(({data_source}) => data_source.name === name)?.data_source
-    ?? new Bokeh.ColumnDataSource({name});
+  const source = plot.renderers.find(({data_source}) => data_source.name === source_name)?.data_source
+    ?? new Bokeh.ColumnDataSource({name: source_name});
   const wanted = [...Object.values({...fields, ...look}).map((each) => each?.field)].filter(Boolean);
   source.data = {...source.data, ...Object.fromEntries(wanted.map((column) => [column, []]))};
   const drawn = plot[kind]({...fields, ...look, source});
   drawn.setv({selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
   drawn.glyph.tags = [{colours}];
-  if (legend) legends.set(plot, [...legendOf(plot), {name, legend, kind, look, colours}]);
+  if (legend) name(plot, {source: source.name, legend, kind, look, colours});
   return drawn;
 }
 

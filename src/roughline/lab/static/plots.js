@@ -87,7 +87,7 @@ class Plots {
     if (!places.size) return;
     const items = [...places].map(([words, glyphs]) => {
       const item = element("li", {hidden: true}, keyOf(glyphs), element("span", {textContent: words}));
-      const names = glyphs.map(({name}) => name);
+      const names = glyphs.map(({source}) => source);
       item.dataset.sources = names.join(";");
       for (const name of names) this.#named.set(name, [...(this.#named.get(name) ?? []), {item, names}]);
       return item;
@@ -147,6 +147,7 @@ export function colour(name) {
 const SHAPES = { // of marks in a legend
   circle: '<circle cx="13" cy="6" r="4"/>', square: '<rect x="9.5" y="2.5" width="7" height="7"/>',
   triangle: '<path d="M13 1.5l4.5 8h-9z"/>', inverted_triangle: '<path d="M13 10.5l4.5-8h-9z"/>', x: '<path d="M9 2l8 8m0-8l-8 8"/>',
+  diamond: '<path d="M13 1l5 5-5 5-5-5z"/>', plus: '<path d="M8 6h10M13 1v10"/>',
 };
 
 // The key of a legend: how glyphs look, in the colours of the theme.

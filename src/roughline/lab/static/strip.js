@@ -1,5 +1,5 @@
 // The answer strip: what is true now, in large figures.
-import {element} from "./elements.js";
+import {element, typeset} from "./elements.js";
 
 export class Strip {
   #place; #order; #items = new Map();
@@ -39,11 +39,6 @@ function write(item, {symbol, value, below, meaning}) {
   place.title = meaning;
   [symbol, value, below].forEach((text, i) => {
     if (said && text === [said.symbol, said.value, said.below][i]) return;
-    place.children[i].replaceChildren(...withSubscripts(text));
+    place.children[i].replaceChildren(...typeset(text));
   });
-}
-
-// A text whose letter after an underscore is set low.
-export function withSubscripts(text) {
-  return text.split(/_(\w)/).map((part, i) => (i % 2 ? element("sub", {textContent: part}) : part));
 }

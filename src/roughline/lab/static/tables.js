@@ -3,10 +3,10 @@ import {element} from "./elements.js";
 
 const unread = new WeakMap(); // folds that are closed, and what fills them
 
-// Put rows below a plot; in a fold that is closed, when it is opened.
+// Put rows below a plot, in a fold that is closed when it is opened; a cell is a text, or pieces of one.
 export function fillTable(id, header, rows) {
   const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details");
-  const row = (cells, kind, more) => element("tr", {}, ...cells.map((textContent) => element(kind, {textContent, ...more})));
+  const row = (cells, kind, more) => element("tr", {}, ...cells.map((cell) => element(kind, more, ...[cell].flat())));
   const fill = () => place.replaceChildren(element("table", {},
     element("thead", {}, row(header, "th", {scope: "col"})),
     element("tbody", {}, ...rows.map((cells) => row(cells, "td")))));

@@ -1,0 +1,228 @@
+"""Data of the lab's figures of the paper that no computing changes: curves, exponents, κ, the map.
+
+The lab's script chooses among them, and asks its server for the fits in a window alone. Columns are
+those of Bokeh's sources, by the names that the script gives them; colours of curves are places in
+the ramp of the theme.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import to_hex
+
+from roughline.contact import scaling
+from roughline.contact.comparison.trust import TrustMap, trust_map
+from roughline.paper.contact_area import mean_area
+from roughline.paper.mean_curve import MeanCurve, mean_curve
+from roughline.paper.results import PaperResults
+from roughline.paper.tables import estimate_cell, three_digits, trust_cell
+from roughline.paper.windows import WINDOW_AREA
+from roughline.plot.models import TRUST_LEVELS, trust_colours
+from roughline.plot.style import MARKERS
+from roughline.statistics.averages import Averaging
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.power_law import linear_exponent, scaling_exponent
+from roughline.theories import bush_gibson_thomas, persson
+
+AVERAGES: tuple[Averaging, ...] = ("arithmetic", "geometric")
+PUNCHES = {"paper": scaling.PAPER_PUNCH, "exact": scaling.EXACT_PUNCH, "raw": 1.0}
+"""What the stiffness of surfaces is divided by, as the lab's choice calls it."""
+_BOKEHS = {"o": "circle", "s": "square", "D": "diamond", "^": "triangle", "v": "inverted_triangle"}
+_MARKS = 24  # at most, of a curve
+_THEORIES = {"Bush, Gibson, Thomas": bush_gibson_thomas.KAPPA, "Persson": persson.KAPPA}
+
+
+def lab_figures(results: PaperResults) -> dict[str, Any]:
+    """Return it all, with curves by what is chosen for them."""
+    whole = trust_map()
+    low, high = WINDOW_AREA
+    colours = [to_hex(colour) for colour in trust_colours()]
+    between = [f"{a:+.0%} to {b:+.0%}" for a, b in pairwise(TRUST_LEVELS)]
+    levels = [f"below {TRUST_LEVELS[0]:+.0%}", *between, f"above {TRUST_LEVELS[-1]:+.0%}"]
+    draw, tables = _kappa(results)
+    for i in range(whole.roll_off_ratios.size):
+        draw |= _cells(whole, i, colours)
+        tables[f"published-trust-{whole.roll_off_ratios[i]:g}"] = _trust_table(whole, i)
+    return {
+        "draw": draw | _exponents(results),
+        "look": {"window area": {"left": low, "right": high}},
+        "tables": tables,
+        "legend": list(zip(colours, levels, strict=True)),
+        "curves": _curves(results),
+    }
+
+
+def _curves(results: PaperResults) -> dict[str, Any]:
+    """Figure 3 by its mean, Figure 4 by its mean and normaliser, and the area law."""
+    found = {"area": _area_curves(results)}
+    for mean in AVERAGES:
+        found[f"1D {mean}"] = _stiffness(results, "1D", 1.0, mean)
+        for name, punch in PUNCHES.items():
+            found[f"3D {mean} {name}"] = _stiffness(results, "3D", punch, mean)
+    return found
+
+
+def _stiffness(
+    results: PaperResults, model: str, punch: float, averaging: Averaging
+) -> dict[str, Any]:
+    data = results.reduced if model == "1D" else results.full
+    dimensions = results.full.fractal_dimension.values
+    found = {
+        float(d): mean_curve(data.sel(fractal_dimension=d), punch, averaging) for d in dimensions
+    }
+    over = "" if punch == 1 else f"{punch:g} "
+    limit = 1.0 if model == "1D" else scaling.EXACT_PUNCH / punch
+    return {
+        "draw": _columns(f"stiffness {model}", found),
+        "look": {
+            f"saturated {model}": {"location": limit},
+            f"label {model}": {"axis_label": f"stiffness k̄ = k / ({over}E* L)"},
+        },
+        "tables": {f"published-stiffness-{model}": _table("k̄", found)},
+    }
+
+
+def _area_curves(results: PaperResults) -> dict[str, Any]:
+    found = {}
+    for dimension in results.full.fractal_dimension.values:
+        one = results.full.sel(fractal_dimension=dimension)
+        area, resolved = mean_area(one)
+        found[float(dimension)] = MeanCurve(one.force_bar.values, area, area, area, resolved)
+    return {
+        "draw": _columns("area", found),
+        "look": {},
+        "tables": {"published-area": _table("A/A_0", found)},
+    }
+
+
+def _columns(name: str, curves: Mapping[float, MeanCurve]) -> dict[str, Any]:
+    """Return the columns of curves: bands, lines, and marks where the grid does not decide."""
+    every = list(curves.values())
+    ramp = list(range(len(every)))
+    lines = {
+        "bands": (
+            [[*each.force_bar, *each.force_bar[::-1]] for each in every],
+            [[*each.low, *each.high[::-1]] for each in every],
+        ),
+        "all": ([each.force_bar for each in every], [each.mean for each in every]),
+        "sure": (
+            [each.force_bar[each.resolved] for each in every],
+            [each.mean[each.resolved] for each in every],
+        ),
+    }
+    marks: dict[str, list[Any]] = {key: [] for key in ("x", "y", "ramp", "marker", "D_f")}
+    for i, (dimension, curve) in enumerate(curves.items()):
+        kept = np.flatnonzero(curve.resolved)[:: max(1, curve.force_bar.size // _MARKS)]
+        marks["x"] += curve.force_bar[kept].tolist()
+        marks["y"] += curve.mean[kept].tolist()
+        marks["ramp"] += [i] * kept.size
+        marks["marker"] += [_BOKEHS.get(MARKERS[i], "plus")] * kept.size
+        marks["D_f"] += [f"{dimension:.1f}"] * kept.size
+    columns = {
+        f"{name} {key}": {"xs": xs, "ys": ys, "ramp": ramp} for key, (xs, ys) in lines.items()
+    }
+    return {**columns, f"{name} marks": marks}
+
+
+def _table(symbol: str, curves: Mapping[float, MeanCurve]) -> dict[str, Any]:
+    """Return means over force in a table; a star is where the grid decides."""
+    every = list(curves.values())
+    header = ["F̄", *(f"{symbol} at D_f = {each:.1f}" for each in curves)]
+    rows = [
+        [
+            three_digits(force),
+            *(three_digits(one.mean[i]) + " *" * (not one.resolved[i]) for one in every),
+        ]
+        for i, force in enumerate(every[0].force_bar)
+    ]
+    return {"header": header, "rows": rows}
+
+
+def _exponents(results: PaperResults) -> dict[str, Any]:
+    """Return the exponents of the reduced model in three windows, and the two predictions."""
+    fine = np.linspace(2, 3, 101)
+    data = results.exponents
+    windows = [data.isel(window=i) for i in range(data.sizes["window"])]
+    found = {
+        f"exponents {i}": {
+            "x": one.fractal_dimension.values,
+            "y": one.exponent.values,
+            "low": one.low.values,
+            "high": one.high.values,
+        }
+        for i, one in enumerate(windows)
+    }
+    return {
+        **found,
+        "prediction scaling": {"x": fine, "y": scaling_exponent(fine)},
+        "prediction linear": {"x": fine, "y": linear_exponent(fine)},
+    }
+
+
+def _kappa(results: PaperResults) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return κ of eq. 4 with its intervals and two theories: as columns, and as a table."""
+    dimensions = [laws.fractal_dimension for laws in results.laws]
+    kappas = {
+        name: [getattr(laws, name).kappa for laws in results.laws]
+        for name in ("corrected", "cells")
+    }
+    draw = {f"kappa {name}": _marks(dimensions, found) for name, found in kappas.items()}
+    for name, kappa in _THEORIES.items():
+        draw[f"kappa {name}"] = {"x": [1.9, 3.1], "y": [kappa, kappa]}
+    rows = [
+        [
+            f"{laws.fractal_dimension:.1f}",
+            *(
+                estimate_cell(each, " to ")
+                for law in (laws.corrected, laws.cells)
+                for each in (law.kappa, law.exponent)
+            ),
+        ]
+        for laws in results.laws
+    ]
+    rows += [[name, f"{kappa:.3f}", "1 exactly", "-", "-"] for name, kappa in _THEORIES.items()]
+    header = ["D_f", "κ", "exponent of A over F", "κ in cells", "exponent of A in cells"]
+    return draw, {"published-kappa": {"header": header, "rows": rows}}
+
+
+def _marks(dimensions: list[float], found: list[IntervalEstimate]) -> dict[str, list[float]]:
+    return {
+        "x": dimensions,
+        "y": [each.value for each in found],
+        "low": [each.low for each in found],
+        "high": [each.high for each in found],
+    }
+
+
+def _cells(whole: TrustMap, i: int, colours: list[str]) -> dict[str, Any]:
+    """Return the cells of a panel, each around its point, and again where the grid decides."""
+    across, up = np.exp(_edges(np.log(whole.force_bars))), _edges(whole.fractal_dimensions)
+    shape = whole.difference[i].shape
+    left, right = (np.broadcast_to(x, shape).ravel() for x in (across[:-1], across[1:]))
+    bottom, top = (np.repeat(y, shape[1]) for y in (up[:-1], up[1:]))
+    colour = np.array(colours)[np.digitize(whole.difference[i], TRUST_LEVELS).ravel()]
+    cells = {"left": left, "right": right, "bottom": bottom, "top": top, "colour": colour}
+    unsure = ~whole.resolved[i].ravel()
+    name = f"trust {whole.roll_off_ratios[i]:g}"
+    return {name: cells, f"{name} unsure": {key: each[unsure] for key, each in cells.items()}}
+
+
+def _trust_table(whole: TrustMap, i: int) -> dict[str, Any]:
+    """Return a panel as a table, with loads downwards."""
+    roll_off = float(whole.roll_off_ratios[i])
+    dimensions = whole.fractal_dimensions[::2]
+    rows = [
+        [three_digits(force), *(trust_cell(whole.at(d, force, roll_off)) for d in dimensions)]
+        for force in whole.force_bars
+    ]
+    return {"header": ["F̄", *(f"D_f = {d:.1f}" for d in dimensions)], "rows": rows}
+
+
+def _edges(middles: np.ndarray) -> np.ndarray:
+    """Return the edges of the cells around evenly spaced points."""
+    half = (middles[1] - middles[0]) / 2
+    return np.append(middles - half, middles[-1] + half)
