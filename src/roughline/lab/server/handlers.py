@@ -43,7 +43,7 @@ def application(server: Server) -> Application:
             (r"/link", Link),
             (r"/upload", _Uploads),
             (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", _Results),
-            (r"/lab/([\w.-]+)", _Parts, {"path": str(server.site.parts)}),
+            (r"/lab/([\w./-]+)", _Parts, {"path": str(server.site.parts)}),
             (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(bokeh)}),
         ],
         default_handler_class=_Nothing,
