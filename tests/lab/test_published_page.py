@@ -111,7 +111,7 @@ def test_a_window_in_the_saturation_says_so_and_too_few_loads_do(paper):
     doubt.filter(has_text="reaches into the saturation").wait_for()
     assert "not judged" in paper.inner_text('[data-answer="stated_1D"]')
     assert "refuted" not in paper.inner_text('[data-table="fit-1D"]')
-    draw_window(paper, "published-stiffness-3D", (0.11, 0.9), (0.2, 0.1))
+    draw_window(paper, "published-stiffness-3D", (0.32, 0.9), (0.5, 0.1))
     error = paper.locator('[data-words="error-3D"]')
     error.filter(has_text="widen it").wait_for()
     assert error.is_visible()

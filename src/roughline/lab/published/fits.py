@@ -61,7 +61,8 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
     every = {m: [_Fit.of(state, m, d) for d in state.dimensions] for m in MODELS}
     answer: dict[str, Any] = {"draw": {}, "look": {}, "tables": {}, "words": {}, "strip": []}
     for model, found in every.items():
-        refused = (settled["refused"].get(edge.key, "") for edge in WINDOWS[model])
+        keys = {edge.key for edge in WINDOWS[model]}
+        refused = (text for key, text in settled["refused"].items() if key in keys)
         edges = [np.array(each.law.window) for each in found]
         answer["draw"][f"stiffness {model} fits"] = {
             "xs": edges,
@@ -79,7 +80,7 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
             "header": ["D_f", "α", "ζ", "paper: 1 / (4 - D_f)", f"paper: {_OTHER[model]}"],
             "rows": [_row(model, each) for each in found],
         }
-        answer["words"][f"error-{model}"] = next(filter(None, refused), "")
+        answer["words"][f"error-{model}"] = next(refused, "")
         answer["words"][f"doubt-{model}"] = _doubt(found)
         answer["words"][f"note-{model}"] = _note(state.words["mean"], window, model, found)
         answer["strip"] += _strip(model, found)

@@ -4,9 +4,9 @@ import {LOGARITHMIC, add, draw, drawIntervals, name as call, plot} from "./figur
 const FORCE = "force F / (E* h L)";
 const RANGES = {"1D": [[1e-5, 10], [1e-4, 1.6]], "3D": [[1e-3, 10], [5e-3, 1.6]]}; // of F̄ and k̄
 const DIMENSIONS = ["D = 2", "2.2", "2.4", "2.6", "2.8", "3"], MARKERS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "plus"];
-const DASHES = ["solid", "dashed", "dotted"];
 const HATCH = {hatch_pattern: "right_diagonal_line", hatch_color: "#1c1c1a", hatch_alpha: 0.7, hatch_scale: 7, hatch_weight: 0.8};
-const WINDOW = {movable: "x", resizable: "x", fill_alpha: 0.12, line_alpha: 0.6, level: "underlay", colours: {fill_color: "quiet", line_color: "quiet"}};
+const QUIET = {fill_color: "quiet", line_color: "quiet"};
+const WINDOW = {movable: "x", resizable: "x", fill_alpha: 0.12, line_alpha: 0.6, level: "underlay", colours: QUIET};
 
 // Figures 3 to 5, the area law, and the panels of the trust map, by their roll-off ratios.
 export function publishedFigures(rollOffs) {
@@ -28,7 +28,7 @@ function stiffness(model) {
   made.toolbar.active_drag = tool;
   made.yaxes[0].name = `label ${model}`;
   add(made, "BoxAnnotation", `window ${model}`, {...WINDOW, editable: true});
-  add(made, "Span", `saturated ${model}`, {dimension: "width", line_dash: [2, 4], line_width: 1.2, colours: {line_color: "theory"}});
+  add(made, "Span", `saturated ${model}`, {dimension: "width", line_dash: [2, 4], colours: {line_color: "theory"}});
   drawDimensions(made, name);
   draw(made, "multi_line", `${name} fits`, {line_width: 1.5, line_dash: "dashed", colours: {line_color: "text"}});
   return made;
@@ -49,7 +49,7 @@ function drawDimensions(made, name) {
 // Figure 5: exponents of both models, and the two predictions.
 function exponents() {
   const made = plot(["fractal dimension", "exponent α"], [[1.97, 3.03], [0.4, 1.02]]);
-  for (const [i, line_dash] of DASHES.entries()) {
+  for (const [i, line_dash] of ["solid", "dashed", "dotted"].entries()) {
     draw(made, "varea", `exponents ${i}`, {fill_alpha: 0.3, colours: {fill_color: "light-line"}});
     draw(made, "line", `exponents ${i}`, {line_dash, line_width: 1.5, colours: {line_color: "light-line"}});
   }

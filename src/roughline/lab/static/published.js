@@ -24,12 +24,15 @@ export async function open(link, address, said) {
 
 class Published {
   #link; #address; #root = document.querySelector("#published"); #controls; #plots = null; #strip; #constants = null; #panels;
-  #later = new Set(); #drawn = {}; #looks = {}; #state = {}; #ofLink = "";
+  #later = new Set(); #drawn = {}; #looks = {}; #state = {}; #ofLink = ""; #shown = "";
 
   constructor(link, address) {
     this.#link = link;
     this.#address = address;
-    this.#controls = new Controls(this.#root, (key) => this.#changed(key));
+    this.#controls = new Controls(this.#root, (key) => {
+      this.#ofLink = "";
+      this.#ask(OF_THE_POINT.includes(key) ? "point" : "fits");
+    });
     this.#panels = [...this.#root.querySelectorAll(`[id^="${PANEL}"]`)];
     this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#root.querySelector("#published-windows").addEventListener("click", () => {
@@ -49,26 +52,18 @@ class Published {
     for (const model of Object.keys(EDGES)) this.#bindWindow(model);
     for (const {id} of this.#panels) {
       onTouch(this.#plots.root(id), ({x, y}) => {
-        const point = {roll_off: id.replace(PANEL, ""), map_F: this.#controls.within("map_F", x), map_D_f: this.#controls.within("map_D_f", y)};
-        this.#controls.take({...this.#controls.said, ...point});
+        const [map_F, map_D_f] = [this.#controls.within("map_F", x), this.#controls.within("map_D_f", y)];
+        this.#controls.take({...this.#controls.said, roll_off: id.replace(PANEL, ""), map_F, map_D_f});
         this.#ask("point");
       });
     }
-    this.#root.querySelector("[data-legend]").replaceChildren(...this.#constants.legend.map(([background, text]) => {
-      const patch = element("span", {className: "patch"});
-      patch.style.background = background;
-      return element("li", {}, patch, text);
-    }));
+    this.#root.querySelector("[data-legend]").replaceChildren(...this.#constants.legend.map(([background, text]) =>
+      element("li", {}, element("span", {className: "patch", style: `background: ${background}`}), text)));
     this.#draw(this.#drawn, this.#looks);
     new MutationObserver(() => this.#draw(this.#drawn)).observe(document.documentElement, {attributeFilter: ["data-theme"]});
   }
 
   shown() { this.#address.write("published", this.#state); }
-
-  #changed(key) {
-    this.#ofLink = "";
-    this.#ask(OF_THE_POINT.includes(key) ? "point" : "fits");
-  }
 
   // Ask; while an answer is awaited, a newer question waits for it, so that a moving window is followed.
   #ask(task) {
@@ -105,10 +100,12 @@ class Published {
     Object.assign(this.#drawn, draw);
     Object.assign(this.#looks, look);
     for (const [id, {header, rows}] of Object.entries(tables)) {
-      const names = header.map((name) => element("span", {className: "label"}, ...typeset(name)));
-      fillTable(id, header.map(typeset), rows.map((cells) => cells.map((cell, i) => [names[i].cloneNode(true), ...typeset(cell)])));
+      const labelled = (cell, i) => [element("span", {className: "label"}, ...typeset(header[i])), ...typeset(cell)];
+      fillTable(id, header.map(typeset), rows.map((cells) => cells.map(labelled)));
     }
-    for (const [place, text] of Object.entries(words)) this.#root.querySelector(`[data-words="${place}"]`).replaceChildren(...typeset(text));
+    for (const [place, text] of Object.entries(words)) {
+      this.#root.querySelector(`[data-words="${place}"]`).replaceChildren(...typeset(text));
+    }
     this.#strip.add(strip);
     for (const place of this.#root.querySelectorAll(".fit td, .strip dd:nth-child(2)")) {
       place.dataset.verdict = place.textContent.match(/confirmed|refuted|undecided/)?.[0] ?? "";
@@ -119,12 +116,14 @@ class Published {
   // Show the curves for what is chosen, of the fractal dimensions that are chosen.
   #showCurves() {
     const {mean, punch, D_f} = this.#state, kept = D_f?.split(",").map((each) => DIMENSIONS.indexOf(each));
-    if (!this.#constants || !kept) return;
+    if (!this.#constants || !kept || this.#shown === `${mean} ${punch} ${D_f}`) return;
+    this.#shown = `${mean} ${punch} ${D_f}`;
     const first = (cells) => cells.filter((_, i) => i === 0 || kept.includes(i - 1));
     for (const name of [`1D ${mean}`, `3D ${mean} ${punch}`, "area"]) {
       const {draw, look, tables} = this.#constants.curves[name];
       const shown = ({ramp, ...columns}) => mapped({ramp, ...columns}, (each) => each.filter((_, i) => kept.includes(ramp[i])));
-      this.#take({look, draw: mapped(draw, shown), tables: mapped(tables, ({header, rows}) => ({header: first(header), rows: rows.map(first)}))});
+      const table = ({header, rows}) => ({header: first(header), rows: rows.map(first)});
+      this.#take({look, draw: mapped(draw, shown), tables: mapped(tables, table)});
     }
   }
 
@@ -168,7 +167,7 @@ class Published {
     this.#moving = name;
     const ends = edges.sort((a, b) => a - b).map((edge, i) => [EDGES[model][i], this.#controls.within(EDGES[model][i], edge)]);
     this.#controls.take({...this.#controls.said, ...Object.fromEntries(ends)});
-    this.#changed(EDGES[model][0]);
+    this.#ask("fits");
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => {
       this.#moving = null;
