@@ -85,7 +85,7 @@ def press_by_keys(page):
     settled(page, points=128)
     page.focus('#explore [data-key="theories"][value="persson"]')
     page.keyboard.press("Space")
-    page.locator('[data-caption="theories"]').filter(has_text="Persson").wait_for()
+    page.locator('[data-remarks="area"]').filter(has_text="Persson").wait_for()
     page.focus('#explore [data-key="shown"]')
     page.keyboard.press("p")
     assert address(page)["shown"] == "pressure"
