@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
-from roughline.lab.explore import physics
-from roughline.lab.explore.reading import state_of as explore_state
+from roughline.lab.explore.state import state_of as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, question_of, said_of
 from roughline.lab.published import controls as published
@@ -18,9 +17,9 @@ from roughline.lab.published.state import state_of as published_state
 from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
-NUMBERS = [each for key, each in physics.numbers().items() if key != "seed"]
+NUMBERS = [each for key, each in explore.NUMBERS.items() if key != "seed"]
 DIMENSIONS = [f"{each:g}" for each in published.DIMENSIONS]
-WORDS = (explore.CHOICES["rms"], explore.CHOICES["boundary"], physics.shown_choice())
+WORDS = (explore.CHOICES["rms"], explore.CHOICES["boundary"], explore.CHOICES["shown"])
 
 
 def texts(control):
@@ -62,7 +61,6 @@ WITH_UNITS = some(
         "cutoff": quantities("m", 1e-7, 1e-1),
         "F": quantities("N", 1e-3, 1e3) | quantities("Pa", 1e3, 1e9),
         "hardness_bar": quantities("Pa", 1e6, 1e11),
-        **{"t": quantities("m", 1e-6, 1e-2), "E_l": quantities("Pa", 1e8, 1e13)},
     }
 )
 
@@ -139,6 +137,38 @@ def test_a_link_of_my_surface_of_an_older_lab_is_read(link):
     assert question_of(said, Source(Path("a.nc"), "a.nc", "key")).headings == (
         ["5 N"] if "loads" in link else []
     )
+
+
+OF_0_2_0 = {
+    "explore": "v=1&D_f=2.2&H=0.8&roll_off=0.5&cutoff=0.01&rms=slope&h=0.001&slope=0.1&seed=3&n=128"
+    "&boundary=periodic&hardness_bar=0.5&F=0.1&shown=gap&L=2+mm&E=200+GPa&theories=persson"
+    "&view=explore&theme=dark",
+    "published": "v=1&D_f=2,2.2&mean=geometric&punch=exact&low_1D=0.0001&high_1D=0.01&low_3D=0.01"
+    "&high_3D=0.1&tolerance=0.1&roll_off=2&map_D_f=2.2&map_F=0.1&claims=confirmed&view=published",
+    "measured": "v=1&example=film&unit=um&size=1+mm&fill=nearest&most_missing=20+%25&trend=tilt"
+    "&outliers=remove&crop=0+um,+2+um,+0+um,+2+um&low_pass=1+um&resample=64&bodies=materials"
+    "&first=steel&second=copper&E=110+GPa&loads=2+MPa&boundary=periodic&friction=0.3"
+    "&frequency=5+MHz&theories=persson&grid_error=no&elastic=no&hardness=2+GPa&joint_area=2+cm%5E2"
+    "&channel=0&view=measured",
+}
+"""Links that set every key of version 0.2.0."""
+
+
+def test_links_of_version_0_2_0_are_read():
+    said = dict(parse_qsl(OF_0_2_0["explore"]))
+    state = explore_state(said, 1024)
+    assert set(said) - {"H", "v", "view", "theme"} <= set(state.texts())
+    again = state.texts()
+    for key in ("rms", "slope", "seed", "n", "boundary", "F", "shown", "L", "E", "theories"):
+        assert again[key] == said[key]
+    published = published_state(dict(parse_qsl(OF_0_2_0["published"]))).address()
+    assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&view")[0])).items()
+    said = said_of({"state": dict(parse_qsl(OF_0_2_0["measured"]))})
+    question = question_of(said, Source(Path("a.nc"), "a.nc", "key"))
+    assert question.headings == ["2 MPa"]
+    assert question.friction == 0.3
+    assert question.reading.channel == "0"
+    assert question.preparation.points == 64
 
 
 def test_the_fewest_points_that_a_lab_may_allow_can_be_chosen():

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 
 import roughline as rl
 from roughline.lab.controls import ControlError, as_code
@@ -19,7 +17,6 @@ from roughline.lab.explore.state import OF_THE_SURFACE, Answer, ExploreState, It
 from roughline.lab.explore.words import engineering_figure, figure, item, number_rows
 from roughline.lab.maps import Map
 from roughline.lab.server.tasks import Progress
-from roughline.plot.pixels import draw_map
 
 _COARSE, _FINER = 128, 256  # points along a side of the surface that is followed, at first and then
 _HISTORY = 1.0, 2.0, 1.0, 0.0  # over the present load: beyond it, back to it, to none
@@ -311,31 +308,3 @@ def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
             else "the grid does not resolve the pull",
         ),
     ]
-
-
-def both_ways(state: ExploreState, progress: Progress) -> rl.Curve | None:
-    """The curve of bodies that stick, there and back; None of others."""
-    pull = next((each for each in state.added if isinstance(each, Adhesion)), None)
-    if pull is None:
-        return None
-    return _cycle(state, pull, state.points(_FINER), progress, state.measures).by_depths
-
-
-def _draw_curve(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
-    """Force over depth, there and back."""
-    curve = both_ways(state, progress)
-    assert curve is not None
-    rl.plot.curve(curve, "depth", "force", axes)
-
-
-def _draw_contact(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
-    """Where bodies touch at the load on the way there, and where they pull each other."""
-    pressed = pressed_under(state, surface, np.array([state.F]), progress, fields=True)
-    rl.plot.contact(pressed, axes=axes)
-    if (fields := pressed.fields[0]) is not None:
-        pulled = np.where(fields.pulling, 1.0, np.nan)
-        draw_map(axes, pulled, fields.sizes, "m", cmap=ListedColormap(["tab:blue"]))
-        axes.set_title(axes.get_title() + "\nblue: pulled across a gap")
-
-
-Adhesion.drawings = {"curve": _draw_curve, "contact": _draw_contact}

@@ -1,81 +1,301 @@
-"""Files of the view "Explore": figures, curves and the surface."""
+"""Files of the view "Explore": what its plots and maps show, as pictures and as numbers.
+
+All is computed anew, as the tasks of the page do.
+"""
 
 from __future__ import annotations
 
-import shutil
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from typing import Any
+from urllib.parse import urlencode
+
+import numpy as np
+import pandas as pd
+import xarray
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 
 import roughline as rl
-from roughline.lab.controls import ControlError
-from roughline.lab.explore.adhesion import both_ways
-from roughline.lab.explore.pressing import pressed_under
+from roughline.computing.disk import write_dataset
+from roughline.lab.controls import STRANGE, ControlError, rounded
+from roughline.lab.explore import physics, pictures
+from roughline.lab.explore.panels import Filled, Panel
+from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.reading import state_in
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
+from roughline.lab.maps import Map
 from roughline.lab.server.tasks import Arguments, Progress
-from roughline.plot.style import PAGE, new_figure, save, styled
-from roughline.report.contact_figures import write_contact
+from roughline.plot.pixels import draw_map
+from roughline.plot.style import PAGE, new_figure, styled
 
-FILES = (
-    *("contact.png", "contact.pdf", "curve.png", "curve.pdf", "curve.csv", "curve.nc"),
-    "surface.nc",
-)
-"""What can be saved of every state; figures of what is added stand beside it."""
+_ROW = 3.4  # height of a row of two plots [inch]
+_SMALL = 7  # font size [pt]
+_PER_PIXEL = 0.6  # of sizes on the page, for those on paper [pt]
+_FOOT = 0.04  # of a logarithmic axis: how far above its end zeros stand
+_COLOURS = {
+    **{"text": "black", "ink": "black", "paper": "white", "dark-line": "#31688e"},
+    **{"light-line": "#35b779", "mark": "#440154", "here": "#c2410c", "theory": "#6b6b66"},
+    **{"plastic": "#d55e00", "pull": "#3f8fc5"},
+}
+"""Those of the page on paper, by their names in its style."""
+_MARKERS = {"circle": "o", "square": "s", "triangle": "^", "inverted_triangle": "v", "x": "x"}
+_DASHES = {"dashed": "--", "dotted": ":", "dashdot": "-."}
+_MARKS = {
+    "marks": ["paper", "ink", "plastic"],
+    "reach": ["paper", "ink", "dark-line"],
+    "pull": ["paper", "ink", "pull"],
+}
+_PALETTES = {"Cividis256": "cividis", "Viridis256": "viridis", "flux": "YlGnBu"}
 
-_HEIGHT = 4.8  # of a figure of the flow [inch]
+
+@dataclass(frozen=True)
+class _File:
+    """A file that can be saved; the ending of its name says of what type it is."""
+
+    label: str  # what the page calls it
+    write: Callable[[ExploreState, int, Path, Progress], None]
 
 
 def download(arguments: Arguments, progress: Progress) -> bytes:
-    """Write one of the files of a state to the folder of the session."""
-    name = str(arguments.get("name"))
-    state = state_in(arguments)
-    more = [stem for each in state.added for stem in each.files]
-    known = (*FILES, *(f"{stem}.{kind}" for stem in more for kind in ("png", "pdf")))
-    if name not in known:
-        raise ControlError(f"there is no such file; there are {', '.join(known)}")
+    """Write one of the files to the folder of the session.
+
+    It is of a state as it was answered, on the `points` along a side that its maps have.
+    """
+    name, state = str(arguments.get("name")), state_in(arguments)
+    if name not in FILES:
+        raise ControlError(f"there is no such file; there are {', '.join(FILES)}")
+    points = arguments.get("points", state.n)
+    if not isinstance(points, int) or not 2 <= points <= state.n:
+        raise ControlError(STRANGE)
     folder = Path(arguments["session"]["folder"]) / "results"
     folder.mkdir(parents=True, exist_ok=True)
-    surface = state.surface(state.n)
-    if name == "surface.nc":
-        rl.write(surface, folder / name)
-        return frame({"file": name})
-    stem, kind = name.split(".")
-    drawn = {each: draw for kind in state.added for each, draw in kind.drawings.items()}
-    if stem in drawn and kind in ("png", "pdf"):
-        with TemporaryDirectory(dir=folder) as written, styled():
-            figure = new_figure(PAGE, _HEIGHT)
-            drawn[stem](figure.subplots(), state, surface, progress)
-            save(figure, Path(written), stem)
-            shutil.move(Path(written) / name, folder / name)
-        return frame({"file": name})
-    if (found := both_ways(state, progress)) is not None:
-        found.write(folder / name)
-        return frame({"file": name})
-    law = state.law
-    result = rl.assess_body(
-        rl.Question(
-            surface,
-            **({"materials": state.materials} if state.materials else {"E_star": state.E_star}),
-            loads=state.force(state.F),
-            hardness=law.hardness if isinstance(law, rl.Yielding) else None,
-            ask=[
-                rl.WholeCurve(),
-                *([rl.Theories(*state.theories)] if state.theories else []),
-                *([rl.Unloading()] if isinstance(law, rl.Yielding) else []),
-            ],
-            periodic=state.periodic,
-            grid_error=False,
-        ),
-        progress=progress,
-    )
-    if name == "curve.csv":
-        curve = result.curve
-        if state.measures:  # once more, with what flows
-            forces = state.force_bars(curve)
-            curve = pressed_under(state, surface, forces, progress, measures=state.measures)
-        curve.write(folder / name)
-        return frame({"file": name})
-    with TemporaryDirectory(dir=folder) as written:
-        write_contact(result, Path(written))
-        shutil.move(Path(written) / name, folder / name)
+    FILES[name].write(state, points, folder / name, progress)
     return frame({"file": name})
+
+
+def panels_shown(state: ExploreState, points: int, progress: Progress) -> dict[str, Filled]:
+    """All that the panels show of a state, by their keys."""
+    followed = [each for each in state.added if each.follows]
+    steps = _steps(progress, 2 + len(followed))
+    answers = [
+        pictures.line(state)["panels"],
+        pictures.over_loads(state, next(steps)),
+        pictures.contact(state, points, next(steps), is_coarse=points < state.n)[0]["panels"],
+        *(each.further(state, True, next(steps))[0]["panels"] for each in followed),
+    ]
+    found: dict[str, Filled] = {}
+    for answer in answers:
+        for key, filled in answer.items():
+            before = found.setdefault(key, Filled())
+            before.series |= filled.series
+            before.legends |= filled.legends
+            before.x, before.y = filled.x or before.x, filled.y or before.y
+    return found
+
+
+def maps_shown(state: ExploreState, points: int, progress: Progress) -> dict[str, Map]:
+    """All maps that the page can show of a state, by the words that choose them."""
+    wanted = [each for each in state.added if state.shown in each.maps and each.follows]
+    steps = _steps(progress, 1 + len(wanted))
+    maps = pictures.contact(state, points, next(steps), is_coarse=True)[1]
+    for each in wanted:
+        maps |= each.further(state, True, next(steps))[1]
+    if not maps:
+        raise ControlError("the load was not solved, so that no map of it is known", "F")
+    return maps
+
+
+def _steps(progress: Progress, presses: int) -> Iterator[Progress]:
+    """What each of several presses, one after the other, tells its steps to."""
+    for before in range(presses):
+
+        def step(done: int, total: int, before: int = before) -> None:
+            progress(before * total + done, presses * total)
+
+        yield step
+
+
+def _write_panels(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
+    """Write the points of all panels: a row for each, below the names of columns and remarks.
+
+    The names come first, where both NumPy and pandas look for them.
+    """
+    found, declared = panels_shown(state, points, progress), physics.panels()
+    tables, remarks = [], [f"{name} = {value}" for name, value in _settings(state, points).items()]
+    for key, filled in found.items():
+        panel = declared[key]
+        remarks.append(f"panel {key}: x is {panel.x}, y is {panel.y}")
+        called = {each.name: each.legend for each in panel.series} | filled.legends
+        for name, columns in filled.series.items():
+            rows = pd.DataFrame(columns)
+            if rows.empty:
+                continue
+            remarks.append(f"series {key} {name}: {called[name]}")
+            tables.append(rows.assign(panel=key, series=name.replace(" ", "_")))
+    table = pd.concat(tables).reindex(columns=["panel", "series", "x", "y", "low", "high"])
+    head, body = table.to_csv(index=False, na_rep="nan", lineterminator="\n").split("\n", 1)
+    lines = "".join(f"# {' '.join(each.split())}\n" for each in remarks)
+    path.write_text(f"{head}\n{lines}{body}", encoding="utf-8")
+
+
+def _write_loads(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
+    """Write the loads of the full model with all their quantities, in SI units."""
+    surface = state.surface(state.points(CURVE_POINTS))
+    forces = pictures.forces_shown(state)
+    pressed = pressed_under(state, surface, forces, progress, measures=state.measures)
+    data = pressed.to_dataset().assign_attrs(_settings(state, points))
+    write_dataset(data, path)
+
+
+def _write_maps(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
+    """Write the heights as `rl.write` does, and with them the maps of the contact."""
+    surface = state.surface(points)
+    rl.write(surface, path)
+    pressed = pressed_under(state, surface, np.array([state.F]), progress, fields=True)
+    maps = pressed.to_dataset().isel(force=0).drop_vars("force")
+    if (fields := pressed.fields[0]) is not None:
+        for each in state.added:
+            for name, (values, unit, meaning) in each.fields_of(fields).items():
+                maps[name] = (("x", "y"), values, {"units": unit, "long_name": meaning})
+    centres = (np.arange(points) + 0.5) * (state.length / points)
+    sides = {name: (name, centres, {"units": "m"}) for name in ("x", "y")}
+    heights = xarray.load_dataset(path, engine="h5netcdf")
+    data = heights.merge(maps).assign_coords(sides)
+    write_dataset(data.assign_attrs(_settings(state, points) | heights.attrs), path)
+
+
+def _write_surface(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
+    rl.write(state.surface(points), path)
+
+
+def _settings(state: ExploreState, points: int) -> dict[str, Any]:
+    """What files say of a state: what it is made of, how it is pressed, and a link to it."""
+    side, height = state.length, state.rms_height
+    numbers = {
+        "E_star [Pa]": state.E_star,
+        "length L [m]": side,
+        "rms_height h [m]": height,
+        "rms_slope": state.rms_slope,
+        "fractal_dimension": state.D_f,
+        "roll_off [m]": state.roll_off * side,
+        "cutoff [m]": state.cutoff_used * side,
+        "force F [N]": state.force(state.F),
+        "force_bar": state.F,
+        "E* h L, unit of force_bar [N]": state.force(1.0),
+        "E* L, unit of stiffness_bar of the reduced model [N/m]": state.E_star * side,
+        "1.1419 E* L, unit of stiffness_bar of the full model [N/m]": 1 / state.stiffness_bars(1.0),
+    }
+    return {
+        "roughline_version": rl.__version__,
+        **{name: rounded(value) for name, value in numbers.items()},
+        "seed": state.seed,
+        "boundary": state.boundary,
+        "points along a side": state.n,
+        "points along a side of the maps": points,
+        "points along a side of the curves": state.points(CURVE_POINTS),
+        **{key: value for each in state.added for key, value in each.numbers.items()},
+        "lab_link": f"?view=explore&{urlencode(state.address())}",
+    }
+
+
+def _draw_panels(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
+    """Draw all panels as the page does."""
+    found, declared = panels_shown(state, points, progress), physics.panels()
+
+    def drawn(key: str) -> Callable[[Axes], None]:
+        return lambda axes: _draw_panel(axes, declared[key], found[key])
+
+    _write_figure(path, [drawn(key) for key in declared if key in found])
+
+
+def _draw_panel(axes: Axes, panel: Panel, filled: Filled) -> None:
+    """Draw the points of a panel; zeros stand at the foot of a logarithmic axis."""
+    scale = "log" if panel.is_logarithmic else "linear"
+    axes.set(xlabel=panel.x, ylabel=panel.y, xscale=scale, yscale=scale)
+    axes.set(xlim=filled.x or panel.ranges[0], ylim=filled.y or panel.ranges[1])
+    low, high = axes.get_ylim()
+    foot = low * (high / low) ** _FOOT if panel.is_logarithmic else low
+    for series in panel.series:
+        points = filled.series.get(series.name, {})
+        if not len(points.get("x", ())):
+            continue
+        x, y = (np.asarray(points[name], dtype=float) for name in "xy")
+        y = np.where(y == 0, foot, y) if panel.is_logarithmic else y
+        label = filled.legends.get(series.name, series.legend)
+        colour = _COLOURS[series.colour]
+        for kind, look in series.glyphs.items():
+            size, width = look.get("size", 6) * _PER_PIXEL, look.get("line_width", 1) * _PER_PIXEL
+            if kind == "varea":
+                ends = (np.asarray(points[end], dtype=float) for end in ("low", "high"))
+                alpha = look["fill_alpha"]
+                axes.fill_between(x, *ends, color=colour, alpha=alpha, linewidth=0, label=label)
+            elif kind == "line":
+                dash = _DASHES.get(look.get("line_dash", ""), "-")
+                axes.plot(x, y, dash, color=colour, linewidth=width, label=label)
+            else:
+                axes.plot(
+                    *(x, y, _MARKERS[look["marker"]] if "marker" in look else "."),
+                    **{"color": colour, "markersize": size, "label": label},
+                    markerfacecolor="none" if look.get("fill_alpha") == 0 else colour,
+                )
+            label = "_"  # once in the legend
+    axes.legend(fontsize=_SMALL)
+
+
+def _draw_maps(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
+    """Draw the topography, and beside it what the map of the contact shows."""
+    maps = maps_shown(state, points, progress)
+    chosen = maps[state.shown if state.shown in maps else "area"]
+    surface = state.surface(points)
+    _write_figure(
+        path,
+        [
+            lambda axes: rl.plot.topography(surface, axes=axes),
+            lambda axes: _draw_map(axes, chosen, surface.sizes),
+        ],
+    )
+
+
+def _draw_map(axes: Axes, shown: Map, sizes: tuple[float, float]) -> None:
+    """Draw a map in the colours of the page, with their scale or their meanings."""
+    look: dict[str, Any] = {"vmin": shown.low, "vmax": shown.high}
+    if shown.palette in _MARKS:
+        look["cmap"] = ListedColormap([_COLOURS[name] for name in _MARKS[shown.palette]])
+    else:
+        palette = colormaps[_PALETTES[shown.palette]]
+        look["cmap"] = palette.with_extremes(bad=_COLOURS[shown.blank])
+    image = draw_map(axes, np.ma.masked_invalid(shown.values), sizes, "m", **look)
+    if shown.title:
+        of = "logarithm of " if shown.is_logarithmic else ""
+        axes.figure.colorbar(image, ax=axes, shrink=0.85, label=f"{of}{shown.title} {shown.unit}")
+    axes.set_title(shown.caption, fontsize=_SMALL)
+
+
+def _write_figure(path: Path, plots: list[Callable[[Axes], Any]]) -> None:
+    """Draw plots, two abreast, and write the figure as the ending of its name says."""
+    rows = -(-len(plots) // 2)
+    with styled():
+        figure = new_figure(PAGE, _ROW * rows)
+        axes = figure.subplots(rows, 2, squeeze=False).ravel()
+        for draw, each in zip(plots, axes, strict=False):
+            draw(each)
+        for empty in axes[len(plots) :]:
+            empty.set_axis_off()
+        figure.savefig(path)
+
+
+FILES = {
+    "contact.png": _File("both maps, PNG", _draw_maps),
+    "contact.pdf": _File("both maps, PDF", _draw_maps),
+    "maps.nc": _File("all maps, NetCDF", _write_maps),
+    "curve.png": _File("curves, PNG", _draw_panels),
+    "curve.pdf": _File("curves, PDF", _draw_panels),
+    "curve.csv": _File("curves, CSV", _write_panels),
+    "curve.nc": _File("loads in SI units, NetCDF", _write_loads),
+    "surface.nc": _File("surface, NetCDF", _write_surface),
+}
+"""All files that can be saved, by their names."""

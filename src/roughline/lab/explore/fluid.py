@@ -7,12 +7,9 @@ from functools import lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
-from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.assessment.question import UNLOADING
-from roughline.lab.controls import ControlError
 from roughline.lab.explore.panels import (
     Filled,
     Points,
@@ -83,7 +80,6 @@ class Fluid(Physics):
         ),
     )
     follows = "surface"
-    files: ClassVar = {"flow": "flow", "aperture": "aperture"}
 
     def measures(self) -> tuple[rl.Measure, ...]:
         """The hydraulic aperture."""
@@ -126,6 +122,12 @@ class Fluid(Physics):
     def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Where the fluid goes."""
         return {"flux": flux_map(_flow(fields))}
+
+    def fields_of(self, fields: rl.Fields) -> dict[str, tuple[NDArray[Any], str, str]]:
+        """Both components of the flux."""
+        meaning = "flow per width along {}, times 12 viscosity / pressure difference"
+        flux = zip("xy", _flow(fields).flux, strict=True)
+        return {f"flux_{along}": (each, "m^2", meaning.format(along)) for along, each in flux}
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
         """What flows through the gap over force, and what theories of the flow say."""
@@ -201,27 +203,3 @@ def _theories(
         for each in curves
         if each.hydraulic_aperture is not None
     }
-
-
-def _draw_flow(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
-    """Where the fluid goes at the load."""
-    curve = pressed_under(state, surface, np.array([state.F]), progress, fields=True)
-    if curve.fields[0] is None:
-        raise ControlError("the load was not solved, so that no flow is known", "F")
-    rl.plot.flow(rl.flow(curve.fields[0]), "m", axes)
-
-
-def _draw_apertures(
-    axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress
-) -> None:
-    """How much comes through over the load, and on the way back from it if points yield."""
-    forces = np.union1d(borne(state, _FORCES), state.F)
-    if isinstance(state.law, rl.Yielding):
-        back = state.F * np.array(UNLOADING[:-1])  # without zero, which has no place on the axis
-        forces = np.concatenate([forces[forces <= state.F], back])
-    curve = pressed_under(state, surface, forces, progress, measures=state.measures)
-    of_theories = [each for each, _ in _theories(state, surface).values()]
-    rl.plot.hydraulic_aperture(curve, of_theories, axes=axes)
-
-
-Fluid.drawings = {"flow": _draw_flow, "aperture": _draw_apertures}

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
+from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES
@@ -54,21 +55,26 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     In a crowd it is that of fewer lines first; the page asks for the others by "refines".
     """
     state, refused = usable_state(arguments)
-    lines = _lines_of(state, _FEWER_LINES if _is_first_step(arguments) else _LINES)
+    count = _FEWER_LINES if _is_first_step(arguments) else _LINES
+    return _message(state, refused, line(state, count))
+
+
+def line(state: ExploreState, count: int = _LINES) -> dict[str, Any]:
+    """What the page has of so many lines."""
+    lines = _lines_of(state, count)
     forces = np.unique([*_LINE_FORCES, state.F])
-    stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
+    stiffness = np.array([_press_bar(each, state, forces).stiffness_bar for each in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
     here = int(np.searchsorted(forces, state.F))
     rows = [[*row, "1D"] for row in number_rows(forces, mean)]
-    line = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
-    filled = Filled({"line": line}, rows, legends={"line": _line_legend(state)})
-    told = {
+    drawn = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
+    filled = Filled({"line": drawn}, rows, legends={"line": _line_legend(state)})
+    return {
         "panels": {"stiffness": filled},
         "stiffness_bar_1d": float(mean[here]),
-        "strip": line_words(state, float(mean[here]), len(lines)),
-        "is_coarse": len(lines) < _LINES,
+        "strip": line_words(state, float(mean[here]), count),
+        "is_coarse": count < _LINES,
     }
-    return _message(state, refused, told)
 
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
@@ -76,7 +82,7 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
     state, refused = usable_state(arguments)
     crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
     n = state.points(_COARSER if crowded else _COARSE)
-    return _contact(state, refused, n, progress)
+    return _message(state, refused, *contact(state, n, progress, is_coarse=True))
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
@@ -86,12 +92,17 @@ def full(arguments: Arguments, progress: Progress) -> bytes:
     """
     state, refused = usable_state(arguments)
     n = state.points(_FIRST_STEP) if _is_first_step(arguments) else state.n
-    return _contact(state, refused, n, progress)
+    return _message(state, refused, *contact(state, n, progress, is_coarse=n < state.n))
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
     """Stiffness and area over force of the surface, and of theories."""
     state, refused = usable_state(arguments)
+    return _message(state, refused, {"panels": over_loads(state, progress)})
+
+
+def over_loads(state: ExploreState, progress: Progress) -> dict[str, Filled]:
+    """What panels show of the surface under many loads, and of theories."""
     surface = state.surface(state.points(CURVE_POINTS))
     pressed = pressed_under(state, surface, borne(state, _CURVE_FORCES), progress)
     forces, note = state.force_bars(pressed), note_of(pressed, len(surface.heights))
@@ -110,7 +121,18 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     for panel, (low, high) in _AT_LEAST.items():
         marks = [each["y"] for name, each in panels[panel].series.items() if "theory" not in name]
         panels[panel].y = span(np.concatenate(marks), low, high)
-    return _message(state, refused, {"panels": panels})
+    return panels
+
+
+def forces_shown(state: ExploreState) -> NDArray[np.float64]:
+    """Dimensionless forces of the curve and the present one; if points yield, those back from it.
+
+    [1]
+    """
+    rising = np.union1d(borne(state, _CURVE_FORCES), state.F)
+    if not isinstance(state.law, rl.Yielding):
+        return rising
+    return np.concatenate([rising[rising <= state.F], state.F * np.array(UNLOADING)])
 
 
 def further(arguments: Arguments, progress: Progress) -> bytes:
@@ -124,10 +146,11 @@ def further(arguments: Arguments, progress: Progress) -> bytes:
     return _message(state, refused, told, maps)
 
 
-def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: Progress) -> bytes:
-    """The contact on a grid; on the grid of the state, with what finer ones may change."""
+def contact(
+    state: ExploreState, n: int, progress: Progress, *, is_coarse: bool
+) -> tuple[dict[str, Any], dict[str, Map], dict[str, NDArray[Any]]]:
+    """The contact on a grid: words, maps and arrays; unless coarse with what finer grids change."""
     started = time.perf_counter()
-    is_coarse = n < state.n
     surface = state.surface(n)
     pressed = pressed_under(
         *(state, surface, np.array([state.F]), progress),
@@ -153,7 +176,7 @@ def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: 
         "strip": strip,
         "status": status(pressed, n, seconds, is_coarse=is_coarse),
     }
-    return _message(state, refused, told, maps, {"topography": shaded(surface)})
+    return told, maps, {"topography": shaded(surface)}
 
 
 def _message(

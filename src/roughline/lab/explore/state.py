@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
-from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 import roughline as rl
@@ -29,8 +28,6 @@ Item = dict[str, str]
 """One number of the answer strip: its key, symbol, value, unit and meaning."""
 Answer = tuple[dict[str, Any], Mapping[str, Map]]
 """What a task tells the page, and maps."""
-Drawing = Callable[[Axes, "ExploreState", rl.Surface, Progress], None]
-"""Draws a figure that is saved."""
 
 
 class Physics:
@@ -54,8 +51,6 @@ class Physics:
     panels: ClassVar[tuple[Panel, ...]] = ()
     series: ClassVar[Mapping[str, tuple[Series, ...]]] = {}  # that it adds to other panels
     follows: ClassVar[Literal["", "surface", "load"]] = ""  # with which its task is asked anew
-    files: ClassVar[Mapping[str, str]] = {}  # figures that it adds, with what they are called
-    drawings: ClassVar[Mapping[str, Drawing]] = {}  # figures, also in the place of others
 
     @classmethod
     def read(cls, texts: Texts, state: ExploreState) -> Self | None:
@@ -115,6 +110,10 @@ class Physics:
 
     def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Its maps, also those in the place of others."""
+        return {}
+
+    def fields_of(self, fields: rl.Fields) -> dict[str, tuple[NDArray[Any], str, str]]:
+        """Fields of its own that are saved: values, unit and meaning, by their names."""
         return {}
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:

@@ -38,7 +38,7 @@ class Explore {
     this.#cursors = panels.filter(({cursor}) => cursor);
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
     this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
-    new TakeAlong(this.#root, link, () => ({state: this.#controls.used}), this.#waiting, (...said) => this.#refuse(...said));
+    new TakeAlong(this.#root, link, () => this.#seen, this.#waiting, (...said) => this.#refuse(...said));
     this.#strip = new Strip(this.#find(".strip"), strip);
     this.#find("#another").addEventListener("click", () => this.#controls.put("seed", String(Math.floor(Math.random() * 1e6))));
     for (const key of Object.keys(physics)) this.#find(`[data-tick="${key}"]`).addEventListener("change", () => this.#ticked(key));
@@ -67,6 +67,12 @@ class Explore {
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
+
+  // What is seen: the texts of the last answer, as they were typed where they counted, and the map that is chosen.
+  get #seen() {
+    const {state, texts, points} = this.#last ?? {state: {}, texts: this.#controls.used};
+    return {state: {...state, ...texts, shown: this.#controls.said.shown ?? "area"}, points};
+  }
 
   #find(selector) { return this.#root.querySelector(selector); }
   #isAdded(key) { return Boolean(this.#controls.said[key]); }
@@ -183,7 +189,8 @@ class Explore {
 
   #drawContact(header, asked, turn) {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
-    this.#last = header;
+    const counted = Object.entries(asked.state).filter(([key]) => !(key in header.refused));
+    this.#last = {...header, texts: Object.fromEntries(counted)};
     this.#settled(header, asked, turn);
     const {strip, points: n, numbers} = header;
     for (const plot of MAPS) this.#plots.shows(plot, {what: "contact", points: n, numbers});
