@@ -40,8 +40,12 @@ class Explore {
     this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
     new TakeAlong(this.#root, link, () => this.#seen, this.#waiting, (...said) => this.#refuse(...said));
     this.#strip = new Strip(this.#find(".strip"), strip);
-    this.#find("#another").addEventListener("click", () => this.#controls.put("seed", String(Math.floor(Math.random() * 1e6))));
-    for (const key of Object.keys(physics)) this.#find(`[data-tick="${key}"]`).addEventListener("change", () => this.#ticked(key));
+    this.#find("#another").addEventListener("click", () => {
+      this.#controls.put("seed", String(Math.floor(Math.random() * 1e6)));
+    });
+    for (const key of Object.keys(physics)) {
+      this.#find(`[data-tick="${key}"]`).addEventListener("change", () => this.#ticked(key));
+    }
     for (const panel of this.#root.querySelectorAll(".panel:not(.wide)")) panel.classList.add("empty");
     for (const {key, task} of panels) this.#panelOf(key).dataset.task = task;
     for (const map of MAPS) this.#find(`#${map}`).dataset.task = "contact";
@@ -75,6 +79,7 @@ class Explore {
   }
 
   #find(selector) { return this.#root.querySelector(selector); }
+  #declared(key) { return this.#panels.find((panel) => panel.key === key); }
   #isAdded(key) { return Boolean(this.#controls.said[key]); }
 
   // Take the texts of an address, or none.
@@ -85,7 +90,7 @@ class Explore {
   }
 
   #ticked(key) {
-    const text = this.#find(`[data-text="${key}"]`)?.value || this.#find(`input[type="range"][data-key="${key}"]`)?.dataset.default;
+    const text = this.#find(`[data-text="${key}"]`)?.value || this.#find(`#explore-${key}`)?.dataset.default;
     this.#controls.set(key, this.#find(`[data-tick="${key}"]`).checked ? this.#physics[key].word || text : "");
   }
 
@@ -94,7 +99,8 @@ class Explore {
     const isAdded = this.#isAdded(key), {panels} = this.#physics[key];
     this.#find(`[data-tick="${key}"]`).checked = isAdded;
     for (const each of this.#root.querySelectorAll(`[data-of="${key}"]`)) each.hidden = !isAdded;
-    for (const select of this.#root.querySelectorAll(`select:has([data-of="${key}"]:checked)`)) if (!isAdded) select.selectedIndex = 0;
+    const chosen = this.#root.querySelectorAll(`select:has([data-of="${key}"]:checked)`);
+    for (const select of chosen) if (!isAdded) select.selectedIndex = 0;
     const tabs = panels.map((panel) => this.#find(`#tab-${panel}`));
     if (isAdded) tabs[0]?.click();
     else if (tabs.some((tab) => tab.ariaSelected === "true")) this.#find("[role=tab]").click();
@@ -130,7 +136,9 @@ class Explore {
   }
 
   // What is asked once the contact is known, by the panels' tasks.
-  get #finer() { return ["curve", ...Object.keys(this.#physics).filter((key) => this.#physics[key].follows && this.#isAdded(key))]; }
+  get #finer() {
+    return ["curve", ...Object.keys(this.#physics).filter((key) => this.#physics[key].follows && this.#isAdded(key))];
+  }
   #stale = new Set(); // of these, what belongs to another contact
 
   #cancelled(works) {
@@ -177,7 +185,8 @@ class Explore {
       for (const each of this.#stale) {
         if (each !== "curve" && !header.state[each]) { this.#dim([each], false); continue; } // it is refused
         const task = each === "curve" ? "curve" : "further";
-        ask(task, each, {...args, of: each}, (found) => this.#drawCurves(each, found), (message) => this.#tellProgress(each, message));
+        const tell = (message) => this.#tellProgress(each, message);
+        ask(task, each, {...args, of: each}, (found) => this.#drawCurves(each, found), tell);
       }
     });
   }
@@ -244,7 +253,7 @@ class Explore {
     if (!rows) return;
     this.#fillRows(key);
     this.#plots.shows(`explore-${key}`, {what, numbers});
-    const {task} = this.#panels.find((panel) => panel.key === key), {classList} = this.#panelOf(key);
+    const {task} = this.#declared(key), {classList} = this.#panelOf(key);
     if (task === what) classList.remove("dimmed");
     if (task === what || what === "line") classList.remove("empty");
   }
@@ -255,14 +264,15 @@ class Explore {
   #fillRows(key) {
     const rows = [...this.#answers].sort(([a], [b]) => (a === "line") - (b === "line"))
       .flatMap(([, {panels}]) => panels?.[key]?.rows ?? []);
-    fillTable(`explore-${key}`, this.#panels.find((panel) => panel.key === key).columns, rows);
+    fillTable(`explore-${key}`, this.#declared(key).columns, rows);
   }
 
   // Draw points, and name them in the legend if there are any; zeros stand at the foot of a logarithmic axis.
   #mark(key, name, {x, y, ...others}) {
-    const {start, end} = this.#plots.root(`explore-${key}`).y_range, {is_logarithmic} = this.#panels.find((panel) => panel.key === key);
+    const {start, end} = this.#plots.root(`explore-${key}`).y_range, {is_logarithmic} = this.#declared(key);
     const foot = start * (end / start) ** FOOT;
-    const drawn = "low" in others ? {x, y, ...others} : points(x, is_logarithmic ? y.map((value) => (value === 0 ? foot : value)) : y);
+    const raised = is_logarithmic ? y.map((value) => (value === 0 ? foot : value)) : y;
+    const drawn = "low" in others ? {x, y, ...others} : points(x, raised);
     this.#plots.set(`${key} ${name}`, drawn);
   }
 
@@ -279,7 +289,8 @@ class Explore {
   #leave(what) {
     const header = this.#answers.get(what), {panels = [], follows} = this.#physics[what] ?? {};
     if (!header?.panels || follows !== "load") return;
-    this.#show(what, {...header, panels: Object.fromEntries(Object.entries(header.panels).filter(([key]) => panels.includes(key)))});
+    const own = Object.entries(header.panels).filter(([key]) => panels.includes(key));
+    this.#show(what, {...header, panels: Object.fromEntries(own)});
   }
 
   #drawField() {
@@ -296,16 +307,19 @@ class Explore {
   // Maps of the contact and of what is added.
   get #fields() {
     const all = [...this.#answers.values()].filter(({maps}) => maps);
-    return {maps: Object.assign({}, ...all.map(({maps}) => maps)), arrays: Object.assign({}, ...all.map(({arrays}) => arrays))};
+    const together = (name) => Object.assign({}, ...all.map((each) => each[name]));
+    return {maps: together("maps"), arrays: together("arrays")};
   }
 
   // Dim panels whose tasks have no answer to what is asked now.
   #dim(tasks, isDimmed = true) {
-    for (const task of tasks) for (const panel of this.#root.querySelectorAll(`[data-task="${task}"]`)) panel.classList.toggle("dimmed", isDimmed);
+    const panels = tasks.flatMap((task) => [...this.#root.querySelectorAll(`[data-task="${task}"]`)]);
+    for (const {classList} of panels) classList.toggle("dimmed", isDimmed);
   }
 
   #tellProgress(task, {done, total}) {
-    for (const place of this.#root.querySelectorAll(`[data-task="${task}"] [data-progress]`)) place.textContent = `, ${done} of ${total}`;
+    const places = this.#root.querySelectorAll(`[data-task="${task}"] [data-progress]`);
+    for (const place of places) place.textContent = `, ${done} of ${total}`;
   }
 
   #stopped = null; // turn whose finer answer was cancelled
