@@ -4,17 +4,21 @@ import math
 import shlex
 import subprocess
 import sys
+from urllib.parse import parse_qsl
 
 import numpy as np
+import pandas
 import pytest
 import xarray
 from matplotlib import image
+from matplotlib.figure import Figure
 
 import roughline as rl
 from lab.unpacked import unpacked
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore import code, downloads, figures, pictures
+from roughline.lab.explore.controls import CHOICES
 from roughline.lab.explore.state import ExploreState, state_of
 from roughline.lab.frames import frame
 from roughline.report.values import value_and_interval, with_interval
@@ -247,17 +251,22 @@ def test_as_command_gives_the_same_numbers(curve, tmp_path):
             assert part.strip("()") in done.stdout
 
 
+def saved(name, state, tmp_path, **others):
+    """Save a file as the page does, and return where it is."""
+    header, _ = answer(downloads.download, state, folder=tmp_path, name=name, **others)
+    return tmp_path / "results" / header["file"]
+
+
 @pytest.mark.parametrize("name", downloads.FILES)
 def test_every_file_can_be_saved_and_opened(name, tmp_path, surface):
-    header, _ = answer(downloads.download, SMALL, folder=tmp_path, name=name)
-    file = tmp_path / "results" / header["file"]
-    if name == "surface.nc":
+    file = saved(name, SMALL, tmp_path)
+    if name in ("surface.nc", "maps.nc"):
         np.testing.assert_allclose(rl.read(file).heights, surface.heights, rtol=1e-12)
     elif file.suffix == ".nc":
         with xarray.open_dataset(file, engine="h5netcdf") as data:
             assert np.isfinite(data.stiffness).all()
     elif file.suffix == ".csv":
-        assert file.read_text().startswith("force [N],")
+        assert file.read_text().startswith("series,")
     elif file.suffix == ".pdf":
         assert file.read_bytes().startswith(b"%PDF")
     else:
@@ -265,8 +274,103 @@ def test_every_file_can_be_saved_and_opened(name, tmp_path, surface):
 
 
 def test_no_other_file_can_be_saved(tmp_path):
-    with pytest.raises(ControlError):
-        answer(downloads.download, SMALL, folder=tmp_path, name="../../surface.nc")
+    for others in ({"name": "../../surface.nc"}, {"name": "maps.nc", "points": 65}):
+        with pytest.raises(ControlError):
+            answer(downloads.download, SMALL, folder=tmp_path, **others)
+
+
+THEORIES = {"theories": "persson,bush-gibson-thomas"}
+
+
+def series_in(file):
+    """The rows of a saved table by the series that they are of."""
+    return dict(list(pandas.read_csv(file, comment="#").groupby("series")))
+
+
+def test_a_saved_curve_has_all_that_the_plots_show(tmp_path, curve):
+    file = saved("curve.csv", {**SMALL, **THEORIES}, tmp_path)
+    found = series_in(file)
+    assert set(found) == {"3d", "here", "1d", "persson", "bush_gibson_thomas"}
+    shown, _ = answer(pictures.curve, {**SMALL, **THEORIES})
+    for name, key in (("force_bar", "force_bar"), ("stiffness_bar", "stiffness_bar")):
+        np.testing.assert_allclose(found["3d"][f"{name} [1]"], shown["curve"][key], rtol=1e-12)
+    area = found["3d"]["area_fraction_corrected [1]"]
+    np.testing.assert_allclose(area, shown["curve"]["area"], rtol=1e-12)
+    assert found["here"]["stiffness [N/m]"].item() == pytest.approx(curve.stiffness[0], rel=1e-12)
+    line = answer(pictures.reduced, SMALL)[0]["line"]
+    for key, name in (("stiffness_bar", ""), ("low", "_low"), ("high", "_high")):
+        column = found["1d"][f"stiffness_bar{name} [1]"]
+        np.testing.assert_allclose(column, line[key], rtol=1e-12)
+    for theory in shown["theories"]:
+        rows = found[theory["name"].replace("-", "_")]
+        np.testing.assert_allclose(rows["area_fraction [1]"], theory["area"], rtol=1e-12)
+    stiffness = found["persson"]["stiffness_bar [1]"]
+    np.testing.assert_allclose(stiffness, shown["theories"][0]["stiffness_bar"], rtol=1e-12)
+
+
+def test_a_saved_table_says_what_it_is_of_and_is_read_by_numpy(tmp_path):
+    file = saved("curve.csv", SMALL, tmp_path)
+    lines = [each[2:] for each in file.read_text().splitlines() if each.startswith("# ")]
+    for said in (
+        *("E_star = 110000000000.0 Pa", "seed = 3", "points = 64", "fractal_dimension = 2.4"),
+        *("roll_off = 0.001 m", "cutoff = 6.25e-05 m", "rms_height = 1e-06 m", "length = 0.001 m"),
+        *("boundary = free", f"roughline_version = {rl.__version__}", "force = 22.0 N"),
+        "stiffness [N/m]: normal contact stiffness dF/dd",
+    ):
+        assert said in lines
+    (link,) = [each.removeprefix("lab_link = ?") for each in lines if each.startswith("lab_link")]
+    assert state_of(dict(parse_qsl(link)), 1024) == state_of(SMALL, 1024)
+    table = np.genfromtxt(file, comments="#", delimiter=",", names=True)
+    read = pandas.read_csv(file, comment="#")
+    np.testing.assert_array_equal(table["force_N"], read["force [N]"])
+    rows = np.genfromtxt(file, comments="#", delimiter=",", skip_header=1)
+    assert rows.shape == read.shape
+
+
+def test_saved_numbers_are_the_same_in_both_formats(tmp_path):
+    said = {**YIELDING, "fluid": "x"}
+    rows = series_in(saved("curve.csv", said, tmp_path))
+    with xarray.open_dataset(saved("curve.nc", said, tmp_path), engine="h5netcdf") as data:
+        assert data.attrs["seed"] == 3
+        for name, unit in (("stiffness", "N/m"), ("unloading_stiffness", "N/m"), ("depth", "m")):
+            assert data[name].attrs["units"] == unit
+            np.testing.assert_array_equal(data[name], rows["3d"][f"{name} [{unit}]"])
+            np.testing.assert_array_equal(data[f"{name}_back"], rows["back"][f"{name} [{unit}]"])
+        for series in ("flow", "critical_junction", "bruggeman"):
+            column = rows[series]["hydraulic_aperture_x [m]"]
+            np.testing.assert_array_equal(data[f"hydraulic_aperture_x_{series}"], column)
+        line = rows["1d"]["stiffness_bar_high [1]"]
+        np.testing.assert_array_equal(data["stiffness_bar_high_1d"], line)
+
+
+def test_saved_maps_are_those_that_are_shown(tmp_path, surface, curve):
+    with xarray.open_dataset(saved("maps.nc", SMALL, tmp_path), engine="h5netcdf") as data:
+        units = {"heights": "m", "pressure": "Pa", "gap": "m", "contact": "1", "x": "m"}
+        assert {name: data[name].attrs["units"] for name in units} == units
+        for name in ("pressure", "gap", "contact"):
+            np.testing.assert_array_equal(data[name], getattr(curve.fields[0], name))
+        np.testing.assert_array_equal(data.heights, surface.heights)
+    coarse = saved("maps.nc", {**SMALL, "n": "128", "fluid": "x"}, tmp_path, points=64)
+    assert rl.read(coarse).shape == (64, 64)
+    with xarray.open_dataset(coarse, engine="h5netcdf") as data:
+        assert data.attrs["points_of_maps"] == 64
+        flow = rl.flow(curve.fields[0])
+        np.testing.assert_allclose(np.stack([data.flux_x, data.flux_y]), flow.flux, rtol=1e-9)
+        assert data.flux_x.attrs["units"] == "m^2"
+
+
+@pytest.mark.parametrize("shown", [*CHOICES["shown"].options, "flux without a fluid"])
+def test_a_saved_picture_is_of_the_map_that_is_shown(shown, tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(figures, "_write", lambda path, panels: drawn.extend(panels))
+    added = {"flux": {"fluid": "x"}, "retreat": {"w": "1", "D_f": "2.2"}}.get(shown, {})
+    saved("contact.png", {**SMALL, **added, "shown": shown.split(" ")[0]}, tmp_path)
+    topography, contact = drawn
+    assert contact.keywords["state"].shown == ("area" if " " in shown else shown)
+    assert topography.args[0].shape == contact.keywords["surface"].shape == (64, 64)
+    axes = Figure().subplots()
+    contact(axes=axes)
+    assert axes.images
 
 
 @pytest.fixture(scope="module")
@@ -337,8 +441,7 @@ def test_code_with_a_hardness_gives_the_same_numbers(
 
 def test_a_saved_curve_has_both_branches(tmp_path):
     said = {**YIELDING, "theories": "persson"}  # which knows no load of zero
-    header, _ = answer(downloads.download, said, folder=tmp_path, name="curve.csv")
-    first, *rows = (tmp_path / "results" / header["file"]).read_text().splitlines()
-    column = first.split(",").index("plastic_fraction [1]")
-    assert float(rows[-1].split(",")[0]) == 0
-    assert max(float(row.split(",")[column]) for row in rows) > 0.1
+    rows = series_in(saved("curve.csv", said, tmp_path))
+    assert rows["back"]["force [N]"].iloc[-1] == 0
+    assert rows["back"]["plastic_fraction [1]"].max() > 0.1
+    assert {"unloading_stiffness [N/m]", "indentation [m]"} <= set(rows["3d"])

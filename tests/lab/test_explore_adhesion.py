@@ -1,18 +1,19 @@
 """Bodies that stick in Explore: both ways, pull-off, maps, code and files are the library's."""
 
-import csv
 import json
 import math
+import re
 import shlex
 
 import numpy as np
 import pytest
+import xarray
 from matplotlib import image
 
 import roughline as rl
-from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer
+from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, saved, series_in
 from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore import code, pictures
 from roughline.lab.explore.state import ExploreState, state_of, usable_state
 
 SCALE = E_STAR * HEIGHT * LENGTH
@@ -184,15 +185,22 @@ def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
 
 
 def test_a_saved_curve_has_both_ways(tmp_path, cycle):
-    header, _ = answer(downloads.download, STICKS, folder=tmp_path, name="curve.csv")
-    with (tmp_path / "results" / header["file"]).open() as file:
-        rows = list(csv.DictReader(file))
-    forces = np.array([float(row["force [N]"]) for row in rows]) / SCALE
+    rows = series_in(saved("curve.csv", STICKS, tmp_path))
+    forces = rows["both_ways"]["force_bar [1]"]
     np.testing.assert_allclose(forces, cycle[0]["curve"]["force_bar"], rtol=1e-6, atol=1e-9)
-    assert {row["on_approach"] for row in rows} == {"0", "1"}
+    assert set(rows["both_ways"]["on_approach"]) == {0, 1}
+    turned = rows["turned"]["area_fraction_corrected [1]"]
+    assert turned.iloc[1:3].to_list() == pytest.approx(cycle[0]["turn"]["area"], rel=1e-9)
+    told = (tmp_path / "results" / "curve.csv").read_text()
+    pull = float(re.search(r"# pull_off_force = (\S+) N", told)[1])
+    assert pull / SCALE == pytest.approx(cycle[0]["pull_off"]["y"][0], rel=1e-9)
 
 
-@pytest.mark.parametrize("name", ["curve.png", "contact.png"])
-def test_pictures_of_bodies_that_stick_can_be_saved(name, tmp_path):
-    header, _ = answer(downloads.download, STICKS, folder=tmp_path, name=name)
-    assert image.imread(tmp_path / "results" / header["file"]).size
+@pytest.mark.parametrize("name", ["curve.png", "contact.png", "maps.nc"])
+def test_what_bodies_that_stick_show_can_be_saved(name, tmp_path, pressed):
+    file = saved(name, STICKS, tmp_path)
+    if file.suffix == ".png":
+        assert image.imread(file).size
+        return
+    with xarray.open_dataset(file, engine="h5netcdf") as data:
+        np.testing.assert_array_equal(data.pulling, pressed.fields[0].pulling)

@@ -421,6 +421,9 @@ FIELDS: tuple[Field, ...] = (
 )
 """All fields, in the order of their groups' panels and of the form."""
 
+FLAGS = {each.name: each.flag.partition(",")[0] for each in FIELDS if each.flag}
+"""What the command line calls them first, by their names."""
+
 
 def asked_fields(told: Mapping[str, Any]) -> list[Field]:
     """Return the fields of what is asked, in their order."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 
+from roughline.assessment import fields
 from roughline.assessment.fields import names_by
 from roughline.errors.words import Words
 
@@ -28,7 +29,7 @@ FLAGS = Words(
     {
         **{name: f"--{name.replace('_', '-')}" for name in _SPELLED},
         **_OTHERS,
-        **names_by(lambda field: field.flag.partition(",")[0]),
+        **names_by(lambda field: fields.FLAGS.get(field.name, "")),
     },
     shlex.quote,
 )

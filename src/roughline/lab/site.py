@@ -15,6 +15,7 @@ import roughline as rl
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
+from roughline.lab.explore.downloads import FILES
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.examples import EXAMPLES
 from roughline.lab.published import controls as published
@@ -80,6 +81,7 @@ def page() -> str:
     return template.render(
         version=rl.__version__,
         explore=explore,
+        files=FILES,
         measured=measured,
         published=published,
         examples=EXAMPLES,

@@ -8,16 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 
 import roughline as rl
-from roughline.lab.controls import ControlError, as_code
+from roughline.lab.controls import ControlError
 from roughline.lab.explore.pressing import pressed_under
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import item, number_rows
 from roughline.lab.server.tasks import Progress
-from roughline.plot.pixels import draw_map
 from roughline.units import decimal, engineering
 
 _DIGITS = 3
@@ -157,16 +154,11 @@ def of_cycle(found: Cycle, state: ExploreState, n: int) -> dict[str, Any]:
     }
 
 
-def in_python(state: ExploreState) -> str:
-    """Lines that define the law."""
-    assert state.w is not None
-    return (
-        f"work = {as_code(state.w)} * E_star * surface.rms_height**2 / length  # J/m²\n"
-        f"h_0 = {as_code(state.h0)} * surface.rms_height  # m\n"
-        "law = rl.Dugdale(work_of_adhesion=work, range=h_0)\n"
-    )
-
-
+LAW = """work = {work}  # J/m²
+h_0 = {reach}  # m
+law = rl.Dugdale(work_of_adhesion=work, range=h_0)
+"""
+"""Lines of Python that define the law."""
 FORCES = "law=law, forces=[force, 2 * force, force, 0.0]"
 """Arguments of a press in Python, with the same history."""
 ANSWERS = """print("area_fraction_corrected, way back", curve.area_fraction_corrected[2])
@@ -179,22 +171,3 @@ off = rl.press(surface, E_star=E_star, law=law, forces=forces{periodic}, throw=F
 print("pull_off_force", off.pull_off_force, "N")
 """
 """Lines that print what it gives."""
-
-
-def draw_curve(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
-    """Force over depth, there and back."""
-    rl.plot.curve(cycle(state, points(state), progress).by_depths, "depth", "force", axes)
-
-
-def draw_contact(axes: Axes, state: ExploreState, surface: rl.Surface, progress: Progress) -> None:
-    """Where bodies touch at the load on the way there, and where they pull each other."""
-    pressed = pressed_under(state, surface, np.array([state.F]), progress, fields=True)
-    rl.plot.contact(pressed, axes=axes)
-    if (fields := pressed.fields[0]) is not None:
-        pulled = np.where(fields.pulling, 1.0, np.nan)
-        draw_map(axes, pulled, fields.sizes, "m", cmap=ListedColormap(["tab:blue"]))
-        axes.set_title(axes.get_title() + "\nblue: pulled across a gap")
-
-
-PICTURES = {"curve": draw_curve, "contact": draw_contact}
-"""What files show in the place of elastic bodies, by their names."""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import shlex
+from itertools import chain
 
+from roughline.assessment.fields import FLAGS
 from roughline.assessment.question import UNLOADING
-from roughline.lab.controls import as_code
+from roughline.lab.controls import Texts, as_code, has_unit, texts_of
 from roughline.lab.explore import adhesion
 from roughline.lab.explore.state import ExploreState, state_in
 from roughline.lab.frames import frame
@@ -27,38 +29,61 @@ _NO_COMMAND = {
 
 def code(arguments: Arguments, progress: Progress) -> bytes:
     """The code of a state: `which` says in what language."""
-    state = state_in(arguments)
-    text = _as_python(state) if arguments.get("which") == "python" else _as_command(state)
-    return frame({"text": text})
+    state, said = state_in(arguments), texts_of(arguments)
+    write = _as_python if arguments.get("which") == "python" else _as_command
+    return frame({"text": write(state, said)})
 
 
-def _as_python(state: ExploreState) -> str:
+def _typed(said: Texts, key: str, state: ExploreState) -> str:
+    """A text with a unit as it was typed, if it counts; else none."""
+    text = said.get(key, "").strip()
+    counts = {"h": state.rms == "height", "cutoff": state.cutoff == state.cutoff_used}
+    return text if has_unit(text) and counts.get(key, True) else ""
+
+
+def _as_python(state: ExploreState, said: Texts) -> str:
     """Lines that generate the surface, and press it as the page does."""
+
+    def value(key: str, unit: str, otherwise: str) -> str:
+        """A quantity as it was typed, or else a number times what it is over."""
+        text = _typed(said, key, state)
+        return f"in_si({text!r}, {unit!r}, {key!r})" if text else otherwise
+
     periodic = ", periodic=True" if state.periodic else ""
     law_lines, forces, of_law = "", "forces=[force]", ""
     if state.hardness_bar is not None:
-        bar = as_code(state.hardness_bar)
-        law_lines = f"hardness = {bar} * E_star * surface.rms_slope  # Pa\n"
+        over = f"{as_code(state.hardness_bar)} * E_star * surface.rms_slope"
+        law_lines = f"hardness = {value('hardness_bar', 'Pa', over)}  # Pa\n"
         path = f"[force * share for share in {(1.0, *UNLOADING)}]"  # the last ones unload
         forces, of_law = f"hardness=hardness, forces={path}", _OF_YIELD
     if state.w is not None:
-        law_lines, of_law = adhesion.in_python(state), adhesion.ANSWERS.format(periodic=periodic)
-        forces = adhesion.FORCES
+        work = f"{as_code(state.w)} * E_star * surface.rms_height**2 / length"
+        reach = f"{as_code(state.h0)} * surface.rms_height"
+        law_lines = adhesion.LAW.format(
+            work=value("w", "J/m**2", work), reach=value("h0", "m", reach)
+        )
+        forces, of_law = adhesion.FORCES, adhesion.ANSWERS.format(periodic=periodic)
+    load = _typed(said, "F", state)
+    over = f"{as_code(state.F)} * E_star * surface.rms_height * surface.length"
+    force = f"load_in_newtons({load!r}, surface.area)" if load else over
+    roll_off = value("roll_off", "m", f"({as_code(state.roll_off)} * length)")
+    cutoff = value("cutoff", "m", f"({as_code(state.cutoff_used)} * length)")
     return f"""import math
 
 import roughline as rl
+from roughline.units import in_si{", load_in_newtons" if load else ""}
 
-length = {as_code(state.length)}  # m
-E_star = {as_code(state.E_star)}  # Pa
+length = in_si({state.L!r}, 'm', 'length')
+E_star = in_si({state.E!r}, 'Pa', 'E_star')
 spectrum = rl.SelfAffine(
     fractal_dimension={as_code(state.D_f)},
     length=length,
-    rms_height={as_code(state.rms_height)},
-    q_roll=2 * math.pi / ({as_code(state.roll_off)} * length),
-    q_high=2 * math.pi / ({as_code(state.cutoff_used)} * length),
+    rms_height={value("h", "m", as_code(state.rms_height))},  # m
+    q_roll=2 * math.pi / {roll_off},
+    q_high=2 * math.pi / {cutoff},
 )
 surface = spectrum.surface(n={state.n}, rng={state.seed})
-force = {as_code(state.F)} * E_star * surface.rms_height * surface.length  # N
+force = {force}  # N
 {law_lines}curve = rl.press(surface, E_star=E_star, {forces}{periodic}, fields=[0])
 
 print("stiffness_bar", curve.stiffness_bar[0])
@@ -67,32 +92,37 @@ print("depth over rms height", curve.depth[0] / surface.rms_height)
 {of_law}{_OF_FLUID if state.fluid else ""}"""
 
 
-def _as_command(state: ExploreState) -> str:
+def _as_command(state: ExploreState, said: Texts) -> str:
     """Commands that write the surface to a file, and press it."""
-    borne, law = state.hardness, state.law
-    generate = [
-        *("roughline", "generate", "--out", "surface.nc"),
-        *("--length", f"{as_code(state.length)} m"),
-        *("--rms-height", f"{as_code(state.rms_height)} m"),
-        *("--fractal-dimension", as_code(state.D_f)),
-        *("--roll-off", f"{as_code(state.roll_off * state.length)} m"),
-        *("--cutoff", f"{as_code(state.cutoff_used * state.length)} m"),
-        *("--points", str(state.n), "--seed", str(state.seed)),
+
+    def value(key: str, unit: str, number: float) -> str:
+        """A quantity as it was typed, or else with its unit."""
+        return _typed(said, key, state) or f"{as_code(number)} {unit}"
+
+    side = state.length
+    generate = {
+        "--out": "surface.nc",
+        "--length": state.L,
+        "--rms-height": value("h", "m", state.rms_height),
+        "--fractal-dimension": as_code(state.D_f),
+        "--roll-off": value("roll_off", "m", state.roll_off * side),
+        "--cutoff": value("cutoff", "m", state.cutoff_used * side),
+        "--points": str(state.n),
+        "--seed": str(state.seed),
+    }
+    press = {"E_star": state.E, "loads": value("F", "N", state.force(state.F))}
+    switches = ["periodic"] if state.periodic else []
+    if state.hardness is not None:
+        press["hardness"] = value("hardness_bar", "Pa", state.hardness)
+        switches.append("unload")
+    if state.w is not None and state.law is not None:
+        work, reach = (float(state.law.settings[name]) for name in ("work_of_adhesion", "range"))
+        press["adhesion"] = f"{value('w', 'J/m^2', work)} over {value('h0', 'm', reach)}"
+    words = [word for name, text in press.items() for word in (FLAGS[name], text)]
+    words += [FLAGS[name] for name in switches]
+    lines = [
+        shlex.join(["roughline", "generate", *chain(*generate.items())]),
+        shlex.join(["roughline", "press", "surface.nc", *words]),
+        *(text for key, text in _NO_COMMAND.items() if getattr(state, key)),
     ]
-    press = [
-        *("roughline", "press", "surface.nc"),
-        *(
-            "--modulus",
-            f"{as_code(state.E_star)} Pa",
-            "--load",
-            f"{as_code(state.force(state.F))} N",
-        ),
-        *(["--periodic"] if state.periodic else []),
-        *(["--hardness", f"{as_code(borne)} Pa", "--unload"] if borne is not None else []),
-    ]
-    if state.w is not None and law is not None:
-        work, reach = (as_code(float(law.settings[name])) for name in ("work_of_adhesion", "range"))
-        press += ["--adhesion", f"{work} J/m^2 over {reach} m"]
-    without = [text for key, text in _NO_COMMAND.items() if getattr(state, key)]
-    lines = [shlex.join(generate), shlex.join(press), *without]
     return "".join(f"{line}\n" for line in lines)

@@ -39,8 +39,8 @@ _FEWEST_SPRINGS = 2**13
 _FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
-_CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
-_CURVE_FORCES = np.geomspace(1e-3, 3, 13)
+CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
+CURVE_FORCES = np.geomspace(1e-3, 3, 13)
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
@@ -50,26 +50,33 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     In a crowd it is that of fewer lines first; the page asks for the others by "refines".
     """
     state, refused = usable_state(arguments)
-    lines = _lines_of(state, _FEWER_LINES if _is_first_step(arguments) else _LINES)
-    forces = np.unique([*_LINE_FORCES, state.F])
-    stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
-    mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
+    count = _FEWER_LINES if _is_first_step(arguments) else _LINES
+    found = lines_over_force(state, count)
+    forces, mean = found["force_bar"], found["stiffness_bar"]
     here = int(np.searchsorted(forces, state.F))
     return frame(
         {
             **_settled(state, refused),
-            "line": {
-                "force_bar": forces,
-                "stiffness_bar": mean,
-                "low": stiffness.min(axis=0),
-                "high": stiffness.max(axis=0),
-            },
+            "line": found,
             "stiffness_bar_1d": float(mean[here]),
             "table": [[*row, "1D"] for row in number_rows(forces, mean)],
-            "strip": line_words(state, float(mean[here]), len(lines)),
-            "is_coarse": len(lines) < _LINES,
+            "strip": line_words(state, float(mean[here]), count),
+            "is_coarse": count < _LINES,
         }
     )
+
+
+def lines_over_force(state: ExploreState, count: int = _LINES) -> dict[str, NDArray[np.float64]]:
+    """Mean stiffness and range of lines over force, dimensionless."""
+    forces = np.unique([*_LINE_FORCES, state.F])
+    lines = _lines_of(state, count)
+    stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
+    return {
+        "force_bar": forces,
+        "stiffness_bar": stiffness.mean(axis=0),  # its interval would take as long as all lines
+        "low": stiffness.min(axis=0),
+        "high": stiffness.max(axis=0),
+    }
 
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
@@ -93,15 +100,15 @@ def full(arguments: Arguments, progress: Progress) -> bytes:
 def curve(arguments: Arguments, progress: Progress) -> bytes:
     """Stiffness and area over force of the surface, and of theories."""
     state, refused = usable_state(arguments)
-    n = state.points(_CURVE_POINTS)
+    n = state.points(CURVE_POINTS)
     surface = state.surface(n)
-    pressed = pressed_under(state, surface, borne(state, _CURVE_FORCES), progress)
+    pressed = pressed_under(state, surface, borne(state, CURVE_FORCES), progress)
     return frame(
         {
             **_settled(state, refused),
             "curve": _of_curve(pressed),
             "grid": f"{n}²",
-            "theories": [_of_theory(name, surface, state) for name in state.theories],
+            "theories": [of_theory(name, surface, state) for name in state.theories],
             "stiffness_table": _stiffness_rows(pressed),
             "area_table": _area_rows(pressed),
         }
@@ -113,7 +120,7 @@ def flow(arguments: Arguments, progress: Progress) -> bytes:
     state, refused = usable_state(arguments)
     if not state.fluid:
         raise ControlError("there is no fluid: mark that one flows through the gap", "fluid")
-    n = state.points(_CURVE_POINTS)
+    n = state.points(CURVE_POINTS)
     surface = state.surface(n)
     measures = fluid.measures(state)
     pressed = pressed_under(state, surface, borne(state, fluid.FORCES), progress, measures=measures)
@@ -151,7 +158,7 @@ def cycle(arguments: Arguments, progress: Progress) -> bytes:
 def unloading(arguments: Arguments, progress: Progress) -> bytes:
     """The way back from the load of the state to none."""
     state, refused = usable_state(arguments)
-    n = state.points(_CURVE_POINTS)
+    n = state.points(CURVE_POINTS)
     loads = state.F * np.array([1.0, *UNLOADING])
     measures = fluid.measures(state)
     pressed = pressed_under(state, state.surface(n), loads, progress, measures=measures)
@@ -272,7 +279,7 @@ def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     }
 
 
-def _of_theory(name: str, surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
+def of_theory(name: str, surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     """A theory for the waves of the surface, dimensionless like the curve."""
     import warnings
 

@@ -38,7 +38,7 @@ class Explore {
     this.#address = address;
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
     this.#waiting = new Waiting(this.#root.querySelector(".status"), link, (works) => this.#cancelled(works));
-    new TakeAlong(this.#root, link, () => ({state: this.#controls.used}), this.#waiting, (...said) => this.#refuse(...said));
+    new TakeAlong(this.#root, link, () => this.#seen, this.#waiting, (...said) => this.#refuse(...said));
     this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#bindButtons();
   }
@@ -70,6 +70,12 @@ class Explore {
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
+
+  // What is seen: the texts of the last answer, as they were typed where they counted, and the map that is chosen.
+  get #seen() {
+    const {state, texts, points} = this.#last ?? {state: {}, texts: this.#controls.used};
+    return {state: {...state, ...texts, shown: this.#controls.said.shown ?? "area"}, points};
+  }
 
   #missed = []; // answers that came before the plots were there
   #draw(action) { if (this.#plots) action(); else this.#missed.push(action); }
@@ -160,7 +166,8 @@ class Explore {
 
   #drawContact(header, asked, turn) {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
-    this.#last = header;
+    const counted = Object.entries(asked.state).filter(([key]) => !(key in header.refused));
+    this.#last = {...header, texts: Object.fromEntries(counted)};
     this.#settled(header, asked, turn);
     const what = {what: "contact", points: header.points, numbers: header.numbers};
     for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
