@@ -67,6 +67,15 @@ class Field:
             inside = ", ".join(map(repr, value))
         return f"rl.{self.of}({inside})"
 
+    def in_command(self, value: Any, text: str) -> list[str]:
+        """Write a value, which was read from a text, as words of the command line."""
+        flag = self.flag.partition(",")[0]
+        if not self.is_switch:
+            texts = value if self.separator else [text]
+            return [word for each in texts for word in (flag, each)]
+        can_be_left = any(each is None for each, _ in self.choices.values())
+        return [flag] if value else [flag.replace("--", "--no-")] * can_be_left
+
     def value(self, given: Any) -> Any:
         """Read what was given: texts are read, and all else is the value itself."""
         if isinstance(given, list):
