@@ -176,7 +176,7 @@ def test_reports_and_code_are_of_the_answers_that_are_shown(pages, tmp_path):
     with page.expect_download() as coming:
         page.click("[data-example-file]")
     coming.value.save_as(tmp_path / coming.value.suggested_filename)
-    assert rl.read(tmp_path / coming.value.suggested_filename).shape
+    assert rl.read(tmp_path / coming.value.suggested_filename).heights.size
     page.context.close()
 
 

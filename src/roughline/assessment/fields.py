@@ -101,7 +101,10 @@ def _blur(text: str) -> float:
     """Read a standard deviation; none has no unit. [m]"""
     from roughline.units import in_si
 
-    return in_si("0 m" if text == "0" else text, "m", "blur")
+    blur = in_si("0 m" if text == "0" else text, "m", "blur")
+    if not 0 <= blur < math.inf:
+        refuse("blur", text, "a length from 0 on is needed")
+    return blur
 
 
 def _crop(text: str) -> tuple[float, ...]:
