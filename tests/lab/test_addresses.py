@@ -139,5 +139,37 @@ def test_a_link_of_my_surface_of_an_older_lab_is_read(link):
     )
 
 
+OF_0_2_0 = {
+    "explore": "v=1&D_f=2.2&H=0.8&roll_off=0.5&cutoff=0.01&rms=slope&h=0.001&slope=0.1&seed=3&n=128"
+    "&boundary=periodic&hardness_bar=0.5&F=0.1&shown=gap&L=2+mm&E=200+GPa&theories=persson"
+    "&view=explore&theme=dark",
+    "published": "v=1&D_f=2,2.2&mean=geometric&punch=exact&low_1D=0.0001&high_1D=0.01&low_3D=0.01"
+    "&high_3D=0.1&tolerance=0.1&roll_off=2&map_D_f=2.2&map_F=0.1&claims=confirmed&view=published",
+    "measured": "v=1&example=film&unit=um&size=1+mm&fill=nearest&most_missing=20+%25&trend=tilt"
+    "&outliers=remove&crop=0+um,+2+um,+0+um,+2+um&low_pass=1+um&resample=64&bodies=materials"
+    "&first=steel&second=copper&E=110+GPa&loads=2+MPa&boundary=periodic&friction=0.3"
+    "&frequency=5+MHz&theories=persson&grid_error=no&elastic=no&hardness=2+GPa&joint_area=2+cm%5E2"
+    "&channel=0&view=measured",
+}
+"""Links that set every key of version 0.2.0."""
+
+
+def test_links_of_version_0_2_0_are_read():
+    said = dict(parse_qsl(OF_0_2_0["explore"]))
+    state = explore_state(said, 1024)
+    assert set(said) - {"H", "v", "view", "theme"} <= set(state.texts())
+    again = state.texts()
+    for key in ("rms", "slope", "seed", "n", "boundary", "F", "shown", "L", "E", "theories"):
+        assert again[key] == said[key]
+    published = published_state(dict(parse_qsl(OF_0_2_0["published"]))).address()
+    assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&view")[0])).items()
+    said = said_of({"state": dict(parse_qsl(OF_0_2_0["measured"]))})
+    question = question_of(said, Source(Path("a.nc"), "a.nc", "key"))
+    assert question.headings == ["2 MPa"]
+    assert question.friction == 0.3
+    assert question.reading.channel == "0"
+    assert question.preparation.points == 64
+
+
 def test_the_fewest_points_that_a_lab_may_allow_can_be_chosen():
     assert min(map(int, explore.CHOICES["n"].options)) == LEAST_POINTS

@@ -56,6 +56,11 @@ class Field:
         return self.of not in ("Question", "Reading", "Preparation")
 
     @property
+    def first_flag(self) -> str:
+        """The flag by which the command line calls it first."""
+        return self.flag.partition(",")[0]
+
+    @property
     def is_switch(self) -> bool:
         """Whether the command line has it as a flag without a value."""
         return any(value is True for value, _ in self.choices.values())
@@ -69,7 +74,7 @@ class Field:
 
     def in_command(self, value: Any, text: str) -> list[str]:
         """Write a value, which was read from a text, as words of the command line."""
-        flag = self.flag.partition(",")[0]
+        flag = self.first_flag
         if not self.is_switch:
             texts = value if self.separator else [text]
             return [word for each in texts for word in (flag, each)]
@@ -432,9 +437,6 @@ FIELDS: tuple[Field, ...] = (
     ),
 )
 """All fields, in the order of their groups' panels and of the form."""
-
-FLAGS = {each.name: each.flag.partition(",")[0] for each in FIELDS if each.flag}
-"""What the command line calls them first, by their names."""
 
 
 def asked_fields(told: Mapping[str, Any]) -> list[Field]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shlex
 
-from roughline.assessment import fields
 from roughline.assessment.fields import names_by
 from roughline.errors.words import Words
 
@@ -29,7 +28,7 @@ FLAGS = Words(
     {
         **{name: f"--{name.replace('_', '-')}" for name in _SPELLED},
         **_OTHERS,
-        **names_by(lambda field: fields.FLAGS.get(field.name, "")),
+        **names_by(lambda field: field.first_flag),
     },
     shlex.quote,
 )

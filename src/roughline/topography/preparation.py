@@ -146,7 +146,8 @@ def _allowed(body: Body, too_many: int, needed: int) -> str:
         resampling = _resampling_needs(body.heights.shape, _wanted(body, points))
         return fits_into_memory(8 * max(needed, resampling))
 
-    most = bisect_left(range(2, min(too_many, _MOST)), True, key=lambda points: not fits(points)) + 1
+    thought_of = range(2, min(too_many, _MOST))
+    most = bisect_left(thought_of, True, key=lambda points: not fits(points)) + 1
     return f", up to {most} along the longer side" if most > 1 else ""
 
 

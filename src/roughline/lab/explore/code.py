@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from itertools import chain
 
-from roughline.assessment.fields import FLAGS
+from roughline.assessment.fields import FIELDS
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import Texts, as_code, has_unit, texts_of
 from roughline.lab.explore import adhesion
@@ -21,6 +21,7 @@ _OF_FLUID = """flow = rl.flow(curve.fields[0])
 print("hydraulic aperture over rms height", flow.hydraulic_aperture / surface.rms_height)
 print("sealed", flow.is_sealed)
 """
+_FLAGS = {each.name: each.first_flag for each in FIELDS}
 _NO_COMMAND = {
     "fluid": "# the flow through the gap under a contact modulus has no command: take it as Python",
     "w": "# the way back and the pull-off need two materials: take them as Python",
@@ -118,8 +119,8 @@ def _as_command(state: ExploreState, said: Texts) -> str:
     if state.w is not None and state.law is not None:
         work, reach = (float(state.law.settings[name]) for name in ("work_of_adhesion", "range"))
         press["adhesion"] = f"{value('w', 'J/m^2', work)} over {value('h0', 'm', reach)}"
-    words = [word for name, text in press.items() for word in (FLAGS[name], text)]
-    words += [FLAGS[name] for name in switches]
+    words = [word for name, text in press.items() for word in (_FLAGS[name], text)]
+    words += [_FLAGS[name] for name in switches]
     lines = [
         shlex.join(["roughline", "generate", *chain(*generate.items())]),
         shlex.join(["roughline", "press", "surface.nc", *words]),
