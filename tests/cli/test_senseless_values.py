@@ -108,3 +108,41 @@ def test_senseless_values_are_refused_in_one_line(words, option, places, invoke,
             assert not code or "and there is none: leave it out" in told, told
         else:
             assert (code in (1, 2), wrong_with(told, names, value)) == (True, []), told
+
+
+BEYOND = [
+    ("--low-pass", "1 km", "longer than the topography, 1 mm"),
+    ("--resample", "100000000", "GB is free: resample to fewer points, up to "),
+    ("--friction", "30", "a number above 0 and up to 5 is needed"),
+    ("--friction", "-1", "a number above 0 and up to 5 is needed"),
+    ("--joint-area", "1e300 m^2", "is needed, up to 1 km²"),
+    ("--adhesion", "50 mJ/m^2 over 1 km", "is longer than the shorter side, 1 mm"),
+    ("--adhesion", "1e300 J/m^2", "is more than the contact modulus times the shorter side"),
+]
+
+
+@pytest.mark.parametrize(("option", "value", "why"), BEYOND)
+def test_values_beyond_what_a_body_has_are_refused_before_it_is_pressed(
+    option, value, why, places, invoke
+):
+    needed = [each.format(**places) for each in NEEDED["press"]][:-1]
+    needed += ["--elastic"] if option == "--adhesion" else []
+    code, _, told = invoke("press", *needed, "--load", "2 MPa", option, value)
+    assert code == 2
+    assert told.count("\n") == 1  # and none of the progress
+    assert why in told
+    assert len(told) < 350
+
+
+def test_the_same_is_refused_in_python(places):
+    def question(**given):
+        return rl.Question(rl.read(places["file"]), ("steel", "copper"), loads="2 MPa", **given)
+
+    for refused in (
+        lambda: rl.assess(question(preparation=rl.Preparation(low_pass=1e3))),
+        lambda: rl.assess(question(preparation=rl.Preparation(points=10**8))),
+        lambda: question(ask=rl.Adhesion("50 mJ/m^2 over 1 km"), elastic=True),
+        *(lambda value=value: rl.Friction(value) for value in (-1, 30)),
+    ):
+        with pytest.raises(rl.InputError, match="needed|longer than|GB"):
+            refused()

@@ -45,7 +45,9 @@ def table(page, plot):
             const place = document.querySelector(`[data-table="explore-${plot}"]`);
             const fold = place.closest("details");
             if (!fold.open) { // which fills it
-                const opened = new Promise((tell) => fold.addEventListener("toggle", tell, {once: true}));
+                const opened = new Promise((tell) => {
+                    fold.addEventListener("toggle", tell, {once: true});
+                });
                 fold.open = true;
                 await opened;
             }

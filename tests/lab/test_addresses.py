@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
-from roughline.lab.explore.state import state_of as explore_state
+from roughline.lab.explore.reading import state_of as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, question_of, said_of
 from roughline.lab.published import controls as published

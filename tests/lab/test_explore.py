@@ -6,8 +6,10 @@ import re
 import shlex
 import subprocess
 import sys
+from urllib.parse import parse_qsl
 
 import numpy as np
+import pandas
 import pytest
 import xarray
 from matplotlib import image
@@ -16,7 +18,7 @@ import roughline as rl
 from lab.unpacked import unpacked
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore import code, downloads, physics, pictures
 from roughline.lab.explore.panels import BACK
 from roughline.lab.explore.reading import state_of
 from roughline.lab.explore.state import ExploreState
@@ -87,6 +89,8 @@ def test_the_contact_is_that_of_the_library(curve):
     np.testing.assert_array_equal(arrays["pressure"], (fields.pressure / E_STAR).astype("f4").T)
     for name in ("gap", "displacement"):
         wanted = getattr(fields, name) / HEIGHT
+        if name == "gap":
+            wanted = np.where(fields.contact, np.nan, wanted)  # as what is told of a point
         np.testing.assert_allclose(arrays[name], wanted.T, rtol=1e-6, atol=1e-7)
 
 
@@ -281,17 +285,22 @@ def intervals_are_those_of(state, report, *names):
         assert numbers_in(page[key]["below"])[-2:] == ends
 
 
+def saved(name, state, tmp_path, **others):
+    """Save a file as the page does, and return where it is."""
+    header, _ = answer(downloads.download, state, folder=tmp_path, name=name, **others)
+    return tmp_path / "results" / header["file"]
+
+
 @pytest.mark.parametrize("name", downloads.FILES)
 def test_every_file_can_be_saved_and_opened(name, tmp_path, surface):
-    header, _ = answer(downloads.download, SMALL, folder=tmp_path, name=name)
-    file = tmp_path / "results" / header["file"]
-    if name == "surface.nc":
+    file = saved(name, SMALL, tmp_path)
+    if name in ("surface.nc", "maps.nc"):
         np.testing.assert_allclose(rl.read(file).heights, surface.heights, rtol=1e-12)
     elif file.suffix == ".nc":
         with xarray.open_dataset(file, engine="h5netcdf") as data:
             assert np.isfinite(data.stiffness).all()
     elif file.suffix == ".csv":
-        assert file.read_text().startswith("force [N],")
+        assert file.read_text().startswith("panel,series,x,y,")
     elif file.suffix == ".pdf":
         assert file.read_bytes().startswith(b"%PDF")
     else:
@@ -299,8 +308,106 @@ def test_every_file_can_be_saved_and_opened(name, tmp_path, surface):
 
 
 def test_no_other_file_can_be_saved(tmp_path):
-    with pytest.raises(ControlError):
-        answer(downloads.download, SMALL, folder=tmp_path, name="../../surface.nc")
+    for others in ({"name": "../../surface.nc"}, {"name": "maps.nc", "points": 65}):
+        with pytest.raises(ControlError):
+            answer(downloads.download, SMALL, folder=tmp_path, **others)
+
+
+THEORIES = {"theories": "persson,bush-gibson-thomas"}
+
+
+def saved_is_shown(state, tmp_path, *others):
+    """Check that a saved table has all that the panels show; returns its rows by their series."""
+    table = pandas.read_csv(saved("curve.csv", state, tmp_path), comment="#")
+    rows = dict(list(table.groupby(["panel", "series"])))
+    told = [answer(task, state)[0] for task in (pictures.reduced, pictures.curve, pictures.full)]
+    told += [answer(pictures.further, state, of=key, refines=True)[0] for key in others]
+    shown = {
+        (panel, name.replace(" ", "_")): columns
+        for header in told
+        for panel, filled in header["panels"].items()
+        for name, columns in filled["series"].items()
+        if columns["x"]
+    }
+    assert set(rows) == set(shown)
+    for key, columns in shown.items():
+        for name, values in columns.items():
+            np.testing.assert_allclose(rows[key][name], values, rtol=1e-9, atol=1e-12)
+    return rows
+
+
+def test_a_saved_table_has_all_that_the_plots_show(tmp_path):
+    rows = saved_is_shown({**SMALL, **THEORIES}, tmp_path)
+    wanted = {"line", "curve", "here", "theory_persson"}
+    assert {name for panel, name in rows if panel == "stiffness"} >= wanted
+    assert ("area", "theory_bush-gibson-thomas") in rows
+    assert (rows["stiffness", "line"].low <= rows["stiffness", "line"].high).all()
+
+
+def test_a_saved_table_of_points_that_yield_has_the_way_back(tmp_path):
+    rows = saved_is_shown({**YIELDING, "theories": "persson"}, tmp_path, "hardness_bar")
+    assert {("stiffness", "unloading"), ("stiffness", "back"), ("area", "back")} <= set(rows)
+
+
+def test_a_saved_table_says_what_it_is_of_and_is_read_by_numpy(tmp_path):
+    file = saved("curve.csv", SMALL, tmp_path)
+    lines = [each[2:] for each in file.read_text().splitlines() if each.startswith("# ")]
+    for said in (
+        *("E_star [Pa] = 110000000000.0", "seed = 3", "points along a side = 64"),
+        *("roll_off [m] = 0.001", "cutoff [m] = 6.25e-05", "rms_height h [m] = 1e-06"),
+        *("fractal_dimension = 2.4", "length L [m] = 0.001", "boundary = free"),
+        *(f"roughline_version = {rl.__version__}", "force F [N] = 22.0"),
+        "E* h L, unit of force_bar [N] = 110.0",
+        "panel area: x is force F / (E* h L), y is real contact area A / A₀",
+    ):
+        assert said in lines
+    (link,) = [each.removeprefix("lab_link = ?") for each in lines if each.startswith("lab_link")]
+    assert state_of(dict(parse_qsl(link)), 1024) == state_of(SMALL, 1024)
+    table = np.genfromtxt(file, comments="#", delimiter=",", names=True)
+    read = pandas.read_csv(file, comment="#")
+    np.testing.assert_array_equal(table["x"], read["x"])
+
+
+def test_saved_loads_have_all_quantities_with_units(tmp_path):
+    file = saved("curve.nc", {**YIELDING, "fluid": "x"}, tmp_path)
+    with xarray.open_dataset(file, engine="h5netcdf") as data:
+        assert data.attrs["seed"] == 3
+        for name, unit in (("stiffness", "N/m"), ("unloading_stiffness", "N/m"), ("depth", "m")):
+            assert data[name].attrs["units"] == unit
+            assert np.isfinite(data[name]).all()
+        assert data.force[-1] == 0  # the way back
+        assert data.hydraulic_aperture_x.attrs["units"] == "m"
+
+
+def test_saved_maps_are_those_that_are_shown(tmp_path, surface, curve):
+    with xarray.open_dataset(saved("maps.nc", SMALL, tmp_path), engine="h5netcdf") as data:
+        units = {"heights": "m", "pressure": "Pa", "gap": "m", "contact": "1", "x": "m"}
+        assert {name: data[name].attrs["units"] for name in units} == units
+        for name in ("pressure", "gap", "contact"):
+            np.testing.assert_array_equal(data[name], getattr(curve.fields[0], name))
+        np.testing.assert_array_equal(data.heights, surface.heights)
+    coarse = saved("maps.nc", {**SMALL, "n": "128", "fluid": "x"}, tmp_path, points=64)
+    assert rl.read(coarse).shape == (64, 64)
+    with xarray.open_dataset(coarse, engine="h5netcdf") as data:
+        assert data.attrs["points along a side of the maps"] == 64
+        flow = rl.flow(curve.fields[0])
+        np.testing.assert_allclose(np.stack([data.flux_x, data.flux_y]), flow.flux, rtol=1e-9)
+        assert data.flux_x.attrs["units"] == "m^2"
+
+
+@pytest.mark.parametrize("shown", [*physics.shown_choice().options, "flux without a fluid"])
+def test_a_saved_picture_is_of_the_map_that_is_shown(shown, tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(downloads, "_draw_map", lambda axes, shown, sizes: drawn.append(shown))
+    added = {"flux": {"fluid": "x"}, "retreat": {"w": "1", "D_f": "2.2"}}.get(shown, {})
+    state = {**SMALL, **added, "shown": shown.split(" ")[0]}
+    saved("contact.png", state, tmp_path)
+    told = [answer(pictures.full, state)]
+    if shown == "retreat":
+        told.append(answer(pictures.further, state, of="w", refines=True))
+    header, arrays = told[-1]
+    wanted = shown if shown in header["maps"] else "area"
+    np.testing.assert_allclose(drawn[0].values.T, arrays[wanted], rtol=1e-6)
 
 
 @pytest.fixture(scope="module")
@@ -368,12 +475,3 @@ def test_code_with_a_hardness_gives_the_same_numbers(
     # values and intervals of the page, where loads that follow have no part in the interval
     names = ("stiffness", "unloading_stiffness", "area_fraction")
     intervals_are_those_of(YIELDING, json.loads(out), *names)
-
-
-def test_a_saved_curve_has_both_branches(tmp_path):
-    said = {**YIELDING, "theories": "persson"}  # which knows no load of zero
-    header, _ = answer(downloads.download, said, folder=tmp_path, name="curve.csv")
-    first, *rows = (tmp_path / "results" / header["file"]).read_text().splitlines()
-    column = first.split(",").index("plastic_fraction [1]")
-    assert float(rows[-1].split(",")[0]) == 0
-    assert max(float(row.split(",")[column]) for row in rows) > 0.1

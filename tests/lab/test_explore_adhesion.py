@@ -1,18 +1,18 @@
 """Bodies that stick in Explore: both ways, pull-off, maps, code and files are the library's."""
 
-import csv
 import json
 import math
 import shlex
 
 import numpy as np
 import pytest
+import xarray
 from matplotlib import image
 
 import roughline as rl
-from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads
+from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads, saved, saved_is_shown
 from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore import code, pictures
 from roughline.lab.explore.reading import state_of, usable_state
 from roughline.lab.explore.state import ExploreState
 
@@ -187,17 +187,16 @@ def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
     assert 100 * share == pytest.approx(float(found["area"]["value"][:-1]), rel=0.1)
 
 
-def test_a_saved_curve_has_both_ways(tmp_path, cycle):
-    header, _ = answer(downloads.download, STICKS, folder=tmp_path, name="curve.csv")
-    with (tmp_path / "results" / header["file"]).open() as file:
-        rows = list(csv.DictReader(file))
-    forces = np.array([float(row["force [N]"]) for row in rows]) / SCALE
-    drawn = [*of_cycle(cycle[0])["there"]["y"], *of_cycle(cycle[0])["back"]["y"]]
-    np.testing.assert_allclose(forces, drawn, rtol=1e-6, atol=1e-9)
-    assert {row["on_approach"] for row in rows} == {"0", "1"}
+def test_a_saved_table_has_both_ways(tmp_path):
+    rows = saved_is_shown(STICKS, tmp_path, "w")
+    assert {name for panel, name in rows if panel == "cycle"} >= {"there", "back", "pull-off"}
 
 
-@pytest.mark.parametrize("name", ["curve.png", "contact.png"])
-def test_pictures_of_bodies_that_stick_can_be_saved(name, tmp_path):
-    header, _ = answer(downloads.download, STICKS, folder=tmp_path, name=name)
-    assert image.imread(tmp_path / "results" / header["file"]).size
+@pytest.mark.parametrize("name", ["curve.png", "contact.png", "maps.nc"])
+def test_what_bodies_that_stick_show_can_be_saved(name, tmp_path, pressed):
+    file = saved(name, STICKS, tmp_path)
+    if file.suffix == ".png":
+        assert image.imread(file).size
+        return
+    with xarray.open_dataset(file, engine="h5netcdf") as data:
+        np.testing.assert_array_equal(data.pulling, pressed.fields[0].pulling)

@@ -1,6 +1,5 @@
 """A fluid in Explore: its flow, apertures, theories, code and files are those of the library."""
 
-import math
 import re
 
 import numpy as np
@@ -8,11 +7,22 @@ import pytest
 from matplotlib import image
 
 import roughline as rl
-from lab.test_explore import E_STAR, HEIGHT, LENGTH, SMALL, answer, arguments, loads, numbers_in
+from lab.test_explore import (
+    E_STAR,
+    HEIGHT,
+    LENGTH,
+    SMALL,
+    answer,
+    arguments,
+    loads,
+    numbers_in,
+    saved,
+    saved_is_shown,
+)
 from lab.unpacked import unpacked
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore import code, pictures
 from roughline.lab.explore.reading import state_of
 
 SCALE = E_STAR * HEIGHT * LENGTH
@@ -190,26 +200,17 @@ def test_as_python_gives_the_aperture_and_the_command_says_that_it_does_not(curv
     assert "#" not in answer(code.code, SMALL, which="command")[0]["text"]
 
 
-@pytest.mark.parametrize("name", ["flow.png", "flow.pdf", "aperture.png", "aperture.pdf"])
-def test_pictures_of_the_flow_can_be_saved_with_the_tick_alone(name, tmp_path):
-    state = {**FLOWS, "hardness_bar": "0.3"} if name.startswith("aperture") else FLOWS
-    header, _ = answer(downloads.download, state, folder=tmp_path, name=name)
-    file = tmp_path / "results" / header["file"]
-    if file.suffix == ".png":
-        assert image.imread(file).size
-    else:
-        assert file.read_bytes().startswith(b"%PDF")
-    with pytest.raises(ControlError, match="no such file"):
-        answer(downloads.download, SMALL, folder=tmp_path, name=name)
+@pytest.mark.parametrize("name", ["contact.png", "curve.pdf"])
+def test_pictures_have_the_flow(name, tmp_path):
+    for more in ({"shown": "flux"}, {"shown": "flux", "hardness_bar": "0.3"}):
+        file = saved(name, {**FLOWS, **more}, tmp_path)
+        assert image.imread(file).size if file.suffix == ".png" else file.read_bytes()
 
 
-def test_a_saved_curve_has_the_apertures(tmp_path):
-    header, _ = answer(downloads.download, FLOWS, folder=tmp_path, name="curve.csv")
-    first, *rows = (tmp_path / "results" / header["file"]).read_text().splitlines()
-    column = first.split(",").index("hydraulic_aperture_x [m]")
-    apertures = [float(row.split(",")[column]) for row in rows]
-    assert apertures == sorted(apertures, reverse=True)
-    assert math.isfinite(sum(apertures))
+def test_a_saved_table_has_the_apertures_of_the_plot(tmp_path):
+    rows = saved_is_shown({**FLOWS, "hardness_bar": "0.3"}, tmp_path, "hardness_bar", "fluid")
+    wanted = {"curve", "here", "back", "theory_critical-junction", "theory_bruggeman"}
+    assert {name for panel, name in rows if panel == "aperture"} >= wanted
 
 
 def test_a_crowd_has_its_flow_on_fewer_points_first():

@@ -307,6 +307,38 @@ def a_press_and_a_save_do_not_stop_each_other(fresh):
     settled(fresh, points=512)
 
 
+MOVE_AND_SAVE = """() => {
+  const find = (selector) => document.querySelector(`#explore ${selector}`);
+  find("#saved").value = "curve.csv";
+  find('[data-text="F"]').value = "11 MPa";
+  find('[data-text="F"]').dispatchEvent(new Event("change", {bubbles: true}));
+  find("#save").click();
+}"""
+
+
+def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
+    typed(fresh, "L", "2 mm")
+    settled(fresh, points=64, F=0.2)
+    with fresh.expect_download() as coming:
+        fresh.evaluate(MOVE_AND_SAVE)
+    coming.value.save_as(tmp_path / "before.csv")
+    assert "# force_bar = 0.2\n" in (tmp_path / "before.csv").read_text()
+    settled(fresh, points=64, F=0.1)
+    with fresh.expect_download() as coming:
+        fresh.click("#save")
+    coming.value.save_as(tmp_path / "after.csv")
+    assert "# length = 0.002 m\n" in (tmp_path / "after.csv").read_text()
+    for which, lines in (
+        ("python", ("in_si('2 mm', 'm'", "load_in_newtons('11 MPa', surface.area)")),
+        ("command", ("--length '2 mm'", "--load '11 MPa'")),
+    ):
+        fresh.click(f"#as-{which}")
+        code = fresh.locator("#code pre")
+        code.filter(has_text="rl.press" if which == "python" else "roughline press").wait_for()
+        assert all(line in code.inner_text() for line in lines)
+        fresh.keyboard.press("Escape")
+
+
 def test_a_long_press_can_be_cancelled(fresh):
     fresh.check('#explore [data-key="n"][value="1024"]')
     fresh.click("#explore .cancel")

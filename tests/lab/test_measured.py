@@ -1,9 +1,14 @@
 """My surface: answers are the library's, texts the command line's, refusals sentences."""
 
+import json
+import os
 import re
 import shlex
 import shutil
+import subprocess
+import sys
 from dataclasses import replace
+from pathlib import Path
 from zipfile import ZipFile
 
 import numpy as np
@@ -16,6 +21,8 @@ from roughline.assessment.comparison import compare_models
 from roughline.assessment.description import describe
 from roughline.errors.words import speaking
 from roughline.lab.measured import documents
+from roughline.lab.measured.answers import assessed
+from roughline.lab.measured.controls import BY_CONTROL
 from roughline.lab.measured.examples import EXAMPLES, path_of
 from roughline.lab.measured.state import CONTROLS, question_of, said_of, source_of
 from roughline.lab.server.tasks import outcome_of
@@ -477,6 +484,112 @@ def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
     exec(header["text"], found)
     answered, _ = page.ask("answer", said)
     assert answered["answers"] == list(answer_table(found["result"], with_elastic=True))
+
+
+EVERY = {
+    **{"unit": "um", "size": "0.4 mm", "fill": "nearest", "most_missing": "20 %"},
+    **{"tilt": "mounting", "pixels": "means", "blur": "0.3 um", "tip_radius": "2 um"},
+    **{"trend": "curvature", "crop": "0 um, 300 um, 0 um, 300 um", "low_pass": "10 um"},
+    **{"resample": "16", "outliers": "remove", "first": "E=70 GPa nu=0.33", "second": "copper"},
+    **{"loads": "2 MPa; 0.5 N", "hardness": "2 GPa", "joint_area": "2 cm^2", "friction": "0.30"},
+    **{"frequency": "5 MHz", "fluid": "oil VG 46", "inlet": "6 bar", "outlet": "2 bar"},
+    **{"seal": "20 mm .. 24 mm", "flow_along": "x", "theories": "persson,greenwood-williamson"},
+    **{"grid_error": "yes", "boundary": "periodic", "sealing_pressure": "yes"},
+}
+STICKING = {
+    **{**PAIR, "unit": "um", "size": "0.4 mm", "elastic": "yes", "grid_error": "no"},
+    **{"adhesion": "50 mJ/m^2 over 200 nm", "second": "gold 20 µm on copper"},
+}
+WITHOUT_LOADS = {
+    **{**PAIR, "unit": "um", "size": "0.4 mm", "loads": "", "friction": "0.123456789"},
+    **{"resample": "8", "grid_error": "no"},
+}
+BY_MODULUS = {"bodies": "modulus", "E": "110 GPa", "loads": "2 MPa", "unit": "um", "size": "1 mm"}
+
+
+def run(text, which, folder):
+    """Run code as who takes it along does, in a folder with the files; return what it printed."""
+    file = folder / f"again.{which}"
+    file.write_text(text, encoding="utf-8")
+    program = [sys.executable if which == "python" else "bash", str(file)]
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PATH": path, "PYTHONIOENCODING": "utf-8", "COLUMNS": "250"}
+    return subprocess.run(
+        program, cwd=folder, env=environment, capture_output=True, check=False, encoding="utf-8"
+    )
+
+
+def printed(out, result):
+    """Check that lines of Python printed the values of all answers, to the digits printed."""
+    lines = " ".join(line for line in out.splitlines() if not line.startswith("note:"))
+    for answer in result.answers.values():
+        found = re.search(rf"{re.escape(f'{answer.name} {answer.symbol}')} \[([^]]*)]", lines)
+        values = np.array(found[1].split(), float)
+        np.testing.assert_allclose(values, answer.values, rtol=1e-7, atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("-a #1, b & 'c' \"d\" $HOME µ.npy", EVERY),
+        ("~b `x`; c.npy", STICKING),
+        ("c.npy", WITHOUT_LOADS),
+        ("d=e é.npy", BY_MODULUS),
+    ],
+)
+def test_code_runs_as_it_is_and_gives_the_same(page, tmp_path, name, said):
+    spectrum = rl.SelfAffine(hurst=0.7, length=400, rms_height=1, q_roll=0.06)
+    heights = spectrum.surface(32, 3).heights.copy()
+    heights[np.random.default_rng(1).random(heights.shape) < 0.02] = np.nan
+    folder = tmp_path / "again"
+    folder.mkdir()
+    np.save(folder / name, heights)
+    said = {**page.bring(folder / name), **said}
+    answered, _ = page.ask("answer", said)
+    result = assessed({"state": said, "session": page.session}, lambda done, total: None)
+    done = {
+        which: run(page.ask("code", said, which=which)[0]["text"], which, folder)
+        for which in ("python", "command")
+    }
+    assert all(each.returncode == 0 for each in done.values()), done
+    printed(done["python"].stdout, result)
+    with xarray.open_dataset(folder / "curve.nc", engine="h5netcdf") as curve:
+        np.testing.assert_array_equal(curve.stiffness, result.curve.stiffness)
+    out = " ".join(done["command"].stdout.split())
+    if out.startswith("{"):  # partial slip is written there alone
+        assert json.loads(out)["curve"]["stiffness"] == result.curve.stiffness.tolist()
+    for figure in answered["figures"] if not out.startswith("{") else []:
+        assert figure["name"] in out
+        assert figure["value"] in out
+        assert figure["interval"] in out
+
+
+def test_code_of_an_example_brings_its_file(page, tmp_path):
+    said = {"example": "shaft", **PAIR}
+    answered, _ = page.ask("answer", said)
+    for which in ("python", "command"):
+        folder = tmp_path / which
+        folder.mkdir()
+        done = run(page.ask("code", said, which=which)[0]["text"], which, folder)
+        assert done.returncode == 0, done.stderr
+        assert (folder / EXAMPLES["shaft"].file).exists()
+    assert answered["figures"][0]["value"] in done.stdout
+
+
+def test_code_of_several_maps_of_which_one_is_refused_runs(page, part, tmp_path):
+    keys, _ = part
+    said = {"file": ",".join(keys.values()), **PAIR, "grid_error": "no"}
+    figures = page.ask("answer", said)[0]["part"]["figures"]
+    for which in ("python", "command"):
+        done = run(page.ask("code", said, which=which)[0]["text"], which, tmp_path)
+        assert done.returncode == (0 if which == "python" else 1), done.stderr  # as it says itself
+        assert "broken.x3p is damaged" in " ".join((done.stdout + done.stderr).split())
+    assert all(each["value"] in done.stdout for each in figures)
+
+
+def test_every_field_with_a_flag_and_a_control_is_run_above():
+    of_one_channel = {"channel"}  # which a file of one channel refuses
+    assert set(BY_CONTROL) - of_one_channel <= {*EVERY, *STICKING}
 
 
 COATED = {"first": "gold 20 µm on nickel 40 µm on copper", "second": "steel", "loads": "2 MPa"}

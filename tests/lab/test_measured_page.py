@@ -1,6 +1,6 @@
 """My surface in a browser: a file or an example, its answers, reports and refusals."""
 
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, urljoin, urlsplit
 
 import pytest
 
@@ -145,6 +145,39 @@ def test_the_report_opens_under_the_policy(answered, pages):
         assert report.locator("h1").count() > 0
         assert report.evaluate("() => [...document.images].every((each) => each.naturalWidth > 0)")
         report.close()
+
+
+def test_reports_and_code_are_of_the_answers_that_are_shown(pages, tmp_path):
+    page = pages.open("?view=measured&v=1&example=shaft&first=steel&second=copper&loads=2+MPa")
+    page.wait_for_selector(CONNECTED)
+    page.wait_for_selector("[data-report]:enabled")
+    page.click("[data-report]")  # which presses first, as nothing is shown yet
+    page.locator("[data-links] a").first.wait_for(timeout=60_000)
+    assert page.is_visible('[data-table="measured-answers"]')
+    shown = page.locator('[data-figures="answers"] dd').first.inner_text()
+    page.fill("#measured-loads-text", "20 MPa")
+    page.press("#measured-loads-text", "Tab")
+    page.wait_for_selector("[data-changed]:visible")
+    assert page.locator("[data-links] a").count() > 0  # which are of what is shown still
+    page.click('[data-code="command"]')
+    code = page.locator("[data-code-dialog] pre")
+    code.filter(has_text="--load").wait_for()
+    assert "20 MPa" not in code.inner_text()
+    page.keyboard.press("Escape")
+    page.click("[data-report]")
+    page.wait_for_selector('[data-waiting="report"] .cancel', state="hidden")
+    address = page.locator("[data-links] a[href*='.html']").get_attribute("href")
+    report = page.request.get(urljoin(page.url, address)).text()
+    assert shown.split()[0] in report
+    assert "20 MPa" not in report
+    page.click("[data-press]")
+    page.wait_for_selector("[data-changed]", state="hidden")
+    assert page.locator("[data-links] a").count() == 0
+    with page.expect_download() as coming:
+        page.click("[data-example-file]")
+    coming.value.save_as(tmp_path / coming.value.suggested_filename)
+    assert rl.read(tmp_path / coming.value.suggested_filename).heights.size
+    page.context.close()
 
 
 def test_a_press_can_be_cancelled(pages):

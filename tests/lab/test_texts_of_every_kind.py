@@ -113,3 +113,21 @@ def test_several_that_are_refused_in_my_surface_say_so_each(ask):
     prepared = ask("prepare", {**BEFORE, "low_pass": "1 km", "crop": "0 um, 500 um, 0 um, 500 um"})
     assert list(prepared["refused"]) == ["low_pass"]
     assert prepared["body"]["points"] == [16, 16]
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "why"),
+    [
+        ("friction", "-1", "above 0 and up to 5"),
+        ("friction", "30", "above 0 and up to 5"),
+        ("joint_area", "1e300 m^2", "up to 1 km²"),
+        ("adhesion", "50 mJ/m^2 over 1 km", "longer than the shorter side, 500 µm"),
+        ("adhesion", "1e300 J/m^2", "more than the contact modulus times"),
+        ("resample", "100000", "from 2 to 4096, the most that this lab resamples to"),
+    ],
+)
+def test_what_is_beyond_all_sense_is_refused_at_its_control_at_once(ask, key, text, why):
+    state = {**BEFORE, "elastic": "yes", key: text}
+    header = ask("bodies", state, before=BEFORE, sides=[1e-3, 5e-4])
+    assert list(header["refused"]) == [key]
+    assert why in header["refused"][key]

@@ -114,10 +114,12 @@ class Joint:
     Parameters
     ----------
     area : float or str
-        Nominal area, such as "2 cm^2", not below that of the map. [m²]
+        Nominal area, such as "2 cm^2", not below that of the map and up to 1 km². [m²]
     """
 
-    area: Parsed[float] = Parsed(quantity("m^2", "joint_area", "a positive, finite area is needed"))
+    area: Parsed[float] = Parsed(
+        quantity("m^2", "joint_area", "a positive, finite area is needed, up to 1 km²", 1e6)
+    )
 
 
 @public

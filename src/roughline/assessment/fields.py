@@ -56,6 +56,11 @@ class Field:
         return self.of not in ("Question", "Reading", "Preparation")
 
     @property
+    def first_flag(self) -> str:
+        """The flag by which the command line calls it first."""
+        return self.flag.partition(",")[0]
+
+    @property
     def is_switch(self) -> bool:
         """Whether the command line has it as a flag without a value."""
         return any(value is True for value, _ in self.choices.values())
@@ -66,6 +71,15 @@ class Field:
         if self.separator and not isinstance(value, str):
             inside = ", ".join(map(repr, value))
         return f"rl.{self.of}({inside})"
+
+    def in_command(self, value: Any, text: str) -> list[str]:
+        """Write a value, which was read from a text, as words of the command line."""
+        flag = self.first_flag
+        if not self.is_switch:
+            texts = value if self.separator else [text]
+            return [word for each in texts for word in (flag, each)]
+        can_be_left = any(each is None for each, _ in self.choices.values())
+        return [flag] if value else [flag.replace("--", "--no-")] * can_be_left
 
     def value(self, given: Any) -> Any:
         """Read what was given: texts are read, and all else is the value itself."""
@@ -92,7 +106,10 @@ def _blur(text: str) -> float:
     """Read a standard deviation; none has no unit. [m]"""
     from roughline.units import in_si
 
-    return in_si("0 m" if text == "0" else text, "m", "blur")
+    blur = in_si("0 m" if text == "0" else text, "m", "blur")
+    if not 0 <= blur < math.inf:
+        refuse("blur", text, "a length from 0 on is needed")
+    return blur
 
 
 def _crop(text: str) -> tuple[float, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -65,12 +65,14 @@ def as_si(given: float | str, unit: str, name: str) -> float:
     return number(name, given, needed)
 
 
-def quantity(unit: str, name: str, needed: str) -> Callable[[Any], float]:
-    """A reader of a positive, finite quantity in an SI unit."""
+def quantity(
+    unit: str, name: str, needed: str, most: float = sys.float_info.max
+) -> Callable[[Any], float]:
+    """A reader of a positive, finite quantity in an SI unit, up to the largest."""
 
     def read(given: Any) -> float:
         value = as_si(given, unit, name)
-        if not 0 < value < math.inf:
+        if not 0 < value <= most:
             refuse(name, given, needed)
         return value
 

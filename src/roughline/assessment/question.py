@@ -412,6 +412,8 @@ class Question:
                 f"which has {engineering(body.area, 'm²')}: crop the map, or leave "
                 f"{called('rl.Joint')} out"
             )
+        else:
+            self._refuse_far_attraction(min(body.sizes))
         for ratio, text in self.strains(body):
             if ratio > 1:
                 raise InputError(
@@ -420,6 +422,23 @@ class Question:
                 )
         if self.theories and not has_spectrum(body):
             raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
+
+    def _refuse_far_attraction(self, side: float) -> None:
+        """Refuse bodies that pull each other farther, or more, than a body of a side [m] stands."""
+        if self.attraction is None:
+            return
+        reach, work = self.attraction.range or 0.0, self.attraction.work
+        adhesion, of_side = called("rl.Adhesion"), f"the shorter side, {engineering(side, 'm')}"
+        if reach > side:
+            text = f"the range of {adhesion}, {engineering(reach, 'm')}, is longer than {of_side}"
+        elif work > self.modulus * side:
+            text = (
+                f"the work of {adhesion}, {engineering(work, 'J')}/m², is more than the contact "
+                f"modulus times {of_side}"
+            )
+        else:
+            return
+        raise InputError(f"{text}: give a smaller one, and check its unit", None, "adhesion")
 
     def refuse_thin_layers(self, surface: Surface) -> None:
         """Refuse layers that the grid of a surface does not resolve."""

@@ -123,11 +123,6 @@ def press_command(
         raise InputError("a report, reflection and partial slip need two --materials")
     if report is not None and not told.get("loads"):
         raise InputError('a report needs a --load, such as "10 N"')
-    if told.get("friction") is not None and report is None and not json:
-        raise InputError(
-            "partial slip (--friction) is written to the report and to JSON only: give --report or "
-            "--json"
-        )
     against = told.get("against")
     if against is not None and not os.path.isfile(against):  # noqa: PTH113 - of a name too long, too
         refuse("against", against, "no such file: give a file with a topography")
@@ -136,6 +131,11 @@ def press_command(
         {**told, "whole_curve": report is not None},
         fields=report is not None or out is not None,
     )
+    if question.friction is not None and report is None and not json:
+        raise InputError(
+            "partial slip (--friction) is written to the report and to JSON only: give --report or "
+            "--json"
+        )
     unfolded_by = "" if everything else "--all"
     if export_table is not None:
         from roughline.report.finite_elements import checked_table

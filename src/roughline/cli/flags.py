@@ -28,7 +28,7 @@ FLAGS = Words(
     {
         **{name: f"--{name.replace('_', '-')}" for name in _SPELLED},
         **_OTHERS,
-        **names_by(lambda field: field.flag.partition(",")[0]),
+        **names_by(lambda field: field.first_flag),
     },
     shlex.quote,
 )

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import warnings
+from bisect import bisect_left
 from dataclasses import dataclass
 
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.computing.memory import refuse_beyond_memory
+from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
 from roughline.errors import InputError, PreparationWarning
 from roughline.errors.checks import as_number, flag, is_whole, positive, refuse, several
 from roughline.errors.public import public
@@ -33,6 +34,7 @@ _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
 _SPIKE = 5.0  # times the scatter of neighbours
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _STEPS_NEED = {1: 14, 2: 9}  # heights at once for each, of lines and of surfaces, resampling aside
+_MOST = 10**9  # points along a side that are thought of
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
 
 
@@ -131,9 +133,22 @@ class Preparation:
             wanted = _wanted(body, self.points)
             most = _resampling_needs(shape, wanted)
             if most > needed:
-                needed, advice = most, "resample to fewer points"
+                advice = f"resample to fewer points{_allowed(body, max(wanted), needed)}"
+                needed = most
                 what += f" and resampling to {_times(wanted)}"
         refuse_beyond_memory(8 * needed, f"preparing {what} points", advice)
+
+
+def _allowed(body: Body, too_many: int, needed: int) -> str:
+    """Say to how many points a body may be resampled, if its other steps fit into memory."""
+
+    def fits(points: int) -> bool:
+        resampling = _resampling_needs(body.heights.shape, _wanted(body, points))
+        return fits_into_memory(8 * max(needed, resampling))
+
+    thought_of = range(2, min(too_many, _MOST))
+    most = bisect_left(thought_of, True, key=lambda points: not fits(points)) + 1
+    return f", up to {most} along the longer side" if most > 1 else ""
 
 
 @public

@@ -161,9 +161,11 @@ class Adhesion(Physics):
 
     def in_python(self, state: ExploreState) -> tuple[str, str, str]:
         """The law, both ways, and what pulls the bodies apart."""
+        work = f"{as_code(self.w)} * E_star * surface.rms_height**2 / length"
+        reach = f"{as_code(self.h0)} * surface.rms_height"
         before = (
-            f"work = {as_code(self.w)} * E_star * surface.rms_height**2 / length  # J/m²\n"
-            f"h_0 = {as_code(self.h0)} * surface.rms_height  # m\n"
+            f"work = {state.in_python('w', 'J/m**2', work)}  # J/m²\n"
+            f"h_0 = {state.in_python('h0', 'm', reach)}  # m\n"
             "law = rl.Dugdale(work_of_adhesion=work, range=h_0)\n"
         )
         arguments = "law=law, forces=[force, 2 * force, force, 0.0]"
@@ -172,9 +174,10 @@ class Adhesion(Physics):
     def in_command(self, state: ExploreState) -> tuple[list[str], str]:
         """The law."""
         settings = self.law(state).settings
-        work, reach = (as_code(float(settings[name])) for name in ("work_of_adhesion", "range"))
+        work = state.in_words("w", "J/m^2", float(settings["work_of_adhesion"]))
+        reach = state.in_words("h0", "m", float(settings["range"]))
         left_out = "the way back and the pull-off need two materials"
-        return ["--adhesion", f"{work} J/m^2 over {reach} m"], left_out
+        return ["--adhesion", f"{work} over {reach}"], left_out
 
 
 _IN_PYTHON = """print("area_fraction_corrected, way back", curve.area_fraction_corrected[2])

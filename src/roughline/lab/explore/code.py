@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import shlex
+from itertools import chain
 
 import roughline as rl
+from roughline.assessment.fields import FIELDS
 from roughline.lab.controls import as_code
 from roughline.lab.explore.reading import state_in
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Arguments, Progress
+
+_FLAGS = {each.name: each.first_flag for each in FIELDS}
 
 
 def code(arguments: Arguments, progress: Progress) -> bytes:
@@ -27,21 +31,27 @@ def _as_python(state: ExploreState) -> str:
         lines, answers, forces = lines + before, answers + after, arguments or forces
     is_layered = not isinstance(state.half_space, rl.Homogeneous)
     over_base = " * half_space.E_star / E_star" if is_layered else ""  # else over that of the layer
+    load = state.typed("F")
+    over = f"{as_code(state.F)} * E_star * surface.rms_height * surface.length"
+    force = f"load_in_newtons({load!r}, surface.area)" if load else over
+    roll_off = state.in_python("roll_off", "m", f"({as_code(state.roll_off)} * length)")
+    cutoff = state.in_python("cutoff", "m", f"({as_code(state.cutoff_used)} * length)")
     return f"""import math
 
 import roughline as rl
+from roughline.units import in_si{", load_in_newtons" if load else ""}
 
-length = {as_code(state.length)}  # m
-E_star = {as_code(state.E_star)}  # Pa
+length = in_si({state.L!r}, "m", "length")
+E_star = in_si({state.E!r}, "Pa", "E_star")
 spectrum = rl.SelfAffine(
     fractal_dimension={as_code(state.D_f)},
     length=length,
-    rms_height={as_code(state.rms_height)},
-    q_roll=2 * math.pi / ({as_code(state.roll_off)} * length),
-    q_high=2 * math.pi / ({as_code(state.cutoff_used)} * length),
+    rms_height={state.in_python("h", "m", as_code(state.rms_height))},  # m
+    q_roll=2 * math.pi / {roll_off},
+    q_high=2 * math.pi / {cutoff},
 )
 surface = spectrum.surface(n={state.n}, rng={state.seed})
-force = {as_code(state.F)} * E_star * surface.rms_height * surface.length  # N
+force = {force}  # N
 {lines}curve = rl.press(surface, {state.body_as_code}, {forces}, fields=[0])
 
 print("stiffness_bar", curve.stiffness_bar[0]{over_base})
@@ -52,24 +62,29 @@ print("depth over rms height", curve.depth[0] / surface.rms_height)
 
 def _as_command(state: ExploreState) -> str:
     """Commands that write the surface to a file, and press it."""
-    generate = [
-        *("roughline", "generate", "--out", "surface.nc"),
-        *("--length", f"{as_code(state.length)} m"),
-        *("--rms-height", f"{as_code(state.rms_height)} m"),
-        *("--fractal-dimension", as_code(state.D_f)),
-        *("--roll-off", f"{as_code(state.roll_off * state.length)} m"),
-        *("--cutoff", f"{as_code(state.cutoff_used * state.length)} m"),
-        *("--points", str(state.n), "--seed", str(state.seed)),
-    ]
-    press = ["roughline", "press", "surface.nc", "--load", f"{as_code(state.force(state.F))} N"]
-    without = []
+    side, in_words = state.length, state.in_words
+    generate = {
+        "--out": "surface.nc",
+        "--length": state.L,
+        "--rms-height": in_words("h", "m", state.rms_height),
+        "--fractal-dimension": as_code(state.D_f),
+        "--roll-off": in_words("roll_off", "m", state.roll_off * side),
+        "--cutoff": in_words("cutoff", "m", state.cutoff_used * side),
+        "--points": str(state.n),
+        "--seed": str(state.seed),
+    }
+    bodies = {"materials": ", ".join(state.materials)} if state.materials else {"E_star": state.E}
+    press = bodies | {"loads": in_words("F", "N", state.force(state.F))}
+    words, without = [], []
     for each in state.added:
         arguments, left_out = each.in_command(state)
-        press += arguments
+        words += arguments
         without += [f"# {left_out}: take it as Python"] if left_out else []
-    bodies = state.materials
-    modulus = ["--modulus", f"{as_code(state.E_star)} Pa"]
-    press += ["--materials", ", ".join(bodies)] if bodies else modulus
-    press += ["--periodic"] if state.periodic else []
-    lines = [shlex.join(generate), shlex.join(press), *without]
+    words += [_FLAGS["periodic"]] if state.periodic else []
+    flags = chain.from_iterable((_FLAGS[name], text) for name, text in press.items())
+    lines = [
+        shlex.join(["roughline", "generate", *chain(*generate.items())]),
+        shlex.join(["roughline", "press", "surface.nc", *flags, *words]),
+        *without,
+    ]
     return "".join(f"{line}\n" for line in lines)

@@ -36,7 +36,8 @@ def usable_state(arguments: Arguments) -> tuple[ExploreState, dict[str, str]]:
 
 def state_in(arguments: Arguments) -> ExploreState:
     """The state that a page asks about, all of whose texts can be used."""
-    return state_of(texts_of(arguments), arguments["session"]["max_points"])
+    texts = texts_of(arguments)
+    return replace(state_of(texts, arguments["session"]["max_points"]), said=texts)
 
 
 def state_of(said: Texts, most_points: int) -> ExploreState:
@@ -49,7 +50,7 @@ def state_of(said: Texts, most_points: int) -> ExploreState:
     ControlError
         If the version is another, or a text cannot be used; it says at which control.
     """
-    known = {each.name for each in fields(ExploreState)} - {"added"}
+    known = {each.name for each in fields(ExploreState)} - {"added", "said"}
     refuse_strange(said, {*known, *(each.key for each in physics.PHYSICS), *physics.numbers(), "H"})
     state = ExploreState(
         D_f=_dimension(said.get("D_f"), said.get("H")),

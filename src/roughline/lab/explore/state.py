@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import Any, ClassVar, Literal, Self
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.errors.checks import shown
-from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_text
+from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_code, as_text, has_unit
 from roughline.lab.explore.controls import CHOICES, NUMBERS, Quantity
 from roughline.lab.explore.panels import Filled, Panel, Series
 from roughline.lab.maps import Map
@@ -151,6 +151,7 @@ class ExploreState:
     E: str = "110 GPa"  # contact modulus
     theories: tuple[str, ...] = ()  # drawn beside the curve
     added: tuple[Physics, ...] = ()
+    said: Mapping[str, str] = field(default_factory=dict, compare=False)  # texts, as typed
 
     @property
     def length(self) -> float:
@@ -220,6 +221,21 @@ class ExploreState:
             return "half_space=half_space"
         return "E_star=E_star, periodic=True" if self.periodic else "E_star=E_star"
 
+    def typed(self, key: str) -> str:
+        """A text with a unit as it was typed, if it counts; else none."""
+        text = self.said.get(key, "").strip()
+        counts = {"h": self.rms == "height", "cutoff": self.cutoff == self.cutoff_used}
+        return text if has_unit(text) and counts.get(key, True) else ""
+
+    def in_python(self, key: str, unit: str, otherwise: str) -> str:
+        """A quantity in Python, as it was typed if it had a unit."""
+        text = self.typed(key)
+        return f"in_si({text!r}, {unit!r}, {key!r})" if text else otherwise
+
+    def in_words(self, key: str, unit: str, value: float) -> str:
+        """A quantity with its unit, as it was typed if it had one."""
+        return self.typed(key) or f"{as_code(value)} {unit}"
+
     @property
     def measures(self) -> tuple[rl.Measure, ...]:
         """What is measured of every load."""
@@ -263,7 +279,7 @@ class ExploreState:
 
     def texts(self) -> dict[str, str]:
         """All that is set, as texts by the keys of the controls."""
-        names = [each.name for each in fields(self) if each.name != "added"]
+        names = [each.name for each in fields(self) if each.name not in ("added", "said")]
         texts = {name: _in_address(getattr(self, name)) for name in names}
         for each in self.added:
             texts |= {each.key: each.word} | {k: as_text(v) for k, v in each.numbers.items()}

@@ -125,14 +125,18 @@ class Yielding(Physics):
 
     def in_python(self, state: ExploreState) -> tuple[str, str, str]:
         """The hardness, and the way back."""
-        bar = as_code(self.hardness_bar)
+        over = f"{as_code(self.hardness_bar)} * E_star * surface.rms_slope"
         path = f"[force * share for share in {(1.0, *UNLOADING)}]"  # the last ones unload
-        before = f"hardness = {bar} * E_star * surface.rms_slope  # Pa\n"
+        before = f"hardness = {state.in_python('hardness_bar', 'Pa', over)}  # Pa\n"
         return before, f"hardness=hardness, forces={path}", _IN_PYTHON
 
     def in_command(self, state: ExploreState) -> tuple[list[str], str]:
         """The hardness, and the way back."""
-        return ["--hardness", f"{as_code(self.hardness(state))} Pa", "--unload"], ""
+        return [
+            "--hardness",
+            state.in_words("hardness_bar", "Pa", self.hardness(state)),
+            "--unload",
+        ], ""
 
 
 def _unloading(pressed: rl.Curve) -> NDArray[np.float64]:

@@ -11,13 +11,13 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.fields import Field, asked_fields
+from roughline.assessment.fields import FIELDS, asked_fields
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.reading import Reading
 from roughline.assessment.told import told_of
 from roughline.errors.words import speaking
+from roughline.lab.controls import is_number
 from roughline.lab.frames import frame
-from roughline.lab.measured import controls as c
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.kept import digest
 from roughline.lab.measured.state import (
@@ -82,50 +82,63 @@ def _names(said: Said, arguments: Arguments) -> list[str]:
 
 @speaking(CONTROLS)
 def code(arguments: Arguments, progress: Progress) -> bytes:
-    """Lines of Python, or a command, that answer the same question for the file."""
-    said = said_of(arguments)
+    """Lines of Python, or commands, that answer the same question for the file."""
+    said, is_python = said_of(arguments), arguments.get("which") == "python"
     question_of(said, source_of(said, arguments["session"]))  # refuses what cannot be asked
-    write = as_python if arguments.get("which") == "python" else as_command
-    return frame({"text": write(said, _names(said, arguments))})
+    text = (as_python if is_python else as_command)(said, _names(said, arguments))
+    if key := said.get("example"):
+        text = (_EXAMPLE_IN_PYTHON if is_python else _EXAMPLE_IN_COMMAND).format(key) + text
+    return frame({"text": text})
+
+
+_EXAMPLE_IN_PYTHON = """from pathlib import Path
+
+from roughline.lab.measured.examples import path_of
+
+path_of("{}", Path())  # writes the file of the example
+
+"""
+_EXAMPLE_IN_COMMAND = "python -m roughline.lab.measured.examples {}\n"
+
+
+def _told(said: Said) -> dict[str, Any]:
+    """All that is told, by the names of fields, as it was typed."""
+    materials = said.get("first"), said.get("second")
+    by_modulus = said.get("bodies") == "modulus"
+    return ({"E_star": said["E"]} if by_modulus else {"materials": materials}) | told_in(said)
 
 
 def as_command(said: Said, names: Sequence[str]) -> str:
     """The command that writes the same report on one file, or on several maps of a part."""
-    words = ["roughline", "press", *names]
-    if said.get("bodies") == "modulus":
-        words += ["--modulus", said["E"]]
+    words = ["roughline", "press", *(f"./{name}" if name[0] == "-" else name for name in names)]
+    told = _told(said)
+    for field in FIELDS:
+        value, text = told.get(field.name), said.get(field.control, "")
+        if field.name == "materials" and value:
+            text = ", ".join(value)
+        elif field.name == "E_star":
+            text = said.get("E", "")
+        elif field.kind is float and not is_number(text):
+            text = str(value)
+        if value is not None and text:
+            words += field.in_command(value, text)
+    if "materials" in told and told.get("loads"):
+        words += ["--report", "report"]
     else:
-        words += ["--materials", f"{said['first']}, {said['second']}"]
-    told = told_in(said)
-    for key, field in c.BY_CONTROL.items():
-        value, flag = told.get(field.name), field.flag.partition(",")[0]
-        if key not in said or value is None:
-            continue
-        if field.is_switch:
-            words += [flag] if value else [flag.replace("--", "--no-")] * (None in _values(field))
-        elif field.separator:
-            words += [word for each in value for word in (flag, each)]
-        else:
-            words += [flag, f"{value:g}" if field.kind is float else said[key]]
-    has_report = said.get("bodies") != "modulus" and loads_of(said)
-    words += ["--report", "report"] if has_report else ["--out", "curve"]
+        words += ["--out", "curve"] + ["--json"] * ("friction" in told)  # which tables leave out
     return shlex.join(words)
 
 
 def as_python(said: Said, names: Sequence[str]) -> str:
     """Lines that answer the same question."""
     is_part = len(names) > 1
-    question = [f"[{', '.join(map(repr, names))}]" if is_part else repr(names[0])]
-    if said.get("bodies") == "modulus":
-        question.append(f"E_star={said['E']!r}")
-    else:
-        question.append(f"materials=({said['first']!r}, {said['second']!r})")
-    told = told_in(said) | {"whole_curve": bool(loads_of(said))}
+    told = _told(said) | {"whole_curve": bool(loads_of(said))}
     written = {
         name: value
         for name, value in told.items()
         if value is not None and value != [] and (value is not False or name == "grid_error")
     }
+    question = [f"[{', '.join(map(repr, names))}]" if is_part else repr(names[0])]
     question += [f"{name}={value!r}" for name, value in told_of("Question", written).items()]
     if asked := [each.in_python(written[each.name]) for each in asked_fields(written)]:
         question.append(f"ask=[{', '.join(asked)}]")
@@ -148,8 +161,3 @@ for note in result.remarks:
 for answer in result.answers.values():
     print(answer.name, answer.symbol, {values}, answer.unit, answer.low, answer.high)
 {end}"""
-
-
-def _values(field: Field) -> list[Any]:
-    """Values that may be chosen."""
-    return [value for value, _ in field.choices.values()]

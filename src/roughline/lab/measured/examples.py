@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -124,3 +125,6 @@ EXAMPLES = {
     ),
 }
 """By their keys in the address."""
+
+if __name__ == "__main__":
+    path_of(sys.argv[1], Path())

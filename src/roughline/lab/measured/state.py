@@ -278,7 +278,7 @@ def _points(text: str) -> int:
     if not (text.isascii() and text.isdecimal()) or not 2 <= int(text[:20]) <= c.MOST_POINTS:
         raise ControlError(
             f'points to resample to is "{text[:40]}"; give a whole number from 2 to '
-            f"{c.MOST_POINTS}",
+            f"{c.MOST_POINTS}, the most that this lab resamples to",
             "resample",
         )
     return int(text)

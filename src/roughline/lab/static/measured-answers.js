@@ -11,7 +11,7 @@ const VERDICTS = {confirmed: "good", refuted: "error", undecided: "doubt"};
 
 export class Answers {
   #link; #view; #part; #waiting = {}; #contact = null; #arrays = {};
-  #answered = null; // what was set for the answers that are shown
+  #answered = null; // what was asked for the answers that are shown
   #asked = recall("asked") ?? {}; // what was asked or is shown, for when the page is loaded again
   pictures = null;
 
@@ -30,7 +30,7 @@ export class Answers {
     view.find("[data-report]").addEventListener("click", () => this.#report());
     for (const button of view.findAll("[data-code]")) button.addEventListener("click", () => this.#code(button));
     view.find("[data-shown]").addEventListener("change", () => this.#drawField());
-    view.find("[data-part-map]").addEventListener("change", ({target}) => this.#press({map: Number(target.value)}));
+    view.find("[data-part-map]").addEventListener("change", ({target}) => this.#press({...this.#seen, map: Number(target.value)}));
     view.find("[data-copy]").addEventListener("click", ({target}) => copy(view.find("[data-code-dialog] pre").textContent, target));
   }
 
@@ -49,10 +49,11 @@ export class Answers {
 
   // Something was set: what is shown may be of what was set before.
   changed() {
-    const isOther = this.#answered !== null && this.#answered !== this.#view.settings;
+    const isOther = this.#answered !== null && this.#answered.settings !== this.#view.settings;
     this.#view.find("[data-changed]").hidden = !isOther;
     this.#view.find('[data-result="answers"]').classList.toggle("dimmed", isOther || this.#link.isWaiting("measured answers"));
-    if (this.#asked.report?.settings !== this.#view.settings) this.#view.find("[data-links]").replaceChildren();
+    const {settings} = this.#answered ?? this.#asked.answers ?? {};
+    if (this.#asked.report?.settings !== settings) this.#view.find("[data-links]").replaceChildren();
   }
 
   forget() {
@@ -110,16 +111,22 @@ export class Answers {
     return {state, settings, ...given};
   }
 
-  // Press the body, or all maps of a part, of which one is shown alone.
-  #press(given = {}) {
-    this.#view.find('[data-result="answers"]').classList.add("dimmed");
-    const asked = this.#now({map: 0, ...given});
-    this.#ask("measured.answer", "answers", asked, (answer) => this.#show(answer, asked.settings));
+  // What the answers that are shown were asked of, and without any what is set; answers of another file are forgotten.
+  get #seen() {
+    const {state: {file, example}} = this.#view, {state, settings} = this.#answered ?? this.#view;
+    return {state: {...state, file, example}, settings};
   }
 
-  #show(answer, settings) {
+  // Press the body, or all maps of a part, of which one is shown alone.
+  #press(given = {}, then = () => {}) {
+    this.#view.find('[data-result="answers"]').classList.add("dimmed");
+    const asked = this.#now({map: 0, ...given});
+    this.#ask("measured.answer", "answers", asked, (answer) => { this.#show(answer, asked); then(); });
+  }
+
+  #show(answer, asked) {
     const view = this.#view;
-    this.#answered = settings;
+    this.#answered = asked;
     view.find('[data-empty="answers"]').hidden = true;
     view.find('[data-result="answers"]').hidden = false;
     this.changed();
@@ -161,8 +168,9 @@ export class Answers {
     });
   }
 
-  #report(given = {}) {
-    const asked = this.#now(given);
+  // Write the report of the answers that are shown; without any press first.
+  #report(asked = this.#answered && this.#seen) {
+    if (!asked) { this.#press({}, () => this.#report()); return; }
     this.#ask("measured.report", "report", asked, ({files}) => {
       this.#note("report", {...asked, files});
       this.#showLinks(files);
@@ -180,7 +188,7 @@ export class Answers {
   }
 
   #code(button) {
-    this.#link.ask("measured.code", "measured code", {state: this.#view.state, which: button.dataset.code}, {
+    this.#link.ask("measured.code", "measured code", {state: this.#seen.state, which: button.dataset.code}, {
       answer: ({text}) => {
         this.#view.find("[data-code-dialog] pre").textContent = text;
         openDialog(this.#view.find("[data-code-dialog]"), button);

@@ -258,6 +258,9 @@ class Measured {
         this.#write();
         this.refuse("", "file");
         this.#showAsked(read);
+        Object.assign(this.find("[data-example-file]"), {
+          hidden: !example, href: `/results/${this.#link.session}/${read.name}?save=1`, download: read.name,
+        });
         this.#settle("file", asked, read.refused, OF_READING);
         for (const name of ["file", "map"]) this.showResult(name, true);
         this.find("[data-name]").textContent = read.name;
