@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.errors.remark import grave_first
 from roughline.report.page import Headline, KeyFigure, sentence
 from roughline.report.values import with_interval
 from roughline.units import decimal, engineering
@@ -87,7 +88,9 @@ def headline(result: Assessment | PartAssessment) -> Headline:
         scatter = scatter_in_words(answer, result.largest)
         below.insert(0, f"places scatter by {scatter} in {answer.name}")
     return Headline(
-        figures, [*map(sentence, result.warnings)], " ".join(map(sentence, filter(None, below)))
+        figures,
+        [*map(sentence, grave_first(result.warnings))],
+        " ".join(map(sentence, filter(None, below))),
     )
 
 
