@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roughline.assessment.fields import FIELDS, FILE, PREPARATION, Field
+from roughline.assessment.fields import FIELDS, FILE, PREPARATION
 from roughline.lab.controls import Choice
 
 MOST_POINTS = 4096
@@ -45,16 +45,10 @@ BEGINS |= {key: field.begins for key, field in BY_CONTROL.items() if field.begin
 KEYS = (*BY_CONTROL, "bodies", *BODIES)
 """Keys of all controls, as in the address."""
 
+STEPS: dict[str, dict[str, list[str]]] = {"preparation": {"": []}, "bodies": {"": []}}
+"""Keys of the controls of the second and the third step by their folds; "" has none."""
 
-def is_prepared(field: Field) -> bool:
-    """Whether a field stands in the second step; what a file leaves open is asked in the first."""
-    return field.group == PREPARATION or (field.group == FILE and not field.is_of_file)
-
-
-def of_step(*, is_preparation: bool) -> dict[str, list[str]]:
-    """Keys of the controls of the second or the third step by their folds; "" has none."""
-    folds: dict[str, list[str]] = {"": []}
-    for key, field in BY_CONTROL.items():
-        if is_prepared(field) if is_preparation else field.group not in (FILE, PREPARATION):
-            folds.setdefault(field.fold, []).append(key)
-    return folds
+for _key, _field in BY_CONTROL.items():
+    _step = "preparation" if _field.group in (FILE, PREPARATION) else "bodies"
+    if _field.group != FILE or not _field.is_of_file:  # what a file leaves open is asked before
+        STEPS[_step].setdefault(_field.fold, []).append(_key)
