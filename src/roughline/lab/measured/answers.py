@@ -103,14 +103,14 @@ def _remarks(result: Assessment | PartAssessment, arguments: Arguments) -> dict[
 
 def _of_body(result: Assessment) -> dict[str, Any]:
     """What is told of one body alone: its modulus, formulas and partial slip."""
-    nothing = [["no answers follow from a contact modulus alone"], []]
+    nothing = (["no answers follow from a contact modulus alone"], list[list[str]]())
     tables = {"measured-formulas": formula_table(result) if result.answers else nothing}
-    slip, rows = result.partial_slip, []
+    slip, rows = result.partial_slip, list[list[str]]()
     if slip is not None:
         some = np.unique(np.linspace(0, slip.force.size - 1, _SLIP_ROWS).astype(int))
         columns = ((slip.displacement, "m"), (slip.force, "N"))
         rows = [[engineering(float(each[i]), unit, 3) for each, unit in columns] for i in some]
-    tables["measured-slip"] = [["displacement", "tangential force"], rows]
+    tables["measured-slip"] = (["displacement", "tangential force"], rows)
     can_report = result.question.pair is not None and bool(result.question.loads)
     words = {"modulus": modulus_in_words(result)}
     return {"words": words, "tables": tables, "can_report": can_report}

@@ -75,45 +75,37 @@ def of_file(found: Description) -> Drawn:
 
 def of_preparation(before: Body, after: Body, crop: Sequence[float] | None) -> Drawn:
     """Heights before and after, with the same units and colours; the piece that is kept [m]."""
-    along = _unit(max(sides_of(before)), 1.0)
-    bodies = {"before": before, "after": after}
-    heights = {name: each.heights - each.heights.mean() for name, each in bodies.items()}
-    up = _unit(_span(heights["before"]), 1.0)
+    along, up = _unit(max(sides_of(before)), 1.0), _unit(_span(_about_mean(before)), 1.0)
     corner = [end * along[0] for end in (crop or (0.0, 0.0, 0.0, 0.0))[::2]]
-    panels, arrays = dict[str, Panel | None](), {}
-    tables = {name: _rows(each.ravel() * up[0], up[1]) for name, each in heights.items()}
-    if not isinstance(after, Surface):
-        names = {"before": "prepared line before", "after": "prepared line after"}
-        panel: Panel = {"sources": {}}
-        for name, each in bodies.items():
-            shift = corner[0] if name == "after" else 0.0
-            part, some = _heights(names[name], heights[name], sides_of(each), along, up, [shift])
-            arrays |= some
-            panel = {**part, "sources": panel["sources"] | part["sources"]}
-        rows = zip(tables["before"], tables["after"], strict=False)
-        panel["table"] = [["heights", "before", "after"], [[*one, other[1]] for one, other in rows]]
-        return {
-            **dict.fromkeys(("measured-before", "measured-after")),
-            "measured-prepared-line": panel,
-        }, arrays
-    ends = [np.percentile(each * up[0], _MOST) for each in heights.values()]
-    span = [min(low for low, _ in ends), max(high for _, high in ends)]
-    for name, each in bodies.items():
-        shift = corner if name == "after" else [0.0, 0.0]
-        panel, some = _heights(name, heights[name], sides_of(each), along, up, shift)
-        panel["map"]["range"] = span
-        panel["table"] = [["heights", ""], tables[name]]
-        panels[f"measured-{name}"], arrays = panel, arrays | some
-        kept = panel["map"]["sizes"]
-    box = {"visible": crop is not None, "left": corner[0], "right": corner[0] + kept[0]}
-    box |= {"bottom": corner[-1], "top": corner[-1] + kept[1]}
-    panels["measured-before"] |= {  # type: ignore[operator]
-        "models": {"crop box": box},
-        "caption": "about the mean, as read; draw a box to keep a piece",
-    }
-    shape = " x ".join(map(str, after.heights.shape))
-    panels["measured-after"] |= {"caption": f"{shape} points"}  # type: ignore[operator]
-    return {**panels, "measured-prepared-line": None}, arrays
+    is_map, drawn, spans = isinstance(after, Surface), list[Panel](), list[_Real]()
+    arrays: dict[str, NDArray[Any]] = {}
+    for name, body in (("before", before), ("after", after)):
+        heights, shift = _about_mean(body), corner if name == "after" else [0.0, 0.0]
+        full = name if is_map else f"prepared line {name}"
+        panel, some = _heights(full, heights, sides_of(body), along, up, shift)
+        panel["table"] = [["heights", ""], _rows(heights.ravel() * up[0], up[1])]
+        spans.append(np.percentile(heights * up[0], _MOST))
+        drawn.append(panel)
+        arrays |= some
+    old, new = drawn
+    hidden: Panel = dict.fromkeys(("measured-before", "measured-after", "measured-prepared-line"))
+    if not is_map:
+        rows = zip(old["table"][1], new["table"][1], strict=True)
+        table = [["heights", "before", "after"], [[*one, other[1]] for one, other in rows]]
+        both = {"sources": old["sources"] | new["sources"], "table": table}
+        return {**hidden, "measured-prepared-line": old | both}, arrays
+    for panel in drawn:
+        panel["map"]["range"] = [min(low for low, _ in spans), max(high for _, high in spans)]
+    width, height = new["map"]["sizes"]
+    box = {"left": corner[0], "right": corner[0] + width, "bottom": corner[1]}
+    old["models"] = {"crop box": {"visible": crop is not None, "top": corner[1] + height, **box}}
+    old["caption"] = "about the mean, as read; draw a box to keep a piece"
+    new["caption"] = f"{' x '.join(map(str, after.heights.shape))} points"
+    return {**hidden, "measured-before": old, "measured-after": new}, arrays
+
+
+def _about_mean(body: Body) -> _Real:
+    return np.asarray(body.heights - body.heights.mean())
 
 
 def _heights(
@@ -132,7 +124,7 @@ def _heights(
         x = corner[0] + _places(heights.size, sizes[0])[::step]
         columns = {"x": f"{name} x", "y": f"{name} heights"}
         source = "file line heights" if name == "file" else name
-        panel = {"sources": {source: columns}, "extent": extent}
+        panel: Panel = {"sources": {source: columns}, "extent": extent}
         panel["axes"] = [f"x [{along[1]}]", f"height [{up[1]}]"]
         return panel, {f"{name} x": x, f"{name} heights": heights[::step] * up[0]}
     unknown = ~np.isfinite(heights)
@@ -155,11 +147,11 @@ def _spectrum(found: Description) -> Panel | None:
     q, power = parameters.spectrum.q[power > 0], power[power > 0]
     label = "C_2d [m⁴]" if isinstance(found.body, Surface) else "C_profile [m³]"
     some = np.unique(np.geomspace(1, q.size, 40).astype(int)) - 1
-    finite = np.isfinite(law[1]) if law is not None else slice(0)
+    waves, kept = ([], []) if law is None else (each[np.isfinite(law[1])] for each in law)
     return {
         "sources": {
             "spectrum": _xy(q, power),
-            "spectrum law": _xy(*(each[finite] for each in law or ([], []))),
+            "spectrum law": _xy(waves, kept),
         },
         "axes": [None, label],
         "caption": "" if fit is None else f"H = {fit.hurst_in_words}",
@@ -222,7 +214,7 @@ def of_contact(
     if not isinstance(surface, Surface):
         return {"measured-topography": None}, {}, {}
     along = _unit(max(surface.sizes), 1.0)
-    heights = surface.heights - surface.heights.mean()
+    heights = _about_mean(surface)
     up = _unit(_span(heights), 1.0)
     topography, arrays = _heights("topography", heights, surface.sizes, along, up)
     topography["caption"] = "heights about their mean"
@@ -239,8 +231,10 @@ def of_contact(
     spots = _marked(fields.contact if few else None, surface.sizes, along[0], heights)
     marks = fields.contact.astype(np.uint8) + fields.plastic
     yields = ["plastic"] if result.curve.hardness is not None else []
-    area = {"palette": "marks", "caption": "", "marks": ["ink", *yields], "unit": ""}
-    looks = {"area": area | {"low": 0, "high": 2}}
+    looks: dict[str, dict[str, Any]] = {
+        "area": {"palette": "marks", "caption": "", "marks": ["ink", *yields], "unit": ""}
+    }
+    looks["area"] |= {"low": 0, "high": 2}
     arrays["area"] = any_marked(marks).T
     rows = [["contact", load]]
     for name, values, unit, caption, palette in (
