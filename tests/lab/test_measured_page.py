@@ -68,6 +68,56 @@ def test_an_example_is_answered_for(answered):
     assert answered.is_visible("#plot-measured-contact")
 
 
+STEPS = ("preparation", "bodies", "answers")
+
+
+def is_open(page, step):
+    return page.get_attribute(f"#measured-step-{step}", "open") is not None
+
+
+def test_steps_that_wait_are_one_line_which_opens_by_key_and_by_touch(pages):
+    page = pages.open("?view=measured", has_touch=True)
+    page.wait_for_selector(CONNECTED)
+    for step, line in zip(STEPS, ("tilt removed", "steel on copper", "choose a file"), strict=True):
+        folded = page.locator(f"#measured-step-{step}")
+        assert folded.bounding_box()["height"] < 70
+        assert line in folded.locator("summary").first.inner_text()
+    page.focus("#measured-step-preparation > summary")
+    page.keyboard.press("Enter")
+    assert page.is_visible("#measured-low_pass-text")
+    page.fill("#measured-low_pass-text", "2 um")
+    page.press("#measured-low_pass-text", "Tab")
+    page.locator("#measured-step-preparation .line", has_text="low pass 2 um").wait_for()
+    page.locator("#measured-step-bodies > summary").tap()
+    assert page.is_visible("#measured-first-text")
+    page.reload()
+    page.wait_for_selector(CONNECTED)
+    assert [is_open(page, step) for step in STEPS] == [True, True, False]
+    assert page.input_value("#measured-low_pass-text") == "2 um"
+    page.context.close()
+
+
+def test_what_is_grave_stands_above_the_figures_and_the_press_shows_its_answer(pages):
+    page = pages.open("?view=measured", height=1000)
+    page.click(LINE_SCAN)
+    page.wait_for_selector("[data-press]:not([disabled])")
+    assert [is_open(page, step) for step in STEPS] == [False, True, False]
+    window = page.viewport_size["height"]
+    assert page.locator("[data-press]").bounding_box()["y"] < window - 30
+    page.click("[data-press]")
+    grave = page.locator("#measured .grave[role=alert]")
+    grave.filter(has_text="these elastic answers do not hold").wait_for()
+    figures = page.locator('[data-figures="answers"] dl')
+    assert grave.bounding_box()["y"] < figures.bounding_box()["y"] < window
+    groups = page.locator("#measured [data-remarks] details")
+    assert groups.count() >= 2
+    assert groups.locator("ul:visible").count() == 0
+    page.click("#measured [data-remarks] summary:has-text('What was done to the data')")
+    assert page.locator("#measured [data-remarks] li:visible").count() > 0
+    assert faint(page) == []
+    page.context.close()
+
+
 def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(pages):
     page = pages.open("?view=measured&v=1&example=ground&resample=64&loads=50+MPa")
     assert not page.is_visible("#measured-fluid-text")
