@@ -16,6 +16,7 @@ import roughline as rl
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import ModelComparison
 from roughline.assessment.description import Description
+from roughline.contact.fields import Fields
 from roughline.lab.maps import flux_map
 from roughline.plot.pixels import any_marked, thinned
 from roughline.report.comparison import comparison_table
@@ -231,23 +232,12 @@ def of_contact(
     spots = _marked(fields.contact if few else None, surface.sizes, along[0], heights)
     marks = fields.contact.astype(np.uint8) + fields.plastic
     yields = ["plastic"] if result.curve.hardness is not None else []
-    looks: dict[str, dict[str, Any]] = {
-        "area": {"palette": "marks", "caption": "", "marks": ["ink", *yields], "unit": ""}
-    }
+    looks, some = _of_fields(fields)
+    looks["area"] = {"palette": "marks", "caption": "", "marks": ["ink", *yields], "unit": ""}
     looks["area"] |= {"low": 0, "high": 2}
-    arrays["area"] = any_marked(marks).T
-    rows = [["contact", load]]
-    for name, values, unit, caption, palette in (
-        ("pressure", fields.pressure, "Pa", "pressure", "Viridis256"),
-        ("gap", np.maximum(fields.gap, 0), "m", "gap", "Cividis256"),  # rounding leaves it below
-        ("displacement", fields.displacement, "m", "deflection of the half-space", "Cividis256"),
-    ):
-        factor, prefixed = prefix(_largest(np.abs(values)), unit)
-        arrays[name] = thinned(values).T * factor
-        high = _largest(values) * factor
-        looks[name] = {"palette": palette, "caption": caption, "low": 0, "high": high or 1.0}
-        looks[name]["unit"] = prefixed
-        rows.append([f"largest {name}", f"{three_digits(high)} {prefixed}"])
+    arrays |= some | {"area": any_marked(marks).T}
+    known = {name: f"{three_digits(each['high'])} {each['unit']}" for name, each in looks.items()}
+    largest = [[f"largest {name}", told] for name, told in known.items() if name != "area"]
     if result.flows:  # along the leakier of the directions that are asked
         flow = max(result.flows, key=lambda each: each.hydraulic_aperture)
         arrays["flux"], looks["flux"] = _flux(flow, topography["map"]["sizes"])
@@ -262,11 +252,26 @@ def of_contact(
             "caption": look["caption"],
             "marks": look.get("marks", []),
             "more": told,
-            "table": [["quantity", "value"], rows],
+            "table": [["quantity", "value"], [["contact", load], *largest]],
         }
-        for name, look in looks.items()
+        for name, look in sorted(looks.items(), key=lambda each: each[0] != "area")
     }
     return {"measured-topography": topography}, panels, arrays
+
+
+def _of_fields(fields: Fields) -> tuple[dict[str, dict[str, Any]], dict[str, NDArray[Any]]]:
+    """How the fields of a contact are drawn, and their arrays."""
+    looks, arrays = {}, {}
+    for name, values, unit, caption, palette in (
+        ("pressure", fields.pressure, "Pa", "pressure", "Viridis256"),
+        ("gap", np.maximum(fields.gap, 0), "m", "gap", "Cividis256"),  # rounding leaves it below
+        ("displacement", fields.displacement, "m", "deflection of the half-space", "Cividis256"),
+    ):
+        factor, prefixed = prefix(_largest(np.abs(values)), unit)
+        arrays[name] = thinned(values).T * factor
+        look = {"palette": palette, "caption": caption, "unit": prefixed}
+        looks[name] = {**look, "low": 0, "high": _largest(values) * factor or 1.0}
+    return looks, arrays
 
 
 def _flux(flow: rl.Flow, sizes: Sequence[float]) -> tuple[NDArray[Any], dict[str, Any]]:
