@@ -206,6 +206,8 @@ def test_refused_controls_of_my_surface_leave_the_others_alive(pages, rough):
     page.set_input_files("#measured [data-file]", rough)
     page.click("[data-press]:not([disabled])", trial=True)
 
+    page.click("#measured-step-preparation > summary")
+
     def typed_in(key, text):
         field = page.locator(f'#measured [data-text="{key}"]')
         if not field.is_visible():

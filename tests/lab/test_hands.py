@@ -81,6 +81,7 @@ def opened(pages, view, file, **context):
         settled(page, points=64)
     elif view == "measured":
         page.set_input_files("#measured [data-file]", file)
+        page.click("#measured-step-preparation > summary")
         page.click("[data-press]:not([disabled])")
         page.wait_for_selector('[data-table="measured-answers"] tbody tr')
         page.click("[data-compare]")

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -31,7 +32,9 @@ from roughline.report.answers import answer_table
 from roughline.report.comparison import comparison_table, verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table
 from roughline.report.description_table import description_table
+from roughline.report.page import sentence
 from roughline.report.part_tables import leading_table, maps_table
+from roughline.report.values import in_three_digits
 
 PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
 SMALL = {"resample": "64"}
@@ -41,6 +44,16 @@ NEEDING = {
 }
 """Controls that need two materials."""
 RANDOM = "3f9a0c5d7e2b4a61"  # as an upload lies on the disk
+
+
+def in_answers(assessment):
+    """The table of the answers, written as on the page."""
+    return answer_table(assessment, with_elastic=True, write=in_three_digits)
+
+
+def contact_of(header, shown):
+    """The panel of the contact that shows something."""
+    return header["choices"]["measured-contact"][shown]
 
 
 class Page:
@@ -117,30 +130,30 @@ def measured_page(tmp_path_factory, topographies):
 def test_examples_say_all_that_is_needed_and_are_always_the_same(page, tmp_path, key):
     header, arrays = page.ask("look", {"example": key})
     assert header["asks"] == {"unit": False, "size": False, "channels": []}
-    assert header["obstacles"] == []
+    assert header["lists"]["obstacles"] == []
     first = rl.read(path_of(key, tmp_path / "one"))
     again = rl.read(path_of(key, tmp_path / "two"))
     np.testing.assert_array_equal(first.heights, again.heights)
-    assert arrays["body heights"].size == first.heights.size
+    assert arrays["file heights"].size == np.prod(header["body"]["points"]) == first.heights.size
 
 
 def test_the_ground_example_has_tilt_missing_points_and_spikes(page):
     header, arrays = page.ask("look", {"example": "ground"})
     heights = arrays["file heights"]
-    assert np.isnan(heights).sum() == header["missing"] > 100
-    assert header["file"]["spikes"]["count"] == 7
+    assert np.isnan(heights).sum() > 100
+    assert len(header["panels"]["measured-file"]["sources"]["file spikes"]["x"]) == 7
     assert np.nanmean(heights[:, -20:]) - np.nanmean(heights[:, :20]) > 1  # of the tilt [µm]
-    assert any("7 spikes kept" in each for each in header["remarks"])
+    assert any("7 spikes kept" in each for each in header["lists"]["remarks"])
     removed, _ = page.ask("prepare", {"example": "ground", "outliers": "remove"})
-    assert any("7 spikes removed" in each for each in removed["remarks"])
+    assert any("7 spikes removed" in each for each in removed["lists"]["prepared-remarks"])
 
 
 def test_the_film_example_follows_its_law(page):
     header, _ = page.ask("look", {"example": "film"})
-    found = dict(header["table"])
+    found = dict(header["tables"]["measured-roughness"][1])
     assert found["self-affine"] == "yes"
     assert found["Hurst exponent"].startswith("0.79")
-    assert header["spectrum"]["law"]["q"]
+    assert header["panels"]["measured-spectrum"]["sources"]["spectrum law"]["x"]
 
 
 @pytest.mark.parametrize("key", EXAMPLES)
@@ -154,13 +167,14 @@ def test_answers_are_those_of_the_library(page, key):
     rows = [
         list(table)
         for table in (
-            answer_table(expected, with_elastic=True),
+            in_answers(expected),
             formula_table(expected),
         )
     ]
-    assert [header["answers"], header["formulas"]] == rows
-    assert header["curve"] == list(curve_table(expected))
-    assert header["remarks"] == list(expected.remarks)
+    assert [header["tables"]["measured-answers"][:2], header["tables"]["measured-formulas"]] == rows
+    assert header["panels"]["measured-stiffness"]["table"] == list(curve_table(expected))
+    told = [*header["lists"]["grave"], *chain(*header["remarks"].values())]
+    assert sorted(told) == sorted(map(sentence, expected.remarks))
     assert bool(page.steps) == (expected.fields is not None)  # a line scan is solved at once
     assert page.steps == sorted(page.steps)
     assert len({total for _, total in page.steps}) <= 1
@@ -169,16 +183,13 @@ def test_answers_are_those_of_the_library(page, key):
     if expected.fields is not None:
         marks = expected.fields.contact.astype(int) + expected.fields.plastic
         np.testing.assert_array_equal(arrays["area"].T, marks)
-        largest = (
-            expected.fields.pressure.max() / header["contact"]["fields"]["pressure"]["range"][1]
-        )
+        largest = expected.fields.pressure.max() / contact_of(header, "pressure")["map"]["range"][1]
         np.testing.assert_allclose(
             arrays["pressure"].T * largest, expected.fields.pressure, rtol=1e-6
         )
-    solved = np.array(header["plot"]["stiffness"])
-    assert (
-        np.ptp(solved / expected.curve.stiffness) < 1e-9 * solved[0] / expected.curve.stiffness[0]
-    )
+    solved = header["panels"]["measured-stiffness"]["sources"]["stiffness line"]["y"]
+    ratio = np.array(solved) / expected.curve.stiffness
+    assert np.ptp(ratio) < 1e-9 * ratio[0]
 
 
 LEAKS = {"fluid": "helium", "inlet": "6 bar", "seal": "20 mm .. 24 mm"}
@@ -187,9 +198,9 @@ LEAKS = {"fluid": "helium", "inlet": "6 bar", "seal": "20 mm .. 24 mm"}
 def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page):
     said = {"example": "ground", **PAIR, **SMALL, "loads": "50 MPa"}
     header, arrays = page.ask("answer", {**said, **LEAKS})
-    answers = {row[0]: row[1] for row in header["answers"][1]}
+    answers = {row[0]: row[1] for row in header["tables"]["measured-answers"][1]}
     assert "mbar l/s" in answers["leak rate q_pV"]
-    assert any(figure["name"].startswith("leak rate") for figure in header["figures"])
+    assert any(figure["name"].startswith("leak rate") for figure in header["figures"]["answers"])
     question = question_of({**said, **LEAKS}, source_of({**said, **LEAKS}, page.session))
     fields = rl.assess_body(question).fields_of_gap
     path = question.sealing.free_path  # the gas slips
@@ -197,7 +208,7 @@ def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page):
         rl.flow(fields, along="both", mean_free_path=path),
         key=lambda each: each.hydraulic_aperture,
     )
-    shown, look = arrays["flux"].T, header["contact"]["fields"]["flux"]
+    shown, look = arrays["flux"].T, contact_of(header, "flux")
     np.testing.assert_array_equal(np.isnan(shown), flow.gap == 0)
     width = flow.sizes[1] if flow.along == "x" else flow.sizes[0]
     flux = np.hypot(*flow.flux) * width / flow.inflow
@@ -205,15 +216,13 @@ def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page):
     np.testing.assert_allclose(10 ** shown[flows], flux[flows], rtol=1e-5)
     place = [
         (i + 0.5) / n * size
-        for i, n, size in zip(
-            flow.constriction, flow.gap.shape, header["contact"]["sizes"], strict=True
-        )
+        for i, n, size in zip(flow.constriction, flow.gap.shape, look["map"]["sizes"], strict=True)
     ]
-    assert [look["ring"]["x"][0], look["ring"]["y"][0]] == pytest.approx(place)
+    assert [look["sources"]["contact spikes"][axis][0] for axis in "xy"] == pytest.approx(place)
     direction = "from left to right" if flow.along == "x" else "upwards"
     assert look["caption"].endswith(f"{direction}, the map repeated on all sides")
     without, arrays = page.ask("answer", said)
-    assert "flux" not in without["contact"]["fields"]
+    assert "flux" not in without["choices"]["measured-contact"]
     assert "flux" not in arrays
 
 
@@ -236,8 +245,8 @@ def test_both_models_are_compared_as_by_the_command(page):
     source = source_of(said, page.session)
     expected = compare_models(source.path)
     header, _ = page.ask("compare", said)
-    assert header["table"] == list(comparison_table(expected))
-    assert header["verdict"] == verdict_in_words(expected)
+    assert header["panels"]["measured-models"]["table"] == list(comparison_table(expected))
+    assert header["words"]["verdict"] == sentence(verdict_in_words(expected))
     error, at = page.refusal("compare", {"example": "shaft"})
     assert at == "compare"
     assert "turned-shaft.txt holds a line" in error
@@ -251,12 +260,12 @@ def test_measured_files_are_described_as_by_the_command(measured_page, topograph
     expected = describe(topographies / name)
     for _ in range(2):  # read, and kept
         header, arrays = measured_page.ask("look", said)
-        assert [tuple(row) for row in header["table"]] == description_table(expected)
-        assert header["obstacles"] == list(expected.obstacles)
-        assert header["missing"] == expected.missing.count
+        table = [tuple(row) for row in header["tables"]["measured-roughness"][1]]
+        assert table == description_table(expected)
+        assert header["lists"]["obstacles"] == list(expected.obstacles)
         assert header["body"]["points"] == list(expected.body.heights.shape)
         assert RANDOM not in str(header)
-    assert ("channels" in dict(header["table"])) == bool(header["asks"]["channels"])
+    assert ("channels" in dict(table)) == bool(header["asks"]["channels"])
     assert np.isnan(arrays["file heights"]).any() == bool(expected.missing.count)
 
 
@@ -275,7 +284,7 @@ def test_measured_files_are_answered_for_as_by_the_library(measured_page, topogr
         )
     )
     header, _ = measured_page.ask("answer", {**said, "resample": "96"})
-    assert header["answers"] == list(answer_table(expected, with_elastic=True))
+    assert header["tables"]["measured-answers"][:2] == list(in_answers(expected))
     assert RANDOM not in str(header)
 
 
@@ -283,12 +292,12 @@ def test_what_a_file_leaves_open_is_asked(measured_page):
     said = measured_page.keys["xy-1.txt"]
     header, _ = measured_page.ask("look", said)
     assert header["asks"]["unit"]
-    assert header["obstacles"] == [
+    assert header["lists"]["obstacles"] == [
         'xy-1.txt states no unit; give the unit of its lengths, such as unit "um"'
     ]
     assert header["body"] is None
     header, _ = measured_page.ask("look", {**said, "unit": "um"})
-    assert header["obstacles"] == []
+    assert header["lists"]["obstacles"] == []
     assert header["body"]["sides"][0] == pytest.approx(187.19e-6, rel=1e-3)
     error, at = measured_page.refused("look", {**said, "unit": "parsnip"})
     assert at == "unit"
@@ -298,10 +307,12 @@ def test_what_a_file_leaves_open_is_asked(measured_page):
 def test_a_file_of_which_most_is_missing_is_shown_and_can_be_allowed(measured_page):
     said = measured_page.keys["sur-3.sur"]
     header, arrays = measured_page.ask("look", said)
-    assert "allow more (most missing)" in header["obstacles"][0]
+    assert "allow more (most missing)" in header["lists"]["obstacles"][0]
     assert np.isnan(arrays["file heights"]).mean() == pytest.approx(0.8889, abs=1e-4)
     header, _ = measured_page.ask("look", {**said, "most_missing": "95 %"})
-    assert any("233009 missing points (88.89%) filled" in each for each in header["remarks"])
+    assert any(
+        "233009 missing points (88.89%) filled" in each for each in header["lists"]["remarks"]
+    )
 
 
 def test_an_array_needs_unit_and_size(page, tmp_path):
@@ -310,8 +321,8 @@ def test_an_array_needs_unit_and_size(page, tmp_path):
     said = page.bring(tmp_path / "map.npy", "my <b>map</b>.npy")
     header, arrays = page.ask("look", said)
     assert header["asks"] == {"unit": True, "size": True, "channels": []}
-    assert len(header["obstacles"]) == 2
-    assert header["file"]["along"] == "points"
+    assert len(header["lists"]["obstacles"]) == 2
+    assert header["panels"]["measured-file"]["map"]["along"] == "points"
     np.testing.assert_allclose(arrays["file heights"].T, heights, rtol=1e-6)
     header, _ = page.ask("look", {**said, "unit": "um", "size": "1 mm"})
     assert header["body"]["sides"] == [1e-3, 1e-3]
@@ -325,7 +336,7 @@ def test_an_array_needs_unit_and_size(page, tmp_path):
             reading=rl.Reading(unit="um", sizes="1 mm"),
         )
     )
-    assert answered["answers"] == list(answer_table(expected, with_elastic=True))
+    assert answered["tables"]["measured-answers"][:2] == list(in_answers(expected))
 
 
 def test_damaged_empty_misnamed_and_large_files_are_refused_in_a_sentence(page, tmp_path):
@@ -363,7 +374,7 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
     ("said", "task", "at", "told"),
     [
         ({"first": "steal"}, "bodies", "first", 'did you mean "steel"'),
-        ({"second": ""}, "bodies", "second", "give the second material"),
+        ({"second": ""}, "bodies", "second", 'give the smooth body, such as "copper"'),
         ({"first": "rigid", "second": "rigid"}, "bodies", "second", "must give way"),
         ({"low_pass": "1 km"}, "prepare", "low_pass", "longer than the topography"),
         ({"blur": "1 km"}, "prepare", "blur", "a shorter one is needed"),
@@ -377,7 +388,7 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"friction": "abc"}, "bodies", "friction", "such as 0.3"),
         ({"bodies": "modulus"}, "bodies", "E", 'such as "110 GPa"'),
         ({"bodies": "modulus", "E": "110"}, "bodies", "E", "without a unit"),
-        ({"bodies": "modulus", "E": "-1 Pa"}, "bodies", "E", "give a positive one"),
+        ({"bodies": "modulus", "E": "-1 Pa"}, "bodies", "E", "a positive, finite contact modulus"),
         ({"loads": "10"}, "bodies", "loads", "give a total force"),
         ({"loads": "-3 N"}, "bodies", "loads", "give positive ones"),
         ({"loads": "0,5 N"}, "bodies", "loads", "decimal point"),
@@ -412,9 +423,9 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"crop": "0 um, 1 um"}, "prepare", "crop", "give 4"),
         ({"crop": "0 um, 1 um, 2 um"}, "prepare", "crop", "give from and to along each side"),
         ({"low_pass": "-1 um"}, "prepare", "low_pass", "a positive, finite length"),
-        ({"resample": "1.5"}, "prepare", "resample", "give a whole number"),
+        ({"resample": "1.5"}, "prepare", "resample", "whole numbers of at least 2"),
         ({"trend": "cubic"}, "prepare", "trend", "allowed are"),
-        ({"most_missing": "120%"}, "look", "most_missing", "below 100 %"),
+        ({"most_missing": "120%"}, "look", "most_missing", "from 0 to below 1"),
         ({"v": "7"}, "look", "v", "reads version 1"),
         ({"parsnip": "1"}, "look", "v", "does not know"),
         ({"example": "mars"}, "look", "file", "there is no example"),
@@ -430,12 +441,20 @@ def test_bodies_and_loads_are_said_as_soon_as_they_can_be_read(page):
     said = {**PAIR, "loads": "2 MPa; 10 N"}
     header, _ = page.ask("bodies", said, sides=[1e-3, 0.5e-3])
     pair = rl.contact_modulus(rl.material("steel"), rl.material("copper"))
-    assert header["rows"][0] == ["contact modulus E*", f"{pair / 1e9:.4g} GPa"]
-    assert header["loads"][0].startswith("load 2 MPa: 1 N in all, 2 MPa over the nominal area")
-    assert "20 MPa over" in header["loads"][1]
+    assert header["tables"]["measured-bodies"][1][0] == [
+        "contact modulus E*",
+        f"{pair / 1e9:.3g} GPa",
+    ]
+    assert header["lists"]["loads"][0].startswith(
+        "load 2 MPa: 1 N in all, 2 MPa over the nominal area"
+    )
+    assert "20 MPa over" in header["lists"]["loads"][1]
     header, _ = page.ask("bodies", {**PAIR, "first": "E=70 GPa nu=0.33"}, sides=None)
-    assert header["loads"] == []
-    assert any("hardness of the first body (E=70 GPa nu=0.33)" in each for each in header["notes"])
+    assert header["lists"]["loads"] == []
+    assert any(
+        "hardness of the first body (E=70 GPa nu=0.33)" in each
+        for each in header["lists"]["bodies-notes"]
+    )
     assert page.refusal("bodies", said, sides=["a"])[1] == ""
 
 
@@ -469,7 +488,7 @@ def test_the_command_repeats_the_answers(page, invoke, only_drawn, tmp_path, mon
     command = shlex.split(documents.as_command(said, ["ground-steel.x3p"]))
     code, out, errors = invoke(*command[1:], "--all")
     assert code == 0, errors
-    table = [row[1] for row in header["answers"][1] if row[0] != header["if_elastic"]]
+    table = [row[1] for row in header["panels"]["measured-stiffness"]["table"][1]]
     assert all(value.split(" (")[0] in out for value in table)
     page_html = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
     assert "Contact of ground-steel.x3p" in page_html
@@ -483,7 +502,7 @@ def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
     found = {}
     exec(header["text"], found)
     answered, _ = page.ask("answer", said)
-    assert answered["answers"] == list(answer_table(found["result"], with_elastic=True))
+    assert answered["tables"]["measured-answers"][:2] == list(in_answers(found["result"]))
 
 
 EVERY = {
@@ -599,19 +618,27 @@ def test_a_coated_body_is_typed_into_the_control_of_its_material(page, tmp_path,
     said = {"example": "ground", **SMALL, **COATED, "elastic": "yes"}
     header, _ = page.ask("bodies", said, sides=[1e-3, 1e-3])
     assert header["refused"] == {}
-    rows = dict(header["rows"])
+    rows = dict(header["tables"]["measured-bodies"][1])
     assert rows["rough body"].startswith("gold 20 µm on nickel 40 µm on copper: gold (E = 78 GPa")
-    assert any("no tangential stiffness of coated bodies: its" in n for n in header["notes"])
+    assert any(
+        "no tangential stiffness of coated bodies: its" in n
+        for n in header["lists"]["bodies-notes"]
+    )
     answered, _ = page.ask("answer", said)
-    assert answered["modulus"].startswith("E* of gold and steel, which lie at the surfaces, = ")
-    assert "old 20 µm on nickel 40 µm on copper, against steel under" in answered["lead"]
+    assert answered["words"]["modulus"].startswith(
+        "E* of gold and steel, which lie at the surfaces, = "
+    )
+    assert (
+        "old 20 µm on nickel 40 µm on copper, against steel under"
+        in answered["words"]["answers-lead"]
+    )
     path_of("ground", tmp_path)
     monkeypatch.chdir(tmp_path)
     header, _ = page.ask("code", said, which="python")
     assert "materials=('gold 20 µm on nickel 40 µm on copper', 'steel')" in header["text"]
     found = {}
     exec(header["text"], found)
-    assert answered["answers"] == list(answer_table(found["result"], with_elastic=True))
+    assert answered["tables"]["measured-answers"][:2] == list(in_answers(found["result"]))
     header, _ = page.ask("code", said, which="command")
     words = shlex.split(header["text"])
     assert words[words.index("--materials") + 1] == f"{COATED['first']}, steel"
@@ -647,16 +674,16 @@ def test_a_crop_to_where_points_are_known_opens_a_file_that_is_refused_whole(pag
     np.save(tmp_path / "half.npy", heights)
     said = {**page.bring(tmp_path / "half.npy"), "unit": "m", "size": "1 mm"}
     header, _ = page.ask("look", said)
-    assert "2049 missing points" in header["obstacles"][0]
+    assert "2049 missing points" in header["lists"]["obstacles"][0]
     for crop, points, missing in (
         ("0 um, 500 um, 0 um, 1 mm", (32, 64), 1),
         ("250 um, 500 um, 0 um, 1 mm", (16, 64), 0),
     ):
         header, _ = page.ask("prepare", {**said, "crop": crop})
-        assert header["obstacles"] == []
+        assert header["lists"]["obstacles"] == []
         assert tuple(header["body"]["points"]) == points
-        assert header["missing"] == missing
-        filled = [remark for remark in header["remarks"] if "filled" in remark]
+        remarks = header["lists"]["prepared-remarks"]
+        filled = [remark for remark in remarks if "filled" in remark]
         assert filled == ["1 missing points (0.05%) filled: harmonic"] * missing
 
 
@@ -664,9 +691,8 @@ def test_a_contact_modulus_alone_gives_a_curve(page, only_drawn):
     only_drawn()
     said = {"example": "film", **SMALL, "bodies": "modulus", "E": "110 GPa"}
     header, _ = page.ask("answer", said)
-    assert header["answers"] is None
     assert not header["can_report"]
-    assert len(header["curve"][1]) == 20
+    assert len(header["tables"]["measured-answers"][1]) == 20
     files, _ = page.ask("report", said)
     assert "report.html" not in files["files"]
     assert "curve.nc" in files["files"]
@@ -676,7 +702,7 @@ def test_names_of_arguments_are_those_of_the_controls(page):
     header, _ = page.ask("answer", {"example": "film", **PAIR, "resample": "32"})
     assert any(
         'with grid error "estimate" it is estimated nevertheless' in each
-        for each in header["remarks"]
+        for each in header["remarks"]["What the intervals include"]
     )
 
 
@@ -696,12 +722,12 @@ def test_the_page_says_at_which_pressure_what_yields(page):
     header, _ = page.ask("bodies", PAIR, sides=[1e-3, 1e-3])
     copper = rl.material("copper")
     assert ["yield", f"at {copper.hardness / 1e6:g} MPa, known to a factor of 1.5"] in header[
-        "rows"
-    ]
+        "tables"
+    ]["measured-bodies"][1]
     header, _ = page.ask("bodies", {**PAIR, "hardness": "2 GPa"}, sides=None)
-    assert ["yield", "at 2 GPa, as given"] in header["rows"]
+    assert ["yield", "at 2 GPa, as given"] in header["tables"]["measured-bodies"][1]
     header, _ = page.ask("bodies", {**PAIR, "elastic": "yes"}, sides=None)
-    assert ["yield", "left out"] in header["rows"]
+    assert ["yield", "left out"] in header["tables"]["measured-bodies"][1]
 
 
 def test_a_joint_is_answered_for_with_its_area(page):
@@ -709,13 +735,13 @@ def test_a_joint_is_answered_for_with_its_area(page):
     expected = rl.assess(question_of(said, source_of(said, page.session)))
     assert expected.question.joint == pytest.approx(1e-4)
     header, _ = page.ask("answer", said)
-    assert header["answers"] == list(answer_table(expected, with_elastic=True))
-    assert header["plot"]["is_of_joint"]
-    assert max(header["plot"]["force"]) == pytest.approx(1)  # kN, on the joint
-    assert header["plot"]["force_unit"] == "kN"
+    assert header["tables"]["measured-answers"][:2] == list(in_answers(expected))
+    panel = header["panels"]["measured-stiffness"]
+    assert panel["axes"][0] == "force F on the joint [kN]"
+    assert max(panel["sources"]["stiffness line"]["x"]) == pytest.approx(1)
     sides = list(expected.body.sizes)
     told, _ = page.ask("bodies", said, sides=sides)
-    assert "1 kN on the joint of 100 mm²" in told["loads"][0]
+    assert "1 kN on the joint of 100 mm²" in told["lists"]["loads"][0]
 
 
 @pytest.fixture
@@ -762,17 +788,18 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
     )
     given = header["part"]
     assert given["names"] == expected.names == ["place 0.nc", "place 1.nc", "place 2.nc"]
-    assert given["answers"] == list(answer_table(expected, [0, 1]))
-    assert given["leading"] == list(leading_table(expected))
-    assert given["maps"] == list(maps_table(expected))
-    assert "broken.x3p" in given["remarks"][0]
-    drawn = {each["name"]: each for each in given["drawings"]}["contact stiffness k"]
+    tables = header["tables"]
+    assert tables["measured-part"][:2] == list(answer_table(expected, write=in_three_digits))
+    assert tables["measured-part-leading"] == list(leading_table(expected))
+    assert tables["measured-part-maps"] == list(maps_table(expected))
+    assert "broken.x3p" in header["remarks"]["Limits"][0]
+    drawn = header["choices"]["measured-part"]["contact stiffness k"]
     mean = expected.answers["contact_stiffness"].mean[1]
-    assert drawn["mean"] / drawn["values"][0] == pytest.approx(
-        mean / expected.assessments[0].answers["contact_stiffness"].values[1]
-    )
+    assert drawn["models"]["part mean"]["location"] / drawn["sources"]["part"]["y"][
+        0
+    ] == pytest.approx(mean / expected.assessments[0].answers["contact_stiffness"].values[1])
     alone = expected.assessments[2]
-    assert header["answers"] == list(answer_table(alone, with_elastic=True))
+    assert header["tables"]["measured-answers"][:2] == list(in_answers(alone))
     marks = alone.fields.contact.astype(int) + alone.fields.plastic
     np.testing.assert_array_equal(arrays["area"].T, marks)
 
@@ -781,8 +808,8 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
 
     monkeypatch.setattr("roughline.lab.measured.answers.assess_body", never)
     alone = {**said, "file": keys["place 1.nc"]}
-    assert page.ask("answer", alone)[0]["answers"] == list(
-        answer_table(expected.assessments[1], with_elastic=True)
+    assert page.ask("answer", alone)[0]["tables"]["measured-answers"][:2] == list(
+        in_answers(expected.assessments[1])
     )
 
 

@@ -11,7 +11,7 @@ from lab_in_browser import Pages, RunningLab
 FILES = ("al3d-1.al3d", "dektak-1.csv", "di-1.di", "mitutoyo_mock.xlsx", "opd-1.opd", "sur-3.sur")
 EXAMPLE = "[data-example] >> nth=0"
 LINE_SCAN = "[data-example] >> nth=2"  # which is soon prepared
-CONNECTED = '[data-table="measured-bodies"] tr'  # what the server has answered to the view
+CONNECTED = '#measured-step-bodies .line:has-text(" on ")'  # what the server has answered
 
 
 @pytest.fixture(scope="module")
@@ -68,6 +68,56 @@ def test_an_example_is_answered_for(answered):
     assert answered.is_visible("#plot-measured-contact")
 
 
+STEPS = ("preparation", "bodies", "answers")
+
+
+def is_open(page, step):
+    return page.get_attribute(f"#measured-step-{step}", "open") is not None
+
+
+def test_steps_that_wait_are_one_line_which_opens_by_key_and_by_touch(pages):
+    page = pages.open("?view=measured", has_touch=True)
+    page.wait_for_selector(CONNECTED)
+    for step, line in zip(STEPS, ("tilt removed", "steel on copper", "choose a file"), strict=True):
+        folded = page.locator(f"#measured-step-{step}")
+        assert folded.bounding_box()["height"] < 70
+        assert line in folded.locator("summary").first.inner_text()
+    page.focus("#measured-step-preparation > summary")
+    page.keyboard.press("Enter")
+    assert page.is_visible("#measured-low_pass-text")
+    page.fill("#measured-low_pass-text", "2 um")
+    page.press("#measured-low_pass-text", "Tab")
+    page.locator("#measured-step-preparation .line", has_text="low pass 2 um").wait_for()
+    page.locator("#measured-step-bodies > summary").tap()
+    assert page.is_visible("#measured-first-text")
+    page.reload()
+    page.wait_for_selector(CONNECTED)
+    assert [is_open(page, step) for step in STEPS] == [True, True, False]
+    assert page.input_value("#measured-low_pass-text") == "2 um"
+    page.context.close()
+
+
+def test_what_is_grave_stands_above_the_figures_and_the_press_shows_its_answer(pages):
+    page = pages.open("?view=measured", height=1000)
+    page.click(LINE_SCAN)
+    page.wait_for_selector("[data-press]:not([disabled])")
+    assert [is_open(page, step) for step in STEPS] == [False, True, False]
+    window = page.viewport_size["height"]
+    assert page.locator("[data-press]").bounding_box()["y"] < window - 30
+    page.click("[data-press]")
+    grave = page.locator("#measured .grave[role=alert]")
+    grave.filter(has_text="these elastic answers do not hold").wait_for()
+    figures = page.locator('[data-figures="answers"] dl')
+    assert grave.bounding_box()["y"] < figures.bounding_box()["y"] < window
+    groups = page.locator("#measured [data-remarks] details")
+    assert groups.count() >= 2
+    assert groups.locator("ul:visible").count() == 0
+    page.click("#measured [data-remarks] summary:has-text('What was done to the data')")
+    assert page.locator("#measured [data-remarks] li:visible").count() > 0
+    assert faint(page) == []
+    page.context.close()
+
+
 def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(pages):
     page = pages.open("?view=measured&v=1&example=ground&resample=64&loads=50+MPa")
     assert not page.is_visible("#measured-fluid-text")
@@ -80,8 +130,8 @@ def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(pages)
     # nearly two hundred small contacts, on a machine that may do other work beside
     answers.filter(has_text="leak rate").wait_for(timeout=300_000)
     assert not page.locator("#measured .error:visible").filter(has_text="a").count()
-    page.select_option("#measured [data-shown]", "flux")
-    assert "in contact" in page.inner_text('[data-caption="contact"]')
+    page.select_option("#measured [data-choice=measured-contact]", "flux")
+    assert "in contact" in page.inner_text('[data-caption="measured-contact"]')
     shown = page.evaluate(
         """() => {
             const made = Bokeh.documents.find((each) => each.get_model_by_name("measured-contact"));
@@ -97,9 +147,9 @@ def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(pages)
     page.press("#measured-seal-text", "Tab")
     page.click("[data-press]:not([disabled])")
     page.wait_for_function(
-        """() => document.querySelector('#measured [data-shown]').value === "area" """
+        """() => document.querySelector('[data-choice="measured-contact"]').value === "area" """
     )
-    assert page.locator('#measured [data-shown] [value="flux"]').get_attribute("hidden") is not None
+    assert "flux" not in page.inner_text("#measured [data-choice=measured-contact]")
     page.context.close()
 
 
@@ -186,8 +236,8 @@ def test_a_press_can_be_cancelled(pages):
     page.fill("#measured-loads-text", "")
     page.press("#measured-loads-text", "Tab")
     page.click("[data-press]:not([disabled])")
-    page.click('[data-waiting="answers"] .cancel')
-    page.wait_for_selector('[data-waiting="answers"] .cancel', state="hidden")
+    page.click("#measured [data-waiting] .cancel")
+    page.wait_for_selector("#measured [data-waiting] .cancel", state="hidden")
     page.wait_for_selector("[data-press]:not([disabled])")
     assert not page.is_visible('[data-table="measured-answers"]')
     page.context.close()
@@ -208,20 +258,20 @@ def test_maps_of_a_part_are_brought_checked_pressed_and_left_out(pages, tmp_path
         page.click("[data-choose]")
     coming.value.set_files([tmp_path / "broken.x3p", *paths[:2]])
     maps.nth(2).wait_for()
-    page.locator("#measured [data-name]", has_text="place 0.nc").wait_for()
+    page.locator("[data-words=line-file]", has_text="place 0.nc").wait_for()
     assert "damaged" in maps.nth(0).inner_text()
     with page.expect_file_chooser() as coming:
         page.click("[data-add-maps]")
     coming.value.set_files(paths[2])
     maps.nth(3).wait_for()
     page.click('[aria-label="show place 1.nc"]')
-    page.locator("#measured [data-name]", has_text="place 1.nc").wait_for()
+    page.locator("[data-words=line-file]", has_text="place 1.nc").wait_for()
     page.click("[data-press]:not([disabled])")
     page.locator('[data-table="measured-part-answers"] tbody tr').first.wait_for(timeout=60_000)
-    assert "broken.x3p" in page.inner_text('[data-list="part-remarks"]')
+    assert "broken.x3p" in page.inner_text("[data-remarks]")
     assert page.locator('[data-table="measured-part-leading"] tbody tr').count() == 3
     assert page.is_visible("#plot-measured-part")
-    assert "at the hardness" in page.inner_text('[data-caption="contact"]')
+    assert "at the hardness" in page.inner_text('[data-caption="measured-contact"]')
     assert asked(page, "nameless", "measured") == []
     page.select_option("[data-part-map]", "2")
     page.wait_for_selector('[data-result="answers"]:not(.dimmed)')
@@ -229,17 +279,17 @@ def test_maps_of_a_part_are_brought_checked_pressed_and_left_out(pages, tmp_path
     page.click('[aria-label="leave out broken.x3p"]')
     maps.nth(3).wait_for(state="detached")
     assert maps.count() == 3
-    assert "3 maps" in page.inner_text("[data-part-count]")
+    assert "3 maps" in page.inner_text("[data-words=part-count]")
     page.click(EXAMPLE)
-    page.locator("#measured [data-name]", has_text="ground-steel").wait_for()
-    assert not page.is_visible("[data-part]")
+    page.locator("[data-words=line-file]", has_text="ground-steel").wait_for()
+    assert not page.is_visible('[data-result="part"]')
     page.context.close()
 
 
 @pytest.mark.parametrize("name", FILES)
 def test_every_format_is_read(measured, topographies, name):
     measured.set_input_files("#measured [data-file]", topographies / name)
-    measured.locator("#measured [data-name]", has_text=name).wait_for()
+    measured.locator("[data-words=line-file]", has_text=name).wait_for()
     measured.wait_for_selector('#measured-step-file:not(.dimmed) [data-result="file"]')
     assert measured.locator('[data-table="measured-roughness"] tr').count() > 3
 

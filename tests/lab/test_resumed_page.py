@@ -51,6 +51,8 @@ def choose(page, file):
 
 def fill(page, **texts):
     for key, text in texts.items():
+        if key == "low_pass" and not page.is_visible("#measured-low_pass-text"):
+            page.click("#measured-step-preparation > summary")
         page.fill(f"#measured-{key}-text", text)
         page.press(f"#measured-{key}-text", "Tab")
 
@@ -73,7 +75,7 @@ def answers(page):
 def begin_long_press(page):
     """Press the whole curve, and wait until it is on its way."""
     page.click("[data-press]:not([disabled])")
-    page.wait_for_selector('[data-waiting="answers"] .cancel')
+    page.wait_for_selector("#measured [data-waiting] .cancel")
 
 
 @contextmanager
@@ -112,7 +114,7 @@ def test_a_line_that_drops_loses_nothing_and_a_press_goes_on(pressed, pages, rel
         fill(page, loads="")
         relay.restore()
         page.wait_for_selector("#connection", state="hidden")
-    page.wait_for_selector('[data-waiting="answers"] .cancel', state="hidden")
+    page.wait_for_selector("#measured [data-waiting] .cancel", state="hidden")
     assert answers(page) != before
     assert said(page) == ""
     fill(page, loads=SET["loads"])
@@ -132,7 +134,9 @@ def test_a_page_that_is_loaded_again_shows_file_settings_answers_and_report(pres
     page.reload()
     assert answers(page) == before
     page.wait_for_selector('[data-result="compare"]')
-    page.locator("[data-name]", has_text="Ausschnitt_ große Fläche_ 1 (β).npy").wait_for()
+    page.locator(
+        "[data-words=line-file]", has_text="Ausschnitt_ große Fläche_ 1 (β).npy"
+    ).wait_for()
     page.wait_for_selector('[data-result="preparation"]')
     assert is_set(page) == SET
     assert not page.is_visible("[data-changed]")

@@ -17,6 +17,7 @@ from roughline.engineering.rules.mechanical import (
     INTERFACE_STIFFNESS,
     UNLOADING_STIFFNESS,
 )
+from roughline.errors.remark import INTERVALS, Remark, remarks
 from roughline.errors.words import called
 from roughline.spectra.alike import ALIKE
 from roughline.spectra.departures import departures
@@ -36,7 +37,7 @@ _COUNTS = 1.2  # upper over lower end of what counts as a cause
 
 def warnings_of(
     result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
-) -> list[str]:
+) -> list[Remark]:
     """What is suspicious, where assumptions break, and why there is no interval."""
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
     borders, are_grave = borders_of_repeated(result.question, body)
@@ -46,21 +47,22 @@ def warnings_of(
     is_scan = isinstance(body, Line) and body.kind == "profile"
     warnings = [
         *(of_curve if is_scan else _departures_in_words(result)),
-        *of_each(bodies, suspicions),
-        *of_each(bodies, grave_effects),
+        *remarks(of_each(bodies, suspicions), is_grave=True),
+        *remarks(of_each(bodies, grave_effects), is_grave=True),
         *_broken_assumptions(result, spectrum),
-        *_of_full_contact(result),
-        *_of_wide_interval(result),
-        *([of_line] if is_grave else []),
+        *remarks(_of_full_contact(result), is_grave=True),
+        *remarks(_of_wide_interval(result), INTERVALS),
+        *remarks([of_line] if is_grave else [], is_grave=True),
         *([] if is_scan else of_curve),
-        *([borders] if are_grave else []),
+        *remarks([borders] if are_grave else [], is_grave=True),
     ]
     if isinstance(body, Surface) and curve.stiffness_error is None:
-        warnings.append(_why_without_grid_error(result.question, body, grid_error_was_tried))
-    return warnings
+        why = _why_without_grid_error(result.question, body, grid_error_was_tried)
+        warnings.append(Remark(why, INTERVALS))
+    return remarks(warnings)
 
 
-def _departures_in_words(result: Assessment) -> list[str]:
+def _departures_in_words(result: Assessment) -> list[Remark]:
     """Say how what was pressed departs from assumptions, gravest first, and what that takes down.
 
     Nothing is said of a departure on which no answer to the question rests. What a line scan
@@ -73,13 +75,14 @@ def _departures_in_words(result: Assessment) -> list[str]:
     }
     said = []
     for departure in departures(result.body):
-        down = [
-            _without_interval(result, prediction)
+        down = {
+            prediction: _without_interval(result, prediction)
             for prediction, is_made in made.items()
             if is_made and takes_down(departure, prediction, result.body)
-        ]
+        }
         if down:
-            said.append("; ".join([departure.text, *filter(None, dict.fromkeys(down))]))
+            text = "; ".join([departure.text, *filter(None, dict.fromkeys(down.values()))])
+            said.append(Remark(text, INTERVALS, is_grave="grid" in down))
     return said
 
 
@@ -102,10 +105,10 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
     return f"{listed(names)} {verb} without an interval"
 
 
-def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
+def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[Remark]:
     """Say where an assumption breaks, and what is to be said with the answers."""
     question, body = result.question, result.body
-    broken = []
+    broken: list[str] = []
     if body.rms_slope > _STEEP:
         broken.append(
             f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
@@ -121,14 +124,16 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[st
                 f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first "
                 "touch; under repeated loads they deform elastically about their flattened shape"
             )
+    found = remarks(broken, is_grave=True)
     if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
-        broken.append(
+        text = (
             "theories assume an isotropic surface, and the rms slope depends on direction: the "
             f"least is {alike:.2f} of the largest"
         )
+        found.append(Remark(text))
     if question.theories and question.attraction is not None:
-        broken.append("theories leave out that the bodies stick")
-    return broken + [each.warning for each in result.answers.values() if each.warning]
+        found.append(Remark("theories leave out that the bodies stick"))
+    return found + remarks(each.warning for each in result.answers.values() if each.warning)
 
 
 def _strained(result: Assessment) -> list[str]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -19,6 +20,20 @@ LOADS = "Loads"
 ANSWERS = "Answers"
 FILE = "A file"
 PREPARATION = "Preparation"
+
+_MOST_DIGITS = 20  # of a whole number
+
+_FLUID = "a fluid in the gap: what leaks"
+_MORE = "more"
+
+
+@dataclass(frozen=True)
+class Text:
+    """One of several texts that the lab's form has for a field."""
+
+    label: str
+    begins: str  # what stands in it at first, and is used where nothing else can be
+    help: str
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,6 +58,10 @@ class Field:
     """Values that may be chosen and what the form calls them, by the words of addresses, the
     default first."""
 
+    begins: str = ""  # what stands in the lab's form at first
+    fold: str = ""  # of the lab's form, in which it stands
+    is_of_file: bool = False  # whether the lab asks it anew with each file
+    texts: Mapping[str, Text] = field(default_factory=dict)  # of the lab's form, by their keys
     read: Callable[[str], Any] = str  # reads one text; the value is what Python is given
 
     def __post_init__(self) -> None:
@@ -102,6 +121,36 @@ def _length(name: str) -> Callable[[str], float]:
     return read
 
 
+def _number(name: str) -> Callable[[str], float | str]:
+    """Read a number, or a share in per cent; what is none is left to who refuses it."""
+
+    def read(text: str) -> float | str:
+        from roughline.units import refuse_decimal_comma
+
+        refuse_decimal_comma(text, name)
+        with suppress(ValueError):
+            if text.isascii() and "_" not in text:
+                return float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+        return text
+
+    return read
+
+
+def _whole(text: str) -> int | str:
+    """Read a whole number; what is none is left to who refuses it."""
+    return int(text) if text.isascii() and text.isdecimal() and len(text) < _MOST_DIGITS else text
+
+
+def _sizes(text: str) -> str:
+    """Read one or two positive lengths; they stay a text, as they may be typed."""
+    from roughline.units import lengths
+
+    sides = lengths(text, "sizes")
+    if len(sides) > 2 or not all(0 < side < math.inf for side in sides):
+        refuse("sizes", text, "give one or two positive lengths, such as 1 mm, 0.5 mm")
+    return text
+
+
 def _blur(text: str) -> float:
     """Read a standard deviation; none has no unit. [m]"""
     from roughline.units import in_si
@@ -122,6 +171,7 @@ def _crop(text: str) -> tuple[float, ...]:
 _of_bodies = partial(Field, group=BODIES)
 _of_loads = partial(Field, group=LOADS)
 _of_answers = partial(Field, group=ANSWERS)
+_of_fluid = partial(_of_answers, fold=_FLUID)
 _of_file = partial(Field, of="Reading", group=FILE)
 _of_preparation = partial(Field, of="Preparation", group=PREPARATION)
 
@@ -132,6 +182,19 @@ FIELDS: tuple[Field, ...] = (
         word="two materials",
         help='Both materials, such as "steel,copper", "E=70 GPa nu=0.33, rigid", or with layers '
         '"rubber 2 mm on steel, rigid".',
+        texts={
+            "first": Text(
+                "rough body",
+                "steel",
+                'A name, "steel"; with values, "steel hardness=6 GPa" or "E=70 GPa nu=0.33"; '
+                'coated, "gold 2 um on steel" or "gold 0.5 um on nickel 2 um on copper".',
+            ),
+            "second": Text(
+                "smooth body",
+                "copper",
+                'Like the rough body, or "rigid": "rubber 2 mm on steel", "rigid".',
+            ),
+        },
     ),
     _of_bodies(
         name="E_star",
@@ -139,6 +202,13 @@ FIELDS: tuple[Field, ...] = (
         control="",
         word="the contact modulus",
         help='Contact modulus E* instead of the materials, such as "110 GPa".',
+        texts={
+            "E": Text(
+                "modulus E*",
+                "110 GPa",
+                'Of both bodies, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2, such as "110 GPa".',
+            )
+        },
     ),
     _of_bodies(
         name="against",
@@ -174,6 +244,7 @@ FIELDS: tuple[Field, ...] = (
         help='A total force, such as "10 N", or a mean pressure, such as "2 MPa".',
         otherwise="20 loads up to saturation",
         separator=";",
+        begins="2 MPa",
     ),
     _of_loads(
         name="depths",
@@ -219,6 +290,7 @@ FIELDS: tuple[Field, ...] = (
         help="Repeat the surface periodically: it has no borders, and the stiffness is that of "
         "the interface. Otherwise the half-space continues, unloaded, around the surface.",
         choices={"free": (False, "free"), "periodic": (True, "periodic")},
+        fold=_MORE,
     ),
     _of_bodies(
         name="periodic_along",
@@ -231,46 +303,49 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="friction",
         of="Friction",
+        fold=_MORE,
         help="Coefficient of friction, above 0 and up to 5, such as 0.3: adds partial slip at the "
         "largest load to the report and to JSON.",
         otherwise="none",
         kind=float,
+        read=_number("friction"),
     ),
     _of_answers(
         name="frequency",
         of="Ultrasound",
+        fold=_MORE,
         label="ultrasound",
         word="frequency",
         help='Frequency of ultrasound, such as "5 MHz": adds its reflection by the interface.',
         otherwise="none",
     ),
-    _of_answers(
+    _of_fluid(
         name="fluid",
         of="Fluid",
         help='Fluid in the gap, such as "water", "oil VG 46", "air" or "helium": adds what flows '
         "through, and of a gas what it conducts.",
         otherwise="none",
     ),
-    _of_answers(
+    _of_fluid(
         name="inlet",
         of="Inlet",
         label="inlet pressure",
         help='Absolute pressure of the fluid where it enters, such as "6 bar".',
     ),
-    _of_answers(
+    _of_fluid(
         name="outlet",
         of="Outlet",
         label="outlet pressure",
         help='Absolute pressure of the fluid where it leaves, such as "1 bar"; "0 bar" is vacuum.',
         otherwise="1 atm",
     ),
-    _of_answers(
+    _of_fluid(
         name="seal",
         of="Seal",
         help="The face that the fluid crosses: length across the flow and width along it, such as "
         '"100 mm x 2 mm", or both radii of a ring, such as "20 mm .. 24 mm".',
     ),
-    _of_answers(
+    _of_fluid(
         name="flow_along",
         of="FlowAlong",
         label="flow along",
@@ -281,7 +356,7 @@ FIELDS: tuple[Field, ...] = (
             "y": ("y", "y"),
         },
     ),
-    _of_answers(
+    _of_fluid(
         name="sealing_pressure",
         of="Closure",
         label="sealing",
@@ -292,12 +367,14 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="theories",
         of="Theories",
+        fold=_MORE,
         flag="--theory",
         help="Theory to compare with, of the same waves and of periodic surfaces: {theories}.",
         separator=",",
     ),
     _of_answers(
         name="grid_error",
+        fold=_MORE,
         label="grid error",
         word='grid error "estimate"',
         help="Estimate discretisation errors from coarser grids, without which there are no "
@@ -321,10 +398,12 @@ FIELDS: tuple[Field, ...] = (
         label="unit of lengths",
         word="unit",
         help="Unit of the lengths and heights in a file that states none, such as um.",
+        is_of_file=True,
     ),
     _of_file(
         name="channel",
         help="Channel of the file: its name, or its number from 0; only heights can be pressed.",
+        is_of_file=True,
     ),
     _of_file(
         name="sizes",
@@ -332,6 +411,8 @@ FIELDS: tuple[Field, ...] = (
         control="size",
         label="size",
         help='Sides of a file that states none, such as "1 mm, 0.5 mm"; one for a square.',
+        is_of_file=True,
+        read=_sizes,
     ),
     _of_file(
         name="missing",
@@ -353,6 +434,7 @@ FIELDS: tuple[Field, ...] = (
         "refused.",
         otherwise="10 %",
         kind=float,
+        read=_number("most_missing"),
     ),
     _of_file(
         name="tilt",
@@ -405,6 +487,7 @@ FIELDS: tuple[Field, ...] = (
         name="crop",
         help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um".',
         otherwise="all",
+        is_of_file=True,
         read=_crop,
     ),
     _of_preparation(
@@ -425,6 +508,7 @@ FIELDS: tuple[Field, ...] = (
         "the finest waves.",
         otherwise="as it is",
         kind=int,
+        read=_whole,
     ),
     _of_preparation(
         name="remove_outliers",

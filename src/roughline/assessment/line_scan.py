@@ -16,6 +16,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors.checks import flag
 from roughline.errors.public import public
+from roughline.errors.remark import remarks
 from roughline.spectra.coarser_selves import coarser_selves
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
@@ -125,7 +126,7 @@ def press_scan(
         doubts += [whose + doubt for doubt in found]
     if doubts:
         off = "the stiffness comes without an interval, and may be off by a factor of several"
-        warnings = [f"{doubt}; {off}: press a map" for doubt in doubts]
+        warnings = remarks((f"{doubt}; {off}: press a map" for doubt in doubts), is_grave=True)
         curve = replace(curve, warnings=(*warnings, *curve.warnings))
         low, high = (np.full(curve.stiffness.size, math.nan) for _ in range(2))
     return PressedScan(curve, low, high)

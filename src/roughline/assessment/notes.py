@@ -15,6 +15,7 @@ from roughline.assessment.question import Question
 from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pair import MaterialPair
+from roughline.errors.remark import DATA, INTERVALS, Remark, remarks
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
@@ -22,7 +23,7 @@ from roughline.topography.repetition import border_jump
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
 
-def notes_of(result: Assessment, of_filling: str) -> list[str]:
+def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
     """What is left out, what was filled, how the loads were meant, and what was cropped."""
     question, body, pair = result.question, result.body, result.question.pair
     of_line, is_grave = how_far_a_line_serves(question, body)
@@ -36,9 +37,12 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
         notes += _of_layers(result, pair)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")
-    notes += of_each([each.body for each in result.topographies], _filled_spikes_and_effects)
-    notes += [of_filling, *meaning_of_loads(question, body), "" if are_grave else borders]
-    return [each for each in notes if each] + _cropping_and_resampling(body)
+    bodies = [each.body for each in result.topographies]
+    notes += remarks(of_each(bodies, _filled_spikes_and_effects), DATA)
+    notes += [Remark(of_filling, INTERVALS)]
+    notes += [*remarks(meaning_of_loads(question, body), DATA), "" if are_grave else borders]
+    notes += remarks(_cropping_and_resampling(body), DATA)
+    return remarks(filter(None, notes))
 
 
 def _of_yield(result: Assessment) -> list[str]:
@@ -58,10 +62,8 @@ def _of_yield(result: Assessment) -> list[str]:
     elif not np.isnan(share):
         notes.append(f"nothing yields at the largest load: no point reaches the hardness, {known}")
     if hardness.factor > 1 and result.answers and not np.isnan(share):
-        notes.append(
-            f"the hardness of the table is known to a factor of {hardness.factor:g}; "
-            f"{_scatter_in_words(result, share)}"
-        )
+        known = f"the hardness of the table is known to a factor of {hardness.factor:g}"
+        notes.append(Remark(f"{known}; {_scatter_in_words(result, share)}", INTERVALS))
     return notes
 
 
@@ -146,10 +148,11 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
         )
     if is_map(result.body) or question.joint is not None:
         bare = [each.symbol for each in result.answers.values() if each.rule.is_of_interface]
-        notes.append(
+        text = (
             "how far a larger surface may be from its map is not known of coated bodies, so no "
             f"interval of {listed(bare)} includes it"
         )
+        notes.append(Remark(text, INTERVALS))
     even = question.elasticity.even_compliance
     if (question.is_repeated or result.larger is not None) and 0 < even < math.inf:
         pressure = float(np.nanmax(result.curve.force)) / result.area

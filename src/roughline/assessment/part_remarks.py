@@ -14,6 +14,7 @@ from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.notes import listed
 from roughline.assessment.part import PartAnswer
+from roughline.errors.remark import INTERVALS, Remark, remarks
 from roughline.errors.words import called
 from roughline.spectra.departures import departures
 from roughline.topography.body import Body, Surface
@@ -34,7 +35,7 @@ _KINDS: tuple[tuple[str, Callable[[Body], float], float], ...] = (
 
 def remarks_of_part(
     results: Mapping[str, Assessment], behind: BehindMaps | None, answers: Mapping[str, PartAnswer]
-) -> tuple[list[str], list[str]]:
+) -> tuple[list[Remark], list[Remark]]:
     """Warnings and notes on a part and on its maps, by their names."""
     maps = list(results.values())
     is_joint = maps[0].question.joint is not None
@@ -48,12 +49,16 @@ def remarks_of_part(
     notes = {name: each.notes for name, each in results.items()}
     return (
         [
-            *of_part,
-            *_sealed_in_some(results, answers),
-            *_differences_in_kind(results),
+            *remarks(of_part),
+            *remarks(_sealed_in_some(results, answers)),
+            *remarks(_differences_in_kind(results), is_grave=True),
             *_once(warnings),
         ],
-        [*_what_is_averaged(maps, is_joint), *agreement, *_once(notes)],
+        [
+            *remarks(_what_is_averaged(maps, is_joint), INTERVALS),
+            *remarks(agreement),
+            *_once(notes),
+        ],
     )
 
 
@@ -175,15 +180,16 @@ def _what_they_tell_of_the_part(
     if found.holds:
         notes.append(f"the maps agree: {numbers}")
     else:
-        warnings.append(
+        text = (
             f"the maps do not agree: {numbers}; places of the part differ, and rougher ones bear "
             "more of its load than maps under one pressure show: the intervals allow for that; if "
             "the part has regions, ask for each of them"
         )
+        warnings.append(Remark(text, is_grave=True))
     return warnings, notes
 
 
-def _once(said: Mapping[str, Sequence[str]]) -> list[str]:
+def _once(said: Mapping[str, Sequence[str]]) -> list[Remark]:
     """Each remark once, with the names of the maps that it is of, unless it is of all.
 
     Remarks of different maps that differ in their numbers alone are one; it has the numbers of its
@@ -202,7 +208,7 @@ def _once(said: Mapping[str, Sequence[str]]) -> list[str]:
         of = "" if len(of_maps) == len(said) else f"of {', '.join(of_maps)}: "
         if others and len(set(of_maps.values())) > 1:
             of += f"(numbers of {first}) "
-        found.append(f"{of}{of_maps[first]}")
+        found.append(Remark(of_maps[first]).reworded(f"{of}{of_maps[first]}"))
     return found
 
 

@@ -22,6 +22,7 @@ from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
 from roughline.errors import Interrupted
+from roughline.errors.remark import Remark
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.kept import working_memory
@@ -42,6 +43,7 @@ from roughline.units import engineering
 # frame of this width carries more than this share of the force, the part beyond it is missed.
 _BORDER_WIDTH = 0.05
 _BORDER_SHARE = 0.05
+_BORDER_DECIDES = 0.5  # share from which on answers are those of the frame
 
 
 def press_surface(
@@ -464,13 +466,14 @@ def _border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, 
         engineering(each, "N", 3) if surface.unit == "m" else f"{each:.3g}" for each in extremes
     ]
     at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
-    return (
+    text = (
         f"at {at}, up to {shares[beyond].max():.0%} of the force is carried within "
         f"{_BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: the "
         "surface beyond it would carry a part of the load, so depth, stiffness and area are those "
         "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or the "
-        "periodic half-space",
+        "periodic half-space"
     )
+    return (Remark(text, is_grave=bool(shares[beyond].max() > _BORDER_DECIDES)),)
 
 
 def _jump_warnings(surface: Surface, repeats: tuple[bool, bool]) -> tuple[str, ...]:

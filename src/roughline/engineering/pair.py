@@ -183,5 +183,5 @@ def _inverse_sum(compliances: Iterable[float]) -> float:
     """Modulus of bodies whose compliances add up."""
     compliance = sum(compliances)
     if compliance == 0:
-        raise InputError("both materials are rigid: one of them must give way")
+        raise InputError("both materials are rigid: one of them must give way", None, "materials")
     return 1 / compliance

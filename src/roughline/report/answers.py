@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.errors.remark import grave_first
 from roughline.report.page import Headline, KeyFigure, sentence
-from roughline.report.values import with_interval
+from roughline.report.values import Write, with_interval
 from roughline.units import decimal, engineering
 
 if TYPE_CHECKING:
@@ -74,11 +75,11 @@ def figure_keys(result: Assessment | PartAssessment) -> list[str]:
     return [key for group in found for key in group.keys if key in shown]
 
 
-def headline(result: Assessment | PartAssessment) -> Headline:
+def headline(result: Assessment | PartAssessment, write: Write = with_interval) -> Headline:
     """The large figures at the largest load, warnings, and what else a page begins with."""
     leading = leading_keys(result)
     figures = [
-        KeyFigure.of(each.name, quantity(each, result.largest))
+        KeyFigure.of(each.name, quantity(each, result.largest, write))
         for each in (result.answers[key] for key in figure_keys(result))
     ]
     below = [elastic_in_words(result)]
@@ -87,7 +88,9 @@ def headline(result: Assessment | PartAssessment) -> Headline:
         scatter = scatter_in_words(answer, result.largest)
         below.insert(0, f"places scatter by {scatter} in {answer.name}")
     return Headline(
-        figures, [*map(sentence, result.warnings)], " ".join(map(sentence, filter(None, below)))
+        figures,
+        [*map(sentence, grave_first(result.warnings))],
+        " ".join(map(sentence, filter(None, below))),
     )
 
 
@@ -117,10 +120,10 @@ def lead_of(result: Assessment | PartAssessment) -> str:
     return sentence(text + (f" ({UNRESOLVED})" if unsure else ""))
 
 
-def told(result: Assessment | PartAssessment, key: str) -> str:
+def told(result: Assessment | PartAssessment, key: str, write: Write = with_interval) -> str:
     """Name and value of an answer at the largest load."""
     answer = result.answers[key]
-    return f"{answer.name} {answer.symbol} {quantity(answer, result.largest)}"
+    return f"{answer.name} {answer.symbol} {quantity(answer, result.largest, write)}"
 
 
 def elastic_in_words(result: Assessment | PartAssessment) -> str:
@@ -142,6 +145,7 @@ def answer_table(
     keys: Sequence[str] | None = None,
     *,
     with_elastic: bool = False,
+    write: Write = with_interval,
 ) -> tuple[list[str], list[list[str]]]:
     """Header and rows of the answers, or of some of them, at all loads or at some of them.
 
@@ -157,12 +161,15 @@ def answer_table(
     for key in result.answers if keys is None else keys:
         each = result.answers[key]
         rows.append(
-            [f"{each.name} {each.symbol}", *(cell for i in shown for cell in _cells(each, i))]
+            [
+                f"{each.name} {each.symbol}",
+                *(cell for i in shown for cell in _cells(each, i, write)),
+            ]
         )
         elastic = result.elastic.get(key) if with_elastic else None
         if elastic is not None and any(_differs(elastic, each, i) for i in shown):
             blank = [""] if of_part else []
-            cells = [cell for i in shown for cell in (_value_alone(elastic, i), *blank)]
+            cells = [cell for i in shown for cell in (_value_alone(elastic, i, write), *blank)]
             rows.append([IF_ELASTIC, *cells])
     return header, rows
 
@@ -183,19 +190,24 @@ def load_table(
 
 
 def counted(
-    result: Assessment | PartAssessment, *, with_elastic: bool = False
+    result: Assessment | PartAssessment,
+    *,
+    with_elastic: bool = False,
+    write: Write = with_interval,
 ) -> list[tuple[str, str, int]]:
     """Name, headline and number of rows of each group, for a page that folds one table."""
 
     def rows(group: _Group) -> list[list[str]]:
         return answer_table(result, keys=group.keys, with_elastic=with_elastic)[1]
 
-    return [(each.name, told(result, each.headline), len(rows(each))) for each in groups(result)]
+    return [
+        (each.name, told(result, each.headline, write), len(rows(each))) for each in groups(result)
+    ]
 
 
-def quantity(answer: Answer | PartAnswer, i: int) -> str:
+def quantity(answer: Answer | PartAnswer, i: int, write: Write = with_interval) -> str:
     """Write one value of an answer, with its interval where that is known; of a part, its mean."""
-    return _written(answer, i, _ends(answer, i))
+    return _written(answer, i, _ends(answer, i), write)
 
 
 def scatter_in_words(answer: PartAnswer, i: int) -> str:
@@ -235,21 +247,23 @@ def _is_decided_by_grid(assessment: Assessment) -> list[bool]:
     return list(curve.converged & ~curve.resolved & (curve.force > 0))
 
 
-def _cells(answer: Answer | PartAnswer, i: int) -> list[str]:
+def _cells(answer: Answer | PartAnswer, i: int, write: Write = with_interval) -> list[str]:
     """One value with its interval; of a part, its scatter as well."""
     scatter = [scatter_in_words(answer, i)] if isinstance(answer, PartAnswer) else []
-    return [quantity(answer, i), *scatter]
+    return [quantity(answer, i, write), *scatter]
 
 
-def _value_alone(answer: Answer | PartAnswer, i: int) -> str:
-    return _written(answer, i, None)
+def _value_alone(answer: Answer | PartAnswer, i: int, write: Write = with_interval) -> str:
+    return _written(answer, i, None, write)
 
 
-def _written(answer: Answer | PartAnswer, i: int, ends: tuple[float, float] | None) -> str:
+def _written(
+    answer: Answer | PartAnswer, i: int, ends: tuple[float, float] | None, write: Write
+) -> str:
     value = _value(answer, i)
     if np.isnan(value) and isinstance(answer, PartAnswer):
         return NO_MEAN
-    return with_interval(value, ends, unit_shown(answer))
+    return write(value, ends, unit_shown(answer))
 
 
 def _value(answer: Answer | PartAnswer, i: int) -> float:

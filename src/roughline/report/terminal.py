@@ -12,6 +12,7 @@ from rich.text import Text
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.contact.status import Status
+from roughline.errors.remark import grave_first
 from roughline.report.answers import (
     UNRESOLVED,
     answer_table,
@@ -60,7 +61,7 @@ def print_assessment(
     if pair is not None:
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)
     else:
-        print_remarks(console, "warning", assessment.warnings)
+        print_remarks(console, "warning", grave_first(assessment.warnings))
         if unfolded_by and assessment.asked.size > MOST_SHOWN:
             ends = f"{_ends_of_curve(assessment)}; for each load use {unfolded_by}"
             console.print(ends, highlight=False, soft_wrap=True)
@@ -160,7 +161,7 @@ def _print_headline(console: Console, result: Assessment | PartAssessment) -> No
         interval = f"  ({each.interval})" if each.interval else ""
         console.print(Text(f"  {each.name:<{width}}  {each.value}{interval}"), soft_wrap=True)
     console.print()
-    print_remarks(console, "warning", result.warnings)
+    print_remarks(console, "warning", grave_first(result.warnings))
     if result.warnings:
         console.print()
 

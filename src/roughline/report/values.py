@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Callable
 
 import numpy as np
 
@@ -12,7 +14,11 @@ _NARROW = 0.1  # half width of an interval up to which it is written as ±
 _ONE_SIDED = 0.5  # shorter over longer half below which both ends are written
 _LEAST = 1e-4  # half width below which an interval says nothing
 _DIGITS_OF_ENDS = 2  # of both ends of an interval, at least
+_SHOWN = 3  # digits on a page of the lab
 _INTERVAL = re.compile(r" (?=[(±])")
+
+Write = Callable[[float, tuple[float, float] | None, str], str]
+"""Writes a value with its interval, if that is known, and its unit."""
 
 
 def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> str:
@@ -35,6 +41,27 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     first, last = (decimal(end * factor, least) if np.isfinite(end) else "infinite" for end in ends)
     percent = "%" if unit == "%" and np.isfinite(high) else ""
     return f"{shown} ({first} to {last}{percent})"
+
+
+def in_three_digits(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+    """Write a value with three digits, and both ends of its interval with their unit."""
+    if not np.isfinite(value) or not value:
+        return with_interval(value, ends, unit)
+    factor, sign = scale_of(value, unit, _SHOWN)
+    shown = f"{three_digits(value * factor)}{sign}"
+    if ends is None or np.isnan(ends).any():
+        return shown
+    first, last = (three_digits(end * factor) for end in ends)
+    return f"{shown} ({first} to {last}{sign if np.isfinite(ends[1]) else ''})"
+
+
+def three_digits(value: float) -> str:
+    """Write a number with three digits, zeros at its end among them: 0.200."""
+    if not np.isfinite(value) or not 1e-4 <= abs(value) < 1e6:
+        return "infinite" if np.isinf(value) else f"{value:.{_SHOWN}g}"
+    rounded = float(f"{value:.{_SHOWN}g}")
+    decimals = _SHOWN - 1 - math.floor(math.log10(abs(rounded)))
+    return f"{rounded:.{max(decimals, 0)}f}"
 
 
 def scale_of(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, str]:

@@ -12,6 +12,7 @@ from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
+from roughline.errors.remark import Remark
 from roughline.errors.words import called
 from roughline.units import decimal, engineering
 
@@ -61,11 +62,12 @@ def _beyond_elastic(pressed: Pressed) -> str:
     worst = float(np.nanmax(ratio[0]))
     if worst <= ELASTIC_UP_TO:
         return ""
-    return (
+    text = (
         f"the mean contact pressure reaches {decimal(worst, 2)} times the softer body's hardness; "
         f"beyond {ELASTIC_UP_TO:g} of it summits yield, so these elastic answers do not hold: "
         f"leave out {called('elastic', True)}, or an infinite {called('hardness')}"
     )
+    return Remark(text, is_grave=True)
 
 
 def _through_the_layer(pressed: Pressed) -> str:
@@ -77,11 +79,12 @@ def _through_the_layer(pressed: Pressed) -> str:
     deepest = float(np.nanmax(indentation, initial=0.0))
     if deepest <= thickness:
         return ""
-    return (
+    text = (
         f"the layer of {top.name}, {engineering(thickness, 'm')}, is indented by up to "
         f"{engineering(deepest, 'm')}: what lies below would yield with a hardness of its own, and "
         "no interval includes that"
     )
+    return Remark(text, is_grave=True)
 
 
 CONTACT = (

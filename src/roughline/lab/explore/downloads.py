@@ -230,9 +230,11 @@ def _draw_panel(axes: Axes, panel: Panel, filled: Filled) -> None:
         for kind, look in series.glyphs.items():
             size, width = look.get("size", 6) * _PER_PIXEL, look.get("line_width", 1) * _PER_PIXEL
             if kind == "varea":
-                ends = (np.asarray(points[end], dtype=float) for end in ("low", "high"))
+                bottom, top = (np.asarray(points[end], dtype=float) for end in ("low", "high"))
                 alpha = look["fill_alpha"]
-                axes.fill_between(x, *ends, color=colour, alpha=alpha, linewidth=0, label=label)
+                axes.fill_between(
+                    x, bottom, top, color=colour, alpha=alpha, linewidth=0, label=label
+                )
             elif kind == "line":
                 dash = _DASHES.get(look.get("line_dash", ""), "-")
                 axes.plot(x, y, dash, color=colour, linewidth=width, label=label)

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assess_part import assess_part
@@ -16,11 +15,12 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.question import Question
+from roughline.errors.remark import DATA, INTERVALS, LIMITS, Remark
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.part import part_in_words
-from roughline.lab.measured.pictures import contact_drawing, curve_drawing
+from roughline.lab.measured.pictures import of_contact, of_curve, of_models
 from roughline.lab.measured.state import (
     CONTROLS,
     at,
@@ -30,7 +30,7 @@ from roughline.lab.measured.state import (
     source_of,
     sources_of,
 )
-from roughline.lab.server.tasks import Arguments, Progress
+from roughline.lab.server.tasks import Arguments, Progress, without_paths
 from roughline.report.answers import (
     IF_ELASTIC,
     UNRESOLVED,
@@ -40,10 +40,13 @@ from roughline.report.answers import (
     lead_of,
     star_is_shown,
 )
-from roughline.report.comparison import comparison_table, verdict_in_words
+from roughline.report.comparison import verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table, modulus_in_words
-from roughline.topography.body import Surface
+from roughline.report.page import sentence
+from roughline.report.values import in_three_digits
 from roughline.units import engineering
+
+_SLIP_ROWS = 12
 
 
 @speaking(CONTROLS)
@@ -53,41 +56,64 @@ def answer(arguments: Arguments, progress: Progress) -> bytes:
     Of several maps, `map` says by its number which of them is shown alone.
     """
     result = assessed(arguments, progress)
-    if isinstance(result, Assessment):
-        return _framed(result)
-    wanted = arguments.get("map")
-    is_there = isinstance(wanted, int) and 0 <= wanted < len(result.assessments)
-    shown = int(wanted or 0) if is_there else 0
-    of_part = part_in_words(result, arguments)
-    return _framed(result.assessments[shown], part={**of_part, "shown": shown})
-
-
-def _framed(result: Assessment, **others: Any) -> bytes:
-    """The assessment of one body, as the page reads it."""
-    arrays: dict[str, NDArray[Any]] = {}
-    contact = None
-    if isinstance(result.body, Surface):
-        drawing = contact_drawing(result)
-        contact, arrays = drawing.header, drawing.arrays
-    header = {
-        "modulus": modulus_in_words(result),
-        "lead": lead_of(result),
-        "figures": [vars(each) for each in headline(result).figures],
-        "answers": answer_table(result, with_elastic=True) if result.answers else None,
-        "groups": counted(result, with_elastic=True),
-        "if_elastic": IF_ELASTIC,
-        "formulas": formula_table(result) if result.answers else None,
-        "curve": curve_table(result),
-        "star": f"* {UNRESOLVED}" if star_is_shown(result) else "",
-        "remarks": list(result.remarks),
-        "theories": [f"{each.name}: {each.validity}" for each in result.theories],
-        "plot": curve_drawing(result),
-        "contact": contact,
-        "slip": _slip(result),
-        "can_report": result.question.pair is not None and bool(result.question.loads),
-        **others,
-    }
+    told = [_remarks(result, arguments)]
+    if isinstance(result, PartAssessment):
+        wanted = arguments.get("map")
+        is_there = isinstance(wanted, int) and 0 <= wanted < len(result.assessments)
+        shown = int(wanted or 0) if is_there else 0
+        told += [_in_words(result, "part"), part_in_words(result, shown)]
+        result = result.assessments[shown]
+    panels, contact, arrays = of_contact(result)
+    told += [_in_words(result, "answers"), _of_body(result)]
+    told += [{"panels": panels | of_curve(result), "choices": {"measured-contact": contact}}]
+    header: dict[str, Any] = {}
+    for each in told:
+        for key, value in each.items():
+            header[key] = {**header.get(key, {}), **value} if isinstance(value, dict) else value
     return frame(header, arrays)
+
+
+def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]:
+    """What was asked, the answers that lead, and all answers in a table with groups."""
+    write, has_elastic = in_three_digits, isinstance(result, Assessment)
+    star = f"* {UNRESOLVED}" if star_is_shown(result) else ""
+    table: tuple[Any, ...] = (["the maps have no common answers"], [])
+    if result.answers:
+        table = answer_table(result, with_elastic=has_elastic, write=write)
+        table += (counted(result, with_elastic=has_elastic, write=write), IF_ELASTIC)
+    elif isinstance(result, Assessment):
+        table = curve_table(result)
+    return {
+        "words": {f"{place}-lead": lead_of(result), f"{place}-star": star},
+        "figures": {place: [vars(each) for each in headline(result, write).figures]},
+        "tables": {f"measured-{place}": table},
+    }
+
+
+def _remarks(result: Assessment | PartAssessment, arguments: Arguments) -> dict[str, Any]:
+    """Grave remarks, and the others by what they are about."""
+    bodies = result.assessments[:1] if isinstance(result, PartAssessment) else [result]
+    theories = [Remark(f"{each.name}: {each.validity}") for each in bodies[0].theories]
+    groups: dict[str, list[str]] = {"": [], DATA: [], INTERVALS: [], LIMITS: []}
+    for each in map(Remark, (*result.remarks, *theories)):
+        told = sentence(without_paths(each, arguments))
+        groups["" if each.is_grave else each.about].append(told)
+    return {"lists": {"grave": groups.pop("")}, "remarks": groups}
+
+
+def _of_body(result: Assessment) -> dict[str, Any]:
+    """What is told of one body alone: its modulus, formulas and partial slip."""
+    nothing = (["no answers follow from a contact modulus alone"], list[list[str]]())
+    tables = {"measured-formulas": formula_table(result) if result.answers else nothing}
+    slip, rows = result.partial_slip, list[list[str]]()
+    if slip is not None:
+        some = np.unique(np.linspace(0, slip.force.size - 1, _SLIP_ROWS).astype(int))
+        columns = ((slip.displacement, "m"), (slip.force, "N"))
+        rows = [[engineering(float(each[i]), unit, 3) for each, unit in columns] for i in some]
+    tables["measured-slip"] = (["displacement", "tangential force"], rows)
+    can_report = result.question.pair is not None and bool(result.question.loads)
+    words = {"modulus": modulus_in_words(result)}
+    return {"words": words, "tables": tables, "can_report": can_report}
 
 
 def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAssessment:
@@ -145,36 +171,7 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
             lambda: compare_models(source.path, reading=reading, progress=progress),
         )
     result = found.comparison
-    header, rows = comparison_table(found)
     star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"
-    return frame(
-        {
-            "what": found.what,
-            "verdict": verdict_in_words(found),
-            "verdicts": [str(each) for each in found.verdicts],
-            "table": [header, rows],
-            "star": star,
-            "notes": list(result.warnings),
-            "force_bar": result.force_bar,
-            "full": result.full.mean,
-            "reduced": {
-                "mean": result.reduced.mean,
-                "low": result.reduced.low,
-                "high": result.reduced.high,
-            },
-        }
-    )
-
-
-def _slip(result: Assessment) -> dict[str, Any] | None:
-    slip = result.partial_slip
-    if slip is None:
-        return None
-    shown = np.unique(np.linspace(0, slip.force.size - 1, 12).astype(int))
-    return {
-        "friction": slip.friction,
-        "rows": [
-            [engineering(float(slip.displacement[i]), "m"), engineering(float(slip.force[i]), "N")]
-            for i in shown
-        ],
-    }
+    words = {"what": found.what, "verdict": sentence(verdict_in_words(found)), "compare-star": star}
+    lists = {"compare-notes": result.warnings}
+    return frame({"words": words, "lists": lists, "panels": {"measured-models": of_models(found)}})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
 from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
+from roughline.lab.measured import controls as c
 from roughline.lab.measured.state import CONTROLS, Said, Source, at, question_of, used_in
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.contact_tables import solid_in_words
@@ -32,41 +34,68 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     """
     body = _flat(arguments.get("sides"))
 
-    def read(said: Said) -> Question:
+    def read(said: Said) -> tuple[Question, Said]:
         question = question_of(said, Source(Path("no file yet"), "", ""))
         with at("joint_area" if "joint_area" in said else ""):
-            return question if body is None else replace(question, body=body, reading=Reading())
+            if body is not None:
+                question = replace(question, body=body, reading=Reading())
+        return question, said
 
-    question, refused = used_in(arguments, read)
-    loads = question.loads
+    (question, said), refused = used_in(arguments, read)
     of = ", of what lies at the surfaces" if question.coated else ""
-    rows = [["contact modulus E*", engineering(question.modulus, "Pa") + of]]
-    pair = question.pair
+    rows = [["contact modulus E*", engineering(question.modulus, "Pa", 3) + of]]
+    pair, notes = question.pair, ["a contact modulus alone gives the curve, and no answers"]
     if pair is not None:
-        rows += [
-            ["rough body", solid_in_words(pair.first)],
-            ["smooth body", solid_in_words(pair.second)],
-        ]
-        notes = [
-            *of_unknown_hardness(pair),
-            *rules.left_out(pair, question.frequency_in_hertz),
-        ]
-    else:
-        notes = ["a contact modulus alone gives the curve, and no answers for materials"]
-    hardness = hardness_of(question)
-    rows.append(["yield", _yield_in_words(question, hardness)])
-    if not loads:
+        bodies = zip(c.BODIES.values(), (pair.first, pair.second), strict=False)
+        rows += [[text.label, solid_in_words(solid)] for (_, text), solid in bodies]
+        left_out = rules.left_out(pair, question.frequency_in_hertz)
+        notes = [*of_unknown_hardness(pair), *left_out]
+    rows.append(["yield", _yield_in_words(question, hardness_of(question))])
+    if not question.loads:
         notes.append(
             f"no load is given: {DEFAULT_LOADS} loads from first touch to saturation are taken"
         )
-    meanings = meaning_of_loads(question, body) if body is not None and loads else []
+    meanings = meaning_of_loads(question, body) if body is not None and question.loads else []
     header = {
         "refused": refused,
-        "rows": rows,
-        "loads": list(meanings),
-        "notes": notes,
+        "tables": {"measured-bodies": [["", ""], rows]},
+        "lists": {"loads": meanings, "bodies-notes": notes},
+        "words": {
+            "line-preparation": _line_of_preparation(said),
+            "line-bodies": _line_of_bodies(question, said),
+        },
     }
     return frame(header)
+
+
+def _line_of_preparation(said: Said) -> str:
+    """What is done to the topography, in one line."""
+    trend = said.get("trend", "default")
+    removed = {"default": "tilt", "none": "no trend"}.get(trend, trend)
+    others = _others(said, "preparation", "trend")
+    return ", ".join([f"{removed} removed", "missing points filled", *others])
+
+
+def _line_of_bodies(question: Question, said: Said) -> str:
+    """What is pressed under which loads, in one line."""
+    pair = question.pair
+    pressed = f"E* = {engineering(question.modulus, 'Pa', 3)}"
+    if pair is not None:
+        pressed = f"{pair.first.name} {'against' if pair.coated else 'on'} {pair.second.name}"
+    loads = ", ".join(question.headings) or f"{DEFAULT_LOADS} loads"
+    return ", ".join([pressed, loads, *_others(said, "bodies", "loads")])
+
+
+def _others(said: Said, step: str, told: str) -> list[str]:
+    """What else is set in a step, less a control that is told."""
+    found = []
+    for key in chain(*c.STEPS[step].values()):
+        usual = key in c.CHOICES and said.get(key) == c.CHOICES[key].default
+        if key in said and key != told and not usual:
+            field = c.BY_CONTROL[key]
+            shown = field.choices[said[key]][1] if field.choices else said[key]
+            found.append(f"{field.label or key.replace('_', ' ')} {shown}")
+    return found
 
 
 def _yield_in_words(question: Question, hardness: Hardness | None) -> str:
@@ -74,7 +103,7 @@ def _yield_in_words(question: Question, hardness: Hardness | None) -> str:
     if hardness is None:
         return "left out" if question.elastic else "no hardness is known: elastic"
     known = "as given" if hardness.factor == 1 else f"known to a factor of {hardness.factor:g}"
-    return f"at {engineering(hardness.value, 'Pa')}, {known}"
+    return f"at {engineering(hardness.value, 'Pa', 3)}, {known}"
 
 
 def _flat(sides: Any) -> Body | None:

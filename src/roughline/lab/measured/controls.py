@@ -1,8 +1,8 @@
-"""The controls of the view "My surface"."""
+"""The controls of the view "My surface", made of the fields of a question."""
 
 from __future__ import annotations
 
-from roughline.assessment.fields import ANSWERS, BODIES, FIELDS, FILE, LOADS, PREPARATION
+from roughline.assessment.fields import FIELDS, FILE, PREPARATION
 from roughline.lab.controls import Choice
 
 MOST_POINTS = 4096
@@ -13,14 +13,18 @@ MOST_MAPS = 20
 BY_CONTROL = {each.control: each for each in FIELDS if each.control}
 """Fields of a question by the keys of their controls."""
 
-_BODIES = Choice(
+BODIES = {key: (field, text) for field in FIELDS for key, text in field.texts.items()}
+"""Fields that say what is pressed, which have several texts or exclude each other, and their texts,
+by the keys of these."""
+
+_GIVEN_BY = Choice(
     "bodies",
     "bodies given by",
     {"materials": "two materials", "modulus": "contact modulus"},
     "materials",
     "Two materials give all answers; a contact modulus E* alone gives the curve.",
 )
-CHOICES = {"bodies": _BODIES} | {
+CHOICES = {
     key: Choice(
         key,
         field.label or key,
@@ -31,28 +35,20 @@ CHOICES = {"bodies": _BODIES} | {
     for key, field in BY_CONTROL.items()
     if field.choices
 }
+CHOICES["bodies"] = _GIVEN_BY
 """Controls of which one of several words is chosen."""
 
-OF_PREPARATION = tuple(
-    key
-    for key, field in BY_CONTROL.items()
-    if field.group in (FILE, PREPARATION) and key not in ("unit", "channel", "size")
-)
-"""Controls of the second step; what a file leaves open is asked in the first."""
-OF_FLUID = ("fluid", "inlet", "outlet", "seal", "flow_along", "sealing_pressure")
-"""Controls of the third step for a fluid in the gap, in a fold of their own."""
-FOLDED = tuple(
-    key
-    for key, field in BY_CONTROL.items()
-    if key == "boundary" or (field.group == ANSWERS and key != "theories" and key not in OF_FLUID)
-)
-"""Controls of the third step that are folded away; theories have boxes of their own."""
-OF_BODIES = tuple(
-    key
-    for key, field in BY_CONTROL.items()
-    if field.group in (BODIES, LOADS) and key not in ("loads", *FOLDED)
-)
-"""Other controls of the third step, beside the bodies and the loads."""
+BEGINS = {key: text.begins for key, (_, text) in BODIES.items()}
+BEGINS |= {key: field.begins for key, field in BY_CONTROL.items() if field.begins}
+"""What stands in the form at first, by the keys of controls."""
 
-KEYS = (*BY_CONTROL, "bodies", "first", "second", "E")
+KEYS = (*BY_CONTROL, "bodies", *BODIES)
 """Keys of all controls, as in the address."""
+
+STEPS: dict[str, dict[str, list[str]]] = {"preparation": {"": []}, "bodies": {"": []}}
+"""Keys of the controls of the second and the third step by their folds; "" has none."""
+
+for _key, _field in BY_CONTROL.items():
+    _step = "preparation" if _field.group in (FILE, PREPARATION) else "bodies"
+    if _field.group != FILE or not _field.is_of_file:  # what a file leaves open is asked before
+        STEPS[_step].setdefault(_field.fold, []).append(_key)

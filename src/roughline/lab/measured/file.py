@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
-import numpy as np
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
 
 from roughline.assessment.description import Description, describe_measurement
 from roughline.assessment.reading import Reading
@@ -13,11 +11,7 @@ from roughline.assessment.source import measured_body
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
-from roughline.lab.measured.pictures import (
-    drawing_of_body,
-    drawing_of_file,
-    spectrum_of,
-)
+from roughline.lab.measured.pictures import of_file, of_preparation
 from roughline.lab.measured.state import (
     CONTROLS,
     Said,
@@ -40,18 +34,11 @@ from roughline.topography.preparation import Preparation
 @speaking(CONTROLS)
 def look(arguments: Arguments, progress: Progress) -> bytes:
     """What the file holds, what it leaves open, and its roughness as it is read."""
-    session = arguments["session"]
-    source = source_of(said_of(arguments), session)
-
-    def read(said: Said) -> Description:
-        with at("file"):
-            return described(said, source, session)
-
-    found, refused = used_in(arguments, read)
+    found, refused, _ = _described(arguments, "file")
     content = found.measurement
-    drawing = drawing_of_file(content, found.body)
+    panels, arrays = of_file(found)
     header = {
-        "name": source.name,
+        "name": source_of(said_of(arguments), arguments["session"]).name,
         "refused": refused,
         "asks": {
             "unit": content.unit is None,
@@ -59,26 +46,50 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
             "channels": list(content.channels) if len(content.channels) > 1 else [],
         },
         "channel": content.channel,
-        "obstacles": list(found.obstacles),
-        "file": drawing.header,
-        **_of_description(found),
+        "body": _body(found),
+        "panels": panels,
+        "tables": {"measured-roughness": [["", ""], description_table(found)]},
+        "lists": {"obstacles": found.obstacles, "remarks": _remarks(found)},
     }
-    return frame(header, drawing.arrays | _body_arrays(found.body))
+    return frame(header, arrays)
 
 
 @speaking(CONTROLS)
 def prepare(arguments: Arguments, progress: Progress) -> bytes:
-    """The file, prepared."""
+    """The file before and after its preparation."""
+    found, refused, crop = _described(arguments, "preparation")
+    header = {"refused": refused, "body": _body(found)}
+    obstacles, body = {"obstacles": found.obstacles}, found.body
+    if body is None:
+        return frame({**header, "lists": obstacles})
+    before, _, _ = _described(arguments, "file")
+    panels, arrays = of_preparation(before.body or body, body, crop)
+    old, new = (dict(description_table(each)) for each in (before, found))
+    names = [name for name in old | new if name != "file"]
+    rows = [[name, old.get(name, "-"), new.get(name, "-")] for name in names]
+    header |= {
+        "panels": panels,
+        "lists": obstacles | {"prepared-remarks": _remarks(found)},
+        "tables": {"measured-prepared": [["", "before", "after"], rows]},
+    }
+    return frame(header, arrays)
+
+
+def _described(
+    arguments: Arguments, key: Literal["file", "preparation"]
+) -> tuple[Description, dict[str, str], Sequence[float] | None]:
+    """The file of a page, prepared or as read; which texts are not used and why; the crop. [m]"""
     session = arguments["session"]
     source = source_of(said_of(arguments), session)
 
-    def read(said: Said) -> Description:
-        with at("preparation"):
-            return described(said, source, session, is_prepared=True)
+    def read(said: Said) -> tuple[Description, Preparation | None]:
+        with at(key):
+            is_prepared = key == "preparation"
+            found = described(said, source, session, is_prepared=is_prepared)
+            return found, preparation_of(said) if is_prepared else None
 
-    found, refused = used_in(arguments, read)
-    header = {"refused": refused, "obstacles": list(found.obstacles)}
-    return frame({**header, **_of_description(found)}, _body_arrays(found.body))
+    (found, preparation), refused = used_in(arguments, read)
+    return found, refused, None if preparation is None else preparation.crop
 
 
 def described(
@@ -108,28 +119,15 @@ def described(
     return describe_measurement(source.path, content, reading, preparation, body_of=body_of)
 
 
-def _of_description(found: Description) -> dict[str, Any]:
-    """Table, remarks and spectrum of a body, and what the page draws of it."""
-    body, parameters = found.body, found.roughness
-    remarks = [*found.notes, *(parameters.remarks if parameters else [])]
-    return {
-        "table": description_table(found),
-        "remarks": list(remarks),
-        "missing": found.missing.count,
-        "body": None if body is None else _of_body(body),
-        "spectrum": spectrum_of(found),
-    }
+def _remarks(found: Description) -> list[str]:
+    """What is to be known about a body."""
+    return [*found.notes, *(found.roughness.remarks if found.roughness else [])]
 
 
-def _of_body(body: Body) -> dict[str, Any]:
-    return {
-        **drawing_of_body(body).header,
-        "kind": "surface" if isinstance(body, Surface) else body.kind,
-        "sides": sides_of(body),
-        "points": body.heights.shape,
-        "is_cut_out": isinstance(body, Surface) and body.is_cut_out,
-    }
-
-
-def _body_arrays(body: Body | None) -> dict[str, np.ndarray[Any, Any]]:
-    return {} if body is None else drawing_of_body(body).arrays
+def _body(found: Description) -> dict[str, Any] | None:
+    """What is pressed, as far as it can be."""
+    body = found.body
+    if body is None:
+        return None
+    kind = "surface" if isinstance(body, Surface) else body.kind
+    return {"kind": kind, "sides": sides_of(body), "points": body.heights.shape}

@@ -6,12 +6,15 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.source import Topography
+from roughline.errors.checks import shortened
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
+from roughline.lab.measured.pictures import Panel
 from roughline.lab.measured.state import (
     CONTROLS,
     preparation_of,
@@ -21,18 +24,9 @@ from roughline.lab.measured.state import (
     used_in,
 )
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
-from roughline.report.answers import (
-    UNRESOLVED,
-    answer_table,
-    counted,
-    headline,
-    lead_of,
-    leading_keys,
-    star_is_shown,
-    unit_shown,
-)
+from roughline.report.answers import leading_keys, unit_shown
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
-from roughline.report.values import scale_of
+from roughline.report.values import scale_of, three_digits
 
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
 
@@ -57,42 +51,47 @@ def maps(arguments: Arguments, progress: Progress) -> bytes:
     return frame({"maps": rows, "refused": refused})
 
 
-def part_in_words(part: PartAssessment, arguments: Arguments) -> dict[str, Any]:
-    """Tables, remarks and the drawing of a part."""
-    return {
-        "names": part.names,
-        "maps": maps_table(part),
-        "leading": leading_table(part),
-        "lead": lead_of(part),
-        "figures": [vars(each) for each in headline(part).figures],
-        "answers": answer_table(part) if part.answers else None,
-        "groups": counted(part),
-        "star": f"* {UNRESOLVED}" if star_is_shown(part) else "",
-        "remarks": [without_paths(each, arguments) for each in part.remarks],
-        "load": part.headings[part.largest],
-        "drawings": _drawings(part),
-    }
-
-
-def _drawings(part: PartAssessment) -> list[dict[str, Any]]:
-    """Answers that differ between the maps at the largest load, the leading ones first."""
+def part_in_words(part: PartAssessment, shown: int) -> dict[str, Any]:
+    """Names and tables of the maps of a part, of which one is shown alone, and its drawings."""
+    tables = {"measured-part-leading": leading_table(part), "measured-part-maps": maps_table(part)}
     leading = [key for key in leading_keys(part.assessments[0]) if key in part.answers]
     others = [key for key in part.answers if key not in leading]
-    drawn = [_drawing(part.answers[key], part.largest) for key in leading + others]
-    return [each for each in drawn if np.ptp(each["values"]) > _SAME * np.max(each["values"])]
+    drawn = {}
+    for answer in map(part.answers.get, (*leading, *others)):
+        assert answer is not None
+        values = np.array([each.values[part.largest] for each in answer.of_maps])
+        if np.ptp(values) > _SAME * np.max(values):  # those that differ between the maps
+            drawn[f"{answer.name} {answer.symbol}"] = _panel(part, answer, values)
+    maps = {"names": part.names, "shown": shown}
+    return {"part": maps, "tables": tables, "choices": {"measured-part": drawn}}
 
 
-def _drawing(answer: PartAnswer, load: int) -> dict[str, Any]:
-    """One answer of each map at a load with its interval, the mean, and the part's interval."""
-    values = np.array([each.values[load] for each in answer.of_maps])
+def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]) -> Panel:
+    """One answer of each map at the largest load, the mean, and the part's interval."""
+    load = part.largest
     factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer))
-    low, high = (end * factor for end in answer.ends_of_maps(load))
+    unit, (low, high) = unit.strip(), (end * factor for end in answer.ends_of_maps(load))
+    values, mean = values * factor, float(answer.mean[load]) * factor
+    whole = [float(end[load]) * factor for end in (answer.low, answer.high)]
+    cells = zip([*values, mean], [*low, whole[0]], [*high, whole[1]], strict=True)
+    rows = [[f"{three_digits(each)} {unit}".strip() for each in row] for row in cells]
+    maps = [f"{i} {shortened(name)}" for i, name in enumerate(part.names, 1)]
+    band = {"bottom": whole[0], "top": whole[1]} if np.isfinite(whole).all() else {}
+    line = {"location": mean} if np.isfinite(mean) else {}
     return {
-        "name": f"{answer.name} {answer.symbol}",
-        "unit": unit.strip(),
-        "values": values * factor,
-        "low": low,
-        "high": high,
-        "mean": answer.mean[load] * factor,
-        "interval": [answer.low[load] * factor, answer.high[load] * factor],
+        "factors": maps,
+        "span": [*values, *low, *high, mean, *whole],
+        "sources": {"part": {"map": maps, "y": values, "low": low, "high": high}},
+        "models": {
+            "part mean": {"visible": bool(line), **line},
+            "part interval": {"visible": bool(band), **band},
+        },
+        "axes": [None, f"{answer.name} {answer.symbol}" + (f" [{unit}]" if unit else "")],
+        "caption": f"at {part.headings[load]}; marks: each map and its interval; band: that of the "
+        "mean, for the part",
+        "table": [
+            ["map", "value", "from", "to"],
+            [[name, *row] for name, row in zip([*part.names, "mean"], rows, strict=True)],
+        ],
+        "extent": f"{maps} {answer.name}",
     }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -12,17 +11,14 @@ from typing import Any, TypeVar
 
 import roughline as rl
 from roughline.assessment import told
-from roughline.assessment.fields import FILE, PREPARATION, names_by
+from roughline.assessment.fields import FILE, LOADS, PREPARATION, names_by
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.assessment.told import refuse_alone
-from roughline.engineering.coated import Solid
 from roughline.engineering.materials import material
-from roughline.errors.checks import shown
 from roughline.errors.words import Words
 from roughline.lab.controls import (
     ControlError,
-    is_number,
     refuse_strange,
     texts_of,
     usable,
@@ -31,14 +27,13 @@ from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import EXAMPLES, path_of
 from roughline.lab.server.tasks import Arguments
 from roughline.topography.preparation import Preparation
-from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comma
 
 _FILES = ("file", "example")
 _KNOWN = (*_FILES, *c.KEYS)
-_OF_ARGUMENTS = {"E_star": ("E",), "materials": ("first", "second")} | {
-    each.name: (key,) for key, each in c.BY_CONTROL.items()
+_OF_ARGUMENTS = {each.name: (key,) for key, each in c.BY_CONTROL.items()} | {
+    field.name: tuple(field.texts) for field, _ in c.BODIES.values()
 }
-"""Controls by the names of arguments."""
+"""Keys of controls by the names of arguments."""
 
 CONTROLS = Words(
     names_by(lambda field: field.word or field.label or field.control.replace("_", " ")),
@@ -46,13 +41,14 @@ CONTROLS = Words(
 )
 """What the page calls arguments of the library: its controls."""
 
-_MOST_LOADS = 20  # of one question
 _DEFAULTS = {key: each.default for key, each in c.CHOICES.items()} | {
-    "most_missing": c.BY_CONTROL["most_missing"].otherwise
+    key: each.otherwise for key, each in c.BY_CONTROL.items() if each.kind is float
 }
 """Of controls that mean something without a text."""
-_NEEDED = {"first": "steel", "second": "copper", "E": "110 GPa"}
+_NEEDED = {key: c.BEGINS[key] for key in c.BODIES}
 """Of controls without whose text there is no answer: what is used while there is none."""
+_MOST = {"points": c.MOST_POINTS, "loads": 20}
+"""Largest numbers, or most texts, that this lab takes, by the names of fields."""
 
 _Read = TypeVar("_Read")
 Said = Mapping[str, str]
@@ -152,10 +148,19 @@ def told_in(said: Said, *groups: str) -> dict[str, Any]:
             given[field.name] = field.choices[c.CHOICES[key].read(text or _DEFAULTS[key])][0]
         elif text is not None:
             with at(key):
-                read: Callable[[str], Any] = _READ.get(key) or field.value
-                given[field.name] = read(text)
-                refuse_alone(field, given[field.name])
+                given[field.name] = value = field.value(_split(text, field.separator))
+                refuse_alone(field, value)
+                count = len(value) if isinstance(value, list) else value
+                if field.name in _MOST and count > _MOST[field.name]:
+                    raise ControlError(f"{count} are too many; give up to {_MOST[field.name]}", key)
     return given
+
+
+def _split(text: str, separator: str) -> str | list[str]:
+    """The texts of a control that takes several, which a comma with a space parts as well."""
+    if not separator:
+        return text
+    return [part.strip() for part in re.split(rf"{separator}|,\s", text) if part.strip()]
 
 
 def reading_of(said: Said, name: str | None) -> Reading:
@@ -183,57 +188,23 @@ def question_of(said: Said, source: Source) -> Question:
 
 def bodies_of(said: Said) -> dict[str, Any]:
     """Two materials, or a contact modulus, as a question takes them."""
-    if c.CHOICES["bodies"].read_in(said) == "modulus":
-        with at("E"):
-            if "E" not in said:
-                raise ControlError('give the contact modulus, such as "110 GPa"', "E")
-            modulus = in_si(said["E"], "Pa", "contact modulus")
-            if not 0 < modulus < math.inf:
-                raise ControlError(
-                    f'contact modulus is "{said["E"][:40]}"; give a positive one', "E"
-                )
-        return {"E_star": modulus}
-    pair: list[Solid] = []
-    for key in ("first", "second"):
+    by_modulus = c.CHOICES["bodies"].read_in(said) == "modulus"
+    name, given = "E_star" if by_modulus else "materials", []
+    for key, (field, text) in c.BODIES.items():
+        if field.name != name:
+            continue
         with at(key):
             if key not in said:
-                raise ControlError(
-                    f'give the {key} material: a name, values such as "E=70 GPa nu=0.33", or '
-                    'a coated one such as "rubber 2 mm on steel"',
-                    key,
-                )
-            pair.append(material(said[key]))
-    if all(math.isinf(each.surface.E) for each in pair):
-        raise ControlError("both materials are rigid: one of them must give way", "second")
-    return {"materials": tuple(pair)}
+                raise ControlError(f'give the {text.label}, such as "{text.begins}"', key)
+            if by_modulus:
+                refuse_alone(field, said[key])
+            given.append(said[key] if by_modulus else material(said[key]))
+    return {name: given[0] if by_modulus else tuple(given)}
 
 
 def loads_of(said: Said) -> list[str]:
     """The loads, as they were typed."""
-    with at("loads"):
-        return _loads(said.get("loads", ""))
-
-
-def _loads(text: str) -> list[str]:
-    """Loads with semicolons, or commas and spaces, between."""
-    loads = [part.strip() for part in re.split(r";|,\s", text) if part.strip()]
-    for load in loads:
-        if not 0 < load_in_newtons(load, 1.0) < math.inf:
-            raise ControlError(f'load is "{load[:40]}"; give positive ones', "loads")
-    if len(loads) > _MOST_LOADS:
-        raise ControlError(f"{len(loads)} loads; give up to {_MOST_LOADS}", "loads")
-    return loads
-
-
-def _friction(text: str) -> float | str:
-    """A number; a text that is none is refused by what it is of."""
-    refuse_decimal_comma(text, "the coefficient of friction")
-    return float(text) if is_number(text) else text
-
-
-def _theories(text: str) -> list[str]:
-    """Names of theories with commas between."""
-    return [name for name in text.split(",") if name]
+    return list(told_in(said, LOADS).get("loads", ()))
 
 
 @contextmanager
@@ -246,50 +217,3 @@ def at(key: str) -> Iterator[None]:
         keys = [each for name in about for each in _OF_ARGUMENTS.get(name or "", (name,))]
         among = getattr(error, "among", [key for key in keys if key in c.KEYS] or [key])
         raise ControlError(str(error), *among) from None
-
-
-def _share(text: str) -> float:
-    """A share, in per cent or as a number."""
-    number = text.removesuffix("%")
-    refuse_decimal_comma(number, "most missing")
-    share = float(number) if is_number(number) else math.nan
-    share = share / 100 if text.endswith("%") else share
-    if not 0 <= share < 1:
-        raise ControlError(
-            f'most missing is "{text[:40]}"; give a share such as 20 %, below 100 %',
-            "most_missing",
-        )
-    return share
-
-
-def _sizes(text: str) -> str:
-    """Sides of a file that states none, as they were typed."""
-    sides = lengths(text, "size")
-    if len(sides) > 2 or not all(0 < side < math.inf for side in sides):
-        raise ControlError(
-            f"size is {shown(text)}; give one or two positive lengths, such as 1 mm, 0.5 mm",
-            "size",
-        )
-    return text
-
-
-def _points(text: str) -> int:
-    """Points along the longer side."""
-    if not (text.isascii() and text.isdecimal()) or not 2 <= int(text[:20]) <= c.MOST_POINTS:
-        raise ControlError(
-            f'points to resample to is "{text[:40]}"; give a whole number from 2 to '
-            f"{c.MOST_POINTS}, the most that this lab resamples to",
-            "resample",
-        )
-    return int(text)
-
-
-_READ: dict[str, Callable[[str], Any]] = {
-    "loads": _loads,
-    "friction": _friction,
-    "theories": _theories,
-    "most_missing": _share,
-    "size": _sizes,
-    "resample": _points,
-}
-"""Readers of controls whose texts are not those of the command line, or have limits of the lab."""

@@ -5,14 +5,22 @@ export function element(kind, properties = {}, ...inside) {
   return made;
 }
 
-const SYMBOL = /(_[A-Za-z0-9]+|\^-?[\wα-ω]+(?:\.\d+)?|(?<=\d)e-?\d+)/;
+const NAMES = {phi: "φ", rho: "ρ", m_dot: "ṁ"};
+const SYMBOLS = [ // k_i and E*_l, but no names of files; powers; numbers such as 1e-05
+  String.raw`(?<![\p{L}\d.])\p{L}\p{M}?\*?_[\p{L}\d]{1,4}(?![\p{L}\d_]|\.\p{L})`,
+  String.raw`\^-?[\wα-ω]+(?:\.\d+)?`,
+  String.raw`(?<=(?<![\p{L}\d_.-])\d+(?:\.\d+)?)e-?\d+(?![\p{L}\d])`,
+];
+const SYMBOL = new RegExp(`(${SYMBOLS.join("|")})`, "u");
 
-// A text in pieces: what follows an underscore is set low, and powers high.
+// A text in pieces: what follows the underscore of a symbol is set low, and powers high.
 export function typeset(text) {
-  return text.split(SYMBOL).filter(Boolean).flatMap((part) => {
-    if (!SYMBOL.test(part)) return part;
-    if (part[0] === "_") return element("sub", {textContent: part.slice(1)});
-    const textContent = part.slice(1).replace(/^-0*/, "−");
-    return [part[0] === "e" ? "·10" : "", element("sup", {textContent})];
+  const parts = text.replace(/\b(m_dot|phi|rho)(?=_|\b)/g, (name) => NAMES[name]).split(SYMBOL);
+  return parts.flatMap((part, i) => {
+    if (i % 2 === 0) return part ? [part] : [];
+    const [base, low] = part.split("_");
+    if (low) return [base, element("sub", {textContent: low})];
+    const textContent = part.slice(1).replace(/^(-?)0*(?=\d)/, "$1").replace("-", "−");
+    return [...(part[0] === "e" ? ["·10"] : []), element("sup", {textContent})];
   });
 }

@@ -230,5 +230,8 @@ function ofFlux() {
 
 // Layers to tell of: looks by their keys, with their arrays; what has no title is not told.
 export function layersOf(looks, arrays) {
-  return Object.entries(looks).flatMap(([key, look]) => (look.title && arrays[key] ? [{key, ...look, array: arrays[key]}] : []));
+  return Object.entries(looks).flatMap(([key, look]) => {
+    const array = arrays[look.array ?? key];
+    return look.title && array ? [{key, ...look, array}] : [];
+  });
 }

@@ -3,47 +3,37 @@ import {copy} from "./clipboard.js";
 import {openDialog} from "./dialogs.js";
 import {element} from "./elements.js";
 import {recall, remember} from "./remember.js";
-import {fillFigures, fillTable, foldRows} from "./tables.js";
-import {Waiting} from "./waiting.js";
 
-const TASKS = ["answers", "compare", "report"];
+export const TASKS = ["answers", "compare", "report"];
 const VERDICTS = {confirmed: "good", refuted: "error", undecided: "doubt"};
 
 export class Answers {
-  #link; #view; #part; #waiting = {}; #contact = null; #arrays = {};
+  #link; #view; #part;
   #answered = null; // what was asked for the answers that are shown
   #asked = recall("asked") ?? {}; // what was asked or is shown, for when the page is loaded again
-  pictures = null;
 
   constructor(link, view, part) {
     this.#link = link;
     this.#view = view;
     this.#part = part;
-    for (const name of TASKS) {
-      this.#waiting[name] = new Waiting(view.find(`[data-waiting="${name}"]`), link, () => {
-        this.#end(name, "stopped");
-        this.#note(name, null);
-      });
-    }
-    view.find("[data-press]").addEventListener("click", () => this.#press());
-    view.find("[data-compare]").addEventListener("click", () => this.#compare());
-    view.find("[data-report]").addEventListener("click", () => this.#report());
-    for (const button of view.findAll("[data-code]")) button.addEventListener("click", () => this.#code(button));
-    view.find("[data-shown]").addEventListener("change", () => this.#drawField());
-    view.find("[data-part-map]").addEventListener("change", ({target}) => this.#press({...this.#seen, map: Number(target.value)}));
-    view.find("[data-copy]").addEventListener("click", ({target}) => copy(view.find("[data-code-dialog] pre").textContent, target));
+    const on = (selector, type, act) => view.findAll(selector).forEach((each) => each.addEventListener(type, act));
+    on("[data-press]", "click", () => this.#press({}, true));
+    on("[data-compare]", "click", () => this.#compare());
+    on("[data-report]", "click", () => this.#report());
+    on("[data-code]", "click", ({currentTarget}) => this.#code(currentTarget));
+    on("[data-part-map]", "change", ({target}) => this.#press({...this.#seen, map: Number(target.value)}));
+    on("[data-copy]", "click", ({target}) => copy(view.find("[data-code-dialog] pre").textContent, target));
   }
 
   // The file can be pressed, or not.
   ready() {
-    const {body} = this.#view;
-    const isSurface = body?.kind === "surface";
-    for (const name of ["press", "report"]) this.#view.find(`[data-${name}]`).disabled = !body;
-    for (const button of this.#view.findAll("[data-code]")) button.disabled = !body;
+    const {body} = this.#view, isSurface = body?.kind === "surface";
+    for (const button of this.#view.findAll("[data-press], [data-report], [data-code]")) button.disabled = !body;
     this.#view.find("[data-compare]").disabled = !isSurface;
-    this.#view.find("[data-compare-note]").textContent = !body || isSurface
-      ? "Where the reduced model may be trusted on the surface as it is in the file, without the preparation of step 2."
-      : "The models are compared on a surface: a line scan shows one direction, and the full model needs both.";
+    this.#view.say("compare-note", !body || isSurface
+      ? "The models are compared on the surface as it is in the file, without the preparation of step 2."
+      : "The models are compared on a surface: a line scan shows one direction, and the full model needs both.");
+    if (this.#answered === null) this.#view.say("line-answers", body ? "press to see them" : "choose a file");
     this.changed();
   }
 
@@ -51,31 +41,33 @@ export class Answers {
   changed() {
     const isOther = this.#answered !== null && this.#answered.settings !== this.#view.settings;
     this.#view.find("[data-changed]").hidden = !isOther;
-    this.#view.find('[data-result="answers"]').classList.toggle("dimmed", isOther || this.#link.isWaiting("measured answers"));
+    this.#dim(isOther || this.#link.isWaiting("measured answers"));
     const {settings} = this.#answered ?? this.#asked.answers ?? {};
     if (this.#asked.report?.settings !== settings) this.#view.find("[data-links]").replaceChildren();
   }
 
   forget() {
-    this.lose();
     this.#answered = null;
-    this.#view.find('[data-empty="answers"]').hidden = false;
-    this.ready();
+    this.lose();
   }
 
   // What was asked is asked no more, and the session has nothing of it any longer.
   lose() {
-    for (const name of TASKS) {
-      this.#waiting[name].stop([`measured ${name}`]);
-      this.#end(name, "");
-      this.#note(name, null);
-    }
-    this.changed();
+    const works = TASKS.map((name) => `measured ${name}`);
+    this.#view.waiting.stop(works);
+    this.stopped(works, "");
+    this.ready();
   }
 
   loseReport() {
     this.#note("report", null);
     this.changed();
+  }
+
+  // Some works were cancelled.
+  stopped(works, text = "stopped") {
+    for (const name of TASKS.filter((each) => works.includes(`measured ${each}`))) this.#note(name, null);
+    this.#end(text);
   }
 
   // Ask again for what was shown or asked for when the page was loaded again: it is kept, or goes on.
@@ -94,21 +86,17 @@ export class Answers {
     remember("asked", this.#asked);
   }
 
-  #ask(task, name, asked, done) {
+  // Ask for a task with what is set now, less what is given.
+  #ask(task, name, given, done) {
+    const {state, settings} = this.#view, asked = {state, settings, ...given};
     this.#view.refuse("", name);
-    this.#say(name, "");
+    this.#end("");
     this.#note(name, asked);
-    const {settings, ...question} = asked;
-    this.#waiting[name].ask(task, `measured ${name}`, question, {
-      answer: (answer) => { this.#end(name, ""); done(answer); },
-      error: (sentence, at) => { this.#end(name, ""); this.#note(name, null); this.#view.refuseTask(sentence, at, name); },
+    const {settings: _, ...question} = asked;
+    this.#view.waiting.ask(task, `measured ${name}`, question, {
+      answer: (answer) => { done(answer, asked); this.#end(""); },
+      error: (sentence, at) => { this.#note(name, null); this.#end(""); this.#view.refuseTask(sentence, at, name); },
     });
-  }
-
-  // A question of what is set now, less what is given.
-  #now(given = {}) {
-    const {state, settings} = this.#view;
-    return {state, settings, ...given};
   }
 
   // What the answers that are shown were asked of, and without any what is set; answers of another file are forgotten.
@@ -117,61 +105,41 @@ export class Answers {
     return {state: {...state, file, example}, settings};
   }
 
-  // Press the body, or all maps of a part, of which one is shown alone.
-  #press(given = {}, then = () => {}) {
-    this.#view.find('[data-result="answers"]').classList.add("dimmed");
-    const asked = this.#now({map: 0, ...given});
-    this.#ask("measured.answer", "answers", asked, (answer) => { this.#show(answer, asked); then(); });
+  // Press the body, or all maps of a part, of which one is shown alone; who pressed is shown the answer.
+  #press(given = {}, isByHand = false, then = () => {}) {
+    this.#dim(true);
+    this.#ask("measured.answer", "answers", {map: 0, ...given}, (answer, asked) => {
+      const view = this.#view;
+      this.#answered = asked;
+      view.step("answers").open = true;
+      view.showResult("answers", true);
+      for (const place of view.findAll("[data-of-part]")) place.hidden = !answer.part;
+      if (answer.part) this.#part.show(answer.part);
+      view.find("[data-slip]").hidden = !answer.tables["measured-slip"][1].length;
+      view.say("line-answers", answer.words["part-lead"] ?? answer.words["answers-lead"]);
+      view.show(answer);
+      if (isByHand) view.step("answers").scrollIntoView({block: "start"});
+      then();
+    });
   }
-
-  #show(answer, asked) {
-    const view = this.#view;
-    this.#answered = asked;
-    view.find('[data-empty="answers"]').hidden = true;
-    view.find('[data-result="answers"]').hidden = false;
-    this.changed();
-    this.#part.show(answer.part ?? null, this.pictures);
-    view.find("[data-modulus]").textContent = answer.modulus;
-    fillTable("measured-answers", ...(answer.answers ?? answer.curve));
-    for (const cell of view.findAll('[data-table="measured-answers"] td:first-child')) {
-      cell.parentElement.classList.toggle("elastic", cell.textContent === answer.if_elastic);
-    }
-    if (answer.answers) foldRows("measured-answers", answer.groups);
-    fillFigures(view.find('[data-figures="answers"]'), answer.lead, answer.figures);
-    view.find("[data-star]").textContent = answer.star;
-    view.fillList("answer-remarks", [...(answer.part ? [] : answer.remarks), ...answer.theories]); // the part has all
-    fillTable("measured-formulas", ...(answer.formulas ?? [["no answers follow from a contact modulus alone"], []]));
-    view.find("[data-slip]").hidden = !answer.slip;
-    if (answer.slip) fillTable("measured-slip", ["displacement", "tangential force"], answer.slip.rows);
-    this.#contact = answer.contact;
-    this.#arrays = answer.arrays;
-    this.pictures.drawContact(answer.contact, answer.arrays);
-    this.pictures.drawCurve(answer.plot, answer.curve);
-  }
-
-  get #shown() { return this.#view.find("[data-shown]").value; }
-  #drawField() { if (this.#contact) this.pictures.drawField(this.#contact, this.#arrays, this.#shown); }
 
   #compare(given = {state: this.#view.stateOfMap}) {
-    this.#ask("measured.compare", "compare", this.#now(given), (found) => {
-      const view = this.#view;
-      view.find('[data-empty="answers"]').hidden = true;
-      view.find('[data-result="compare"]').hidden = false;
-      view.find("[data-what]").textContent = found.what;
-      view.find("[data-verdict]").textContent = `${found.verdict[0].toUpperCase()}${found.verdict.slice(1)}.`;
-      view.find("[data-compare-star]").textContent = found.star;
-      view.fillList("compare-notes", found.notes);
-      this.pictures.drawModels(found);
-      for (const cell of view.findAll('[data-table="measured-models"] td')) {
-        if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
-      }
+    this.#ask("measured.compare", "compare", given, (found) => {
+      this.#view.step("answers").open = true;
+      this.#view.showResult("compare", true);
+      this.#view.show(found);
+      this.#view.pictures.then(() => {
+        for (const cell of this.#view.findAll('[data-table="measured-models"] td')) {
+          if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
+        }
+      });
     });
   }
 
   // Write the report of the answers that are shown; without any press first.
-  #report(asked = this.#answered && this.#seen) {
-    if (!asked) { this.#press({}, () => this.#report()); return; }
-    this.#ask("measured.report", "report", asked, ({files}) => {
+  #report(given = this.#answered && this.#seen) {
+    if (!given) { this.#press({}, true, () => this.#report()); return; }
+    this.#ask("measured.report", "report", given, ({files}, asked) => {
       this.#note("report", {...asked, files});
       this.#showLinks(files);
     });
@@ -197,10 +165,12 @@ export class Answers {
     });
   }
 
-  #end(name, text) {
-    this.#say(name, text);
-    if (name === "answers") this.changed();
+  #dim(isDimmed) {
+    for (const place of this.#view.findAll('[data-result="answers"]')) place.classList.toggle("dimmed", isDimmed);
   }
 
-  #say(name, text) { this.#view.find(`[data-waiting="${name}"] [data-said]`).textContent = text; }
+  #end(text) {
+    this.#view.find("[data-said]").textContent = text;
+    this.changed();
+  }
 }

@@ -1,8 +1,7 @@
 // The figures of My surface.
-import {LOGARITHMIC, add, addFluxBar, draw, drawImage, plot} from "./figures.js";
+import {LOGARITHMIC, add, draw, plot} from "./figures.js";
+import {mapFigure, profileFigure, sharedRanges} from "./maps.js";
 
-// Of maps, so wide that axes and colour bars fit: maps beside each other have frames alike. [px]
-const BORDERS = {min_border_left: 72, min_border_right: 96, min_border_bottom: 54};
 const LOADS = [ // source, name, colour, and how they look
   ["loads", "loads", "dark-line", {size: 6}],
   ["unsure", "the grid decides", "dark-line", {size: 6, fill_alpha: 0}],
@@ -11,34 +10,23 @@ const LOADS = [ // source, name, colour, and how they look
 const both = (colour) => ({fill_color: colour, line_color: colour});
 
 export function measuredFigures() {
-  const [file, prepared, contact] = [1, 2, 3].map(() => [1, 2].map(() => new Bokeh.DataRange1d({range_padding: 0})));
-  const before = map("before", prepared);
+  const [prepared, contact] = [sharedRanges(), sharedRanges()], before = mapFigure("before", {ranges: prepared});
   takeBoxes(before);
   return {
-    "measured-file": map("file", file, "here"),
+    "measured-file": mapFigure("file", {rings: "here", ranges: sharedRanges()}),
     "measured-file-line": fileLine(),
     "measured-spectrum": spectrum(),
     "measured-before": before,
-    "measured-after": map("after", prepared),
+    "measured-after": mapFigure("after", {ranges: prepared}),
     "measured-prepared-line": preparedLine(),
-    "measured-topography": map("topography", contact),
-    "measured-contact": map("contact", contact, "theory"),
+    "measured-topography": mapFigure("topography", {ranges: contact}),
+    "measured-contact": mapFigure("contact", {rings: "theory", ranges: contact}),
+    "measured-profile": profileFigure(),
     "measured-stiffness": stiffness(),
     "measured-area": curve("area", "real contact area A / A_0"),
     "measured-models": models(),
     "measured-part": part(),
   };
-}
-
-// A map whose sides keep their ratio, and rings of a colour around some of its points; missing points are in a colour
-// of their own.
-function map(name, ranges, rings = "") {
-  const made = plot(["x", "y"], ranges, {match_aspect: true, ...BORDERS});
-  const color_mapper = drawImage(made, name, {tags: [{colours: {nan_color: "here"}}]});
-  if (rings) draw(made, "scatter", `${name} spikes`, {size: 13, line_width: 2, fill_alpha: 0, colours: {line_color: rings}});
-  add(made, "ColorBar", `${name} bar`, {color_mapper, title: ""}, "right");
-  if (name === "contact") addFluxBar(made, name, color_mapper);
-  return made;
 }
 
 // Let a piece be drawn on a map.
@@ -72,7 +60,6 @@ function spectrum() {
   const made = plot(["wavenumber q = 2π/λ [1/m]", "C_2d [m⁴]"], [], LOGARITHMIC);
   draw(made, "scatter", "spectrum", {size: 3.5, legend: "this surface", colours: both("dark-line")});
   draw(made, "line", "spectrum law", {line_width: 2.5, legend: "nearest self-affine law", colours: {line_color: "here"}});
-  made.legend.location = "bottom_left";
   return made;
 }
 
@@ -90,7 +77,6 @@ function curve(name, label) {
   draw(made, "multi_line", `${name} theories`, {line_dash: "dashed", line_width: 1.5, colours: {line_color: "theory"}});
   draw(made, "line", `${name} line`, {line_width: 1, colours: {line_color: "theory"}});
   for (const [what, legend, colour, look] of LOADS) draw(made, "scatter", `${name} ${what}`, {legend, ...look, colours: both(colour)});
-  made.legend.location = "bottom_right";
   return made;
 }
 
@@ -104,7 +90,6 @@ function models() {
     draw(made, "line", `models ${name}`, {line_width: 2, legend, colours: {line_color: colour}});
     draw(made, "scatter", `models ${name}`, {size: 6, legend, colours: both(colour)});
   }
-  made.legend.location = "bottom_right";
   return made;
 }
 

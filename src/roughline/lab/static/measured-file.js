@@ -2,20 +2,21 @@
 const SHOWN_FROM = 2e6; // size from which on the upload is shown as it goes [bytes]
 
 export class Source {
-  #link; #view; #waiting; #request = null; #turn = 0;
+  #link; #view; #request = null; #turn = 0;
 
-  constructor(link, view, waiting) {
+  constructor(link, view) {
     this.#link = link;
     this.#view = view;
-    this.#waiting = waiting;
     const input = view.find("[data-file]"), drop = view.find("[data-drop]");
     let isMore = false; // whether what is chosen comes beside the maps that are there
     view.find("[data-choose]").addEventListener("click", () => { isMore = false; input.click(); });
     view.find("[data-add-maps]").addEventListener("click", () => { isMore = true; input.click(); });
-    input.addEventListener("change", () => {
+    const chosen = () => {
       this.#bring([...input.files], isMore);
       input.value = ""; // the same file may be chosen again
-    });
+    };
+    input.addEventListener("change", chosen);
+    setTimeout(chosen); // what was chosen before anyone listened
     for (const button of view.findAll("[data-example]")) {
       button.addEventListener("click", () => {
         this.stop();
@@ -41,7 +42,7 @@ export class Source {
     this.#turn++;
     this.#request?.abort();
     this.#request = null;
-    this.#waiting.end();
+    this.#view.waiting.end("measured file");
     this.#said("");
   }
 
@@ -55,9 +56,9 @@ export class Source {
       this.#view.refuse(`${before.length + files.length} files: up to ${most} maps can be one part.`, "file");
       return;
     }
-    if (!this.#link.session) { this.#view.refuse("The lab is not connected: try again in a moment.", "file"); return; }
     const turn = this.#turn, came = [], refused = [];
-    this.#waiting.begin();
+    this.#view.waiting.begin("measured file");
+    await this.#link.ready;
     for (const [i, file] of files.entries()) {
       const of = files.length > 1 ? ` (${i + 1} of ${files.length})` : "";
       const {refusal, ...brought} = await this.#sent(file, of);
@@ -77,7 +78,7 @@ export class Source {
       request.open("POST", `/upload?session=${encodeURIComponent(this.#link.session)}&name=${encodeURIComponent(file.name)}`);
       request.upload.addEventListener("progress", ({loaded, total}) => {
         if (total < SHOWN_FROM) return;
-        this.#waiting.progress({done: loaded, total, left: null});
+        this.#view.waiting.progress({done: loaded, total, left: null});
         this.#said(`bringing ${file.name}${of}: ${(loaded / 1e6).toFixed(0)} of ${(total / 1e6).toFixed(0)} MB`);
       });
       request.addEventListener("load", () => {
@@ -93,7 +94,7 @@ export class Source {
     });
   }
 
-  #said(text) { this.#view.find('[data-waiting="file"] [data-said]').textContent = text; }
+  #said(text) { this.#view.find("[data-said]").textContent = text; }
 }
 
 // What the server said of a file that it refused, without the number in front.

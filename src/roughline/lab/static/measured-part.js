@@ -1,16 +1,11 @@
-// Maps of one part in My surface: each checked, shown one at a time, and what they gave together.
+// Maps of one part in My surface: each checked, and shown one at a time.
 import {element} from "./elements.js";
-import {fillFigures, fillTable, foldRows} from "./tables.js";
-import {Waiting} from "./waiting.js";
+import {fillTable} from "./tables.js";
 
 export class Part {
-  #view; #waiting; #maps = []; #shown = null; #drawings = [];
+  #view; #maps = []; #shown = null;
 
-  constructor(link, view) {
-    this.#view = view;
-    this.#waiting = new Waiting(view.find('[data-waiting="maps"]'), link);
-    view.find("[data-part-answer]").addEventListener("change", ({target}) => this.#draw(Number(target.value)));
-  }
+  constructor(view) { this.#view = view; }
 
   // Keys of the maps that are there; without several there is no part.
   get #files() { return (this.#view.files.length > 1 ? this.#view.files : []); }
@@ -21,81 +16,50 @@ export class Part {
   // Check each map, and go on with one that can be pressed.
   check() {
     const isPart = this.#files.length > 1;
-    this.#view.find("[data-part]").hidden = !isPart;
+    this.#view.showResult("part", isPart);
     for (const name of ["add-maps", "forget-file"]) this.#view.find(`[data-${name}]`).hidden = this.#view.files.length === 0;
-    if (!isPart) { this.stop(); this.#view.look(); return; }
-    this.#waiting.ask("measured.maps", "measured maps", {state: this.#view.state}, {
+    if (!isPart) { this.#view.waiting.stop(["measured maps"]); this.#view.look(); return; }
+    this.#view.waiting.ask("measured.maps", "measured maps", {state: this.#view.state}, {
       answer: ({maps}) => {
         this.#maps = maps;
         const good = maps.filter(({refused}) => !refused);
         if (!good.some(({file}) => file === this.shown)) this.#shown = (good[0] ?? maps[0]).file;
-        this.#fill();
-        this.showTable();
+        this.#fill(good.length);
         this.#view.look();
       },
       error: (sentence, at) => this.#view.refuse(sentence, at || "file"),
     });
   }
 
-  // Stop checking the maps.
-  stop() { this.#waiting.stop(["measured maps"]); }
-
-  // Show the table of the maps, whether or not one can be read.
-  showTable() { if (this.#files.length) this.#view.showResult("file", true); }
-
-  #fill() {
-    const good = this.#maps.filter(({refused}) => !refused).length;
-    this.#view.find("[data-part-count]").textContent =
-      `${this.#maps.length} maps of one part${good < this.#maps.length ? `, of which ${good} can be pressed` : ""}`;
+  #fill(good) {
+    const count = this.#maps.length;
+    this.#view.say("part-count", `${count} maps of one part${good < count ? `, of which ${good} can be pressed` : ""}`);
     fillTable("measured-maps", ["map", "points", "sides", "rms height", "rms slope", ""],
       this.#maps.map(({name, cells, refused}) => [name, ...(refused ? [refused, "", "", ""] : cells), ""]));
     const rows = this.#view.findAll('[data-table="measured-maps"] tbody tr');
     for (const [i, {file, name, refused}] of this.#maps.entries()) {
       const {children} = rows[i];
-      const show = button(name, `show ${name}`, () => { this.#shown = file; this.#fill(); this.#view.look(); });
+      const show = button(name, `show ${name}`, () => { this.#shown = file; this.#fill(good); this.#view.look(); });
       show.setAttribute("aria-pressed", String(file === this.shown));
       show.disabled = Boolean(refused);
       children[0].replaceChildren(show);
       children[5].replaceChildren(button("leave out", `leave out ${name}`, () => {
         this.#view.takeSource({file: this.#files.filter((each) => each !== file).join(",")});
       }));
-      if (refused) {
-        children[1].className = "error";
-        children[1].colSpan = 4;
-        for (const empty of [...children].slice(2, 5)) empty.remove();
-      }
+      if (!refused) continue;
+      Object.assign(children[1], {className: "error", colSpan: 4});
+      for (const empty of [...children].slice(2, 5)) empty.remove();
     }
   }
 
-  // Show what the maps gave together; none of a single map.
-  show(part, pictures) {
-    this.#view.find("[data-part-answers]").hidden = !part;
-    this.#view.find("[data-map-shown]").hidden = !part;
-    if (!part) return;
-    fillTable("measured-part-answers", ...(part.answers ?? [["the maps have no common answers"], []]));
-    if (part.answers) foldRows("measured-part-answers", part.groups);
-    fillFigures(this.#view.find('[data-figures="part"]'), part.lead, part.figures);
-    fillTable("measured-part-leading", ...part.leading);
-    fillTable("measured-part-maps", ...part.maps);
-    this.#view.find("[data-part-star]").textContent = part.star;
-    this.#view.fillList("part-remarks", part.remarks);
-    fillChoice(this.#view.find("[data-part-map]"), part.names, part.shown);
-    const names = part.drawings.map(({name}) => name);
-    fillChoice(this.#view.find("[data-part-answer]"), names, 0);
-    this.#drawings = part.drawings.map((each) => ({...each, names: part.names, load: part.load, pictures}));
-    this.#view.find("#measured-part").hidden = names.length === 0;
-    if (names.length) this.#draw(0);
+  // Name the maps of a part that was pressed, of which one is shown alone.
+  show({names, shown}) {
+    this.#view.find("[data-part-map]").replaceChildren(...names.map((name, i) => new Option(name, i, false, i === shown)));
   }
-
-  #draw(i) { this.#drawings[i].pictures.drawPart(this.#drawings[i]); }
 }
 
 function button(text, label, clicked) {
   const made = element("button", {type: "button", textContent: text, ariaLabel: label});
   made.addEventListener("click", clicked);
   return made;
-}
-
-function fillChoice(select, texts, chosen) {
-  select.replaceChildren(...texts.map((text, i) => new Option(text, i, false, i === chosen)));
 }

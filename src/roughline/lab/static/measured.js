@@ -1,24 +1,24 @@
 // My surface: a file of an instrument, prepared, pressed, and answered for.
 import {Controls} from "./controls.js";
-import {element} from "./elements.js";
-import {Answers} from "./measured-answers.js";
+import {element, typeset} from "./elements.js";
+import {Answers, TASKS} from "./measured-answers.js";
 import {measuredFigures} from "./measured-figures.js";
 import {Source} from "./measured-file.js";
 import {Part} from "./measured-part.js";
 import {Pictures} from "./measured-pictures.js";
 import {embedded} from "./plots.js";
 import {recall, remember} from "./remember.js";
-import {fillList, fillTable} from "./tables.js";
+import {fillFigures, fillGroups, fillList, fillTable} from "./tables.js";
 import {Waiting} from "./waiting.js";
 
 const VERSION = "1";
-const DEFAULTS = {first: "steel", second: "copper", loads: "2 MPa"};
-const OF_FILE = ["unit", "channel", "size"]; // asked anew with each file
-const keysOf = (what) => [...document.querySelectorAll(`#measured [data-of="${what}"] [data-error]`)].map(({dataset}) => dataset.error);
-const OF_READING = [...OF_FILE, ...keysOf("Reading")];
-const OF_PREPARATION = keysOf("Preparation");
-const OF_BODIES = keysOf("bodies");
-const TASKS = ["answers", "compare", "report"];
+const keysOf = (what) => [...document.querySelectorAll(`#measured ${what} [data-error]`)].map(({dataset}) => dataset.error);
+const OF_FILE = keysOf("[data-of-file]"); // asked anew with each file
+const OF_READING = keysOf('[data-of="Reading"]');
+const OF_PREPARATION = keysOf('[data-of="Preparation"]');
+const OF_BODIES = keysOf('[data-of="bodies"]');
+const TEXTS = [...document.querySelectorAll("#measured input[data-text]")];
+const BEGINS = Object.fromEntries(TEXTS.filter((each) => each.defaultValue).map((each) => [each.dataset.text, each.defaultValue]));
 
 export async function open(link, address, said) {
   const view = new Measured(link, address);
@@ -28,12 +28,11 @@ export async function open(link, address, said) {
 
 class Measured {
   #link; #address; #root = document.querySelector("#measured");
-  #controls; #pictures; #source; #part; #answers; #waiting = {};
+  #controls; #source; #part; #answers;
   #read = null; // what the file holds, as last read
-  #prepared = null; // the same, prepared
+  #body = null; // the same, prepared, as far as it can be pressed
   #refusals = {bodies: {}, file: {}, preparation: {}}; // sentences by controls, of each question that tells them
   #ofLink = ""; // why the link that was opened is not shown
-  #isAwaited = false; // a file that came before the pictures were there
   #brought = new Map(); // digests and names of the files that are on the server, by their keys
   #wanted = []; // digests and names of files that have to be chosen, by a link or once more
 
@@ -41,36 +40,40 @@ class Measured {
     this.#link = link;
     this.#address = address;
     this.#controls = new Controls(this.#root, (key) => this.#changed(key));
-    for (const name of ["file", "preparation"]) {
-      this.#waiting[name] = new Waiting(this.find(`[data-waiting="${name}"]`), link, () => {
-        this.#undim(name);
-        if (name !== "file") return;
-        this.#isAwaited = false;
-        this.#source.stop();
+    this.waiting = new Waiting(this.find("[data-waiting]"), link, (works) => {
+      this.#undim();
+      if (works.includes("measured file")) this.#source.stop();
+      this.#answers.stopped(works);
+    });
+    this.pictures = embedded(measuredFigures).then((plots) => new Pictures(this, plots));
+    this.#source = new Source(link, this);
+    this.#part = new Part(this);
+    this.#answers = new Answers(link, this, this.#part);
+    this.find('[data-crop="all"]').addEventListener("click", () => this.set("crop", ""));
+    for (const name of recall("steps") ?? []) this.step(name).open = true;
+    for (const step of this.findAll(".step")) {
+      step.addEventListener("toggle", () => {
+        remember("steps", this.findAll(".step[open]").map(({id}) => id.replace("measured-step-", "")));
+        if (step.open && step === this.step("preparation")) this.#prepare();
       });
     }
-    this.#source = new Source(link, this, this.#waiting.file);
-    this.#part = new Part(link, this);
-    this.#answers = new Answers(link, this, this.#part);
-    this.#bind();
   }
 
   find(selector) { return this.#root.querySelector(selector); }
   findAll(selector) { return [...this.#root.querySelectorAll(selector)]; }
-  fillList(name, sentences) { fillList(this.find(`[data-list="${name}"]`), sentences); }
+  step(name) { return this.find(`#measured-step-${name}`); }
 
   async open(given) {
     const {file, of, ...said} = await this.#begun(given);
     this.#wanted = filesIn(of ?? "");
-    this.#take({...DEFAULTS, ...said});
+    this.#take({...BEGINS, ...said});
     this.#askBodies();
     if (said.example) this.look();
-    this.#link.ready.then((opened) => this.#find(opened));
-    this.#pictures = new Pictures(this, await embedded(measuredFigures));
-    this.#answers.pictures = this.#pictures;
-    this.#pictures.onBox((crop) => this.set("crop", crop));
-    if (this.#isAwaited) this.look();
-    this.#link.ready.then(({resumed}) => { if (resumed && this.hasSource) this.#answers.restore(); });
+    this.#link.ready.then((opened) => {
+      this.#find(opened);
+      if (opened.resumed && this.hasSource) this.#answers.restore();
+    });
+    (await this.pictures).onBox((crop) => this.set("crop", crop));
   }
 
   // What the address sets; if nothing, what was set before the page was loaded again in another view.
@@ -82,17 +85,39 @@ class Measured {
 
   shown() { this.#write(); }
 
+  // Show what an answer of the server tells: words, tables, lists, figures, remarks and pictures by their places.
+  show({words = {}, tables = {}, lists = {}, figures = {}, remarks, panels = {}, choices = {}, arrays = {}}) {
+    for (const [name, text] of Object.entries(words)) this.say(name, text);
+    for (const [id, [header, rows, groups, quiet]] of Object.entries(tables)) fillTable(id, header, rows, groups, quiet);
+    for (const [name, sentences] of Object.entries(lists)) fillList(this.find(`[data-list="${name}"]`), sentences);
+    for (const [name, each] of Object.entries(figures)) fillFigures(this.find(`[data-figures="${name}"] dl`), each);
+    if (remarks) fillGroups(this.find("[data-remarks]"), remarks);
+    this.pictures.then((pictures) => pictures.show(panels, choices, arrays));
+  }
+
+  say(name, text) {
+    for (const place of this.findAll(`[data-words="${name}"]`)) {
+      place.hidden = text === "";
+      place.replaceChildren(...typeset(text));
+    }
+  }
+
+  // Say what is to be known about the file.
+  note(sentence) { this.find('[data-note="file"]').textContent = sentence; }
+
+  showResult(name, isShown) {
+    for (const place of this.findAll(`[data-result="${name}"]`)) place.hidden = !isShown;
+  }
+
   // The connection is back. What is drawn stays, also where another session has begun without the files.
   reconnected(resumed, isElsewhere) {
     if (resumed) return;
     if (!this.files.length) { this.#answers.loseReport(); return; }
-    this.#answers.lose();
     this.#wanted = this.#of;
     const {file, ...kept} = this.#controls.said;
     this.#take(kept);
-    for (const name of ["file", "preparation"]) this.#stop(name);
-    this.#part.stop();
-    this.#answers.ready();
+    this.#stop();
+    this.#answers.lose();
     this.note(isElsewhere
       ? `${named(this.#wanted)}: now with the other tab of this page. Go on there, or choose ${them(this.#wanted)} here again.`
       : `${named(this.#wanted)} went with the old session: choose ${them(this.#wanted)} again. All that is set is kept.`);
@@ -120,20 +145,22 @@ class Measured {
   get state() { return {v: VERSION, ...this.#controls.said}; }
   // The same of the one map that is shown.
   get stateOfMap() { return this.#part.shown ? {...this.state, file: this.#part.shown} : this.state; }
+  // What is asked, with what counts where a text cannot be used.
+  get asked() { return {...this.#controls.asked, state: this.state}; }
   get files() { return (this.#controls.said.file ?? "").split(",").filter(Boolean); }
   get hasSource() { return this.files.length > 0 || Boolean(this.#controls.said.example); }
-  get body() { return this.hasSource ? this.#prepared?.body ?? null : null; }
-  get name() { return this.#read?.name ?? ""; }
+  get body() { return this.hasSource ? this.#body : null; }
 
   // Digests and names of the files that all is set for, whether they are here or have to be chosen.
   get #of() { return this.files.length ? this.files.map((key) => this.#brought.get(key)) : this.#wanted; }
 
-  // All that is set, as the address says it.
+  // All that is set, as the address says it: without what is not asked.
   get #set() {
     const {file, ...said} = this.#controls.said;
     const of = textOf(this.#of);
-    const set = Object.entries(said).filter(([key, text]) => text !== "" || key in DEFAULTS);
-    if (!of && set.every(([key, text]) => text === DEFAULTS[key])) return {};
+    const isAsked = (key) => !this.find(`[data-bodies][hidden] [data-text="${CSS.escape(key)}"]`);
+    const set = Object.entries(said).filter(([key, text]) => (text !== "" || key in BEGINS) && isAsked(key));
+    if (!of && set.every(([key, text]) => text === BEGINS[key])) return {};
     return {v: VERSION, ...Object.fromEntries(set.sort()), ...(of ? {of} : {})};
   }
   get settings() { return JSON.stringify(this.#set); }
@@ -145,7 +172,7 @@ class Measured {
     const before = this.#of, wanted = this.#wanted;
     const now = (source.file ?? "").split(",").filter(Boolean).map((key) => this.#brought.get(key));
     const isOther = !now.some(({digest}) => before.some((each) => each.digest === digest));
-    if (isOther) for (const key of [...OF_FILE, "crop"]) delete kept[key];
+    if (isOther) for (const key of OF_FILE) delete kept[key];
     this.#wanted = [];
     this.#take({...kept, ...source});
     this.note(isOther && now.length && wanted.length
@@ -163,14 +190,12 @@ class Measured {
       : "The file and all that was made of it are deleted as soon as the lab answers again.");
   }
 
-  // Say what is to be known about the file.
-  note(sentence) { this.find('[data-note="file"]').textContent = sentence; }
-
   set(key, text) {
     this.#take({...this.#controls.said, [key]: text});
     this.#changed(key);
   }
 
+  // Write a sentence where it belongs, and unfold it; at the head of the view where it has no place.
   refuse(sentence, at = "") {
     if (sentence && at) this.#unfold(at);
     if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
@@ -193,39 +218,37 @@ class Measured {
   }
 
   #unfold(key) {
-    const folded = this.find(`[data-error="${CSS.escape(key)}"]`)?.closest("details");
-    if (folded) folded.open = true;
+    let folded = this.find(`[data-error="${CSS.escape(key)}"]`);
+    while ((folded = folded?.parentElement.closest("details"))) folded.open = true;
   }
 
-  // Begin with the defaults in the place of a link that cannot be read.
+  // Begin anew in the place of a link that cannot be read.
   #begin(sentence) {
     this.#ofLink = sentence;
     this.#wanted = [];
     this.note("");
-    for (const name of ["file", "preparation"]) this.#stop(name);
-    this.#take({...DEFAULTS});
+    this.#stop();
+    this.#take({...BEGINS});
     this.#askBodies();
   }
 
   #take(said) {
     this.#controls.take(said);
-    const byModulus = said.bodies === "modulus";
-    this.find('[data-bodies="materials"]').hidden = byModulus;
-    this.find('[data-bodies="modulus"]').hidden = !byModulus;
+    for (const place of this.findAll("[data-bodies]")) place.hidden = place.dataset.bodies !== (said.bodies ?? "materials");
+    this.#root.classList.toggle("has-file", this.hasSource);
+    this.#answers?.ready();
   }
 
   #changed(key) {
     this.#ofLink = "";
     for (const refused of Object.values(this.#refusals)) delete refused[key];
     for (const at of ["", key, ...TASKS]) this.refuse("", at);
-    this.#write();
     if (key === "bodies") this.#take(this.#controls.said);
+    this.#write();
+    const isPrepared = OF_PREPARATION.includes(key);
     if (!this.hasSource) { /* what is drawn stays */ }
-    else if (OF_READING.includes(key)) this.#part.check();
-    else if (OF_PREPARATION.includes(key)) {
-      if (this.#part.shown) this.#part.check();
-      else this.#prepare();
-    }
+    else if (OF_READING.includes(key) || (isPrepared && this.#part.shown)) this.#part.check();
+    else if (isPrepared) this.#prepare();
     this.#askBodies(); // which reads all that is set
     this.#answers.changed();
   }
@@ -236,142 +259,101 @@ class Measured {
   }
 
   #forgetFile() {
-    this.#read = this.#prepared = null;
-    for (const name of ["file", "map", "preparation", "answers", "compare"]) this.showResult(name, false);
-    for (const place of this.findAll("[data-asked]")) place.hidden = true;
+    this.#read = this.#body = null;
+    for (const name of ["file", "preparation", "answers", "compare"]) this.showResult(name, false);
+    for (const place of this.findAll("[data-asked], [data-asks]")) place.hidden = true;
+    for (const name of ["preparation", "bodies", "answers"]) this.step(name).open = false;
+    this.say("line-file", "");
     this.#answers.forget();
     this.#askBodies();
   }
 
   // Read the file, or the map of a part that is shown.
   look() {
-    const {file, example} = this.#controls.said;
-    if (!file && !example) return;
-    this.#waiting.file.begin("measured file");
-    this.#dim("file");
-    if (!this.#pictures) { this.#isAwaited = true; return; } // it is read when it can be drawn
-    const asked = this.#asked(this.stateOfMap);
-    this.#waiting.file.ask("measured.look", "measured file", asked, {
+    if (!this.hasSource) return;
+    const asked = {...this.asked, state: this.stateOfMap};
+    this.step("file").classList.add("dimmed");
+    this.waiting.ask("measured.look", "measured file", asked, {
       answer: (read) => {
-        this.#undim("file");
+        this.#undim();
+        if (!this.#read) this.step("bodies").open = true;
         this.#read = read;
         this.#write();
         this.refuse("", "file");
         this.#showAsked(read);
         Object.assign(this.find("[data-example-file]"), {
-          hidden: !example, href: `/results/${this.#link.session}/${read.name}?save=1`, download: read.name,
+          hidden: !this.#controls.said.example, href: `/results/${this.#link.session}/${read.name}?save=1`, download: read.name,
         });
         this.#settle("file", asked, read.refused, OF_READING);
-        for (const name of ["file", "map"]) this.showResult(name, true);
-        this.find("[data-name]").textContent = read.name;
-        this.fillList("obstacles", read.obstacles);
-        this.fillList("remarks", read.remarks);
-        fillTable("measured-roughness", ["", ""], read.table);
-        this.#pictures.drawFile(read);
+        this.showResult("file", true);
+        this.say("line-file", read.name);
+        this.show(read);
         this.#prepare();
       },
       error: (sentence, at) => {
-        this.#undim("file");
-        if (!this.#read) { this.#forgetFile(); this.#part.showTable(); }
+        this.#undim();
+        if (!this.#read) this.#forgetFile();
         this.refuse(sentence, at || "file");
       },
     });
   }
 
   // Channel, unit and size are asked where the file leaves them open.
-  #showAsked({asks, channel}) {
-    const select = this.find("#measured-channel");
+  #showAsked({asks, channel, body}) {
+    const select = this.find("#measured-channel"), {said} = this.#controls;
     select.replaceChildren(...asks.channels.map((textContent) => element("option", {
       textContent, value: textContent.split(" ", 1)[0], disabled: textContent.endsWith("(no heights)"),
     })));
-    select.value = this.#controls.said.channel ?? "";
-    if (!this.#controls.said.channel) {
-      const first = [...select.options].find((each) => !each.disabled && each.textContent.endsWith(` ${channel}`));
-      if (first) first.selected = true;
-    }
-    this.find('[data-asked="channel"]').hidden = asks.channels.length === 0;
-    this.find('[data-asked="unit"]').hidden = !asks.unit;
-    this.find('[data-asked="size"]').hidden = !asks.size;
+    const first = [...select.options].find((each) => !each.disabled && each.textContent.endsWith(` ${channel}`));
+    select.value = said.channel || (first ?? select.options[0])?.value || "";
+    const isAsked = {channel: asks.channels.length > 0, unit: asks.unit, size: asks.size};
+    for (const [key, isShown] of Object.entries(isAsked)) this.find(`[data-asked="${key}"]`).hidden = !isShown;
+    this.find("[data-asks]").hidden = !Object.values(isAsked).some(Boolean);
+    if (!body && (!asks.unit || said.unit) && (!asks.size || said.size)) this.step("preparation").open = true; // too much is missing
   }
 
+  // Prepare what was read, if anything is set for that, or is to be seen.
   #prepare() {
     if (!this.#read) return;
-    const isAsked = OF_PREPARATION.some((key) => this.#controls.said[key]);
-    const asked = this.#asked(this.stateOfMap);
-    const show = (prepared, refused) => {
-      this.#undim("preparation");
+    const isSet = OF_PREPARATION.some((key) => this.#controls.said[key]), step = this.step("preparation");
+    const asked = {...this.asked, state: this.stateOfMap};
+    const take = (body, refused) => {
       this.#settle("preparation", asked, refused, OF_PREPARATION);
-      this.#showPrepared(prepared);
+      this.refuse("", "preparation");
+      this.#body = body;
+      this.#askBodies();
+      this.#answers.ready();
     };
-    if (!isAsked) { this.#stop("preparation"); show(this.#read, {}); return; }
-    this.#dim("preparation");
-    this.#waiting.preparation.ask("measured.prepare", "measured preparation", asked, {
-      answer: (prepared) => show(prepared, prepared.refused),
-      error: (sentence, at) => { this.#undim("preparation"); this.refuse(sentence, at || "preparation"); },
+    if (!isSet) take(this.#read.body, {});
+    if (!isSet && !step.open) { this.waiting.stop(["measured preparation"]); this.showResult("preparation", false); return; }
+    step.classList.add("dimmed");
+    this.waiting.ask("measured.prepare", "measured preparation", asked, {
+      answer: (prepared) => {
+        this.#undim();
+        this.showResult("preparation", prepared.body !== null);
+        this.show(prepared);
+        take(prepared.body, prepared.refused);
+      },
+      error: (sentence, at) => { this.#undim(); this.refuse(sentence, at || "preparation"); },
     });
   }
 
-  #showPrepared(prepared) {
-    this.#prepared = prepared;
-    this.refuse("", "preparation");
-    this.showResult("preparation", prepared.body !== null);
-    if (prepared.body) {
-      this.#pictures.drawPrepared(this.#read, prepared, this.#controls.said.crop ?? "");
-      this.find("[data-prepared-numbers]").open = prepared !== this.#read;
-      this.fillList("prepared-remarks", prepared === this.#read ? [] : prepared.remarks);
-      const after = new Map(prepared.table), before = new Map(this.#read.table);
-      const names = [...new Set([...before.keys(), ...after.keys()])].filter((name) => name !== "file");
-      fillTable("measured-prepared", ["", "before", "after"], names.map((name) => [name, before.get(name) ?? "-", after.get(name) ?? "-"]));
-    }
-    this.#askBodies();
-    this.#answers.ready();
-  }
-
-  showResult(name, isShown) {
-    this.find(`[data-result="${name}"]`).hidden = !isShown;
-    const empty = this.find(`[data-empty="${name}"]`);
-    if (empty) empty.hidden = isShown;
-  }
-
   #askBodies() {
-    const asked = this.#asked(this.state);
+    const asked = {...this.asked, sides: this.body?.sides ?? null};
     // the file tells more of how it is read and prepared
     const keys = this.hasSource ? OF_BODIES : [...OF_READING, ...OF_PREPARATION, ...OF_BODIES];
-    this.#link.ask("measured.bodies", "measured bodies", {...asked, sides: this.body?.sides ?? null}, {
-      answer: ({rows, loads, notes, refused}) => {
-        this.#settle("bodies", asked, refused, keys);
-        fillTable("measured-bodies", ["", ""], rows);
-        this.fillList("loads", loads);
-        this.fillList("bodies-notes", notes);
-      },
+    this.#link.ask("measured.bodies", "measured bodies", asked, {
+      answer: (found) => { this.#settle("bodies", asked, found.refused, keys); this.show(found); },
       error: (sentence, at) => { if (at === "v") this.#begin(sentence); else this.refuse(sentence, at); },
     });
   }
 
-  // All that is set, or that is set of one map, with what counts where a text cannot be used.
-  #asked(state) { return {...this.#controls.asked, state}; }
-
-  #stop(name) {
-    this.#waiting[name].stop([`measured ${name}`]);
-    this.#undim(name);
+  #stop() {
+    this.waiting.stop(["measured file", "measured preparation", "measured maps"]);
+    this.#undim();
   }
 
-  #dim(name) { this.find(`#measured-step-${name}`).classList.add("dimmed"); }
-  #undim(name) { this.find(`#measured-step-${name}`).classList.remove("dimmed"); }
-
-  #bind() {
-    this.find('[data-crop="all"]').addEventListener("click", () => this.set("crop", ""));
-    const load = this.find("#measured-load");
-    const add = () => {
-      if (!load.value.trim()) return;
-      this.set("loads", [this.#controls.said.loads, load.value.trim()].filter(Boolean).join("; "));
-      load.value = "";
-    };
-    this.find("[data-add-load]").addEventListener("click", add);
-    load.addEventListener("keydown", (event) => {
-      if (event.key === "Enter") { event.preventDefault(); add(); }
-    });
-  }
+  #undim() { for (const step of this.findAll(".step.dimmed")) step.classList.remove("dimmed"); }
 }
 
 const LONGEST = 600; // that names of files may be together in an address

@@ -1,50 +1,61 @@
 // Numbers and words beside the plots: tables, lists, large figures, and what the colours of a map mean.
-import {element} from "./elements.js";
+import {element, typeset} from "./elements.js";
 
 const unread = new WeakMap(); // folds that are closed, and what fills them
 
-// Put rows below a plot, in a fold that is closed when it is opened; a cell is a text, or pieces of one.
-export function fillTable(id, header, rows) {
-  const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details");
-  const row = (cells, kind, more) => element("tr", {}, ...cells.map((cell) => element(kind, more, ...[cell].flat())));
-  const fill = () => place.replaceChildren(element("table", {},
-    element("thead", {}, row(header, "th", {scope: "col"})),
-    element("tbody", {}, ...rows.map((cells) => row(cells, "td")))));
+// Put rows below a plot, in a fold that is closed when it is opened; a cell is a text, or pieces of one. They stand
+// behind the headlines of their groups, which are given with the number of rows of each; those of the first are
+// shown. Rows that begin with `quiet` are beside those above them.
+export function fillTable(id, header, rows, groups = null, quiet = null) {
+  const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details:not(.step)");
+  const fill = () => place.replaceChildren(tableOf(header, rows, groups, quiet));
   if (!fold || fold.open) { fill(); return; }
   if (!unread.has(fold)) fold.addEventListener("toggle", () => unread.get(fold).forEach((each) => each()));
   unread.set(fold, (unread.get(fold) ?? new Map()).set(id, fill));
 }
 
-// Fold the rows of a table behind the headlines of their groups, which are given with the number of
-// rows of each; those of the first are shown.
-export function foldRows(id, groups) {
-  const table = document.querySelector(`[data-table="${id}"] table`);
-  const rows = [...table.tBodies[0].rows], colSpan = table.tHead.rows[0].cells.length;
-  table.tBodies[0].remove();
-  for (const [i, [name, told, count]] of groups.entries()) {
-    const button = element("button", {type: "button", className: "fold"});
-    const body = element("tbody", {}, ...rows.splice(0, count));
+function tableOf(header, rows, groups, quiet) {
+  const pieces = (cell) => (Array.isArray(cell) ? cell : typeset(cell));
+  const row = (cells, kind, more) => element("tr", {className: quiet !== null && cells[0] === quiet ? "quiet" : ""},
+    ...cells.map((cell) => element(kind, more, ...pieces(cell))));
+  const table = element("table", {}, element("thead", {}, row(header, "th", {scope: "col"})));
+  const body = (some) => element("tbody", {}, ...some.map((cells) => row(cells, "td", {})));
+  if (!groups) table.append(body(rows));
+  let first = 0;
+  for (const [i, [name, told, count]] of (groups ?? []).entries()) {
+    const button = element("button", {type: "button", className: "fold"}), inside = body(rows.slice(first, first + count));
+    first += count;
     const show = (isShown) => {
-      body.hidden = !isShown;
+      inside.hidden = !isShown;
       button.setAttribute("aria-expanded", String(isShown));
-      button.textContent = isShown ? name : `${name}: ${told}`;
+      button.replaceChildren(...typeset(isShown ? name : `${name}: ${told}`));
     };
-    button.addEventListener("click", () => show(body.hidden));
-    table.append(element("tbody", {}, element("tr", {}, element("th", {colSpan, scope: "rowgroup"}, button))), body);
+    button.addEventListener("click", () => show(inside.hidden));
+    table.append(element("tbody", {}, element("tr", {}, element("th", {colSpan: header.length, scope: "rowgroup"}, button))), inside);
     show(i === 0);
   }
+  return table;
 }
 
 // Fill a list of sentences; without any it is not there.
 export function fillList(list, sentences) {
-  list.replaceChildren(...sentences.map((textContent) => element("li", {textContent})));
+  list.replaceChildren(...sentences.map((each) => element("li", {}, ...typeset(each))));
   list.hidden = sentences.length === 0;
 }
 
-// What was asked in words, and the answers that lead in large figures.
-export function fillFigures(place, lead, figures) {
-  place.querySelector("[data-lead]").textContent = lead;
-  place.querySelector("dl").replaceChildren(...figures.map(({name, value, interval}) => element("div", {},
+// Fold lists of sentences behind what they are about.
+export function fillGroups(place, groups) {
+  const filled = Object.entries(groups).filter(([, sentences]) => sentences.length);
+  place.replaceChildren(...filled.map(([about, sentences]) => {
+    const list = element("ul", {className: "remarks"});
+    fillList(list, sentences);
+    return element("details", {}, element("summary", {textContent: `${about} (${sentences.length})`}), list);
+  }));
+}
+
+// The answers that lead, in large figures.
+export function fillFigures(place, figures) {
+  place.replaceChildren(...figures.map(({name, value, interval}) => element("div", {},
     element("dt", {textContent: name}), ...[value, interval].map((textContent) => element("dd", {textContent})))));
 }
 
