@@ -149,20 +149,21 @@ export class Maps {
     const figure = document.querySelector(`#${plot}`);
     const button = document.querySelector(`[data-profile="${plot}"]`);
     this.#profile = {plot, figure};
-    onDraw(this.#names.map((name) => this.#plots.root(this.#plot(name))), button, (from, to) => {
+    onDraw(this.#names.map((name) => this.#plots.root(this.#plot(name))), button, (from, to, isLast) => {
       this.#cut = [from, to];
-      this.#drawProfile();
+      this.#drawProfile(isLast);
     }, () => { // begin anew
       this.#cut = null;
       this.#drawProfile();
     });
   }
 
-  #drawProfile() {
+  // Draw the line, and its profile, which does not come while the line is drawn: it would move the maps.
+  #drawProfile(mayCome = true) {
     if (!this.#profile) return;
     const {plot, figure} = this.#profile, [height, gap] = ["height", "gap"].map((key) => this.#layers.find((each) => each.key === key));
     const [from, to] = this.#cut ?? [], isDrawn = Boolean(from) && Boolean(height) && Math.hypot(to.x - from.x, to.y - from.y) > 0;
-    figure.hidden = !isDrawn;
+    if (!isDrawn || mayCome) figure.hidden = !isDrawn;
     for (const name of this.#names) {
       this.#plots.set(`${name} cut`, this.#cut ? {x: [from.x, to.x], y: [from.y, to.y]} : {x: [], y: []});
     }

@@ -75,7 +75,10 @@ export class Pictures {
     if (span) plots.span(id, "y", span);
     plots.label(id, ...axes);
     const told = place.querySelector("[data-caption]");
-    if (told) { fillCaption(told, caption ?? "", marks); told.append(more); }
+    if (told) {
+      fillCaption(told, caption ?? "", marks);
+      told.append(told.hasChildNodes() && told.textContent ? more : more.replace(/^; /, ""));
+    }
     if (table) fillTable(id, ...table);
     if (!map) this.#settle(id, extent);
   }
