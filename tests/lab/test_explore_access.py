@@ -96,7 +96,7 @@ def press_by_keys(page):
     page.wait_for_selector("#code", state="hidden")
     assert page.evaluate("() => document.activeElement.id") == "as-command"
     page.focus("#saved")
-    for _ in range(4):
+    for _ in range(5):
         page.keyboard.press("ArrowDown")
     assert page.input_value("#saved") == "curve.csv"
     page.focus("#save")

@@ -94,7 +94,7 @@ def test_the_tick_shows_where_the_fluid_goes_and_how_much_and_takes_it_away_agai
     is_drawn = ~np.isnan(shown) & (shown > -2)
     np.testing.assert_allclose(10 ** shown[is_drawn], flux[is_drawn], rtol=1e-5)
     np.testing.assert_array_equal(np.isnan(shown), flow.gap == 0)
-    assert source(small, "ring") == [
+    assert source(small, "contact rings") == [
         [each] for each in map(pytest.approx, middle_of(flow.constriction))
     ]
     assert small.is_visible("#plot-explore-aperture")
@@ -114,7 +114,7 @@ def test_the_tick_shows_where_the_fluid_goes_and_how_much_and_takes_it_away_agai
     assert small.input_value('#explore [data-key="shown"]') == "area"
     assert "fluid" not in address(small)
     assert set(image(small, "contact")) == {0, 1}
-    assert source(small, "ring") == [[], []]
+    assert source(small, "contact rings") == [[], []]
     assert small.inner_text('[data-remarks="aperture"]') == ""
 
 
@@ -133,13 +133,14 @@ def test_a_link_shows_the_same_flow(fresh, pages):
 def test_the_map_tells_place_gap_and_flux_where_the_mouse_is(fresh):
     fresh.mouse.move(*on_the_map(fresh, *middle_of(CELL)))
     gap, flux = told_of(CELL)
-    place = fresh.locator("#explore [data-at]")
-    assert place.inner_text() == (
-        f"x 0.633 L, y 0.352 L; gap {gap:#.3g} h; flux {flux:.3g} of its mean"
-    )
+    place = fresh.locator("#explore-contact .point")
+    told = place.inner_text()
+    assert told.startswith("x 0.633 L, y 0.352 L; height ")
+    assert f"; gap {gap:#.3g} h; " in told
+    assert told.endswith(f"; flux {flux:#.3g} of its mean")
     touching = tuple(np.argwhere(pressed().fields[0].contact)[0])
     fresh.mouse.move(*on_the_map(fresh, *middle_of(touching)))
-    assert place.inner_text().endswith("in contact")
+    assert "; in contact" in place.inner_text()
     fresh.mouse.move(*on_the_map(fresh, -0.05, 0.5))
     assert not place.is_visible()
 
@@ -149,7 +150,7 @@ def test_a_finger_is_told_the_same(pages):
     at_rest(page, points=64)
     page.touchscreen.tap(*on_the_map(page, *middle_of(CELL)))
     gap, _ = told_of(CELL)
-    page.locator("#explore [data-at]").filter(has_text=f"gap {gap:#.3g} h; flux").wait_for()
+    page.locator("#explore-contact .point").filter(has_text=f"; gap {gap:#.3g} h; ").wait_for()
     page.context.close()
 
 
@@ -208,7 +209,7 @@ def test_texts_of_the_flow_stand_out_and_none_is_cut_off(pages):
         page = pages.open(FLOWS, theme=theme)
         at_rest(page, points=64)
         page.mouse.move(*on_the_map(page, *middle_of(CELL)))
-        page.locator("#explore [data-at]").wait_for()
+        page.locator("#explore-contact .point").wait_for()
         assert faint(page) == []
         for width, height in ((390, 844), (1200, 800), (1600, 1100)):
             assert cut_off(page, "explore", width, height) == []
@@ -217,9 +218,7 @@ def test_texts_of_the_flow_stand_out_and_none_is_cut_off(pages):
 
 
 def test_a_picture_of_the_flow_arrives(fresh, tmp_path):
-    fresh.select_option("#saved", "flow.png")
+    fresh.select_option("#saved", "curve.png")
     with fresh.expect_download() as coming:
         fresh.click("#save")
-    assert coming.value.suggested_filename == "flow.png"
-    fresh.uncheck("#explore-adds-fluid")
-    assert fresh.input_value("#saved") == "contact.png"
+    assert coming.value.suggested_filename == "curve.png"
