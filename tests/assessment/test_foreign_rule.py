@@ -124,9 +124,9 @@ def test_it_stands_in_the_lab(resonance, surface, tmp_path):
     rl.write(replace(surface, unit="m"), tmp_path / "map.nc")
     state = page.bring(tmp_path / "map.nc") | {"first": "steel", "second": "copper"}
     header, _ = page.ask("answer", state | {"loads": "10 N"})
-    _, rows = header["answers"]
+    _, rows, *_ = header["tables"]["measured-answers"]
     assert [row for row in rows if row[0] == "resonance of one kilogram f_0"]
-    _, formulas = header["formulas"]
+    _, formulas, *_ = header["tables"]["measured-formulas"]
     assert [row for row in formulas if row[3] == "Rayleigh 1877"]
 
 

@@ -320,8 +320,8 @@ def test_a_report_speaks_to_a_client(holed, invoke, only_drawn, tmp_path):
     assert names.count("if nothing yielded") >= 2  # below what yield changes
     items = re.findall("<li>(.*?)</li>", page)
     told = (
-        "The interface stiffness k_i is",
         "carried within",
+        "The interface stiffness k_i is",
         "of the contact yields at the largest load: it bears the hardness, 370 MPa",
         "known to a factor of 1.5",
         "15 missing points",

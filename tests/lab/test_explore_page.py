@@ -97,7 +97,8 @@ def test_strip_and_tables_say_what_the_library_says(fresh):
     measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d[measured.C_2d > 0]
     assert [row[1] for row in table(fresh, "spectrum")] == [
-        figure(x).replace("e-", "·10−") for x in known[:: -(-known.size // 40)]  # set high
+        figure(x).replace("e-", "·10−")
+        for x in known[:: -(-known.size // 40)]  # set high
     ]
 
 

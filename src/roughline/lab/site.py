@@ -16,7 +16,6 @@ from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
 from roughline.lab.explore import physics
-from roughline.lab.explore.downloads import FILES
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.examples import EXAMPLES
 from roughline.lab.published import controls as published
@@ -75,7 +74,6 @@ def page() -> str:
         version=rl.__version__,
         explore=explore,
         physics=physics,
-        files=FILES,
         measured=measured,
         published=published,
         examples=EXAMPLES,

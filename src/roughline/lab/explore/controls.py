@@ -182,3 +182,15 @@ NUMBERS = {each.key: each for each in _NUMBERS}
 """Numbers by their keys."""
 CHOICES = {each.key: each for each in _CHOICES}
 """Choices by their keys."""
+
+FILES = {
+    "contact.png": "both maps, PNG",
+    "contact.pdf": "both maps, PDF",
+    "maps.nc": "all maps, NetCDF",
+    "curve.png": "curves, PNG",
+    "curve.pdf": "curves, PDF",
+    "curve.csv": "curves, CSV",
+    "curve.nc": "loads in SI units, NetCDF",
+    "surface.nc": "surface, NetCDF",
+}
+"""Files that can be saved, by their names, whose endings say of what type they are."""

@@ -6,7 +6,6 @@ All is computed anew, as the tasks of the page do.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
@@ -22,6 +21,7 @@ import roughline as rl
 from roughline.computing.disk import write_dataset
 from roughline.lab.controls import STRANGE, ControlError, rounded
 from roughline.lab.explore import physics, pictures
+from roughline.lab.explore.controls import FILES
 from roughline.lab.explore.panels import Filled, Panel
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.reading import state_in
@@ -52,14 +52,6 @@ _MARKS = {
 _PALETTES = {"Cividis256": "cividis", "Viridis256": "viridis", "flux": "YlGnBu"}
 
 
-@dataclass(frozen=True)
-class _File:
-    """A file that can be saved; the ending of its name says of what type it is."""
-
-    label: str  # what the page calls it
-    write: Callable[[ExploreState, int, Path, Progress], None]
-
-
 def download(arguments: Arguments, progress: Progress) -> bytes:
     """Write one of the files to the folder of the session.
 
@@ -73,7 +65,7 @@ def download(arguments: Arguments, progress: Progress) -> bytes:
         raise ControlError(STRANGE)
     folder = Path(arguments["session"]["folder"]) / "results"
     folder.mkdir(parents=True, exist_ok=True)
-    FILES[name].write(state, points, folder / name, progress)
+    _WRITERS[name](state, points, folder / name, progress)
     return frame({"file": name})
 
 
@@ -290,14 +282,13 @@ def _write_figure(path: Path, plots: list[Callable[[Axes], Any]]) -> None:
         figure.savefig(path)
 
 
-FILES = {
-    "contact.png": _File("both maps, PNG", _draw_maps),
-    "contact.pdf": _File("both maps, PDF", _draw_maps),
-    "maps.nc": _File("all maps, NetCDF", _write_maps),
-    "curve.png": _File("curves, PNG", _draw_panels),
-    "curve.pdf": _File("curves, PDF", _draw_panels),
-    "curve.csv": _File("curves, CSV", _write_panels),
-    "curve.nc": _File("loads in SI units, NetCDF", _write_loads),
-    "surface.nc": _File("surface, NetCDF", _write_surface),
+_WRITERS: dict[str, Callable[[ExploreState, int, Path, Progress], None]] = {
+    "contact.png": _draw_maps,
+    "contact.pdf": _draw_maps,
+    "maps.nc": _write_maps,
+    "curve.png": _draw_panels,
+    "curve.pdf": _draw_panels,
+    "curve.csv": _write_panels,
+    "curve.nc": _write_loads,
+    "surface.nc": _write_surface,
 }
-"""All files that can be saved, by their names."""
