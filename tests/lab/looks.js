@@ -68,7 +68,7 @@
   // Mark where the tab key should stop, in this order; a group of radios is one stop.
   stops(view) {
     const all = document.querySelectorAll(
-      `header a, header button, #${view} :is(input, select, button, summary, .plot, pre)`);
+      `header a, header button, #${view} :is(input, select, button, summary, .plot, pre, a[href])`);
     return [...all].filter((each) => each.checkVisibility() && each.tabIndex >= 0 && !each.disabled
       && (each.type !== "radio" || each.checked)).map((each, i) => (each.dataset.stop = `${i}`));
   },

@@ -133,12 +133,13 @@ def test_curves_follow_the_choices_without_the_server(paper):
     header = paper.locator('[data-table="published-stiffness-3D"] th')
     first = paper.locator('[data-table="published-stiffness-3D"] tbody tr').first.locator("td")
     paper.locator("#published-stiffness-3D summary").click()
-    before = float(first.nth(1).inner_text())
+    text = first.nth(1).inner_text()
+    before = float(text)
     paper.check('#published [data-key="punch"][value="raw"]')
     paper.wait_for_function(
         "(text) => document.querySelector('[data-table=\"published-stiffness-3D\"] td + td')"
         ".innerText !== text",
-        arg=first.nth(1).inner_text(),
+        arg=text,
     )
     assert float(first.nth(1).inner_text()) == pytest.approx(1.1419 * before, rel=0.01)
     paper.check('#published [data-key="punch"][value="paper"]')
@@ -268,7 +269,8 @@ def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other
             const {publishedFigures} = await import("/lab/published-figures.js");
             const {exploreFigures} = await import("/lab/explore-figures.js");
             for (const view of document.querySelectorAll("main")) view.hidden = false;
-            const declared = [exploreFigures, () => publishedFigures(["1", "2"])];
+            const {panels} = JSON.parse(document.querySelector("[data-declared]").dataset.declared);
+            const declared = [() => exploreFigures(panels), () => publishedFigures(["1", "2"])];
             const made = await Promise.all(declared.map(embedded));
             return made.map(({made}) => made.roots().map(({name}) => name));
         }"""

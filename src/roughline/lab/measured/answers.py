@@ -83,10 +83,11 @@ def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]
         table += (counted(result, with_elastic=has_elastic, write=write), IF_ELASTIC)
     elif isinstance(result, Assessment):
         table = curve_table(result)
+    at = "part-answers" if place == "part" else place
     return {
         "words": {f"{place}-lead": lead_of(result), f"{place}-star": star},
         "figures": {place: [vars(each) for each in headline(result, write).figures]},
-        "tables": {f"measured-{place}": table},
+        "tables": {f"measured-{at}": table},
     }
 
 

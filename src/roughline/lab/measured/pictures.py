@@ -96,7 +96,10 @@ def of_preparation(before: Body, after: Body, crop: Sequence[float] | None) -> D
         both = {"sources": old["sources"] | new["sources"], "table": table}
         return {**hidden, "measured-prepared-line": old | both}, arrays
     for panel in drawn:
-        panel["map"]["look"] |= {"low": min(spans)[0], "high": max(high for _, high in spans)}
+        panel["map"]["look"] |= {
+            "low": min(low for low, _ in spans),
+            "high": max(high for _, high in spans),
+        }
     width, height = new["map"]["sizes"]
     box = {"left": corner[0], "right": corner[0] + width, "bottom": corner[1]}
     old["models"] = {"crop box": {"visible": crop is not None, "top": corner[1] + height, **box}}

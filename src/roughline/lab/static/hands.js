@@ -58,7 +58,7 @@ export function onTouch(root, touched) {
 export function onPoint(root, told) {
   const {element, canvas, view} = placeOf(root);
   element.addEventListener("pointermove", (event) => {
-    if (event.pointerType === "mouse") told(event.composedPath()[0] === canvas ? pointAt(view, event) : null);
+    if (event.pointerType === "mouse") told(event.composedPath()[0] === canvas && isOnFrame(view, event) ? pointAt(view, event) : null);
   }, true);
   element.addEventListener("pointerleave", ({pointerType}) => { if (pointerType === "mouse") told(null); });
   onTouch(root, told);
@@ -130,6 +130,11 @@ function pointAt({canvas_view, frame}, {clientX, clientY}) {
     x: x_scale.invert(within(clientX - left, bbox.left, bbox.right)),
     y: y_scale.invert(within(clientY - top, bbox.top, bbox.bottom)),
   };
+}
+
+function isOnFrame({canvas_view, frame: {bbox}}, {clientX, clientY}) {
+  const {left, top} = canvas_view.events_el.getBoundingClientRect(), x = clientX - left, y = clientY - top;
+  return bbox.left <= x && x <= bbox.right && bbox.top <= y && y <= bbox.bottom;
 }
 
 // Where an event is, in sides of the frame from its lower left corner.

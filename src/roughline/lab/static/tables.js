@@ -1,17 +1,24 @@
 // Numbers and words beside the plots: tables, lists, large figures, and what the colours of a map mean.
 import {element, typeset} from "./elements.js";
 
-const unread = new WeakMap(); // folds that are closed, and what fills them
+const RARE = 500; // between two fillings of a table in a fold that is closed, as sliders move [ms]
+const filled = new Map(), later = new Map(); // when tables were filled, and what fills them soon
 
-// Put rows below a plot, in a fold that is closed when it is opened; a cell is a text, or pieces of one. They stand
-// behind the headlines of their groups, which are given with the number of rows of each; those of the first are
-// shown. Rows that begin with `quiet` are beside those above them.
+// Put rows below a plot; a cell is a text, or pieces of one. They stand behind the headlines of their groups, which are
+// given with the number of rows of each; those of the first are shown. Rows that begin with `quiet` are beside those
+// above them.
 export function fillTable(id, header, rows, groups = null, quiet = null) {
   const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details:not(.step)");
-  const fill = () => place.replaceChildren(tableOf(header, rows, groups, quiet));
-  if (!fold || fold.open) { fill(); return; }
-  if (!unread.has(fold)) fold.addEventListener("toggle", () => unread.get(fold).forEach((each) => each()));
-  unread.set(fold, (unread.get(fold) ?? new Map()).set(id, fill));
+  const fill = () => {
+    later.delete(id);
+    filled.set(id, performance.now());
+    place.replaceChildren(tableOf(header, rows, groups, quiet));
+  };
+  const isSoon = fold && !fold.open && performance.now() < (filled.get(id) ?? -RARE) + RARE;
+  if (!isSoon) { fill(); return; }
+  if (!later.has(id)) setTimeout(() => later.get(id)?.(), RARE);
+  fold.ontoggle = () => { if (fold.open) later.get(id)?.(); };
+  later.set(id, fill);
 }
 
 function tableOf(header, rows, groups, quiet) {
