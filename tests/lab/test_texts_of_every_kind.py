@@ -125,7 +125,7 @@ def test_several_that_are_refused_in_my_surface_say_so_each(ask):
         ("joint_area", "1e300 m^2", "up to 1 km²"),
         ("adhesion", "50 mJ/m^2 over 1 km", "longer than the shorter side, 500 µm"),
         ("adhesion", "1e300 J/m^2", "more than the contact modulus times"),
-        ("resample", "100000", "from 2 to 4096, the most that this lab resamples to"),
+        ("resample", "100000", "this lab takes up to 4096"),
     ],
 )
 def test_what_is_beyond_all_sense_is_refused_at_its_control_at_once(ask, key, text, why):

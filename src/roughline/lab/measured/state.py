@@ -152,7 +152,11 @@ def told_in(said: Said, *groups: str) -> dict[str, Any]:
                 refuse_alone(field, value)
                 count = len(value) if isinstance(value, list) else value
                 if field.name in _MOST and count > _MOST[field.name]:
-                    raise ControlError(f"{count} are too many; give up to {_MOST[field.name]}", key)
+                    most = _MOST[field.name]
+                    raise ControlError(
+                        f"{field.label or key}: {count} are too many; this lab takes up to {most}",
+                        key,
+                    )
     return given
 
 
