@@ -119,7 +119,7 @@ class Pages:
             accept_downloads=True,
             **context,
         )
-        made.set_default_timeout(12_000)
+        made.set_default_timeout(60_000)
         made.request.get(self._opened)  # which logs its pages in
         self._contexts.append(made)
         page = made.new_page()
