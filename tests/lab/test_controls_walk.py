@@ -198,6 +198,8 @@ def drag_edges(page):
             assert float(page.input_value(f"#published-{edge.key}-text")) == edge.low
             slider.dblclick()
             assert float(page.input_value(f"#published-{edge.key}-text")) == edge.default
+            # the next slider moves up as a sentence above it goes
+            page.wait_for_selector(f'#published [data-error="{edge.key}"]:empty', state="attached")
     page.wait_for_function("() => !document.querySelector('#published .error:not(:empty)')")
 
 

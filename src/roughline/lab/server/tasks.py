@@ -102,5 +102,6 @@ def without_paths(text: str, arguments: Mapping[str, Any]) -> str:
     root = ntpath.dirname(own)
     for folder in (own, root, ntpath.dirname(root), *_PROGRAM):
         if len(folder) > 1:
-            text = re.sub(re.escape(folder) + r"""[^\s'":;,()]*""", "a file of the lab", text)
+            whole = rf"""(?<![\w/.-]){re.escape(folder)}[^\s'":;,()]*"""  # no part of another path
+            text = re.sub(whole, "a file of the lab", text)
     return text.replace(ntpath.basename(own), "a page") if own else text
