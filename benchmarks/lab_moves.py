@@ -178,8 +178,9 @@ def write(times, rates, browser, save):
     for name, target in TARGETS.items():
         parts = (shown(part) for part in percentiles(times[name]))
         page.row(name, *parts, len(times[name]), shown(target))
+    page.say("\n## Long drags\n")
     page.say(
-        f"\nLong drags, {DRAG:g} s from end to end and back with a mouse that moves every "
+        f"{DRAG:g} s from end to end and back with a mouse that moves every "
         f"{1e3 * MOUSE:.0f} ms; pictures per second, of all surfaces:\n"
     )
     page.table("slider, full grid", "reduced curve: least, median", "contact on 128²", "wanted")
