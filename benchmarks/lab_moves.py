@@ -121,7 +121,7 @@ def measure_moves(browser, running, times, moves, points, dimension, seed):
 
 
 def pictures_in_long_drag(browser, running, key, points, dimension, seed):
-    """Drag a slider to and fro for seconds: pictures of the reduced curve and of 128² per second."""
+    """Drag a slider to and fro for seconds: pictures of the line and of 128² in a second."""
     pages = Pages(browser, running.address)
     page = opened(pages, f"?view=explore&v=1&D_f={dimension}&seed={seed}&n={points}&F=0.1")
     page.wait_for_selector("#plot-explore-area[data-shown]")
