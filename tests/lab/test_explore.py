@@ -445,7 +445,7 @@ def test_the_way_back_is_that_of_the_library(yielding):
     ratio = yielding.unloading_stiffness / yielding.stiffness[0]
     _, found = loads(header, "stiffness", "back")
     first = loads(answer(pictures.full, YIELDING)[0], "stiffness", "here")[1][0]
-    np.testing.assert_allclose(found[::-1], (ratio * first)[:-1], rtol=1e-6)
+    np.testing.assert_allclose(found[::-1], (ratio * first)[:-1], rtol=1e-9)
     assert header["panels"]["stiffness"]["rows"][-1] == ["0", "0", BACK.legend]
     curve, _ = answer(pictures.curve, YIELDING)
     assert {row[2] for row in curve["panels"]["stiffness"]["rows"]} == {"3D", "3D, on unloading"}

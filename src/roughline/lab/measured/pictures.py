@@ -151,7 +151,7 @@ def _spectrum(found: Description) -> Panel | None:
         return None
     power, fit, law = parameters.power, parameters.fit, parameters.law
     q, power = parameters.spectrum.q[power > 0], power[power > 0]
-    label = "C_2d [m⁴]" if isinstance(found.body, Surface) else "C_profile [m³]"
+    label = f"spectrum C [{'m⁴' if isinstance(found.body, Surface) else 'm³'}]"
     some = np.unique(np.geomspace(1, q.size, 40).astype(int)) - 1
     waves, kept = ([], []) if law is None else (each[np.isfinite(law[1])] for each in law)
     return {

@@ -85,8 +85,7 @@ export class Maps {
     if (extent === this.#extent) return;
     this.#extent = extent;
     for (const name of this.#names) {
-      const named = (axis) => (unit ? `${axis} ${unit.startsWith("/") ? unit : `[${unit}]`}` : axis);
-      this.#plots.label(this.#plot(name), named("x"), named("y"));
+      this.#plots.label(this.#plot(name), withUnit("x", unit), withUnit("y", unit));
       for (const [i, axis] of ["x", "y"].entries()) this.#plots.range(this.#plot(name), axis, corner[i], corner[i] + sizes[i]);
     }
     this.#fit();
@@ -175,9 +174,14 @@ export class Maps {
     const factor = gap ? gap.factor ?? 1 : 1, body = gap ? along(gap).map((value, i) => surface[i] + factor * (value || 0)) : [];
     this.#plots.set("profile surface", {x, y: surface});
     this.#plots.set("profile body", {x: gap ? x : [], y: body});
-    this.#plots.label(plot, `along the line ${this.#unit.startsWith("/") ? this.#unit : `[${this.#unit}]`}`,
-      height.unit.startsWith("/") ? `height ${height.unit}` : `height [${height.unit}]`);
+    this.#plots.label(plot, withUnit("along the line", this.#unit), withUnit("height", height.unit));
   }
+}
+
+// A quantity with its unit, or over a scale: height [µm], height / h.
+function withUnit(name, unit) {
+  if (!unit) return name;
+  return unit.startsWith("/") ? `${name} ${unit}` : `${name} [${unit}]`;
 }
 
 // The number of a layer at a place, in sides of the surface.
@@ -206,7 +210,7 @@ function scaleOf(title, unit, palette, [low, high], isLogarithmic) {
     return tick;
   }));
   bar.style.background = `linear-gradient(to right, ${stops})`;
-  return [element("span", {textContent: unit ? `${title} ${unit.startsWith("/") ? unit : `[${unit}]`}` : title}), bar];
+  return [element("span", {textContent: withUnit(title, unit)}), bar];
 }
 
 // A few round numbers between two.

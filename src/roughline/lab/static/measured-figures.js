@@ -57,7 +57,7 @@ function preparedLine() {
 }
 
 function spectrum() {
-  const made = plot(["wavenumber q = 2π/λ [1/m]", "C_2d [m⁴]"], [], LOGARITHMIC);
+  const made = plot(["wavenumber q = 2π/λ [1/m]", "spectrum C [m⁴]"], [], LOGARITHMIC);
   draw(made, "scatter", "spectrum", {size: 3.5, legend: "this surface", colours: both("dark-line")});
   draw(made, "line", "spectrum law", {line_width: 2.5, legend: "nearest self-affine law", colours: {line_color: "here"}});
   return made;

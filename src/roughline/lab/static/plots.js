@@ -1,5 +1,5 @@
 // Plots of Bokeh: embedding, data and the colours of the theme.
-import {element} from "./elements.js";
+import {element, typeset} from "./elements.js";
 import {legendOf} from "./figures.js";
 import {takeHands} from "./hands.js";
 
@@ -78,7 +78,7 @@ class Plots {
   }
 
   // Call a source by other words in the legend.
-  call(name, words) { for (const {item} of this.#named.get(name) ?? []) item.lastChild.textContent = words; }
+  call(name, words) { for (const {item} of this.#named.get(name) ?? []) item.lastChild.replaceChildren(...typeset(words)); }
 
   // Put the legend of a plot above it, where it covers no data.
   #addLegend(root) {
@@ -86,7 +86,7 @@ class Plots {
     for (const {legend, ...glyph} of legendOf(root)) places.set(legend, [...(places.get(legend) ?? []), glyph]);
     if (!places.size) return;
     const items = [...places].map(([words, glyphs]) => {
-      const item = element("li", {hidden: true}, keyOf(glyphs), element("span", {textContent: words}));
+      const item = element("li", {hidden: true}, keyOf(glyphs), element("span", {}, ...typeset(words)));
       const names = glyphs.map(({source}) => source);
       item.dataset.sources = names.join(";");
       for (const name of names) this.#named.set(name, [...(this.#named.get(name) ?? []), {item, names}]);

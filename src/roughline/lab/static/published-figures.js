@@ -3,7 +3,7 @@ import {LOGARITHMIC, add, draw, drawIntervals, name as call, plot} from "./figur
 
 const FORCE = "force F / (E* h L)";
 const RANGES = {"1D": [[1e-5, 10], [1e-4, 1.6]], "3D": [[1e-3, 10], [5e-3, 1.6]]}; // of F̄ and k̄
-const DIMENSIONS = ["D = 2", "2.2", "2.4", "2.6", "2.8", "3"], MARKERS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "plus"];
+const DIMENSIONS = ["D_f = 2", "2.2", "2.4", "2.6", "2.8", "3"], MARKERS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "plus"];
 const HATCH = {hatch_pattern: "right_diagonal_line", hatch_color: "#1c1c1a", hatch_alpha: 0.7, hatch_scale: 7, hatch_weight: 0.8};
 const QUIET = {fill_color: "quiet", line_color: "quiet"};
 const WINDOW = {movable: "x", resizable: "x", fill_alpha: 0.12, line_alpha: 0.6, level: "underlay", colours: QUIET};
