@@ -94,8 +94,13 @@ export class Maps {
   // Draw numbers, {values, shape, dtype}, over the sides from a corner, in the colours of `look`: palette, low and
   // high, title, unit, and whether they are logarithms.
   show(name, {values, shape, dtype}, look, sizes = this.#sizes, [x, y] = [0, 0]) {
-    const {ndarray} = Bokeh.require("core/util/ndarray");
-    this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]});
+    const place = {x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]}, {data} = this.#plots.model(name);
+    const isSame = data.image[0] && JSON.stringify([data.image[0].shape, data.x, data.y, data.dw, data.dh])
+      === JSON.stringify([shape, ...Object.values(place)]) && values.every((value, i) => Object.is(value, data.image[0][i]));
+    if (!isSame) {
+      const {ndarray} = Bokeh.require("core/util/ndarray");
+      this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], ...place});
+    }
     if (!look) return;
     const before = this.#looks[name];
     this.#looks[name] = look;

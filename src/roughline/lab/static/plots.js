@@ -14,7 +14,7 @@ const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new
 // Embed the figures that are declared, by the elements that they belong to, less "plot-"; returns what changes them.
 // They are in one document, so that they may share ranges.
 export async function embedded(declared) {
-  await bokeh;
+  await bokeh.then(spareStyles);
   const made = new Bokeh.Document(), figures = Object.entries(declared());
   for (const [name, figure] of figures) {
     figure.name = name;
@@ -25,6 +25,15 @@ export async function embedded(declared) {
   await Bokeh.embed.add_document_standalone(made, document.body, figures.map(([name]) => placeOf(name)));
   for (const root of made.roots()) takeHands(root);
   return new Plots(made);
+}
+
+// With each picture Bokeh writes the places of all that it draws into the style of the page and asks that for colours,
+// hundreds of times a second while a slider moves, and each time the browser styles the page anew. A place that is the
+// same is not written, and the page has no such colours.
+function spareStyles() {
+  const {InlineStyleSheet} = Bokeh.require("core/dom"), {VisualProperties} = Bokeh.require("core/visuals/visual");
+  InlineStyleSheet.prototype._update = function (css) { if (this.css !== css) this.el.textContent = css; };
+  VisualProperties.prototype._get_css_value = () => "";
 }
 
 function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)}`); }
@@ -69,7 +78,9 @@ class Plots {
 
   // Give a source its columns; a legend names what there is.
   set(name, columns) {
-    this.model(name).data = columns;
+    const source = this.model(name);
+    Object.assign(source.data, columns); // a new table would have Bokeh look for models in it
+    source.change.emit();
     this.#counts[name] = Object.values(columns)[0].length;
     for (const {item, names} of this.#named.get(name) ?? []) {
       const isThere = names.some((each) => this.#counts[each]);
