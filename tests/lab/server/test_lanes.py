@@ -112,7 +112,7 @@ def test_questions_are_answered(lasting):
         ("refuse", "cannot read my file.txt", ""),
         ("refuse_at", "too rough", "h"),
         ("die", "ended unexpectedly", ""),
-        ("take_memory", "more memory than one session may have", ""),
+        ("take_memory", "more memory than one page may have", ""),
         ("write_file", "the lab has no room for the files of this now", ""),
         ("need_memory", "more than one computation may have here, 1 GB: take less", ""),
         ("name_folders", "cannot read a file of the lab, nor a file of the lab (its name)", ""),

@@ -26,8 +26,6 @@ from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import Site
 
 _READY = 1.5  # that the first page waits for what it will need first [s]
-_MOST_BODY = 2**16  # of a request that brings no file [bytes]
-_MOST_HEADERS = 2**14  # [bytes]
 _MOST_KNOCKING = 1024  # connections that wait to be taken
 
 
@@ -52,17 +50,14 @@ def serve(
         server = Server(site, settings, root)
         listening = Connections(
             application(server),
-            most=most_connections(server.quick.limits.most + server.slow.limits.most),
+            most=most_connections(server.processes),
             proxies=lambda peer: is_proxy(peer, settings),
-            max_body_size=_MOST_BODY,
-            max_header_size=_MOST_HEADERS,
         )
         preparing = asyncio.gather(server.quick.prepare(), server.slow.prepare())
         try:
             listening.add_sockets(sockets)
             site.page()
-            with suppress(TimeoutError):
-                await asyncio.wait_for(asyncio.shield(preparing), _READY)
+            await asyncio.wait([preparing], timeout=_READY)
             if not interrupted() and not stopped.is_set():
                 ready(_address(server, sockets[0]))
                 await stopped.wait()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import shlex
 import stat
@@ -11,7 +10,7 @@ from ipaddress import IPv4Network, IPv6Network, ip_address, ip_network
 from pathlib import Path
 
 from roughline.errors import InputError
-from roughline.errors.checks import refuse, shown
+from roughline.errors.checks import between, positive, refuse, shown
 from roughline.errors.words import called
 from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
 
@@ -61,12 +60,10 @@ class ServerSettings:
             refuse("behind_proxy", self.names_of_proxies, needed)
         if self.password is not None and len(self.password) < 8:
             raise InputError("the password has fewer than 8 characters; take a longer one")
-        if not 0 <= self.port < 65536:
-            refuse("port", self.port, "0 (any free one) to 65535 is allowed")
-        limits = ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions")
-        for name in (*limits, *(() if self.max_disk is None else ("max_disk",))):
-            if not 0 < getattr(self, name) < math.inf:
-                refuse(name, getattr(self, name), "a positive, finite number is needed")
+        between("port", self.port, 0, 65535, "0 (any free one) to 65535 is allowed")
+        for name in ("upload", "points", "seconds", "memory", "sessions", "disk"):
+            if (given := getattr(self, f"max_{name}")) is not None:
+                positive(f"max_{name}", given)
         if self.max_points < LEAST_POINTS:
             refuse("max_points", self.max_points, f"at least {LEAST_POINTS} points are needed")
         if self.max_memory < LEAST_MEMORY:

@@ -20,9 +20,7 @@ from roughline.errors import RoughlineError
 _NO_ROOM = (
     "the lab has no room for the files of this now: close other pages of it, or come back later"
 )
-_NO_MEMORY = (
-    "this needs more memory than one session may have: take fewer points or a smaller piece"
-)
+_NO_MEMORY = "this needs more memory than one page may have: take fewer points or a smaller piece"
 _UNKNOWN = (
     "the computation failed for a reason that the lab does not know; the terminal in which the lab "
     "was started shows more. Change a setting and ask again"
@@ -67,8 +65,6 @@ class Site:
     login_page: Callable[[bool, str, str], str]
     parts: Path  # folder of scripts and styles
     tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
-    # module that is loaded before processes are forked; its function ``up`` loads the rest
-    warm: str
 
 
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
@@ -88,8 +84,9 @@ def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -
             traceback.print_exc(file=sys.stderr)
         if isinstance(error, OSError) and error.errno:
             why = os.strerror(error.errno)
-            sentence = f"a file of the lab could not be read or written ({why}): ask again"
-            return Outcome(error=sentence)
+            return Outcome(
+                error=f"a file of the lab could not be read or written ({why}): ask again"
+            )
         return Outcome(error=_UNKNOWN)
 
 
