@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from roughline.lab.server.budget import Limits
@@ -53,15 +54,6 @@ class Request:
         """What a newer request must share to take its place."""
         return self.session, self.slot
 
-    def is_of(self, session: str, slot: str | None) -> bool:
-        """Whether it is for a part of a page, or for any."""
-        return self.session == session and slot in (None, self.slot)
-
-    def tell(self, done: int, total: int) -> None:
-        """Tell of progress whoever still wants the answer."""
-        if self.is_wanted:
-            self.progress(done, total)
-
 
 class Lane:
     """Some processes and the requests that wait for them: first come, first served.
@@ -98,14 +90,17 @@ class Lane:
         Returns the work that ends when what is stopped is gone. A lasting process finishes its
         short task, and its answer is ignored.
         """
-        for each in [each for each in self._waiting.values() if each.is_of(session, slot)]:
-            del self._waiting[each.key]
-        stopped = [each for each in self._served if each.is_wanted and each.is_of(session, slot)]
-        for each in stopped:
+        own = [
+            each
+            for each in (*self._waiting.values(), *self._served)
+            if each.session == session and slot in (None, each.slot)
+        ]
+        for each in own:
+            self._waiting.pop(each.key, None)
             each.is_wanted = False
             if not self._lasting and each.process is not None:
                 each.process.stop()
-        return [] if self._lasting else [self._served[each] for each in stopped]
+        return [] if self._lasting else [self._served[each] for each in own if each in self._served]
 
     async def prepare(self) -> None:
         """Start processes ahead of the first request."""
@@ -187,10 +182,7 @@ class Lane:
     async def _outcome(self, request: Request, process: Process, crowded: bool) -> Outcome:
         """Have a request done by a process."""
         loop, seconds = asyncio.get_running_loop(), self.limits.seconds
-
-        def progress(done: int, total: int) -> None:
-            loop.call_soon_threadsafe(request.tell, done, total)
-
+        progress = partial(loop.call_soon_threadsafe, request.progress)
         arguments = {**request.arguments, "crowded": crowded}
         asked = loop.run_in_executor(self._threads, process.ask, request.place, arguments, progress)
         later = loop.call_later(_PATIENCE, self._let_pass, request, process)

@@ -30,7 +30,6 @@ _PROGRAM = (str(Path(__file__).parents[1]), sys.prefix)
 
 Arguments = Mapping[str, Any]  # of a task, and the "session" that asks
 Progress = Callable[[int, int], None]  # called with (steps done, steps in all)
-_Task = Callable[[Arguments, Progress], bytes]  # gives a message for the page
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,7 @@ class Place:
     """Where a task is, and how it is done."""
 
     module: str  # by its whole name
-    function: str  # in it
+    function: str  # in it, of arguments and progress; gives a message for the page
     # Whether it is so short that it waits only for other quick tasks. Other tasks have a process
     # each, with limits of time and memory, and are stopped when they are no longer wanted.
     is_quick: bool = False
@@ -70,7 +69,7 @@ class Site:
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
     """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
-        task: _Task = getattr(import_module(place.module), place.function)
+        task = getattr(import_module(place.module), place.function)
         return Outcome(task(arguments, progress))
     except MemoryError:
         return Outcome(error=_NO_MEMORY)
