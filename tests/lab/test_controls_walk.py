@@ -59,6 +59,25 @@ def test_every_text_that_a_slider_writes_is_read(page_of_explore):
             assert numbers == sorted(set(numbers))
 
 
+def test_fields_show_three_digits_and_keep_what_is_typed(page_of_explore):
+    page = page_of_explore
+    shown = {"D_f": "2.40", "roll_off": "1.00", "cutoff": "0.0156", "h": "0.00100", "F": "0.100"}
+    for key, text in {**shown, "seed": "7"}.items():
+        assert page.input_value(f"#explore-{key}-text") == text
+    typed(page, "F", "0.2")
+    drawn(page, F=0.2)
+    assert page.input_value("#explore-F-text") == "0.2"
+    page.locator("#explore-F").press("ArrowRight")
+    drawn(page, F=0.209)
+    assert page.input_value("#explore-F-text") == "0.209"
+    page.locator("#explore-F").press("ArrowLeft")
+    drawn(page, F=0.2)
+    assert page.input_value("#explore-F-text") == "0.200"
+    page.wait_for_function("() => new URLSearchParams(location.search).get('F') === '0.2'")
+    page.locator("#explore-F").dblclick()
+    drawn(page, F=0.1)
+
+
 def dragged(page, slider, share):
     """Drag a slider with the mouse from where it stands beyond one of its ends."""
     slider.scroll_into_view_if_needed()
