@@ -15,7 +15,7 @@ from pathlib import Path
 from tornado.netutil import bind_sockets
 
 from roughline.errors import InputError
-from roughline.errors.checks import refuse, shown
+from roughline.errors.checks import refuse
 from roughline.errors.words import called
 from roughline.lab.server.access import is_proxy
 from roughline.lab.server.connections import Connections, most_connections
@@ -75,12 +75,9 @@ def _listening(settings: ServerSettings) -> list[socket.socket]:
     """Sockets on the address of the settings."""
     try:
         sockets = bind_sockets(settings.port, settings.host, backlog=_MOST_KNOCKING)
-    except socket.gaierror as error:
-        raise InputError(
-            f"is {shown(settings.host)}, which is no address of this machine: give one, or "
-            "127.0.0.1 for this machine alone",
-            "host",
-        ) from error
+    except socket.gaierror:
+        needed = "it is no address of this machine: give one, or 127.0.0.1 for this machine alone"
+        refuse("host", settings.host, needed)
     except (OSError, UnicodeError) as error:
         why = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else error
         raise InputError(
