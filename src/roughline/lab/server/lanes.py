@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any
 
 from roughline.lab.server.budget import Limits
@@ -182,7 +181,10 @@ class Lane:
     async def _outcome(self, request: Request, process: Process, crowded: bool) -> Outcome:
         """Have a request done by a process."""
         loop, seconds = asyncio.get_running_loop(), self.limits.seconds
-        progress = partial(loop.call_soon_threadsafe, request.progress)
+
+        def progress(done: int, total: int) -> None:
+            loop.call_soon_threadsafe(request.progress, done, total)
+
         arguments = {**request.arguments, "crowded": crowded}
         asked = loop.run_in_executor(self._threads, process.ask, request.place, arguments, progress)
         later = loop.call_later(_PATIENCE, self._let_pass, request, process)
