@@ -22,7 +22,7 @@ _MOST_CHARACTERS = 1000  # of the text of a control
 
 _OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of a view's state
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*", re.IGNORECASE | re.ASCII)
-_FEWEST_DIGITS = 3  # with which the page writes a number
+_FEWEST_DIGITS = 4  # with which pages have written the ends of their sliders
 _DIGITS = 12  # of a number that is computed from a text with a unit
 
 Texts = Mapping[str, str]

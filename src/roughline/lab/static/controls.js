@@ -58,8 +58,7 @@ export class Controls {
 
   // A number as the text of a control, within the ends of its slider.
   within(key, value) {
-    const {low, high} = this.#slider(key).dataset;
-    return said(Math.min(Math.max(value, Number(low)), Number(high)));
+    return said(this.#slider(key), value);
   }
 
   // Take texts from an address, without telling anyone; what it does not say has its default.
@@ -118,7 +117,7 @@ export class Controls {
       const isDefault = Number(slider.value) === position(slider, Number(slider.dataset.default));
       const value = isDefault ? Math.max(slider.dataset.default, slider.dataset.low) : number(slider);
       this.#text(key).value = slider.ariaValueText = shown(value);
-      this.set(key, isDefault ? slider.dataset.default : said(value), isFinal);
+      this.set(key, isDefault ? slider.dataset.default : said(slider, value), isFinal);
     };
     letScroll(slider);
     let byPointer = false; // a key that is pressed again and again rests between
@@ -137,7 +136,7 @@ export class Controls {
       else choice.checked = text.split(",").includes(choice.value);
     }
     const field = this.#text(key), slider = this.#slider(key), value = Number(text);
-    const isOfSlider = slider && text && (text === slider.dataset.default || Number(said(value)) === value);
+    const isOfSlider = slider && text && [slider.dataset.default, said(slider, value)].some((each) => Number(each) === value);
     if (field) field.value = isOfSlider ? shown(value) : text;
     if (slider && text && Number.isFinite(value)) place(slider, value);
   }
@@ -162,17 +161,18 @@ function chosen(choices, which) {
   return choices.filter((each) => each[which] ?? true).map(({value}) => value).join(",");
 }
 
-// A number as it is asked with: three digits, no exponent where it is short.
-function said(value) {
+// A number as the text of a slider, within its ends: three digits, no exponent where it is short.
+function said({dataset: {low, high}}, value) {
   const rounded = Number(value.toPrecision(3));
-  return rounded !== 0 && Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded);
+  if (rounded <= low) return low;
+  if (rounded >= high) return high;
+  return rounded < 1e-4 ? rounded.toExponential() : String(rounded);
 }
 
-// The same as it is shown, with zeros at its end.
+// A number as it is shown: three digits, with zeros at its end.
 function shown(value) {
-  const size = Math.abs(value);
-  if (value === 0 || size >= 999.5) return said(value);
-  return size < 1e-4 ? value.toExponential(2) : value.toPrecision(3);
+  if (value === 0 || value >= 999.5) return String(Math.round(value));
+  return value < 1e-4 ? value.toExponential(2) : value.toPrecision(3);
 }
 
 function place(slider, value) {
