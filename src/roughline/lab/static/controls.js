@@ -164,8 +164,8 @@ function chosen(choices, which) {
 // A number as the text of a slider, within its ends: three digits, no exponent where it is short.
 function said({dataset: {low, high}}, value) {
   const rounded = Number(value.toPrecision(3));
-  if (rounded <= low) return low;
-  if (rounded >= high) return high;
+  if (Math.min(value, rounded) <= low) return low;
+  if (Math.max(value, rounded) >= high) return high;
   return rounded < 1e-4 ? rounded.toExponential() : String(rounded);
 }
 
