@@ -62,7 +62,7 @@ def test_every_text_that_a_slider_writes_is_read(page_of_explore):
 def test_fields_show_three_digits_and_keep_what_is_typed(page_of_explore):
     page = page_of_explore
     shown = {"D_f": "2.40", "roll_off": "1.00", "cutoff": "0.0156", "h": "0.00100", "F": "0.100"}
-    for key, text in {**shown, "seed": "7"}.items():
+    for key, text in {**shown, "seed": "3"}.items():
         assert page.input_value(f"#explore-{key}-text") == text
     typed(page, "F", "0.2")
     drawn(page, F=0.2)
