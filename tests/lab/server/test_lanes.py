@@ -275,6 +275,20 @@ def test_addresses_take_turns_and_refinements_come_last():
     run(scenario, lasting=False, limits=limits)
 
 
+@pytest.mark.parametrize("lasting", [True, False])
+def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
+    async def scenario(lane, asker):
+        asker.ask("sleep", name="first", session="a", seconds=0.3)
+        await asyncio.sleep(0.05)
+        for name, session in (("replaced", "b"), ("last", "c"), ("new", "b")):
+            asker.ask("echo", name=name, session=session, say=name)
+        await asker.of("last")
+        assert list(asker.outcomes) == ["first", "new", "last"]
+
+    limits = Limits(count=1, most=1, per_session=1, seconds=20.0, memory=1e9)
+    run(scenario, lasting=lasting, limits=limits)
+
+
 def test_many_that_wait_are_told_to_the_task(monkeypatch):
     monkeypatch.setattr(lanes, "_SOON", 1e9)  # who has waited long is told as well
 
