@@ -151,23 +151,14 @@ def usable(
 ) -> tuple[_Read, dict[str, str]]:
     """Read the texts of the controls; for one that cannot be used, the one before it counts.
 
-    Where controls do not go together, the one that was changed counts as before, not the others.
-    What is wrong with the whole address, or with no text of a control, is raised.
+    Of the arguments of a task, "state" has the texts, those changed last at its end, "before" those
+    that were used last, and "red" the keys of those that were refused last, where there are any.
+    `read` reads texts or raises the first ControlError, and `told` gives all of what was read as
+    texts again; `needed` has those of controls that may not be empty, where no other can be used.
 
-    Parameters
-    ----------
-    arguments : mapping
-        Of a task: "state" has the texts, those changed last at its end, "before" those that were
-        used last, and "red" the keys of those that were refused last, where there are any.
-    read, told : callable
-        Reads texts, or raises the first ControlError; gives all of what was read as texts again.
-    needed : mapping of str to str, optional
-        Texts that are used where no other can be, of controls that may not be empty.
-
-    Returns
-    -------
-    tuple
-        What was read, and sentences by the keys of controls whose text is not used.
+    Returns what was read, and sentences by the keys of controls whose text is not used. Where
+    controls do not go together, the one that was changed counts as before, not the others. What is
+    wrong with the whole address, or with no text of a control, is raised.
     """
     said, needed = texts_of(arguments), needed or {}
     before = texts_of(arguments, "before") if "before" in arguments else {}
