@@ -22,7 +22,7 @@ _MOST_CHARACTERS = 1000  # of the text of a control
 
 _OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of a view's state
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*", re.IGNORECASE | re.ASCII)
-_FEWEST_DIGITS = 4  # with which the page writes a number
+_FEWEST_DIGITS = 4  # with which pages have written the ends of their sliders
 _DIGITS = 12  # of a number that is computed from a text with a unit
 
 Texts = Mapping[str, str]
@@ -54,31 +54,17 @@ class Control:
     step: float = 0.02  # of the slider: in the number or, on a logarithmic scale, in decades
 
     def read(self, text: str) -> float:
-        """Return the number in a text.
-
-        Raises
-        ------
-        ControlError
-            If it is none, or out of range.
-        """
+        """Return the number in a text, or raise a ControlError."""
         try:
             refuse_decimal_comma(text, self.name)
             if not is_number(text) or math.isinf(float(text)):
                 raise rl.InputError(f"{self.name} is {shown(text)}")
-            return self.checked(float(text))
-        except ControlError:
-            raise
         except rl.InputError as error:
             raise ControlError(f"{error}; give a number {self.range}", self.key) from None
+        return self.checked(float(text))
 
     def checked(self, value: float) -> float:
-        """Return a number that is in range; an end that is written with fewer digits is the end.
-
-        Raises
-        ------
-        ControlError
-            If it is not.
-        """
+        """Return a number in range; an end that is written with fewer digits is the end."""
         for end in (self.low, self.high):
             if any(value == float(f"{end:.{n}g}") for n in range(_FEWEST_DIGITS, _DIGITS + 1)):
                 return end
@@ -109,13 +95,7 @@ class Choice:
     meaning: str  # one sentence
 
     def read(self, text: Any) -> str:
-        """Return the word, if it is one of them.
-
-        Raises
-        ------
-        ControlError
-            If it is not.
-        """
+        """Return the word if it is one of them, or raise a ControlError."""
         if text not in self.options:
             allowed = ", ".join(self.options)
             raise ControlError(f"{self.name} is {shown(text)}; allowed are {allowed}", self.key)
@@ -153,13 +133,7 @@ def as_text(value: float) -> str:
 
 
 def texts_of(arguments: Mapping[str, Any], name: str = "state") -> Texts:
-    """Return the texts of the controls by their keys, as a page sends them in an argument.
-
-    Raises
-    ------
-    ControlError
-        If it does not; at the control whose text is none.
-    """
+    """Return the texts of the controls by their keys, as a page sends them in an argument."""
     said = arguments.get(name)
     if not isinstance(said, Mapping):
         raise ControlError(STRANGE)
@@ -177,27 +151,14 @@ def usable(
 ) -> tuple[_Read, dict[str, str]]:
     """Read the texts of the controls; for one that cannot be used, the one before it counts.
 
-    Where controls do not go together, the one that was changed counts as before, not the others.
+    Of the arguments of a task, "state" has the texts, those changed last at its end, "before" those
+    that were used last, and "red" the keys of those that were refused last, where there are any.
+    `read` reads texts or raises the first ControlError, and `told` gives all of what was read as
+    texts again; `needed` has those of controls that may not be empty, where no other can be used.
 
-    Parameters
-    ----------
-    arguments : mapping
-        Of a task: "state" has the texts, those changed last at its end, "before" those that were
-        used last, and "red" the keys of those that were refused last, where there are any.
-    read, told : callable
-        Reads texts, or raises the first ControlError; gives all of what was read as texts again.
-    needed : mapping of str to str, optional
-        Texts that are used where no other can be, of controls that may not be empty.
-
-    Returns
-    -------
-    tuple
-        What was read, and sentences by the keys of controls whose text is not used.
-
-    Raises
-    ------
-    ControlError
-        If what is wrong is the whole address, or not the text of a control.
+    Returns what was read, and sentences by the keys of controls whose text is not used. Where
+    controls do not go together, the one that was changed counts as before, not the others. What is
+    wrong with the whole address, or with no text of a control, is raised.
     """
     said, needed = texts_of(arguments), needed or {}
     before = texts_of(arguments, "before") if "before" in arguments else {}
@@ -240,23 +201,14 @@ def _replace(texts: dict[str, str], key: str, *others: Texts) -> None:
 
 
 def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:
-    """Refuse an address of another version, and parameters that are no keys of a view.
-
-    Raises
-    ------
-    ControlError
-        In one sentence, at the version, which stands for the whole address.
-    """
-    if said.get("v", VERSION) != VERSION:
-        raise ControlError(
-            f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
-            f"reads version {VERSION}: set the controls by hand",
-            "v",
-        )
+    """Refuse an address of another version, and parameters that are no keys of a view."""
+    wrong, version = "", said.get("v", VERSION)
     strange = [name[:40] for name in said if name not in (*known, "v", *_OF_THE_PAGE)]
-    if strange:
-        raise ControlError(
-            f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
-            "version; set the controls by hand",
-            "v",
-        )
+    if version != VERSION:
+        wrong = f'this link is of version "{version[:20]}" of the lab\'s addresses, and this lab '
+        wrong += f"reads version {VERSION}"
+    elif strange:
+        wrong = f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
+        wrong += "version"
+    if wrong:
+        raise ControlError(f"{wrong}; set the controls by hand", "v")

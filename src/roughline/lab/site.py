@@ -62,7 +62,6 @@ def site() -> Site:
         login_page=_login_page,
         parts=Path(str(files("roughline.lab").joinpath("static"))),
         tasks=TASKS,
-        warm="roughline.lab.warm",
     )
 
 

@@ -116,13 +116,13 @@ def area_in_words(assessment: Assessment, load: int) -> str:
     return value_and_interval(written)[0]
 
 
-def modulus_in_words(assessment: Assessment) -> str:
-    """The contact modulus, and of which materials it is."""
+def modulus_in_words(assessment: Assessment, modulus: str | None = None) -> str:
+    """The contact modulus, which may be written already, and of which materials it is."""
     pair, of = assessment.question.pair, ""
     if pair is not None:
         names = [each.surface.name for each in (pair.first, pair.second)]
         of = f" of {' and '.join(names)}" + (", which lie at the surfaces," if pair.coated else "")
-    return f"E*{of} = {engineering(assessment.curve.E_star, 'Pa')}"
+    return f"E*{of} = {modulus or engineering(assessment.curve.E_star, 'Pa')}"
 
 
 def solid_in_words(solid: Solid) -> str:

@@ -112,7 +112,7 @@ def test_questions_are_answered(lasting):
         ("refuse", "cannot read my file.txt", ""),
         ("refuse_at", "too rough", "h"),
         ("die", "ended unexpectedly", ""),
-        ("take_memory", "more memory than one session may have", ""),
+        ("take_memory", "more memory than one page may have", ""),
         ("write_file", "the lab has no room for the files of this now", ""),
         ("need_memory", "more than one computation may have here, 1 GB: take less", ""),
         ("name_folders", "cannot read a file of the lab, nor a file of the lab (its name)", ""),
@@ -273,6 +273,20 @@ def test_addresses_take_turns_and_refinements_come_last():
 
     limits = Limits(count=2, most=2, per_session=1, seconds=20.0, memory=1e9)
     run(scenario, lasting=False, limits=limits)
+
+
+@pytest.mark.parametrize("lasting", [True, False])
+def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
+    async def scenario(lane, asker):
+        asker.ask("sleep", name="first", session="a", seconds=0.3)
+        await asyncio.sleep(0.05)
+        for name, session in (("replaced", "b"), ("last", "c"), ("new", "b")):
+            asker.ask("echo", name=name, session=session, say=name)
+        await asker.of("last")
+        assert list(asker.outcomes) == ["first", "new", "last"]
+
+    limits = Limits(count=1, most=1, per_session=1, seconds=20.0, memory=1e9)
+    run(scenario, lasting=lasting, limits=limits)
 
 
 def test_many_that_wait_are_told_to_the_task(monkeypatch):

@@ -219,7 +219,7 @@ def test_sessions_that_wait_are_bounded_and_give_way_to_pages(tmp_path, monkeypa
             return server.session_for(Opened(), address, "", "")
 
         def waiting(address):
-            session, _ = opened(address)
+            session = opened(address)
             session.files.uploads["key"] = Upload("key", tmp_path / "a", "a", 0)
             server.line_closed(session, is_left=False)
             return session
@@ -229,11 +229,11 @@ def test_sessions_that_wait_are_bounded_and_give_way_to_pages(tmp_path, monkeypa
         other = waiting("other")
         assert server.end_waiting("nobody") is False
         server.settings = replace(server.settings, max_sessions=4)
-        open_page, _ = opened("one")
+        open_page = opened("one")
         assert list(server.sessions.values()) == [*first[3:], other, open_page]
         for _ in range(3):
-            assert opened("third")[0] is not None
-        assert opened("third") == (None, False)
+            assert opened("third") is not None
+        assert opened("third") is None
         assert server.end_waiting() is False
 
     run(scenario, tmp_path)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
 _PUNCHES = {"paper": scaling.PAPER_PUNCH, "exact": scaling.EXACT_PUNCH, "raw": 1.0}
-_SAME = 1e-3  # relative difference below which an edge that was typed is that of a load
+_SAME = 6e-3  # relative difference below which an edge that was typed is that of a load
 
 
 def usable_state(arguments: Arguments) -> tuple[PublishedState, dict[str, Any]]:
@@ -81,6 +81,6 @@ def _law(model: ModelLabel, dimension: float, window: Window, averaging: Any) ->
 
 
 def _on_load(force: NDArray[np.float64], edge: float) -> float:
-    """An edge of a window; one that was rounded for the address is that of its load again."""
+    """An edge of a window; one that was rounded to three digits is that of its load again."""
     nearest = float(force[np.argmin(np.abs(np.log(force / edge)))])
     return nearest if abs(nearest / edge - 1) < _SAME else edge

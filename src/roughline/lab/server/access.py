@@ -110,19 +110,19 @@ class Allowance:
         self._rate, self._most = rate, most
         self._left, self._at = most, time.monotonic()
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether none is left."""
+        before, self._at = self._at, time.monotonic()
+        self._left = min(self._most, self._left + self._rate * (self._at - before))
+        return self._left < 1
+
     def take(self) -> bool:
         """Take one, if there is one left."""
-        now = time.monotonic()
-        self._left = min(self._most, self._left + self._rate * (now - self._at))
-        self._at = now
-        if self._left < 1:
+        if self.is_empty:
             return False
         self._left -= 1
         return True
-
-    def give_back(self) -> None:
-        """Give back one that was taken."""
-        self._left = min(self._most, self._left + 1)
 
 
 def allowances(rate: float, most: float) -> Callable[[str], Allowance]:

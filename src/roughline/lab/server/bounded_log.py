@@ -9,7 +9,7 @@ import sys
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 
 _MOST_ALIKE, _MINUTE = 5, 60.0  # messages of a kind within so many seconds
@@ -31,7 +31,8 @@ def bounded_log() -> Iterator[None]:
     os.dup2(sink, 2)
     os.close(sink)
     ending = threading.Event()
-    relay = threading.Thread(target=_relay, args=(source, terminal, ending), daemon=True)
+    limited = _Limiter(terminal).pass_on
+    relay = threading.Thread(target=limited, args=(_messages(source, ending),), daemon=True)
     relay.start()
     try:
         yield
@@ -42,19 +43,6 @@ def bounded_log() -> Iterator[None]:
         os.dup2(terminal, 2)
         os.close(source)
         os.close(terminal)
-
-
-def _relay(source: int, terminal: int, ending: threading.Event) -> None:
-    """Pass on what comes, until the end."""
-
-    def write(message: str) -> None:
-        with suppress(OSError):  # such as no room on the disk
-            os.write(terminal, message.encode())
-
-    limiter = _Limiter(write)
-    for message in _messages(source, ending):
-        limiter.take(message)
-    limiter.tell()
 
 
 def _messages(source: int, ending: threading.Event) -> Iterator[str]:
@@ -85,19 +73,25 @@ def _messages(source: int, ending: threading.Event) -> Iterator[str]:
 
 
 class _Limiter:
-    """Passes messages on as long as they are few."""
+    """Passes messages on to a terminal as long as they are few."""
 
-    def __init__(self, write: Callable[[str], None]) -> None:
-        self._write = write
+    def __init__(self, terminal: int) -> None:
+        self._terminal = terminal
         self._counts: Counter[str] = Counter()
         self._minute = self._hour = time.monotonic()
         self._written = 0
 
-    def take(self, message: str) -> None:
+    def pass_on(self, messages: Iterable[str]) -> None:
+        """Pass on what comes, until the end."""
+        for message in messages:
+            self._take(message)
+        self._tell()
+
+    def _take(self, message: str) -> None:
         """Pass a message on unless there were many of its kind, or too many bytes."""
         now = time.monotonic()
         if now - self._minute >= _MINUTE:
-            self.tell()
+            self._tell()
             self._minute = now
         if now - self._hour >= _HOUR:
             self._hour, self._written = now, 0
@@ -106,21 +100,22 @@ class _Limiter:
             kind = "others"
         self._counts[kind] += 1
         if self._counts[kind] <= _MOST_ALIKE:
-            self._pass_on(message)
+            self._write(message)
 
-    def tell(self) -> None:
+    def _tell(self) -> None:
         """Say how much was left out, and begin anew."""
         for kind, count in self._counts.items():
             if count > _MOST_ALIKE and kind:
-                self._pass_on(f"… and {count - _MOST_ALIKE} more like this: {kind[-100:]}\n")
+                self._write(f"… and {count - _MOST_ALIKE} more like this: {kind[-100:]}\n")
         self._counts.clear()
 
-    def _pass_on(self, message: str) -> None:
+    def _write(self, message: str) -> None:
         before, self._written = self._written, self._written + len(message.encode())
-        if self._written <= _MOST_BYTES:
-            self._write(message)
-        elif before <= _MOST_BYTES:
-            self._write(f"… more than {_MOST_BYTES / 1000:g} kB within an hour: no more of it\n")
+        if self._written > _MOST_BYTES:
+            message = f"… more than {_MOST_BYTES / 1000:g} kB within an hour: no more of it\n"
+        if before <= _MOST_BYTES:
+            with suppress(OSError):  # such as no room on the disk
+                os.write(self._terminal, message.encode())
 
 
 def _kind(message: str) -> str:

@@ -26,6 +26,7 @@ _PATIENCE = 20.0
 _STALL = 60.0  # after which it is asked how much of a file, or of an answer, has moved [s]
 _SPEED = 1000.0  # at which it has to move on average over that time [bytes / s]
 _PAUSE = 1.0  # when no connection can be taken [s]
+_MOST_BODY, _MOST_HEADERS = 2**16, 2**14  # of a request that brings no file [bytes]
 _SEND_BUFFER = 2**17  # so that it is seen within a minute whether somebody reads [bytes]
 _MOST, _MOST_OF_ONE = 2000, 200  # connections in all, and of one address
 _PROXY = "proxy"  # what stands for the address of any proxy: it has no limit of its own
@@ -94,10 +95,10 @@ class Connections(HTTPServer):
     """
 
     def initialize(  # type: ignore[override]
-        self, application: Any, most: int, proxies: Callable[[str], bool], **limits: int
+        self, application: Any, most: int, proxies: Callable[[str], bool]
     ) -> None:
         """Begin without connections."""
-        super().initialize(application, **limits)  # type: ignore[arg-type]
+        super().initialize(application, max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS)
         self._most, self._most_of_one = most, max(1, min(_MOST_OF_ONE, most // 2))
         self._proxies = proxies
         self._held: set[Connection] = set()

@@ -57,10 +57,10 @@ class Files:
         ):
             self.forget(next(iter(self.uploads)))
         path = self.folder / (secrets.token_hex(8) + (suffix[0].lower() if suffix else ""))
-        upload = Upload(secrets.token_urlsafe(12), path, shown, size)
-        self.uploads[upload.key] = upload
         path.touch()
         os.truncate(path, size)
+        upload = Upload(secrets.token_urlsafe(12), path, shown, size)
+        self.uploads[upload.key] = upload
         return upload
 
     def forget(self, key: str) -> None:
@@ -135,11 +135,9 @@ def folder_of_files(parent: Path | None = None) -> Iterator[Path]:
         with suppress(OSError):
             if named and _is_own_folder(folder) and not psutil.pid_exists(int(named["pid"])):
                 shutil.rmtree(folder, ignore_errors=True)
-    root = Path(tempfile.mkdtemp(prefix=f"{_PREFIX}{os.getpid()}-", dir=parent))
-    try:
-        yield root
-    finally:
-        shutil.rmtree(root, ignore_errors=True)
+    prefix = f"{_PREFIX}{os.getpid()}-"
+    with tempfile.TemporaryDirectory(prefix=prefix, dir=parent, ignore_cleanup_errors=True) as root:
+        yield Path(root)
 
 
 def _is_own_folder(path: Path) -> bool:

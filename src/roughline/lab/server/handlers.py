@@ -50,7 +50,6 @@ def application(server: Server) -> Application:
         server=server,
         websocket_max_message_size=MOST_BYTES,
         websocket_ping_interval=_PING,
-        websocket_ping_timeout=_PING,
         log_function=lambda handler: None,
     )
 
@@ -71,11 +70,8 @@ class _Door(Guarded):
     def enter(self, given: str, leads_to: str) -> None:
         """Let in who has given the password or token, and go on; ask again otherwise."""
         key, tries, host = self.server.key, self.server.tries(self.address), self.request.host
-        may_try = tries.take()
         # nobody guesses a token, so a stranger's tries need not keep out who has it
-        if (may_try or key.is_token) and key.opens(given):
-            if may_try:  # only wrong ones count
-                tries.give_back()
+        if key.opens(given) and (key.is_token or not tries.is_empty):
             self.set_cookie(
                 cookie_name(host),
                 self.server.logins.begin(host.lower()),
@@ -85,7 +81,7 @@ class _Door(Guarded):
                 secure=is_encrypted(self.request, self.server.settings),
             )
             self.redirect(leads_to, status=303)
-        elif not may_try:
+        elif not tries.take():  # only wrong ones count
             self.set_status(429)
             self.ask_for_key("Too many tries: wait a minute.", leads_to)
         else:

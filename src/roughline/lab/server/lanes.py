@@ -19,7 +19,8 @@ _log = logging.getLogger(__name__)
 _PATIENCE = 1.5  # after which a task lets shorter ones pass [s]
 _SOON = 0.05  # that a request may wait without a crowd [s]
 _CROWD = 2  # requests that wait for each process, from which on answers are coarser
-_MOST_PARTS = 16  # of a page that may wait for something at once
+MOST_PARTS = 16  # of a page that may wait for something at once
+TOO_MANY = Outcome(error="too many requests of this page wait: let some end first")
 _MOST_TRIES = 5  # of processes that may be gone before they have their task
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
 
@@ -52,15 +53,6 @@ class Request:
         """What a newer request must share to take its place."""
         return self.session, self.slot
 
-    def is_of(self, session: str, slot: str | None) -> bool:
-        """Whether it is for a part of a page, or for any."""
-        return self.session == session and slot in (None, self.slot)
-
-    def tell(self, done: int, total: int) -> None:
-        """Tell of progress whoever still wants the answer."""
-        if self.is_wanted:
-            self.progress(done, total)
-
 
 class Lane:
     """Some processes and the requests that wait for them: first come, first served.
@@ -84,13 +76,11 @@ class Lane:
         """Take a request; it replaces one that waits for the same part of the same page."""
         if (older := self._waiting.get(request.key)) is not None:
             request.since = older.since
-        elif sum(each.session == request.session for each in self._waiting.values()) >= _MOST_PARTS:
-            return request.answer(
-                Outcome(error="too many requests of this page wait: let some end, then ask again")
-            )
-        self._waiting[request.key] = request
+        elif sum(each.session == request.session for each in self._waiting.values()) >= MOST_PARTS:
+            return request.answer(TOO_MANY)
         if not self._lasting:
-            self._stop(request.session, request.slot)
+            self.withdraw(*request.key)
+        self._waiting[request.key] = request
         self._start()
 
     def withdraw(self, session: str, slot: str | None = None) -> list[asyncio.Task[None]]:
@@ -99,18 +89,17 @@ class Lane:
         Returns the work that ends when what is stopped is gone. A lasting process finishes its
         short task, and its answer is ignored.
         """
-        for each in [each for each in self._waiting.values() if each.is_of(session, slot)]:
-            del self._waiting[each.key]
-        return self._stop(session, slot)
-
-    def _stop(self, session: str, slot: str | None) -> list[asyncio.Task[None]]:
-        """Stop what is done for a page, or for one part of it."""
-        stopped = [each for each in self._served if each.is_wanted and each.is_of(session, slot)]
-        for each in stopped:
+        own = [
+            each
+            for each in (*self._waiting.values(), *self._served)
+            if each.session == session and slot in (None, each.slot)
+        ]
+        for each in own:
+            self._waiting.pop(each.key, None)
             each.is_wanted = False
             if not self._lasting and each.process is not None:
                 each.process.stop()
-        return [] if self._lasting else [self._served[each] for each in stopped]
+        return [] if self._lasting else [self._served[each] for each in own if each in self._served]
 
     async def prepare(self) -> None:
         """Start processes ahead of the first request."""
@@ -160,9 +149,9 @@ class Lane:
             if key not in running and pages[each.session] < self.limits.per_session
         ]
 
-        def turn(its: Request) -> tuple[bool, int, int]:
+        def turn(its: Request) -> tuple[bool, int, int, float]:
             refines = its.arguments.get("refines") is True
-            return refines, addresses[its.address], pages[its.session]
+            return refines, addresses[its.address], pages[its.session], its.since
 
         return min(free, key=turn, default=None)
 
@@ -194,22 +183,21 @@ class Lane:
         loop, seconds = asyncio.get_running_loop(), self.limits.seconds
 
         def progress(done: int, total: int) -> None:
-            loop.call_soon_threadsafe(request.tell, done, total)
+            loop.call_soon_threadsafe(request.progress, done, total)
 
         arguments = {**request.arguments, "crowded": crowded}
-        later = loop.call_later(_PATIENCE, self._let_pass, request, process)
         asked = loop.run_in_executor(self._threads, process.ask, request.place, arguments, progress)
-        try:
-            return await asyncio.wait_for(asyncio.shield(asked), seconds)
-        except TimeoutError:
-            process.stop()
-            await asked
-            return Outcome(
-                error=f"this took longer than the {seconds:g} s that one request may take: take "
-                "fewer points or loads"
-            )
-        finally:
-            later.cancel()
+        later = loop.call_later(_PATIENCE, self._let_pass, request, process)
+        done, _ = await asyncio.wait([asked], timeout=seconds)
+        later.cancel()
+        if done:
+            return asked.result()
+        process.stop()
+        await asked
+        return Outcome(
+            error=f"this took longer than the {seconds:g} s that one request may take: take fewer "
+            "points or loads"
+        )
 
     def _let_pass(self, request: Request, process: Process) -> None:
         """Let others start beside a task that takes long, and go before it."""

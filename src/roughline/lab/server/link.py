@@ -4,29 +4,34 @@ from __future__ import annotations
 
 import asyncio
 import json
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
 
-from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from roughline._version import __version__
 from roughline.lab.server.access import Allowance
 from roughline.lab.server.guarded import Guarded
+from roughline.lab.server.lanes import MOST_PARTS, TOO_MANY
 from roughline.lab.server.sessions import Session
 
 MOST_BYTES = 2**16  # longest message of a page; files come another way
 _SLOT_LENGTH, _TEXT_LENGTH, _MOST_DEPTH = 40, 2000, 6
 _MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
-_MOST_HELD = 16
 _LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
 
 
 class Link(Guarded, WebSocketHandler):
     """The websocket of one page."""
 
-    session: Session | None = None
+    _begun: Session | None = None
+
+    @property
+    def session(self) -> Session | None:
+        """What the page has, unless it is over or another page goes on with it."""
+        return self._begun if self._begun is not None and self._begun.line is self else None
 
     def prepare(self) -> None:
         """Refuse requests without an origin: every browser states it."""
@@ -39,28 +44,30 @@ class Link(Guarded, WebSocketHandler):
         """Begin a session, or go on with the one that the page had before."""
         self.set_nodelay(True)
         self._refusals = Allowance(rate=1, most=300)
-        self._sending: set[asyncio.Task[None]] = set()
         self._unsent = 0  # [bytes]
         # questions by their slots, as the session takes them; the latest of a slot counts
         self._held: dict[str, tuple[int, str, str, dict[str, Any]]] = {}
-        found = self.server.session_for(self, self.address, self.login, self._before)
-        self.session, resumed = found
-        if self.session is None:
+        session = self.server.session_for(self, self.address, self.login, self._before)
+        if session is None:
             self.close(1013, "no more pages may be open at once: close one, or come back later")
             return
-        uploads = self.session.files.uploads.items()
+        self._begun, uploads = session, session.files.uploads.items()
         files = {key: {"name": it.name, "digest": it.digest} for key, it in uploads if it.digest}
-        said = {"session": self.session.token, "resumed": resumed, "files": files}
-        self.send(json.dumps({**said, "version": __version__}))
+        said = {"session": session.token, "resumed": session.token == self._before, "files": files}
+        self.send({**said, "version": __version__})
 
     def on_message(self, message: str | bytes) -> None:
         """Take a question, or the wish to stop one."""
-        if self.session is not None and self.session.line is self:
-            self._take(self.session, _plain_message(message))
-            self._ask(self.session)
+        if session := self.session:
+            said = None
+            with suppress(ValueError, RecursionError):
+                said = json.loads(message)
+            self._take(session, said if isinstance(said, dict) else {})
+            self._ask()
 
     def _take(self, session: Session, said: dict[str, Any]) -> None:
-        number, slot, task = _number(said.get("id")), said.get("slot"), said.get("task")
+        number, slot, task = said.get("id"), said.get("slot"), said.get("task")
+        number = number if isinstance(number, int) and 0 <= number < 2**53 else 0
         arguments, why = said.get("arguments"), ""
         if not (session.allowance.take() and self.server.questions(self.address).take()):
             why = "too many questions at once: wait a moment, then go on"
@@ -77,36 +84,36 @@ class Link(Guarded, WebSocketHandler):
             why = "the lab has no such task: reload the page"
         elif not isinstance(arguments, dict) or not _is_plain(arguments):
             why = "what is set here is too long, or not in a form the lab knows"
-        elif slot not in self._held and len(self._held) >= _MOST_HELD:
-            why = "too many requests of this page wait: let some end first"
+        elif slot not in self._held and len(self._held) >= MOST_PARTS:
+            why = TOO_MANY.error
         else:
             self._held[slot] = number, slot, task, arguments
         if why:
-            self.send(json.dumps({"id": number, "error": why, "at": ""}))
+            self.send({"id": number, "error": why, "at": ""})
 
-    def _ask(self, session: Session) -> None:
+    def _ask(self) -> None:
         """Ask what is held, as far as the page has taken what it was sent."""
-        while self._held and self._unsent <= _MOST_UNSENT:
+        while (session := self.session) and self._held and self._unsent <= _MOST_UNSENT:
             session.ask(*self._held.pop(next(iter(self._held))))
 
     def on_close(self) -> None:
         """Let the session wait for its page."""
-        if self.session is not None and self.session.line is self:
-            self.server.line_closed(self.session, is_left=self.close_code == _LEFT)
+        if session := self.session:
+            self.server.line_closed(session, is_left=self.close_code == _LEFT)
 
-    def send(self, message: str | bytes) -> None:
-        """Send a message."""
-        sending = asyncio.ensure_future(self._deliver(message))
-        self._sending.add(sending)
-        sending.add_done_callback(self._sending.discard)
+    def send(self, message: Mapping[str, Any] | bytes) -> None:
+        """Send a message, and when it is gone go on with what is held."""
+        text = message if isinstance(message, bytes) else json.dumps(message)
 
-    async def _deliver(self, message: str | bytes) -> None:
-        self._unsent += len(message)
-        with suppress(WebSocketClosedError, StreamClosedError):
-            await self.write_message(message, binary=isinstance(message, bytes))
-        self._unsent -= len(message)
-        if self.session is not None and self.session.line is self:
-            self._ask(self.session)
+        def sent(sending: asyncio.Future[None]) -> None:
+            self._unsent -= len(text)
+            if not sending.cancelled() and sending.exception() is None:
+                self._ask()
+
+        with suppress(WebSocketClosedError):
+            sending = self.write_message(text, binary=text is message)
+            self._unsent += len(text)
+            sending.add_done_callback(sent)
 
 
 def _is_plain(content: Any, depth: int = _MOST_DEPTH) -> bool:
@@ -117,17 +124,3 @@ def _is_plain(content: Any, depth: int = _MOST_DEPTH) -> bool:
         parts = [*content, *content.values()] if isinstance(content, dict) else content
         return depth > 0 and all(_is_plain(part, depth - 1) for part in parts)
     return True
-
-
-def _number(given: Any) -> int:
-    """The number of a question; 0 if it has none."""
-    return int(given) if isinstance(given, int) and 0 <= given < 2**53 else 0
-
-
-def _plain_message(message: str | bytes) -> dict[str, Any]:
-    """What a page said; empty if it makes no sense."""
-    try:
-        said = json.loads(message)
-    except (ValueError, RecursionError):
-        return {}
-    return said if isinstance(said, dict) else {}

@@ -15,7 +15,7 @@ from pathlib import Path
 from tornado.netutil import bind_sockets
 
 from roughline.errors import InputError
-from roughline.errors.checks import refuse, shown
+from roughline.errors.checks import refuse
 from roughline.errors.words import called
 from roughline.lab.server.access import is_proxy
 from roughline.lab.server.connections import Connections, most_connections
@@ -26,8 +26,6 @@ from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import Site
 
 _READY = 1.5  # that the first page waits for what it will need first [s]
-_MOST_BODY = 2**16  # of a request that brings no file [bytes]
-_MOST_HEADERS = 2**14  # [bytes]
 _MOST_KNOCKING = 1024  # connections that wait to be taken
 
 
@@ -52,17 +50,14 @@ def serve(
         server = Server(site, settings, root)
         listening = Connections(
             application(server),
-            most=most_connections(server.quick.limits.most + server.slow.limits.most),
+            most=most_connections(server.processes),
             proxies=lambda peer: is_proxy(peer, settings),
-            max_body_size=_MOST_BODY,
-            max_header_size=_MOST_HEADERS,
         )
         preparing = asyncio.gather(server.quick.prepare(), server.slow.prepare())
         try:
             listening.add_sockets(sockets)
             site.page()
-            with suppress(TimeoutError):
-                await asyncio.wait_for(asyncio.shield(preparing), _READY)
+            await asyncio.wait([preparing], timeout=_READY)
             if not interrupted() and not stopped.is_set():
                 ready(_address(server, sockets[0]))
                 await stopped.wait()
@@ -80,12 +75,9 @@ def _listening(settings: ServerSettings) -> list[socket.socket]:
     """Sockets on the address of the settings."""
     try:
         sockets = bind_sockets(settings.port, settings.host, backlog=_MOST_KNOCKING)
-    except socket.gaierror as error:
-        raise InputError(
-            f"is {shown(settings.host)}, which is no address of this machine: give one, or "
-            "127.0.0.1 for this machine alone",
-            "host",
-        ) from error
+    except socket.gaierror:
+        needed = "it is no address of this machine: give one, or 127.0.0.1 for this machine alone"
+        refuse("host", settings.host, needed)
     except (OSError, UnicodeError) as error:
         why = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else error
         raise InputError(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import secrets
 import shutil
 import time
@@ -35,7 +34,7 @@ _ELSEWHERE, _REFUSED = 4001, 1008  # with which websockets are closed
 class Line(Protocol):
     """The connection to a page, as its session sees it."""
 
-    def send(self, message: str | bytes) -> None:
+    def send(self, message: Mapping[str, Any] | bytes) -> None:
         """Send a message."""
 
     def close(self, code: int | None = None, reason: str | None = None) -> None:
@@ -90,11 +89,9 @@ class Session:
         def progress(done: int, total: int) -> None:
             if self.line is not None and self.line is asked.line and (pace.take() or done >= total):
                 left = (time.monotonic() - started) * (total - done) / done if done else None
-                said = {"id": asked.number, "done": done, "total": total, "left": left}
-                self.line.send(json.dumps(said))
+                self.line.send({"id": asked.number, "done": done, "total": total, "left": left})
 
-        place = self.server.site.tasks[task]
-        uploads = self.files.uploads
+        place, uploads = self.server.site.tasks[task], self.files.uploads
         context = {
             "folder": str(self.files.folder),
             "files": {key: str(each.path) for key, each in uploads.items()},
@@ -102,8 +99,7 @@ class Session:
             "max_points": self.server.settings.max_points,
             "room": self.server.room_of_task(),
         }
-        told = {**arguments, "session": context}
-        answer = partial(self._tell, slot, asked)
+        told, answer = {**arguments, "session": context}, partial(self._tell, slot, asked)
         lane = self.server.quick if place.is_quick else self.server.slow
         lane.submit(Request(self.address, self.token, slot, place, told, answer, progress))
 
@@ -121,7 +117,8 @@ class Session:
         self._delete_files([work for slot in readers for work in self.withdraw(slot)])
 
     def end(self) -> None:
-        """Stop what runs, and delete all files."""
+        """End it, stop what runs, and delete all files."""
+        self.server.sessions.pop(self.token, None)
         self.line = None
         self._delete_files(self.withdraw())
 
@@ -142,8 +139,7 @@ class Session:
             if outcome.answer is not None:
                 asked.line.send(asked.number.to_bytes(8, "little") + outcome.answer)
             else:
-                said = {"id": asked.number, "error": outcome.error, "at": outcome.at}
-                asked.line.send(json.dumps(said))
+                asked.line.send({"id": asked.number, "error": outcome.error, "at": outcome.at})
         elif is_latest:
             held = [each.outcome for each in self.asked.values() if each.outcome is not None]
             size = sum(len(each.answer or b"") for each in (*held, outcome))
@@ -164,14 +160,12 @@ class Server:
         self.questions, self.tries = allowances(2000, 8000), allowances(1 / 12, 5)
         quick, slow = limits_within(settings.memory, settings.max_memory, settings.max_seconds)
         self.quick, self.slow = Lane(quick, lasting=True), Lane(slow, lasting=False)
-        self._disk, self._writers = Disk(root, settings.max_disk), quick.most + slow.most
+        self._disk, self.processes = Disk(root, settings.max_disk), quick.most + slow.most
         self._sweeping = PeriodicCallback(self.sweep, 1000 * _SWEEPS)
         self._sweeping.start()
 
-    def session_for(
-        self, line: Line, address: str, login: str, token: str
-    ) -> tuple[Session | None, bool]:
-        """The session of a page that opens, and whether it is the one that the page had before.
+    def session_for(self, line: Line, address: str, login: str, token: str) -> Session | None:
+        """The session of a page that opens: the one with its token, or a new one.
 
         There is none where all places are taken by open pages: from afar, an address has half of
         all places. Those that wait for their pages give way, of the same address first.
@@ -181,18 +175,19 @@ class Server:
             older, before.line = before.line, line
             if older is not None:  # it still seems open
                 older.close(_ELSEWHERE, "another page goes on with this one's file")
-            return before, True
+            return before
         most = self.settings.max_sessions
         most_of_one = max(1, most // 2) if self.settings.lets_others_in else most
-        while (is_full := len(self.sessions) >= most) or self._places_of(address) >= most_of_one:
+        while True:
+            is_full = len(self.sessions) >= most
+            own = sum(session.address == address for session in self.sessions.values())
+            if not is_full and own < most_of_one:
+                break
             if not (self.end_waiting(address) or (is_full and self.end_waiting())):
-                return None, False
+                return None
         session = Session(self, line, address, login)
         self.sessions[session.token] = session
-        return session, False
-
-    def _places_of(self, address: str) -> int:
-        return sum(session.address == address for session in self.sessions.values())
+        return session
 
     def line_closed(self, session: Session, *, is_left: bool) -> None:
         """Let a session wait for its page, if it has something to wait with.
@@ -202,7 +197,7 @@ class Server:
         """
         session.line, session.since, session.is_left = None, time.monotonic(), is_left
         if not session.has_something:
-            self.end_session(session)
+            session.end()
         elif len(self._waiting(session.address)) > _MOST_WAITING:
             self.end_waiting(session.address)
 
@@ -215,13 +210,8 @@ class Server:
         """End the session that has waited longest for its page, if one waits at an address."""
         waiting = self._waiting(address)
         if waiting:
-            self.end_session(min(waiting, key=lambda each: each.since))
+            min(waiting, key=lambda each: each.since).end()
         return bool(waiting)
-
-    def end_session(self, session: Session) -> None:
-        """End a session, and all that it has."""
-        self.sessions.pop(session.token, None)
-        session.end()
 
     def sweep(self) -> None:
         """End sessions whose login has ended or that nobody came back for, and first their work.
@@ -238,7 +228,7 @@ class Server:
                 if session.line is not None:
                     reason = "this browser is no longer logged in: reload the page to log in"
                     session.line.close(_REFUSED, reason)
-                self.end_session(session)
+                session.end()
         if all(session.line is None for session in self.sessions.values()):
             self.quick.renew()
             self.slow.renew()
@@ -250,7 +240,7 @@ class Server:
 
     def room_of_task(self) -> float:
         """Size of the largest file that a task may write: all tasks may write at once. [bytes]"""
-        return self._made_room(self.settings.max_upload) / self._writers
+        return self._made_room(self.settings.max_upload) / self.processes
 
     def _made_room(self, wanted: float) -> float:
         """The room on the disk; if it is less than wanted, those go that have waited longest."""
@@ -264,4 +254,4 @@ class Server:
         self._sweeping.stop()
         await asyncio.gather(self.quick.close(), self.slow.close())
         for session in list(self.sessions.values()):
-            self.end_session(session)
+            session.end()

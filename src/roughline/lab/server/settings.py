@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import shlex
 import stat
@@ -11,7 +10,7 @@ from ipaddress import IPv4Network, IPv6Network, ip_address, ip_network
 from pathlib import Path
 
 from roughline.errors import InputError
-from roughline.errors.checks import refuse, shown
+from roughline.errors.checks import between, positive, refuse
 from roughline.errors.words import called
 from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
 
@@ -44,29 +43,23 @@ class ServerSettings:
     def __post_init__(self) -> None:
         if not self.host:
             raise InputError("host is empty; give an address, such as 127.0.0.1")
+        protect = f"put a password into a file and give it too ({called('password_file')})"
         if not self.is_local and not self.password:
-            raise InputError(
-                f"is {shown(self.host)}, which lets other machines in: put a password into a file "
-                f"and give it too ({called('password_file')})",
-                "host",
-            )
-        here = [ip_address("127.0.0.1"), ip_address("::1")]
+            refuse("host", self.host, f"it lets other machines in: {protect}")
         if self.proxies and not self.password:
-            needed = "through a proxy other machines get in: put a password into a file and give it"
-            needed = f"{needed} too ({called('password_file')})"
+            needed = f"through a proxy other machines get in: {protect}"
             refuse("behind_proxy", self.names_of_proxies, needed)
+        here = [ip_address("127.0.0.1"), ip_address("::1")]
         if self.proxies and self.is_local and not any(a in p for a in here for p in self.proxies):
             needed = f"proxies on other machines do not reach {self.host}: give an address that"
             needed = f"{needed} they reach too ({called('host')})"
             refuse("behind_proxy", self.names_of_proxies, needed)
         if self.password is not None and len(self.password) < 8:
             raise InputError("the password has fewer than 8 characters; take a longer one")
-        if not 0 <= self.port < 65536:
-            refuse("port", self.port, "0 (any free one) to 65535 is allowed")
-        limits = ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions")
-        for name in (*limits, *(() if self.max_disk is None else ("max_disk",))):
-            if not 0 < getattr(self, name) < math.inf:
-                refuse(name, getattr(self, name), "a positive, finite number is needed")
+        between("port", self.port, 0, 65535, "0 (any free one) to 65535 is allowed")
+        for name in ("upload", "points", "seconds", "memory", "sessions", "disk"):
+            if (given := getattr(self, f"max_{name}")) is not None:
+                positive(f"max_{name}", given)
         if self.max_points < LEAST_POINTS:
             refuse("max_points", self.max_points, f"at least {LEAST_POINTS} points are needed")
         if self.max_memory < LEAST_MEMORY:
@@ -109,16 +102,16 @@ def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
 
 def password_in(file: Path) -> str:
     """Read a password: the first line of a file that only its owner may read."""
+    password = wrong = ""
     try:
         wrong, start = _start_of(file)
         first = (start.splitlines() or [b""])[0].strip()
-        if not wrong and len(first) > _LONGEST_PASSWORD:
+        if len(first) > _LONGEST_PASSWORD:
             wrong = f"at most {_LONGEST_PASSWORD} bytes are a password"
         password = first.decode().strip()
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "it is no text"
-        needed = f"it cannot be read ({why}): give a file whose first line is the password"
-        raise InputError(f"is {shown(str(file))}; {needed}", "password_file") from error
+        wrong = f"it cannot be read ({why}): give a file whose first line is the password"
     if wrong or not password:
         wrong = wrong or "it has no password in its first line: write one there"
         refuse("password_file", str(file), wrong)

@@ -20,9 +20,7 @@ from roughline.errors import RoughlineError
 _NO_ROOM = (
     "the lab has no room for the files of this now: close other pages of it, or come back later"
 )
-_NO_MEMORY = (
-    "this needs more memory than one session may have: take fewer points or a smaller piece"
-)
+_NO_MEMORY = "this needs more memory than one page may have: take fewer points or a smaller piece"
 _UNKNOWN = (
     "the computation failed for a reason that the lab does not know; the terminal in which the lab "
     "was started shows more. Change a setting and ask again"
@@ -32,7 +30,6 @@ _PROGRAM = (str(Path(__file__).parents[1]), sys.prefix)
 
 Arguments = Mapping[str, Any]  # of a task, and the "session" that asks
 Progress = Callable[[int, int], None]  # called with (steps done, steps in all)
-_Task = Callable[[Arguments, Progress], bytes]  # gives a message for the page
 
 
 @dataclass(frozen=True)
@@ -40,7 +37,7 @@ class Place:
     """Where a task is, and how it is done."""
 
     module: str  # by its whole name
-    function: str  # in it
+    function: str  # in it, of arguments and progress; gives a message for the page
     # Whether it is so short that it waits only for other quick tasks. Other tasks have a process
     # each, with limits of time and memory, and are stopped when they are no longer wanted.
     is_quick: bool = False
@@ -67,14 +64,12 @@ class Site:
     login_page: Callable[[bool, str, str], str]
     parts: Path  # folder of scripts and styles
     tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
-    # module that is loaded before processes are forked; its function ``up`` loads the rest
-    warm: str
 
 
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
     """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
-        task: _Task = getattr(import_module(place.module), place.function)
+        task = getattr(import_module(place.module), place.function)
         return Outcome(task(arguments, progress))
     except MemoryError:
         return Outcome(error=_NO_MEMORY)
@@ -88,8 +83,9 @@ def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -
             traceback.print_exc(file=sys.stderr)
         if isinstance(error, OSError) and error.errno:
             why = os.strerror(error.errno)
-            sentence = f"a file of the lab could not be read or written ({why}): ask again"
-            return Outcome(error=sentence)
+            return Outcome(
+                error=f"a file of the lab could not be read or written ({why}): ask again"
+            )
         return Outcome(error=_UNKNOWN)
 
 

@@ -14,10 +14,9 @@ export class Controls {
     this.#changed = changed;
     for (const slider of root.querySelectorAll('input[type="range"]')) this.#bindSlider(slider);
     for (const text of root.querySelectorAll("input[data-text]")) {
-      text.addEventListener("change", () => this.#typed(text.dataset.text, text.value));
-      text.addEventListener("keydown", (event) => {
-        if (event.key === "Enter") { event.preventDefault(); this.#typed(text.dataset.text, text.value); }
-      });
+      const key = text.dataset.text;
+      this.#defaults[key] = text.value;
+      text.addEventListener("change", () => { if (this.#said[key] !== text.value) this.set(key, text.value); });
     }
     for (const choice of root.querySelectorAll(CHOICES)) {
       const {key} = choice.dataset;
@@ -27,7 +26,6 @@ export class Controls {
     root.addEventListener("submit", (event) => {
       if (event.target.method !== "dialog") event.preventDefault();
     });
-    for (const text of root.querySelectorAll("input[data-text]")) this.#defaults[text.dataset.text] = text.value;
   }
 
   // Texts by key, as they were set.
@@ -60,8 +58,7 @@ export class Controls {
 
   // A number as the text of a control, within the ends of its slider.
   within(key, value) {
-    const {low, high} = this.#slider(key).dataset;
-    return said(Math.min(Math.max(value, Number(low)), Number(high)));
+    return said(this.#slider(key), value);
   }
 
   // Take texts from an address, without telling anyone; what it does not say has its default.
@@ -89,7 +86,6 @@ export class Controls {
     }
     for (const [key, low] of Object.entries(lows)) {
       const slider = this.#slider(key);
-      if (Number(slider.dataset.low) === low) continue;
       slider.dataset.low = low;
       span(slider);
     }
@@ -116,14 +112,12 @@ export class Controls {
   #bindSlider(slider) {
     const {key} = slider.dataset;
     span(slider);
-    place(slider, Number(slider.dataset.default));
-    this.#text(key).value = said(Number(slider.dataset.default));
+    this.#show(key, slider.dataset.default);
     const moved = (isFinal) => {
       const isDefault = Number(slider.value) === position(slider, Number(slider.dataset.default));
-      const text = said(isDefault ? Math.max(slider.dataset.default, slider.dataset.low) : number(slider));
-      this.#text(key).value = text;
-      slider.setAttribute("aria-valuetext", text);
-      this.set(key, isDefault ? slider.dataset.default : text, isFinal);
+      const value = isDefault ? Math.max(slider.dataset.default, slider.dataset.low) : number(slider);
+      this.#text(key).value = slider.ariaValueText = shown(value);
+      this.set(key, isDefault ? slider.dataset.default : said(slider, value), isFinal);
     };
     letScroll(slider);
     let byPointer = false; // a key that is pressed again and again rests between
@@ -136,19 +130,15 @@ export class Controls {
     }
   }
 
-  #typed(key, text) {
-    if (this.#said[key] !== text) this.set(key, text, true);
-  }
-
   #show(key, text) {
     for (const choice of this.#choices(key)) {
       if (choice.matches("select")) choice.value = text;
       else choice.checked = text.split(",").includes(choice.value);
     }
-    const field = this.#text(key);
-    if (field) field.value = text;
-    const slider = this.#slider(key);
-    if (slider && text && Number.isFinite(Number(text))) place(slider, Number(text));
+    const field = this.#text(key), slider = this.#slider(key), value = Number(text);
+    const isOfSlider = slider && text && [slider.dataset.default, said(slider, value)].some((each) => Number(each) === value);
+    if (field) field.value = isOfSlider ? shown(value) : text;
+    if (slider && text && Number.isFinite(value)) place(slider, value);
   }
 
   // Show a number that is used, unless what was typed says the same already.
@@ -158,7 +148,7 @@ export class Controls {
     if (slider && document.activeElement !== slider) place(slider, value);
     const typed = this.#said[key], isWithUnit = Boolean(typed) && Number.isNaN(Number(typed));
     if (document.activeElement === field || isWithUnit || (typed && Number(typed) === value)) return;
-    field.value = Number.isInteger(value) ? String(value) : said(value);
+    field.value = slider ? shown(value) : String(value);
   }
 
   #choices(key) { return [...this.#root.querySelectorAll(`${CHOICES}[data-key="${CSS.escape(key)}"]`)]; }
@@ -171,15 +161,23 @@ function chosen(choices, which) {
   return choices.filter((each) => each[which] ?? true).map(({value}) => value).join(",");
 }
 
-// A number as it is typed: four digits, no exponent where it is short.
-function said(value) {
-  const rounded = Number(value.toPrecision(4));
-  return rounded !== 0 && Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded);
+// A number as the text of a slider, within its ends: three digits, no exponent where it is short.
+function said({dataset: {low, high}}, value) {
+  const rounded = Number(value.toPrecision(3));
+  if (Math.min(value, rounded) <= low) return low;
+  if (Math.max(value, rounded) >= high) return high;
+  return rounded < 1e-4 ? rounded.toExponential() : String(rounded);
+}
+
+// A number as it is shown: three digits, with zeros at its end.
+function shown(value) {
+  if (value === 0 || value >= 999.5) return String(Math.round(value));
+  return value < 1e-4 ? value.toExponential(2) : value.toPrecision(3);
 }
 
 function place(slider, value) {
   slider.value = position(slider, value);
-  slider.setAttribute("aria-valuetext", said(value));
+  slider.ariaValueText = shown(value);
 }
 
 // Steps of a slider; on a logarithmic scale as many as lie between its ends, each as near to its own step as can be.

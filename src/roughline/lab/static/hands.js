@@ -6,6 +6,7 @@ const STILL = 8; // a click moves less [pixel]
 const PER_STEP = 1.25; // zoom of a key and of a notch of the wheel
 const NOTCH = {0: 100, 1: 3, 2: 1}; // of the wheel, in the units of its modes: pixels, lines, pages
 const POINTER = ["pointerdown", "pointermove", "pointerup", "pointercancel", "pointerover", "pointerout"];
+const KEYS = {"+": 1 / PER_STEP, "=": 1 / PER_STEP, "-": PER_STEP}; // factors of a zoom
 const ARROWS = {ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1]};
 const MIDDLE = [0.5, 0.5];
 
@@ -26,7 +27,7 @@ export function takeHands(root) {
   element.addEventListener("wheel", (event) => {
     if (!event.ctrlKey && !event.metaKey) return;
     event.preventDefault();
-    const notches = Math.max(-1, Math.min(event.deltaY / NOTCH[event.deltaMode], 1));
+    const notches = within(event.deltaY / NOTCH[event.deltaMode], -1, 1);
     zoom(root, PER_STEP ** notches, shareOf(view, event));
   }, {passive: false});
   element.addEventListener("dblclick", (event) => { if (isOnPlot(event)) view.reset(); });
@@ -34,8 +35,7 @@ export function takeHands(root) {
   element.addEventListener("keydown", (event) => {
     if (![element, canvas].includes(event.composedPath()[0])) return;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.key === "+" || event.key === "=") zoom(root, 1 / PER_STEP, MIDDLE);
-    else if (event.key === "-") zoom(root, PER_STEP, MIDDLE);
+    if (event.key in KEYS) zoom(root, KEYS[event.key], MIDDLE);
     else if (event.key in ARROWS) zoom(root, 1, MIDDLE, MIDDLE.map((share, i) => share + ARROWS[event.key][i]));
     else if (event.key === "0") view.reset();
     else return;
@@ -122,26 +122,23 @@ function placeOf(root) {
   return {element: document.querySelector(`#plot-${CSS.escape(root.name)}`), canvas: view?.canvas_view?.events_el, view};
 }
 
-// Where an event is, in the units of the axes; beside the frame, at its nearest edge.
-function pointAt({canvas_view, frame}, {clientX, clientY}) {
-  const {left, top} = canvas_view.events_el.getBoundingClientRect(), {bbox, x_scale, y_scale} = frame;
-  const within = (value, low, high) => Math.min(Math.max(value, low), high);
-  return {
-    x: x_scale.invert(within(clientX - left, bbox.left, bbox.right)),
-    y: y_scale.invert(within(clientY - top, bbox.top, bbox.bottom)),
-  };
-}
-
-function isOnFrame({canvas_view, frame: {bbox}}, {clientX, clientY}) {
-  const {left, top} = canvas_view.events_el.getBoundingClientRect(), x = clientX - left, y = clientY - top;
-  return bbox.left <= x && x <= bbox.right && bbox.top <= y && y <= bbox.bottom;
-}
+function within(value, low, high) { return Math.min(Math.max(value, low), high); }
 
 // Where an event is, in sides of the frame from its lower left corner.
-function shareOf({canvas_view, frame}, {clientX, clientY}) {
-  const {left, top} = canvas_view.events_el.getBoundingClientRect(), {bbox} = frame;
-  const shares = [(clientX - left - bbox.left) / bbox.width, (bbox.bottom - (clientY - top)) / bbox.height];
-  return shares.map((share) => Math.min(Math.max(share, 0), 1));
+function sharesOf({canvas_view, frame: {bbox}}, {clientX, clientY}) {
+  const {left, top} = canvas_view.events_el.getBoundingClientRect();
+  return [(clientX - left - bbox.left) / bbox.width, (bbox.bottom - (clientY - top)) / bbox.height];
+}
+
+function isOnFrame(view, event) { return sharesOf(view, event).every((share) => share >= 0 && share <= 1); }
+
+// The same; beside the frame, at its nearest edge.
+function shareOf(view, event) { return sharesOf(view, event).map((share) => within(share, 0, 1)); }
+
+// The same in the units of the axes.
+function pointAt(view, event) {
+  const [right, up] = shareOf(view, event), {bbox, x_scale, y_scale} = view.frame;
+  return {x: x_scale.invert(bbox.left + right * bbox.width), y: y_scale.invert(bbox.bottom - up * bbox.height)};
 }
 
 // Two fingers zoom and move what is between them.
@@ -197,8 +194,8 @@ function keepBounded(range, {to, from}) {
     if (!whole) return;
     const [[low, high], [start, end]] = [whole.map(to), [range.start, range.end].map(to)];
     const length = high - low, beside = ((WIDEST - 1) / 2) * length;
-    const half = Math.min(Math.max(end - start, NARROWEST * length), WIDEST * length) / 2;
-    const middle = Math.min(Math.max((start + end) / 2, low - beside + half), high + beside - half);
+    const half = within(end - start, NARROWEST * length, WIDEST * length) / 2;
+    const middle = within((start + end) / 2, low - beside + half, high + beside - half);
     const isBeyond = [[start, middle - half], [end, middle + half]].some(([is, may]) => Math.abs(is - may) > 1e-9 * length);
     if (isBeyond) range.setv({start: from(middle - half), end: from(middle + half)});
   };

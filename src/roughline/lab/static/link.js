@@ -8,7 +8,8 @@ const ELSEWHERE = 4001; // another tab, made as a copy of this one, goes on with
 const REFUSED = [1008, 1009]; // what the page said was too much
 
 export class Link {
-  #socket = null; #waiting = new Map(); #stopped = new Set(); #number = 0; #told; #opened;
+  #socket = null; #waiting = new Map(); #number = 0; #told; #opened;
+  #unsaid = new Map(); // by their slots, what is told as soon as the page is connected again
   #delay = SOON; #timer = null; #isElsewhere = false;
   session = null;
 
@@ -34,7 +35,7 @@ export class Link {
     }
     const message = {id, slot, task, arguments: args};
     this.#waiting.set(id, {slot, message, answer, error, progress});
-    this.#stopped.delete(slot);
+    this.#unsaid.delete(slot);
     this.#send(message);
     return id;
   }
@@ -45,18 +46,21 @@ export class Link {
     for (const [id, each] of this.#waiting) {
       if (each.slot === slot) { this.#waiting.delete(id); asked = true; }
     }
-    if (asked && !this.#send({slot, stop: true})) this.#stopped.add(slot);
+    if (asked) this.#tell({slot, stop: true});
   }
 
   // Delete the files of the page, and what was made of them; tells whether that is done at once.
-  forgetFiles() {
-    this.#forgets = !this.#send({slot: "files", forget: true});
-    return !this.#forgets;
-  }
-  #forgets = false;
+  forgetFiles() { return this.#tell({slot: "files", forget: true}); }
 
   isWaiting(slot) {
     return [...this.#waiting.values()].some((each) => each.slot === slot && !each.replaced);
+  }
+
+  // Tell the server now, or else as soon as the page is connected; tells whether it was now.
+  #tell(message) {
+    const isSent = this.#send(message);
+    if (!isSent) this.#unsaid.set(message.slot, message);
+    return isSent;
   }
 
   // Send a message if the page is connected; what is asked is asked again when it is.
@@ -67,10 +71,9 @@ export class Link {
   }
 
   #open() {
-    const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-    const before = recall("session");
-    const query = before ? `?${new URLSearchParams({session: before})}` : "";
-    this.#socket = new WebSocket(`${scheme}//${location.host}/link${query}`);
+    const address = new URL(`/link?${new URLSearchParams({session: recall("session") ?? ""})}`, location);
+    address.protocol = address.protocol.replace("http", "ws");
+    this.#socket = new WebSocket(address);
     this.#socket.binaryType = "arraybuffer";
     this.#socket.onmessage = ({data}) => (typeof data === "string" ? this.#said(JSON.parse(data)) : this.#answered(data));
     this.#socket.onclose = (event) => this.#closed(event);
@@ -85,9 +88,9 @@ export class Link {
     }
     this.#told.closed(reason, false);
     if (REFUSED.includes(code)) {
-      const lost = [...this.#waiting.values()];
-      this.#waiting.clear();
-      for (const each of lost) each.error?.("the lab refused the connection: ask again when it is back", "");
+      const lost = this.#waiting;
+      this.#waiting = new Map();
+      for (const each of lost.values()) each.error?.("the lab refused the connection: ask again when it is back", "");
     }
     this.#tryLater();
   }
@@ -118,18 +121,16 @@ export class Link {
   }
 
   #said(message) {
-    if (message.session) {
-      this.#connected(message);
-      return;
-    }
-    const asked = this.#waiting.get(message.id);
-    if (!asked) return;
-    if ("error" in message) {
-      this.#waiting.delete(message.id);
-      asked.error?.(message.error, message.at);
-    } else {
-      asked.progress?.(message);
-    }
+    if (message.session) this.#connected(message);
+    else if ("error" in message) this.#ended(message.id)?.error?.(message.error, message.at);
+    else this.#waiting.get(message.id)?.progress?.(message);
+  }
+
+  // What was asked by a number, which waits no more.
+  #ended(id) {
+    const asked = this.#waiting.get(id);
+    this.#waiting.delete(id);
+    return asked;
   }
 
   #connected({session, resumed, files, version}) {
@@ -139,9 +140,8 @@ export class Link {
     this.#delay = SOON;
     remember("session", session);
     this.#told.open({isAgain, resumed, isElsewhere, version});
-    if (this.#forgets) this.forgetFiles();
-    for (const slot of this.#stopped) this.#send({slot, stop: true});
-    this.#stopped.clear();
+    for (const message of this.#unsaid.values()) this.#send(message);
+    this.#unsaid.clear();
     for (const [id, {message, replaced}] of this.#waiting) {
       if (replaced) this.#waiting.delete(id);
       else this.#send(message);
@@ -150,18 +150,14 @@ export class Link {
   }
 
   #answered(buffer) {
-    const id = Number(new DataView(buffer).getBigUint64(0, true));
-    const asked = this.#waiting.get(id);
-    if (!asked) return;
-    this.#waiting.delete(id);
-    asked.answer(unpacked(buffer, 8));
+    this.#ended(Number(new DataView(buffer).getBigUint64(0, true)))?.answer(unpacked(buffer, 8));
   }
 }
 
 const TYPES = {float32: Float32Array, uint8: Uint8Array, uint32: Uint32Array};
 
 // A message of the server: its header, with the arrays in it as {values, shape, dtype}.
-function unpacked(buffer, start = 0) {
+function unpacked(buffer, start) {
   const length = new DataView(buffer).getUint32(start, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, start + 4, length)));
   const data = start + 4 + length;
