@@ -255,6 +255,20 @@ def test_one_hardness_of_all_nodes_is_the_packages_own():
     assert ours.area_fraction.tolist() == own.area_fraction.tolist()
 
 
+class Forgetful(UnevenHardness):
+    """A law that does not take its field to other grids."""
+
+    def on(self, take):
+        return self
+
+
+def test_bounds_of_another_grid_are_refused():
+    body = rl.SelfAffine(hurst=0.8, rms_height=1e-3).surface(128, rng=3)
+    law = Forgetful(np.linspace(0.05, 0.5, 128**2).reshape(128, 128))
+    with pytest.raises(rl.InputError, match="let `on` take the law's fields to other grids"):
+        rl.press(body, E_star=1.0, forces=[1e-6], law=law)
+
+
 @dataclass(frozen=True)
 class Pulled:
     """A contact with pull as dense matrices give it; fields are flat."""

@@ -227,11 +227,11 @@ def test_a_load_that_is_not_there_is_refused(curve, surface):
 
 def test_a_spectrum_has_its_law_and_the_exponent(surface):
     axes = rl.plot.spectrum(surface)
-    assert axes.get_ylabel() == "spectrum $C_{2d}$ [m⁴]"
+    assert axes.get_ylabel() == "spectrum $C_{2D}$ [m⁴]"
     parameters = rl.roughness(surface)
     assert axes.get_title().startswith(f"H = {parameters.fit.hurst:.2f} (")
     assert axes.lines[0].get_ydata() == pytest.approx(parameters.power)
-    assert rl.plot.spectrum(parameters).get_ylabel() == "spectrum $C_{2d}$"
+    assert rl.plot.spectrum(parameters).get_ylabel() == "spectrum $C_{2D}$"
     flat = rl.plot.spectrum(rl.Surface(np.zeros((8, 8)), (1.0, 1.0)))
     assert "no spectrum" in texts(flat)
 

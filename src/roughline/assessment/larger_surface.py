@@ -194,7 +194,7 @@ def which_surface(beyond: Beyond, of: Literal["stiffness", "gap"] = "stiffness")
     """Say which larger surface is meant, and how much of its waves the map holds."""
     if beyond.roll_offs is not None:
         return (
-            "of the larger surface that the map was cut out of; it holds "
+            "of the larger surface that the map was cut out of; the map holds "
             f"{beyond.roll_offs:.2g} roll-off wavelengths along a side"
         )
     times = f"{2**beyond.doublings:.2g} times as long as the map, which shows no roll-off"

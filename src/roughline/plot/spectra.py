@@ -121,7 +121,7 @@ def draw_spectrum(axes: Axes, found: Roughness, unit: str | None) -> None:
         axes.loglog(*found.law, color="tab:red")
     label_decades(axes)
     of_surface = isinstance(found.spectrum, IsotropicSpectrum)
-    symbol, power_unit = ("C_{2d}", "⁴") if of_surface else ("C_{profile}", "³")
+    symbol, power_unit = ("C_{2D}", "⁴") if of_surface else ("C_{profile}", "³")
     of_q, of_power = (f"1/{unit}", f"{unit}{power_unit}") if unit else (None, None)
     axes.set_xlabel(in_unit("wavenumber $q = 2\\pi/\\lambda$", 1.0, of_q)[0])
     axes.set_ylabel(in_unit(f"spectrum ${symbol}$", 1.0, of_power)[0])

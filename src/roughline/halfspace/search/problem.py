@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
+from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.inverse.kept import inverse_on
@@ -81,6 +82,19 @@ class Problem:
     # but with no less than this times the sum of the forces on all nodes, :meth:`Method.resolution`
     resolution: float
     law: ContactLaw
+
+    def __post_init__(self) -> None:
+        """Refuse a law whose bounds are not those of this grid's nodes."""
+        count = self.separation.size
+        for bound in self.law.bounds(None):
+            if np.shape(bound) not in ((), (count,)):
+                nodes = " x ".join(map(str, self.separation.shape))
+                raise InputError(
+                    f"gives bounds of the shape {np.shape(bound)} for all nodes of a grid of "
+                    f"{nodes}: let `bounds` give one number or {count}, and let `on` take the "
+                    "law's fields to other grids",
+                    "law",
+                )
 
     @property
     def inverse(self) -> ApproximateInverse:
