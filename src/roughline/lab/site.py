@@ -18,6 +18,8 @@ from roughline.lab.explore import controls as explore
 from roughline.lab.explore import physics
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.examples import EXAMPLES
+from roughline.lab.measured.panels import PANELS
+from roughline.lab.panels import declared
 from roughline.lab.published import controls as published
 from roughline.lab.server.tasks import Place, Site
 from roughline.paper.studies import study_summaries
@@ -76,6 +78,12 @@ def page() -> str:
         physics=physics,
         measured=measured,
         published=published,
+        panels=PANELS,
+        declared={
+            "explore": physics.declared(),
+            "measured": declared(PANELS.values()),
+            "published": [],
+        },
         examples=EXAMPLES,
         materials=list(materials()),
         fluids=list(fluids()),

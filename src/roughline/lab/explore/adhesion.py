@@ -11,11 +11,12 @@ import numpy as np
 import roughline as rl
 from roughline.lab.controls import ControlError, as_code
 from roughline.lab.explore.controls import Quantity
-from roughline.lab.explore.panels import BACK, FORCE, Filled, Panel, Series, kept, linear_span
+from roughline.lab.explore.panels import BACK, kept
 from roughline.lab.explore.pressing import pressed_under
 from roughline.lab.explore.state import OF_THE_SURFACE, Answer, ExploreState, Item, Physics
 from roughline.lab.explore.words import engineering_figure, figure, item, number_rows
 from roughline.lab.maps import Map
+from roughline.lab.panels import FORCE, Filled, Panel, Series, linear_span
 from roughline.lab.server.tasks import Progress
 
 _COARSE, _FINER = 128, 256  # points along a side of the surface that is followed, at first and then

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from typing import Any
 
 from roughline.lab.controls import Choice, Control
@@ -10,9 +9,11 @@ from roughline.lab.explore.adhesion import Adhesion
 from roughline.lab.explore.controls import CHOICES, NUMBERS
 from roughline.lab.explore.fluid import Fluid
 from roughline.lab.explore.layer import Layer
-from roughline.lab.explore.panels import PANELS, Panel
+from roughline.lab.explore.panels import PANELS
 from roughline.lab.explore.state import Physics
 from roughline.lab.explore.yielding import Yielding
+from roughline.lab.panels import Panel
+from roughline.lab.panels import declared as told_of
 
 PHYSICS: tuple[type[Physics], ...] = (Layer, Yielding, Adhesion, Fluid)
 """All kinds, in the order of their ticks."""
@@ -72,5 +73,5 @@ def declared() -> dict[str, Any]:
     return {
         "strip": order,
         "physics": kinds,
-        "panels": [asdict(panel) for panel in panels().values()],
+        "panels": told_of(panels().values()),
     }

@@ -13,11 +13,11 @@ from roughline.assessment.question import UNLOADING
 from roughline.assessment.uncertainty import intervals_of
 from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import Quantity
-from roughline.lab.explore.panels import BACK, Filled, kept, marks
+from roughline.lab.explore.panels import BACK, kept
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
 from roughline.lab.explore.words import bounded, engineering_figure, figure, first, item, rows_of
-from roughline.lab.maps import Map
+from roughline.lab.panels import Filled, marks
 from roughline.lab.server.tasks import Progress
 from roughline.units import supported_digits
 
@@ -104,11 +104,6 @@ class Yielding(Physics):
                 bounded(indentation, None, "m"),
             ),
         ]
-
-    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
-        """Where points of the contact are at the hardness."""
-        area = fields.contact.astype(np.uint8) + fields.plastic
-        return {"area": Map(area, "marks", 0, 2, marks=("ink", "plastic"))}
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
         """Follow the way back from the load to none."""

@@ -58,9 +58,9 @@ export function add(plot, kind, name, {colours = {}, ...look}, side = "center") 
   return added;
 }
 
-// Draw marks with their intervals, from "low" to "high".
-export function drawIntervals(plot, name, colour, {size = 8, ...look} = {}) {
-  const {data_source: source} = draw(plot, "scatter", name, {size, ...look, colours: {fill_color: colour, line_color: colour}});
+// Draw intervals from "low" to "high" about the points of a source that is drawn.
+export function drawIntervals(plot, name, colour, size) {
+  const {data_source: source} = plot.renderers.find(({data_source}) => data_source.name === name);
   source.data = {...source.data, low: [], high: []};
   const head = () => new Bokeh.TeeHead({size: size - 1, tags: [{colours: {line_color: colour}}]});
   add(plot, "Whisker", `${name} intervals`, {

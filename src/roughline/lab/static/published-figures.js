@@ -56,8 +56,10 @@ function exponents() {
   for (const [name, line_dash, legend] of [["scaling", "dashed", "scaling argument"], ["linear", "dotted", "line of §7"]]) {
     draw(made, "line", `prediction ${name}`, {line_dash, line_width: 1.5, legend, colours: {line_color: "text"}});
   }
-  drawIntervals(made, "exponents 1D", "here", {marker: "triangle", legend: "1D, window chosen"});
-  drawIntervals(made, "exponents 3D", "dark-line", {marker: "circle", legend: "3D, window chosen"});
+  draw(made, "scatter", "exponents 1D", {size: 8, marker: "triangle", legend: "1D, window chosen", colours: {fill_color: "here", line_color: "here"}});
+  drawIntervals(made, "exponents 1D", "here", 8);
+  draw(made, "scatter", "exponents 3D", {size: 8, marker: "circle", legend: "3D, window chosen", colours: {fill_color: "dark-line", line_color: "dark-line"}});
+  drawIntervals(made, "exponents 3D", "dark-line", 8);
   return made;
 }
 
@@ -75,8 +77,10 @@ function kappa() {
   for (const [legend, line_dash] of [["Bush, Gibson, Thomas", "dashed"], ["Persson", "dotted"]]) {
     draw(made, "line", `kappa ${legend}`, {line_dash, line_width: 1.5, legend, colours: {line_color: "theory"}});
   }
-  drawIntervals(made, "kappa corrected", "dark-line", {marker: "circle", legend: "area corrected"});
-  drawIntervals(made, "kappa cells", "here", {marker: "triangle", fill_alpha: 0, legend: "area in cells"});
+  draw(made, "scatter", "kappa corrected", {size: 8, marker: "circle", legend: "area corrected", colours: {fill_color: "dark-line", line_color: "dark-line"}});
+  drawIntervals(made, "kappa corrected", "dark-line", 8);
+  draw(made, "scatter", "kappa cells", {size: 8, marker: "triangle", fill_alpha: 0, legend: "area in cells", colours: {fill_color: "here", line_color: "here"}});
+  drawIntervals(made, "kappa cells", "here", 8);
   return made;
 }
 
