@@ -48,7 +48,7 @@ class Map:
 
 def height_map(values: NDArray[Any], unit: str, **others: Any) -> Map:
     """Heights, from the lowest that is known to the highest."""
-    known = values[np.isfinite(values)]
+    known = values[np.isfinite(values)].astype(np.float32)  # as the page has them
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     return Map(values, "Cividis256", low, high, "height", unit, **others)
 

@@ -43,7 +43,7 @@ from roughline.report.answers import (
 from roughline.report.comparison import verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table, modulus_in_words
 from roughline.report.page import sentence
-from roughline.report.values import in_three_digits
+from roughline.report.values import up_to_three_digits
 from roughline.units import engineering
 
 _SLIP_ROWS = 12
@@ -73,7 +73,7 @@ def answer(arguments: Arguments, progress: Progress) -> bytes:
 
 def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]:
     """What was asked, the answers that lead, and all answers in a table with groups."""
-    write, has_elastic = in_three_digits, isinstance(result, Assessment)
+    write, has_elastic = up_to_three_digits, isinstance(result, Assessment)
     star = f"* {UNRESOLVED}" if star_is_shown(result) else ""
     table: tuple[Any, ...] = (["the maps have no common answers"], [])
     if result.answers:

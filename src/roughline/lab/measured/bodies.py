@@ -118,4 +118,4 @@ def _flat(sides: Any) -> Body | None:
         raise ControlError(STRANGE)
     if len(sides) == 1:
         return Line(np.zeros(2), sides[0], "m", kind="profile")
-    return Surface(np.zeros((2, 2)), (sides[0], sides[1]), "m")
+    return Surface(np.zeros((8, 8)), (sides[0], sides[1]), "m")

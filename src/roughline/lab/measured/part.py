@@ -26,7 +26,7 @@ from roughline.lab.panels import Filled, Points
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
 from roughline.report.answers import leading_keys, unit_shown
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
-from roughline.report.values import scale_of, three_digits
+from roughline.report.values import figure, scale_of
 
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
 
@@ -74,7 +74,7 @@ def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]
     values, mean = values * factor, float(answer.mean[load]) * factor
     whole = [float(end[load]) * factor for end in (answer.low, answer.high)]
     cells = zip([*values, mean], [*low, whole[0]], [*high, whole[1]], strict=True)
-    rows = [[f"{three_digits(each)} {unit}".strip() for each in row] for row in cells]
+    rows = [[f"{figure(each)} {unit}".strip() for each in row] for row in cells]
     ends = (0.5, count + 0.5)
     series: dict[str, Points] = {
         "maps": {"x": np.arange(1, count + 1), "y": values, "low": low, "high": high},

@@ -17,10 +17,10 @@ from roughline.lab.panels import Filled, Points
 from roughline.plot.pixels import any_marked, thinned
 from roughline.report.comparison import comparison_table
 from roughline.report.contact_tables import area_in_words, curve_table
-from roughline.report.values import three_digits
+from roughline.report.values import figure, up_to_three_digits
 from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.preparation import outliers
-from roughline.units import engineering, metres_per, prefix
+from roughline.units import metres_per, prefix
 
 _Real = NDArray[np.float64]
 Panels = dict[str, Filled]
@@ -106,8 +106,8 @@ def of_contact(result: Assessment) -> Maps:
     fields = None if shown is None else result.curve.fields[shown]
     if shown is None or fields is None:
         return {"height": topography}
-    force = engineering(float(result.curve.force[shown]) * result.scale, "N", 3)
-    load = f"corrected area {area_in_words(result, shown)} at {force}"
+    force = up_to_three_digits(float(result.curve.force[shown]) * result.scale, None, "N")
+    load = f"corrected area {area_in_words(result, shown, up_to_three_digits)} at {force}"
     maps = contact_maps(
         fields,
         pressure=prefix(_largest(fields.pressure), "Pa"),
@@ -117,7 +117,7 @@ def of_contact(result: Assessment) -> Maps:
     )
     rows = [["contact", load]]
     rows += [
-        [f"largest {each.title}", f"{three_digits(each.high)} {each.unit}"]
+        [f"largest {each.title}", f"{figure(each.high)} {each.unit}"]
         for each in maps.values()
         if each.title
     ]
@@ -271,7 +271,7 @@ def _rows(heights: _Real, unit: str) -> list[list[str]]:
         return []
     unit = "" if unit == "unit not stated" else unit
     return [
-        [name, f"{three_digits(float(np.percentile(known, share)))} {unit}"]
+        [name, f"{figure(float(np.percentile(known, share)))} {unit}"]
         for name, share in (_SHARES | {"highest": 100}).items()
     ]
 
