@@ -12,7 +12,7 @@ from matplotlib import image as pictures
 import roughline as rl
 from lab.explore_driven import SMALL, address, drawn, image, sentence, settled, strip, table, typed
 from lab_in_browser import NO_LINE, Pages, RunningLab
-from roughline.lab.explore.words import figure
+from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
 E_STAR, HEIGHT, LENGTH = 110e9, 1e-6, 1e-3

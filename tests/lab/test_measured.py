@@ -141,7 +141,9 @@ def test_examples_say_all_that_is_needed_and_are_always_the_same(page, tmp_path,
     first = rl.read(path_of(key, tmp_path / "one"))
     again = rl.read(path_of(key, tmp_path / "two"))
     np.testing.assert_array_equal(first.heights, again.heights)
-    assert heights_of(header, arrays).size == np.prod(header["body"]["points"]) == first.heights.size
+    assert (
+        heights_of(header, arrays).size == np.prod(header["body"]["points"]) == first.heights.size
+    )
 
 
 def test_the_ground_example_has_tilt_missing_points_and_spikes(page):

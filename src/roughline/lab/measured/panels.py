@@ -29,7 +29,7 @@ def _over_force(key: str, title: str, y: str, *others: Series) -> Panel:
     )
 
 
-_PANELS = (
+PANELS = (
     Panel(
         *("file-line", "Heights as the file has them", "x", "height"),
         series=(
@@ -84,5 +84,4 @@ _PANELS = (
         of_places=True,
     ),
 )
-PANELS = {panel.key: panel for panel in _PANELS}
-"""Panels of curves by their keys."""
+"""Panels of curves."""
