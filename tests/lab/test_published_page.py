@@ -265,16 +265,11 @@ def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other
     page = pages.open("?view=measured")
     named = page.evaluate(
         """async () => {
-            const {embedded} = await import("/lab/plots.js");
-            const {declaredIn, figuresOf} = await import("/lab/panels.js");
+            const {panelsOf} = await import("/lab/panels.js");
             for (const view of document.querySelectorAll("main")) view.hidden = false;
-            const of = (view) => declaredIn(document.querySelector(`#${view}`));
-            const declared = [
-                () => figuresOf("explore", of("explore").panels),
-                () => figuresOf("published", of("published")),
-            ];
-            const made = await Promise.all(declared.map(embedded));
-            return made.map(({made}) => made.roots().map(({name}) => name));
+            const views = ["#explore", "#published"].map((id) => document.querySelector(id));
+            const made = await Promise.all(views.map((view) => panelsOf(view)));
+            return made.map(({plots}) => plots.made.roots().map(({name}) => name));
         }"""
     )
     page.context.close()

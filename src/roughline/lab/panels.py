@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -84,11 +84,6 @@ class Filled:
         return cls(series, **{"x": x, "y": y, **others})
 
 
-def declared(panels: Iterable[Panel]) -> list[dict[str, Any]]:
-    """What the script of the page knows of panels."""
-    return [asdict(panel) for panel in panels]
-
-
 def marks(name: str, legend: str, colour: str, **look: Any) -> Series:
     """Marks without a line."""
     return Series(name, legend, colour, {"scatter": {"line_width": 1.5, **look}})
@@ -97,6 +92,20 @@ def marks(name: str, legend: str, colour: str, **look: Any) -> Series:
 def line(name: str, legend: str, colour: str, width: float, **look: Any) -> Series:
     """A line without marks."""
     return Series(name, legend, colour, {"line": {"line_width": width, **look}})
+
+
+def band(
+    name: str, legend: str, colour: str, alpha: float = 0.25, size: float = 0, **look: Any
+) -> Series:
+    """A line between two ends, with marks if they have a size."""
+    marked = {"scatter": {"size": size}} if size else {}
+    glyphs = {"varea": {"fill_alpha": alpha}, "line": look, **marked}
+    return Series(name, legend, colour, glyphs)
+
+
+def estimates(name: str, legend: str, colour: str, **look: Any) -> Series:
+    """Marks with their intervals."""
+    return Series(name, legend, colour, {"scatter": {"size": 8, **look}, "whisker": {"size": 8}})
 
 
 def theory_lines(theories: Mapping[str, str]) -> tuple[Series, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import asdict
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -19,7 +20,6 @@ from roughline.lab.explore import physics
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.examples import EXAMPLES
 from roughline.lab.measured.panels import PANELS as MEASURED
-from roughline.lab.panels import declared
 from roughline.lab.published import controls as published
 from roughline.lab.published.panels import PANELS as PUBLISHED
 from roughline.lab.server.tasks import Place, Site
@@ -83,7 +83,7 @@ def page() -> str:
         panels={view: {each.key: each for each in some} for view, some in _PANELS.items()},
         declared={
             "explore": physics.declared(),
-            **{view: declared(some) for view, some in _PANELS.items()},
+            **{view: {"panels": list(map(asdict, some))} for view, some in _PANELS.items()},
         },
         examples=EXAMPLES,
         materials=list(materials()),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.lab.controls import Choice
 from roughline.lab.explore.controls import CHOICES
-from roughline.lab.panels import FORCE, Panel, Points, Series, line, marks, theory_lines
+from roughline.lab.panels import FORCE, Panel, Points, Series, band, line, marks, theory_lines
 
 
 def over_force(
@@ -63,10 +63,7 @@ def note_of(pressed: rl.Curve, n: int) -> str:
     return f"marks of the curve on {n}² points{unsure}{unsolved}"
 
 
-_REDUCED = Series(
-    *("line", "1D, mean and range of single lines", "light-line"),
-    {"varea": {"fill_alpha": 0.25}, "line": {"line_width": 2.5}},
-)
+_REDUCED = band("line", "1D, mean and range of single lines", "light-line", line_width=2.5)
 _OF_SPECTRUM = (
     marks("surface", "the surface", "mark", size=4, line_width=1),
     line("law", "the law", "here", 2),

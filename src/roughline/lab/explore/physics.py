@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
 from roughline.lab.controls import Choice, Control
@@ -13,7 +14,6 @@ from roughline.lab.explore.panels import PANELS
 from roughline.lab.explore.state import Physics
 from roughline.lab.explore.yielding import Yielding
 from roughline.lab.panels import Panel
-from roughline.lab.panels import declared as told_of
 
 PHYSICS: tuple[type[Physics], ...] = (Layer, Yielding, Adhesion, Fluid)
 """All kinds, in the order of their ticks."""
@@ -73,5 +73,5 @@ def declared() -> dict[str, Any]:
     return {
         "strip": order,
         "physics": kinds,
-        "panels": told_of(panels().values()),
+        "panels": [asdict(panel) for panel in panels().values()],
     }

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import ModelComparison
 from roughline.assessment.description import Description
+from roughline.engineering.intervals import Ends
 from roughline.lab.maps import Map, Scale, contact_maps, flux_map, height_map
 from roughline.lab.panels import Filled, Points
 from roughline.plot.pixels import any_marked, thinned
@@ -40,10 +41,8 @@ def of_file(found: Description) -> tuple[Panels, Maps]:
     metres = metres_per(content.unit) if content.unit else None
     heights = np.array(np.ma.getdata(content.heights), dtype=np.float64)
     heights[content.unknown] = np.nan
-    spikes, told = (
-        np.zeros(heights.shape, bool),
-        "spikes are looked for once unit and size are known",
-    )
+    spikes = np.zeros(heights.shape, bool)
+    told = "spikes are looked for once unit and size are known"
     if body is not None and body.heights.shape == heights.shape:
         spikes = outliers(body)
         told = f"{np.count_nonzero(spikes)} spikes"
@@ -127,11 +126,11 @@ def of_contact(result: Assessment) -> Maps:
         caption = f"{drawn.caption}, {'from left to right' if along_x else 'upwards'}"
         caption += ", the map repeated on all sides" if flow.sides == "periodic" else ""
         maps["flux"] = replace(drawn, caption=caption)
-    few = np.count_nonzero(fields.contact) <= _MOST_SPOTS
-    spots = _shares(fields.contact, _MOST_SPOTS) if few else ()
+    spots = _shares(fields.contact, _MOST_SPOTS + 1)
+    spots = spots if len(spots) <= _MOST_SPOTS else []
     for name, each in maps.items():
         rings, told = each.rings or spots, [each.caption, load]
-        told += ["rings: the few points that touch"] if rings is spots and few else []
+        told += ["rings: the few points that touch"] if spots and rings is spots else []
         maps[name] = replace(
             each,
             values=thinned(each.values) if each.title else any_marked(each.values),
@@ -146,71 +145,58 @@ def of_contact(result: Assessment) -> Maps:
 def of_curve(result: Assessment) -> Panels:
     """Stiffness and area over force with their intervals, and theories beside them."""
     curve, solved, scale = result.curve, result.curve.converged, result.scale
-    per_force, force_unit = prefix(scale * _largest(curve.force[solved]), "N")
+    per_newton, force_unit = prefix(scale * _largest(curve.force[solved]), "N")
     per_stiffness, unit = prefix(scale * _largest(curve.stiffness[solved]), "N/m")
-    per_force, per_stiffness = scale * per_force, scale * per_stiffness
-    force = curve.force[solved] * per_force
-    asked = np.isin(np.flatnonzero(solved), result.asked)
-    kinds = {"loads": curve.resolved[solved], "unsure": ~curve.resolved[solved], "asked": asked}
-    columns, rows = curve_table(result)
+    labels = {"stiffness": f"stiffness k [{unit}]", "area": "real contact area A / A₀"}
+    factors = {"stiffness": scale * per_stiffness, "area": 1.0}
+    drawn = {"stiffness": _of_loads(result, curve.stiffness, result.stiffness_interval)}
+    if curve.area_fraction_corrected is not None:
+        drawn["area"] = _of_loads(result, curve.area_fraction_corrected, result.area_interval)
+    if curve.hardness is not None and curve.unloading_stiffness is not None:
+        unloading = _xy(curve.force[solved], curve.unloading_stiffness[solved])
+        drawn["stiffness"]["unloading"] = unloading
+    for each in result.theories:
+        name, forces = f"theory {each.name}", each.pressure * result.area
+        drawn["area"][name] = _xy(forces, each.area_fraction)
+        if each.stiffness is not None:
+            drawn["stiffness"][name] = _xy(forces, each.stiffness * result.area)
     on = "" if result.question.joint is None else " on the joint"
+    columns, rows = curve_table(result)
     panels = {}
-    for name, label, values, ends, factor in (
-        (
-            "stiffness",
-            f"stiffness k [{unit}]",
-            curve.stiffness,
-            result.stiffness_interval,
-            per_stiffness,
-        ),
-        (
-            "area",
-            "real contact area A / A₀",
-            curve.area_fraction_corrected,
-            result.area_interval,
-            1.0,
-        ),
-    ):
-        if values is None:
-            continue
-        shown = values[solved] * factor
-        series = {"line": _xy(force, shown)}
-        series |= {kind: _xy(force[some], shown[some]) for kind, some in kinds.items()}
-        if ends is not None:
-            low, high = (end[solved] * factor for end in ends)
-            kept = (low > 0) & np.isfinite(high)
-            series["interval"] = {
-                **_xy(force[kept], shown[kept]),
-                "low": low[kept],
-                "high": high[kept],
-            }
-        for each in result.theories:
-            of_theory = each.area_fraction if name == "area" else each.stiffness
-            if of_theory is not None:
-                per_area = 1.0 if name == "area" else result.area * factor
-                x = each.pressure * result.area * per_force
-                series[f"theory {each.name}"] = _xy(x, of_theory * per_area)
-        if (
-            name == "stiffness"
-            and curve.hardness is not None
-            and curve.unloading_stiffness is not None
-        ):
-            series["unloading"] = _xy(force, curve.unloading_stiffness[solved] * factor)
-        axes = (f"force F{on} [{force_unit}]", label)
-        panels[name] = Filled.fitted(series, axes=axes, columns=columns, rows=rows)
+    for key, series in drawn.items():
+        by = {"x": scale * per_newton}
+        shown = {
+            name: {axis: values * by.get(axis, factors[key]) for axis, values in points.items()}
+            for name, points in series.items()
+        }
+        axes = (f"force F{on} [{force_unit}]", labels[key])
+        panels[key] = Filled.fitted(shown, axes=axes, columns=columns, rows=rows)
     return panels
+
+
+def _of_loads(result: Assessment, values: _Real, ends: Ends | None) -> dict[str, Points]:
+    """A quantity over the loads that were solved, with its interval. [N, SI]"""
+    curve = result.curve
+    asked = np.isin(np.arange(curve.force.size), result.asked)
+    kinds = {"line": True, "loads": curve.resolved, "unsure": ~curve.resolved, "asked": asked}
+    masks = {kind: curve.converged & some for kind, some in kinds.items()}
+    series = {kind: _xy(curve.force[kept], values[kept]) for kind, kept in masks.items()}
+    if ends is not None:
+        low, high = ends
+        kept = curve.converged & (low > 0) & np.isfinite(high)
+        inside = _xy(curve.force, values) | {"low": low, "high": high}
+        series["interval"] = {axis: each[kept] for axis, each in inside.items()}
+    return series
 
 
 def of_models(found: ModelComparison) -> Panels:
     """Stiffness of both models over force, with the intervals of their means."""
     result, columns, rows = found.comparison, *comparison_table(found)
     full, reduced = result.full.mean, result.reduced
+    of_lines = {"low": reduced.low, "high": reduced.high}
     series = {
-        name: {**_xy(result.force_bar, mean), "low": low, "high": high}
-        for name, mean, low, high in (
-            ("full", full, full, full),
-            ("reduced", reduced.mean, reduced.low, reduced.high),
-        )
+        "full": _xy(result.force_bar, full) | {"low": full, "high": full},
+        "reduced": _xy(result.force_bar, reduced.mean) | of_lines,
     }
     return {"models": Filled.fitted(series, columns=columns, rows=rows)}
 

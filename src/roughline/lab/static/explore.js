@@ -3,8 +3,7 @@
 import {Controls} from "./controls.js";
 import {onDraw} from "./hands.js";
 import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
-import {Panels, declaredIn, figuresOf} from "./panels.js";
-import {embedded} from "./plots.js";
+import {panelsOf} from "./panels.js";
 import {Strip} from "./strip.js";
 import {fillCaption, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
@@ -25,15 +24,14 @@ export async function open(link, address, said) {
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
   #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
-  #declared; #physics; #cursors; // as the server declares them
+  #physics; #cursors; // as the server declares them
   #panels = null;
 
   constructor(link, address) {
     this.#link = link;
     this.#address = address;
-    const {physics, panels, strip} = declaredIn(this.#root);
+    const {physics, panels, strip} = JSON.parse(this.#root.dataset.declared);
     this.#physics = physics;
-    this.#declared = panels;
     this.#cursors = panels.filter(({cursor}) => cursor);
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
     this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
@@ -57,8 +55,8 @@ class Explore {
     this.#stale = new Set(this.#finer);
     this.#dim(["contact", ...this.#stale]);
     this.#askNow();
-    this.#plots = await embedded(() => figures(this.#declared));
-    this.#panels = new Panels(this.#plots, "explore", this.#declared);
+    this.#panels = await panelsOf(this.#root, maps);
+    this.#plots = this.#panels.plots;
     for (const {key, cursor} of this.#cursors) {
       this.#plots.onMove(`${key} cursor`, (force) => this.#cursorMoved(force));
       onDraw(this.#plots.root(`explore-${key}`), this.#find(`[data-draw="${key}"]`),
@@ -333,14 +331,13 @@ class Explore {
   }
 }
 
-// Both maps with their profile, and panels of curves.
-function figures(panels) {
+// Both maps with their profile.
+function maps() {
   const ranges = sharedRanges();
   return {
     "explore-topography": mapFigure("topography", {isOfColours: true, ranges}),
     "explore-contact": mapFigure("contact", {rings: "here", ranges}),
     "explore-profile": profileFigure(),
-    ...figuresOf("explore", panels),
   };
 }
 

@@ -2,8 +2,7 @@
 import {add} from "./figures.js";
 import {onDraw} from "./hands.js";
 import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
-import {Panels, declaredIn, figuresOf} from "./panels.js";
-import {embedded} from "./plots.js";
+import {panelsOf} from "./panels.js";
 import {fillCaption, fillTable} from "./tables.js";
 
 const BESIDE = {file: ["file"], preparation: ["before", "after"], answers: ["topography", "contact"]}; // maps, by their steps
@@ -12,12 +11,8 @@ const NOTHING = {image: [], x: [], y: [], dw: [], dh: []};
 
 // Embed all pictures of the view.
 export async function picturesOf(view, root) {
-  const declared = declaredIn(root);
-  return new Pictures(view, declared, await embedded(() => ({
-    ...Object.fromEntries(Object.values(BESIDE).flatMap(mapsOf)),
-    "measured-profile": profileFigure(),
-    ...figuresOf("measured", declared),
-  })));
+  const maps = () => Object.fromEntries(Object.values(BESIDE).flatMap(mapsOf));
+  return new Pictures(view, await panelsOf(root, () => ({...maps(), "measured-profile": profileFigure()})));
 }
 
 function mapsOf(names) {
@@ -44,12 +39,12 @@ class Pictures {
   #before = null; // the map on which a piece is drawn, and the box about what is kept
   #kept = {visible: false};
 
-  constructor(view, declared, plots) {
+  constructor(view, panels) {
     this.#view = view;
-    this.#plots = plots;
-    this.#panels = new Panels(plots, "measured", declared);
+    this.#panels = panels;
+    this.#plots = panels.plots;
     this.#maps = Object.fromEntries(Object.entries(BESIDE).map(([step, names]) => [
-      step, new Maps(plots, "measured", names, step === "answers" ? "profile" : "")]));
+      step, new Maps(panels.plots, "measured", names, step === "answers" ? "profile" : "")]));
     for (const {classList} of view.findAll(".panel:not(.wide)")) classList.add("empty");
   }
 

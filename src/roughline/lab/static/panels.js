@@ -1,6 +1,7 @@
 // Panels of curves, as the server declares them: their figures, and what answers have for them.
 import {typeset} from "./elements.js";
 import {LOGARITHMIC, add, draw, drawIntervals, plot} from "./figures.js";
+import {embedded} from "./plots.js";
 import {fillTable} from "./tables.js";
 
 const FILLED = ["scatter", "varea"]; // glyphs that have an inside
@@ -10,12 +11,14 @@ const SLOPE = 0.6; // of the names of places [rad]
 const DECADES = Array.from({length: 13}, (_, i) => 10 ** (i - 6));
 const ROUND = DECADES.flatMap((decade) => [decade, 2 * decade, 5 * decade]); // Bokeh's own miss decades
 
-// The panels of a view, as its page has them.
-export function declaredIn(root) { return JSON.parse(root.dataset.declared); }
-
-// Empty figures of panels, by the names of their plots.
-export function figuresOf(view, panels) {
-  return Object.fromEntries(panels.map((panel) => [`${view}-${panel.key}`, figureOf(panel)]));
+// Embed the panels that the page of a view has, and its other figures, which may change those of the panels.
+export async function panelsOf(root, others = () => ({})) {
+  const {panels} = JSON.parse(root.dataset.declared), view = root.id;
+  const plots = await embedded(() => {
+    const made = Object.fromEntries(panels.map((panel) => [`${view}-${panel.key}`, figureOf(panel)]));
+    return {...made, ...others(made)};
+  });
+  return new Panels(plots, view, panels);
 }
 
 function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_places: isOfPlaces, cursor}) {
@@ -44,12 +47,12 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
   return made;
 }
 
-export class Panels {
-  #plots; #view; #declared;
+class Panels {
+  #view; #declared;
   #answers = new Map(); // what the last of each kind has for panels, those that came last at the end
 
   constructor(plots, view, declared) {
-    this.#plots = plots;
+    this.plots = plots;
     this.#view = view;
     this.#declared = Object.fromEntries(declared.map((panel) => [panel.key, panel]));
   }
@@ -69,7 +72,7 @@ export class Panels {
   }
 
   #fill(what, key, {series, legends, rows, caption, remarks, x, y, axes, names}, numbers) {
-    const plots = this.#plots, plot = this.#plot(key);
+    const {plots} = this, plot = this.#plot(key);
     for (const [axis, range] of Object.entries({x, y})) if (range) this.#range(plot, axis, range);
     for (const [name, columns] of Object.entries(series)) this.#mark(key, name, columns);
     for (const [name, value] of Object.entries(legends ?? {})) plots.call(`${key} ${name}`, value);
@@ -90,8 +93,8 @@ export class Panels {
 
   // Show another range; where it is what it was, a part that is shown alone stays.
   #range(plot, axis, [start, end]) {
-    const {reset_start, reset_end} = this.#plots.root(plot)[`${axis}_range`];
-    if (start !== reset_start || end !== reset_end) this.#plots.range(plot, axis, start, end);
+    const {reset_start, reset_end} = this.plots.root(plot)[`${axis}_range`];
+    if (start !== reset_start || end !== reset_end) this.plots.range(plot, axis, start, end);
   }
 
   // The table of a panel has the rows of all answers; those of the lines stand below.
@@ -105,12 +108,12 @@ export class Panels {
 
   // Draw points, and name them in the legend if there are any; zeros stand at the foot of a logarithmic axis.
   #mark(key, name, columns) {
-    const {start, end} = this.#plots.root(this.#plot(key)).y_range, {is_logarithmic: isLogarithmic} = this.#declared[key];
+    const {start, end} = this.plots.root(this.#plot(key)).y_range, {is_logarithmic: isLogarithmic} = this.#declared[key];
     const foot = start * (end / start) ** FOOT;
     const known = Object.entries(columns).map(([column, values]) => [column, values.map((value) => value ?? NaN)]);
     const drawn = Object.fromEntries(known);
     if (isLogarithmic) drawn.y = drawn.y.map((value) => (value === 0 ? foot : value));
-    this.#plots.set(`${key} ${name}`, drawn);
+    this.plots.set(`${key} ${name}`, drawn);
   }
 
   // Put zeros of all answers at the foot of an axis whose range has changed.

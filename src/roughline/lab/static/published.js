@@ -3,8 +3,7 @@ import {Controls} from "./controls.js";
 import {element, typeset} from "./elements.js";
 import {add, draw, plot} from "./figures.js";
 import {onDraw, onTouch} from "./hands.js";
-import {Panels, declaredIn, figuresOf} from "./panels.js";
-import {embedded} from "./plots.js";
+import {panelsOf} from "./panels.js";
 import {Strip} from "./strip.js";
 import {fillTable} from "./tables.js";
 
@@ -31,8 +30,8 @@ export async function open(link, address, said) {
 }
 
 class Published {
-  #link; #address; #root = document.querySelector("#published"); #controls; #plots = null; #panels; #strip; #constants = null; #trust;
-  #later = new Set(); #answers = new Map(); #sources = {}; #windows = {}; #state = {}; #ofLink = ""; #shown = "";
+  #link; #address; #root = document.querySelector("#published"); #controls; #panels; #strip; #constants = null; #trust;
+  #later = new Set(); #windows = {}; #state = {}; #ofLink = ""; #shown = "";
 
   constructor(link, address) {
     this.#link = link;
@@ -53,15 +52,14 @@ class Published {
   async open({view, ...texts}) {
     this.#controls.take(texts);
     TASKS.forEach((task) => this.#ask(task));
+    this.#panels = panelsOf(this.#root, (made) => ({...withWindows(made), ...trustMap(this.#trust)}));
     this.#constants = await (await fetch("/lab/paper/figures.json")).json();
     this.#take("constants", this.#constants);
     this.#showCurves();
-    const declared = declaredIn(this.#root);
-    this.#plots = await embedded(() => figures(declared, this.#trust.map(({id}) => id)));
-    this.#panels = new Panels(this.#plots, "published", declared);
-    for (const model of Object.keys(EDGES)) this.#bindWindow(model);
+    const {plots} = await this.#panels;
+    for (const model of Object.keys(EDGES)) this.#bindWindow(plots, model);
     for (const {id} of this.#trust) {
-      onTouch(this.#plots.root(id), ({x, y}) => {
+      onTouch(plots.root(id), ({x, y}) => {
         const [map_F, map_D_f] = [this.#controls.within("map_F", x), this.#controls.within("map_D_f", y)];
         this.#controls.take({...this.#controls.said, roll_off: id.replace(PANEL, ""), map_F, map_D_f});
         this.#ask("point");
@@ -69,8 +67,6 @@ class Published {
     }
     this.#root.querySelector("[data-legend]").replaceChildren(...this.#constants.legend.map(([background, text]) =>
       element("li", {}, element("span", {className: "patch", style: `background: ${background}`}), text)));
-    for (const [what, panels] of this.#answers) this.#panels.show(what, panels);
-    this.#draw(this.#sources, this.#windows);
   }
 
   shown() { this.#address.write("published", this.#state); }
@@ -107,9 +103,7 @@ class Published {
 
   // Take an answer: what panels and other sources show, windows, tables, words at their places, large figures.
   #take(what, {panels, sources = {}, windows = {}, tables = {}, words = {}, strip = []}) {
-    Object.assign(this.#sources, sources);
     Object.assign(this.#windows, windows);
-    if (panels) this.#answers.set(what, panels);
     for (const [id, {header, rows}] of Object.entries(tables)) {
       const labelled = (cell, i) => [element("span", {className: "label"}, ...typeset(header[i])), ...typeset(cell)];
       fillTable(id, header.map(typeset), rows.map((cells) => cells.map(labelled)));
@@ -121,9 +115,11 @@ class Published {
     for (const place of this.#root.querySelectorAll(".fit td, .strip dd:nth-child(2)")) {
       place.dataset.verdict = place.textContent.match(/confirmed|refuted|undecided/)?.[0] ?? "";
     }
-    if (!this.#panels) return;
-    if (panels) this.#panels.show(what, panels);
-    this.#draw(sources, windows);
+    this.#panels.then((shown) => {
+      if (panels) shown.show(what, panels);
+      for (const [name, columns] of Object.entries(sources)) shown.plots.set(name, columns);
+      this.#place(shown.plots, windows);
+    });
   }
 
   // Show the curves for what is chosen, of the fractal dimensions that are chosen.
@@ -152,31 +148,31 @@ class Published {
     this.#take("point", {sources: Object.fromEntries(marks)});
   }
 
-  // Fill the trust map, and place windows; one that is moved by hand stays where it is.
-  #draw(sources, windows) {
-    for (const [name, columns] of Object.entries(sources)) this.#plots.set(name, columns);
+  // Place windows; one that is moved by hand stays where it is.
+  #place(plots, windows) {
     this.#placing = true;
     for (const [name, [left, right]] of Object.entries(windows)) {
-      if (name !== this.#moving) this.#plots.model(`window ${name}`).setv({left, right});
+      if (name !== this.#moving) plots.model(`window ${name}`).setv({left, right});
     }
     this.#placing = false;
   }
 
   #placing = false; #moving = null; #rest = null; // the window that is held by the mouse
 
-  #bindWindow(model) {
-    const box = this.#plots.model(`window ${model}`), plot = this.#plots.root(`published-stiffness-${model}`);
-    const moved = () => { if (!this.#placing) this.#windowMoved(model, box.left, box.right); };
+  #bindWindow(plots, model) {
+    const box = plots.model(`window ${model}`), plot = plots.root(`published-stiffness-${model}`);
+    const move = (...edges) => this.#windowMoved(plots, model, edges);
+    const moved = () => { if (!this.#placing) move(box.left, box.right); };
     for (const side of ["left", "right"]) box.properties[side].change.connect(moved);
     plot.on_event("selectiongeometry", ({geometry}) => {
-      if (geometry.type === "rect" && geometry.x0 !== geometry.x1) this.#windowMoved(model, geometry.x0, geometry.x1);
+      if (geometry.type === "rect" && geometry.x0 !== geometry.x1) move(geometry.x0, geometry.x1);
     });
     onDraw(plot, this.#root.querySelector(`[data-draw="${model}"]`), (from, to) => {
       if (from.x !== to.x) box.setv({left: Math.min(from.x, to.x), right: Math.max(from.x, to.x)});
     });
   }
 
-  #windowMoved(model, ...edges) {
+  #windowMoved(plots, model, edges) {
     this.#moving = model;
     const ends = edges.sort((a, b) => a - b).map((edge, i) => [EDGES[model][i], this.#controls.within(EDGES[model][i], edge)]);
     this.#controls.take({...this.#controls.said, ...Object.fromEntries(ends)});
@@ -184,23 +180,25 @@ class Published {
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => {
       this.#moving = null;
-      this.#draw({}, {[model]: this.#windows[model]});
+      this.#place(plots, {[model]: this.#windows[model]});
     }, 400);
   }
 }
 
-// Panels of curves, with a window on some, and those of the trust map.
-function figures(declared, trustMap) {
-  const made = figuresOf("published", declared);
-  for (const [name, look] of [["stiffness-1D", {editable: true}], ["stiffness-3D", {editable: true}], ["area", {}]]) {
-    add(made[`published-${name}`], "BoxAnnotation", `window ${name.replace("stiffness-", "")}`, {...WINDOW, ...look});
-    if (!look.editable) continue;
+// Put windows on figures, two of which can be drawn anew.
+function withWindows(made) {
+  for (const name of ["stiffness-1D", "stiffness-3D", "area"]) {
+    const figure = made[`published-${name}`], [, model = ""] = name.split("-");
+    add(figure, "BoxAnnotation", `window ${model || name}`, {...WINDOW, editable: Boolean(model)});
+    if (!model) continue;
     const tool = new Bokeh.BoxSelectTool({dimensions: "width", renderers: []});
-    made[`published-${name}`].add_tools(tool);
-    made[`published-${name}`].toolbar.active_drag = tool;
+    figure.add_tools(tool);
+    figure.toolbar.active_drag = tool;
   }
-  return {...made, ...Object.fromEntries(trustMap.map((id) => [id, trust(id.replace(PANEL, ""))]))};
+  return made;
 }
+
+function trustMap(panels) { return Object.fromEntries(panels.map(({id}) => [id, trust(id.replace(PANEL, ""))])); }
 
 // One panel of the trust map, with the point that is asked about.
 function trust(rollOff) {
