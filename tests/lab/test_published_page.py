@@ -261,6 +261,17 @@ def test_a_link_of_an_earlier_version_shows_the_same(pages):
     page.context.close()
 
 
+def test_the_trust_map_names_its_axes(paper):
+    named = paper.evaluate(
+        """() => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name("published-trust-1"));
+            const {xaxes: [x], yaxes: [y]} = made.get_model_by_name("published-trust-1");
+            return [x.axis_label, y.axis_label];
+        }"""
+    )
+    assert named == ["force F̄", "fractal dimension"]
+
+
 def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other(pages):
     page = pages.open("?view=measured")
     named = page.evaluate(

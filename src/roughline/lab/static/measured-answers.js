@@ -5,7 +5,6 @@ import {element} from "./elements.js";
 import {recall, remember} from "./remember.js";
 
 export const TASKS = ["answers", "compare", "report"];
-const VERDICTS = {confirmed: "good", refuted: "error", undecided: "doubt"};
 
 export class Answers {
   #link; #view; #part;
@@ -128,11 +127,6 @@ export class Answers {
       this.#view.step("answers").open = true;
       this.#view.showResult("compare", true);
       this.#view.show(found, "compare");
-      this.#view.pictures.then(() => {
-        for (const cell of this.#view.findAll('[data-table="measured-models"] td')) {
-          if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
-        }
-      });
     });
   }
 

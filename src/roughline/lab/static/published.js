@@ -5,7 +5,7 @@ import {add, draw, plot} from "./figures.js";
 import {onDraw, onTouch} from "./hands.js";
 import {panelsOf} from "./panels.js";
 import {Strip} from "./strip.js";
-import {fillTable} from "./tables.js";
+import {fillTable, judged} from "./tables.js";
 
 const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
 const STRIP = ["exponent_1D", "stated_1D", "exponent_3D", "stated_3D"];
@@ -112,9 +112,7 @@ class Published {
       this.#root.querySelector(`[data-words="${place}"]`).replaceChildren(...typeset(text));
     }
     this.#strip.add(strip);
-    for (const place of this.#root.querySelectorAll(".fit td, .strip dd:nth-child(2)")) {
-      place.dataset.verdict = place.textContent.match(/confirmed|refuted|undecided/)?.[0] ?? "";
-    }
+    this.#root.querySelectorAll(".strip dd:nth-child(2)").forEach(judged);
     this.#panels.then((shown) => {
       if (panels) shown.show(what, panels);
       for (const [name, columns] of Object.entries(sources)) shown.plots.set(name, columns);
