@@ -264,8 +264,9 @@ def test_a_link_of_an_earlier_version_shows_the_same(pages):
 def test_the_trust_map_names_its_axes(paper):
     named = paper.evaluate(
         """() => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name("published-trust-1"));
-            const {xaxes: [x], yaxes: [y]} = made.get_model_by_name("published-trust-1");
+            const name = "published-trust-1";
+            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
+            const {xaxes: [x], yaxes: [y]} = made.get_model_by_name(name);
             return [x.axis_label, y.axis_label];
         }"""
     )

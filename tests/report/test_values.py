@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from roughline.report.page import KeyFigure
 from roughline.report.values import up_to_three_digits, value_and_interval, with_interval
 from roughline.units import supported_digits
 
@@ -58,3 +59,9 @@ def test_no_digit_is_written_that_the_interval_does_not_support():
 )
 def test_the_lab_writes_three_digits_at_most_and_both_ends(value, ends, unit, written):
     assert up_to_three_digits(value, ends, unit) == written
+
+
+def test_a_key_figure_has_its_interval_with_the_whole_unit():
+    figure = KeyFigure.of("conductance", "2.0 MW/(m² K) (0.74 to 4.8 MW/(m² K))")
+    assert (figure.value, figure.interval) == ("2.0 MW/(m² K)", "0.74 to 4.8 MW/(m² K)")
+    assert KeyFigure.of("stiffness", "14.8 MN/m ± 7.5%").interval == "± 7.5%"
