@@ -100,7 +100,7 @@ def _series(curves: Mapping[float, MeanCurve]) -> dict[str, Any]:
 
     Names begin with the fractal dimension.
     """
-    found = {}
+    found: dict[str, Any] = {}
     for dimension, curve in curves.items():
         x, y = curve.force_bar, curve.mean
         kept = np.flatnonzero(curve.resolved)

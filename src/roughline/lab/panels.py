@@ -16,7 +16,7 @@ _ROOM_ABOUT = 0.06  # share about what is drawn on linear ones
 _DASHES = ("dashed", "dotted", "dashdot")  # of theories, which black and white tell apart
 
 Range = tuple[float, float]
-Points = Mapping[str, Any]
+Points = dict[str, Any]
 """Columns of what is drawn: x and y, or low and high too. Zeros stand at the foot of a logarithm,
 and lines have a gap where a number is not known."""
 

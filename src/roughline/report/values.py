@@ -52,7 +52,7 @@ def up_to_three_digits(value: float, ends: tuple[float, float] | None, unit: str
     shown = f"{figure(value * factor, digits)}{sign}"
     if ends is None or np.isnan(ends).any():
         return shown
-    first, last = (figure(end * factor, max(digits, _DIGITS_OF_ENDS)) for end in ends)
+    first, last = (figure(end * factor) for end in ends)
     return f"{shown} ({first} to {last}{sign if np.isfinite(ends[1]) else ''})"
 
 

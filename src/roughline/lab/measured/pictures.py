@@ -84,13 +84,14 @@ def of_preparation(before: Body, after: Body, corner: Sequence[float]) -> tuple[
         "about the mean, as read; draw a box to keep a piece",
         f"{' x '.join(map(str, after.heights.shape))} points",
     )
-    old, new = (
+    first, second = (
         _map(each, sides_of(body), along, up, caption=caption)
         for each, body, caption in zip(heights, (before, after), captions, strict=True)
     )
     lows, highs = np.transpose([np.percentile(each * up[0], _MOST) for each in heights])
     colours = {"low": float(lows.min()), "high": float(highs.max())}
-    return {}, {"height": replace(old, **colours), "after": replace(new, corner=corner, **colours)}
+    second = replace(second, corner=corner, **colours)
+    return {}, {"height": replace(first, **colours), "after": second}
 
 
 def of_contact(result: Assessment) -> Maps:
@@ -178,8 +179,9 @@ def _of_loads(result: Assessment, values: _Real, ends: Ends | None) -> dict[str,
     """A quantity over the loads that were solved, with its interval. [N, SI]"""
     curve = result.curve
     asked = np.isin(np.arange(curve.force.size), result.asked)
-    kinds = {"line": True, "loads": curve.resolved, "unsure": ~curve.resolved, "asked": asked}
+    kinds = {"loads": curve.resolved, "unsure": ~curve.resolved, "asked": asked}
     masks = {kind: curve.converged & some for kind, some in kinds.items()}
+    masks["line"] = curve.converged
     series = {kind: _xy(curve.force[kept], values[kept]) for kind, kept in masks.items()}
     if ends is not None:
         low, high = ends
