@@ -89,9 +89,9 @@ def of_preparation(before: Body, after: Body, corner: Sequence[float]) -> tuple[
         for each, body, caption in zip(heights, (before, after), captions, strict=True)
     )
     lows, highs = np.transpose([np.percentile(each * up[0], _MOST) for each in heights])
-    colours = {"low": float(lows.min()), "high": float(highs.max())}
-    second = replace(second, corner=corner, **colours)
-    return {}, {"height": replace(first, **colours), "after": second}
+    low, high = float(lows.min()), float(highs.max())
+    second = replace(second, low=low, high=high, corner=corner)
+    return {}, {"height": replace(first, low=low, high=high), "after": second}
 
 
 def of_contact(result: Assessment) -> Maps:
