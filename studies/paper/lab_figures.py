@@ -1,8 +1,7 @@
 """Data of the lab's figures of the paper that no computing changes: curves, exponents, κ, the map.
 
-The lab's script chooses among them, and asks its server for the fits in a window alone. Columns are
-those of Bokeh's sources, by the names that the script gives them; colours of curves are places in
-the ramp of the theme.
+The lab's script chooses among them, and asks its server for the fits in a window alone. What panels
+show is as they are declared.
 """
 
 from __future__ import annotations
@@ -22,7 +21,6 @@ from roughline.paper.results import PaperResults
 from roughline.paper.tables import estimate_cell, three_digits, trust_cell
 from roughline.paper.windows import WINDOW_AREA
 from roughline.plot.models import TRUST_LEVELS, trust_colours
-from roughline.plot.style import MARKERS
 from roughline.statistics.averages import Averaging
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
@@ -31,7 +29,6 @@ from roughline.theories import bush_gibson_thomas, persson
 AVERAGES: tuple[Averaging, ...] = ("arithmetic", "geometric")
 PUNCHES = {"paper": scaling.PAPER_PUNCH, "exact": scaling.EXACT_PUNCH, "raw": 1.0}
 """What the stiffness of surfaces is divided by, as the lab's choice calls it."""
-_BOKEHS = {"o": "circle", "s": "square", "D": "diamond", "^": "triangle", "v": "inverted_triangle"}
 _MARKS = 24  # at most, of a curve
 _THEORIES = {"Bush, Gibson, Thomas": bush_gibson_thomas.KAPPA, "Persson": persson.KAPPA}
 
@@ -39,17 +36,18 @@ _THEORIES = {"Bush, Gibson, Thomas": bush_gibson_thomas.KAPPA, "Persson": persso
 def lab_figures(results: PaperResults) -> dict[str, Any]:
     """Return it all, with curves by what is chosen for them."""
     whole = trust_map()
-    low, high = WINDOW_AREA
     colours = [to_hex(colour) for colour in trust_colours()]
     between = [f"{a:+.0%} to {b:+.0%}" for a, b in pairwise(TRUST_LEVELS)]
     levels = [f"below {TRUST_LEVELS[0]:+.0%}", *between, f"above {TRUST_LEVELS[-1]:+.0%}"]
-    draw, tables = _kappa(results)
+    kappa, tables = _kappa(results)
+    cells: dict[str, Any] = {}
     for i in range(whole.roll_off_ratios.size):
-        draw |= _cells(whole, i, colours)
+        cells |= _cells(whole, i, colours)
         tables[f"published-trust-{whole.roll_off_ratios[i]:g}"] = _trust_table(whole, i)
     return {
-        "draw": draw | _exponents(results),
-        "look": {"window area": {"left": low, "right": high}},
+        "panels": {"kappa": {"series": kappa}, "exponents": {"series": _exponents(results)}},
+        "sources": cells,
+        "windows": {"area": WINDOW_AREA},
         "tables": tables,
         "legend": list(zip(colours, levels, strict=True)),
         "curves": _curves(results),
@@ -76,12 +74,11 @@ def _stiffness(
     }
     over = "" if punch == 1 else f"{punch:g} "
     limit = 1.0 if model == "1D" else scaling.EXACT_PUNCH / punch
+    forces = next(iter(found.values())).force_bar[[0, -1]]
+    series = _series(found) | {"saturated": {"x": forces, "y": [limit, limit]}}
+    panel = {"series": series, "axes": ["", f"stiffness k̄ = k / ({over}E* L)"]}
     return {
-        "draw": _columns(f"stiffness {model}", found),
-        "look": {
-            f"saturated {model}": {"location": limit},
-            f"label {model}": {"axis_label": f"stiffness k̄ = k / ({over}E* L)"},
-        },
+        "panels": {f"stiffness-{model}": panel},
         "tables": {f"published-stiffness-{model}": _table("k̄", found)},
     }
 
@@ -93,39 +90,27 @@ def _area_curves(results: PaperResults) -> dict[str, Any]:
         area, resolved = mean_area(one)
         found[float(dimension)] = MeanCurve(one.force_bar.values, area, area, area, resolved)
     return {
-        "draw": _columns("area", found),
-        "look": {},
+        "panels": {"area": {"series": _series(found)}},
         "tables": {"published-area": _table("A/A_0", found)},
     }
 
 
-def _columns(name: str, curves: Mapping[float, MeanCurve]) -> dict[str, Any]:
-    """Return the columns of curves: bands, lines, and marks where the grid does not decide."""
-    every = list(curves.values())
-    ramp = list(range(len(every)))
-    lines = {
-        "bands": (
-            [[*each.force_bar, *each.force_bar[::-1]] for each in every],
-            [[*each.low, *each.high[::-1]] for each in every],
-        ),
-        "all": ([each.force_bar for each in every], [each.mean for each in every]),
-        "sure": (
-            [each.force_bar[each.resolved] for each in every],
-            [each.mean[each.resolved] for each in every],
-        ),
-    }
-    marks: dict[str, list[Any]] = {key: [] for key in ("x", "y", "ramp", "marker", "D_f")}
-    for i, (dimension, curve) in enumerate(curves.items()):
-        kept = np.flatnonzero(curve.resolved)[:: max(1, curve.force_bar.size // _MARKS)]
-        marks["x"] += curve.force_bar[kept].tolist()
-        marks["y"] += curve.mean[kept].tolist()
-        marks["ramp"] += [i] * kept.size
-        marks["marker"] += [_BOKEHS.get(MARKERS[i], "plus")] * kept.size
-        marks["D_f"] += [f"{dimension:.1f}"] * kept.size
-    columns = {
-        f"{name} {key}": {"xs": xs, "ys": ys, "ramp": ramp} for key, (xs, ys) in lines.items()
-    }
-    return {**columns, f"{name} marks": marks}
+def _series(curves: Mapping[float, MeanCurve]) -> dict[str, Any]:
+    """Return curves with their standard errors, and lines and marks where the grid does not decide.
+
+    Names begin with the fractal dimension.
+    """
+    found: dict[str, Any] = {}
+    for dimension, curve in curves.items():
+        x, y = curve.force_bar, curve.mean
+        kept = np.flatnonzero(curve.resolved)
+        some = kept[:: max(1, x.size // _MARKS)]
+        found |= {
+            f"{dimension:g} mean": {"x": x, "y": y, "low": curve.low, "high": curve.high},
+            f"{dimension:g} sure": {"x": x[kept], "y": y[kept]},
+            f"{dimension:g} marks": {"x": x[some], "y": y[some]},
+        }
+    return found
 
 
 def _table(symbol: str, curves: Mapping[float, MeanCurve]) -> dict[str, Any]:
@@ -148,7 +133,7 @@ def _exponents(results: PaperResults) -> dict[str, Any]:
     data = results.exponents
     windows = [data.isel(window=i) for i in range(data.sizes["window"])]
     found = {
-        f"exponents {i}": {
+        f"{i}": {
             "x": one.fractal_dimension.values,
             "y": one.exponent.values,
             "low": one.low.values,
@@ -158,21 +143,21 @@ def _exponents(results: PaperResults) -> dict[str, Any]:
     }
     return {
         **found,
-        "prediction scaling": {"x": fine, "y": scaling_exponent(fine)},
-        "prediction linear": {"x": fine, "y": linear_exponent(fine)},
+        "scaling": {"x": fine, "y": scaling_exponent(fine)},
+        "linear": {"x": fine, "y": linear_exponent(fine)},
     }
 
 
 def _kappa(results: PaperResults) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return κ of eq. 4 with its intervals and two theories: as columns, and as a table."""
+    """Return κ of eq. 4 with its intervals and two theories: as series, and as a table."""
     dimensions = [laws.fractal_dimension for laws in results.laws]
     kappas = {
         name: [getattr(laws, name).kappa for laws in results.laws]
         for name in ("corrected", "cells")
     }
-    draw = {f"kappa {name}": _marks(dimensions, found) for name, found in kappas.items()}
+    series = {name: _marks(dimensions, found) for name, found in kappas.items()}
     for name, kappa in _THEORIES.items():
-        draw[f"kappa {name}"] = {"x": [1.9, 3.1], "y": [kappa, kappa]}
+        series[name] = {"x": [1.9, 3.1], "y": [kappa, kappa]}
     rows = [
         [
             f"{laws.fractal_dimension:.1f}",
@@ -186,7 +171,7 @@ def _kappa(results: PaperResults) -> tuple[dict[str, Any], dict[str, Any]]:
     ]
     rows += [[name, f"{kappa:.3f}", "1 exactly", "-", "-"] for name, kappa in _THEORIES.items()]
     header = ["D_f", "κ", "exponent of A over F", "κ in cells", "exponent of A in cells"]
-    return draw, {"published-kappa": {"header": header, "rows": rows}}
+    return series, {"published-kappa": {"header": header, "rows": rows}}
 
 
 def _marks(dimensions: list[float], found: list[IntervalEstimate]) -> dict[str, list[float]]:

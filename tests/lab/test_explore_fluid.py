@@ -82,7 +82,7 @@ def test_the_flux_is_that_of_the_library(curve):
     look = header["maps"]["flux"]
     assert (shown[is_open & ~flows] < look["low"]).all()
     assert 10 ** look["high"] == pytest.approx(flux.max())
-    assert look["ring"] == pytest.approx([(i + 0.5) / 64 for i in flow.constriction])
+    assert look["rings"] == [pytest.approx([(i + 0.5) / 64 for i in flow.constriction])]
     # as a mean over every line across the flow, the flux along it is the mean flux
     mean = flow.flux[0].mean(axis=1) * LENGTH / flow.inflow
     np.testing.assert_allclose(mean, 1, rtol=1e-8)

@@ -12,7 +12,7 @@ from matplotlib import image as pictures
 import roughline as rl
 from lab.explore_driven import SMALL, address, drawn, image, sentence, settled, strip, table, typed
 from lab_in_browser import NO_LINE, Pages, RunningLab
-from roughline.lab.explore.words import bounded, figure
+from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
 E_STAR, HEIGHT, LENGTH = 110e9, 1e-6, 1e-3
@@ -75,7 +75,7 @@ def test_strip_and_tables_say_what_the_library_says(fresh):
     of_area = of_area[0], min(of_area[1], pressed.area_fraction_most[0])
     assert said["stiffness_3d"] == [
         figure(pressed.stiffness_bar[0], supported_digits(k, of_k, 3)),
-        bounded(k, of_k, "N/m"),
+        up_to_three_digits(k, of_k, "N/m"),
     ]
     assert said["area"][0] == figure(100 * area, supported_digits(area, of_area, 3)) + "%"
     assert said["force"] == ["22.0 N", "22.0 MPa over the nominal area"]

@@ -35,7 +35,7 @@ from roughline.report.contact_tables import curve_table, formula_table
 from roughline.report.description_table import description_table
 from roughline.report.page import sentence
 from roughline.report.part_tables import leading_table, maps_table
-from roughline.report.values import in_three_digits
+from roughline.report.values import up_to_three_digits
 
 PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
 SMALL = {"resample": "64"}
@@ -49,12 +49,18 @@ RANDOM = "3f9a0c5d7e2b4a61"  # as an upload lies on the disk
 
 def in_answers(assessment):
     """The table of the answers, written as on the page."""
-    return answer_table(assessment, with_elastic=True, write=in_three_digits)
+    return answer_table(assessment, with_elastic=True, write=up_to_three_digits)
 
 
-def contact_of(header, shown):
-    """The panel of the contact that shows something."""
-    return header["choices"]["measured-contact"][shown]
+def table_of(header, panel):
+    """Heads and rows of the table of a panel."""
+    return header["panels"][panel]["columns"], header["panels"][panel]["rows"]
+
+
+def heights_of(header, arrays):
+    """The heights of a file, of a map or along a line."""
+    panel = header["panels"].get("file-line")
+    return np.array(panel["series"]["heights"]["y"], float) if panel else arrays["height"]
 
 
 class Page:
@@ -135,14 +141,16 @@ def test_examples_say_all_that_is_needed_and_are_always_the_same(page, tmp_path,
     first = rl.read(path_of(key, tmp_path / "one"))
     again = rl.read(path_of(key, tmp_path / "two"))
     np.testing.assert_array_equal(first.heights, again.heights)
-    assert arrays["file heights"].size == np.prod(header["body"]["points"]) == first.heights.size
+    assert (
+        heights_of(header, arrays).size == np.prod(header["body"]["points"]) == first.heights.size
+    )
 
 
 def test_the_ground_example_has_tilt_missing_points_and_spikes(page):
     header, arrays = page.ask("look", {"example": "ground"})
-    heights = arrays["file heights"]
+    heights = arrays["height"]
     assert np.isnan(heights).sum() > 100
-    assert len(header["panels"]["measured-file"]["sources"]["file rings"]["x"]) == 7
+    assert len(header["maps"]["height"]["rings"]) == 7
     assert np.nanmean(heights[:, -20:]) - np.nanmean(heights[:, :20]) > 1  # of the tilt [µm]
     assert any("7 spikes kept" in each for each in header["lists"]["remarks"])
     removed, _ = page.ask("prepare", {"example": "ground", "outliers": "remove"})
@@ -154,7 +162,7 @@ def test_the_film_example_follows_its_law(page):
     found = dict(header["tables"]["measured-roughness"][1])
     assert found["self-affine"] == "yes"
     assert found["Hurst exponent"].startswith("0.79")
-    assert header["panels"]["measured-spectrum"]["sources"]["spectrum law"]["x"]
+    assert header["panels"]["spectrum"]["series"]["law"]["x"]
 
 
 @pytest.mark.parametrize("key", EXAMPLES)
@@ -173,7 +181,7 @@ def test_answers_are_those_of_the_library(page, key):
         )
     ]
     assert [header["tables"]["measured-answers"][:2], header["tables"]["measured-formulas"]] == rows
-    assert header["panels"]["measured-stiffness"]["table"] == list(curve_table(expected))
+    assert table_of(header, "stiffness") == curve_table(expected)
     told = [*header["lists"]["grave"], *chain(*header["remarks"].values())]
     assert sorted(told) == sorted(map(sentence, expected.remarks))
     assert bool(page.steps) == (expected.fields is not None)  # a line scan is solved at once
@@ -184,13 +192,11 @@ def test_answers_are_those_of_the_library(page, key):
     if expected.fields is not None:
         marks = expected.fields.contact.astype(int) + expected.fields.plastic
         np.testing.assert_array_equal(arrays["area"].T, marks)
-        largest = (
-            expected.fields.pressure.max() / contact_of(header, "pressure")["map"]["look"]["high"]
-        )
+        largest = expected.fields.pressure.max() / header["maps"]["pressure"]["high"]
         np.testing.assert_allclose(
             arrays["pressure"].T * largest, expected.fields.pressure, rtol=1e-6
         )
-    solved = header["panels"]["measured-stiffness"]["sources"]["stiffness line"]["y"]
+    solved = header["panels"]["stiffness"]["series"]["line"]["y"]
     ratio = np.array(solved) / expected.curve.stiffness
     assert np.ptp(ratio) < 1e-9 * ratio[0]
 
@@ -211,21 +217,18 @@ def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page):
         rl.flow(fields, along="both", mean_free_path=path),
         key=lambda each: each.hydraulic_aperture,
     )
-    shown, look = arrays["flux"].T, contact_of(header, "flux")
+    shown, look = arrays["flux"].T, header["maps"]["flux"]
     np.testing.assert_array_equal(np.isnan(shown), flow.gap == 0)
     width = flow.sizes[1] if flow.along == "x" else flow.sizes[0]
     flux = np.hypot(*flow.flux) * width / flow.inflow
     flows = flux > 0.01
     np.testing.assert_allclose(10 ** shown[flows], flux[flows], rtol=1e-5)
-    place = [
-        (i + 0.5) / n * size
-        for i, n, size in zip(flow.constriction, flow.gap.shape, look["map"]["sizes"], strict=True)
-    ]
-    assert [look["sources"]["contact rings"][axis][0] for axis in "xy"] == pytest.approx(place)
+    place = [(i + 0.5) / n for i, n in zip(flow.constriction, flow.gap.shape, strict=True)]
+    assert look["rings"] == [pytest.approx(place)]
     direction = "from left to right" if flow.along == "x" else "upwards"
-    assert look["caption"].endswith(f"{direction}, the map repeated on all sides")
+    assert f"{direction}, the map repeated on all sides; corrected area" in look["caption"]
     without, arrays = page.ask("answer", said)
-    assert "flux" not in without["choices"]["measured-contact"]
+    assert "flux" not in without["maps"]
     assert "flux" not in arrays
 
 
@@ -248,7 +251,7 @@ def test_both_models_are_compared_as_by_the_command(page):
     source = source_of(said, page.session)
     expected = compare_models(source.path)
     header, _ = page.ask("compare", said)
-    assert header["panels"]["measured-models"]["table"] == list(comparison_table(expected))
+    assert table_of(header, "models") == comparison_table(expected)
     assert header["words"]["verdict"] == sentence(verdict_in_words(expected))
     error, at = page.refusal("compare", {"example": "shaft"})
     assert at == "compare"
@@ -269,7 +272,7 @@ def test_measured_files_are_described_as_by_the_command(measured_page, topograph
         assert header["body"]["points"] == list(expected.body.heights.shape)
         assert RANDOM not in str(header)
     assert ("channels" in dict(table)) == bool(header["asks"]["channels"])
-    assert np.isnan(arrays["file heights"]).any() == bool(expected.missing.count)
+    assert np.isnan(heights_of(header, arrays)).any() == bool(expected.missing.count)
 
 
 @pytest.mark.parametrize(
@@ -311,7 +314,7 @@ def test_a_file_of_which_most_is_missing_is_shown_and_can_be_allowed(measured_pa
     said = measured_page.keys["sur-3.sur"]
     header, arrays = measured_page.ask("look", said)
     assert "allow more (most missing)" in header["lists"]["obstacles"][0]
-    assert np.isnan(arrays["file heights"]).mean() == pytest.approx(0.8889, abs=1e-4)
+    assert np.isnan(arrays["height"]).mean() == pytest.approx(0.8889, abs=1e-4)
     header, _ = measured_page.ask("look", {**said, "most_missing": "95 %"})
     assert any(
         "233009 missing points (88.89%) filled" in each for each in header["lists"]["remarks"]
@@ -325,8 +328,8 @@ def test_an_array_needs_unit_and_size(page, tmp_path):
     header, arrays = page.ask("look", said)
     assert header["asks"] == {"unit": True, "size": True, "channels": []}
     assert len(header["lists"]["obstacles"]) == 2
-    assert header["panels"]["measured-file"]["map"]["along"] == "points"
-    np.testing.assert_allclose(arrays["file heights"].T, heights, rtol=1e-6)
+    assert header["maps"]["height"]["along"] == "points"
+    np.testing.assert_allclose(arrays["height"].T, heights, rtol=1e-6)
     header, _ = page.ask("look", {**said, "unit": "um", "size": "1 mm"})
     assert header["body"]["sides"] == [1e-3, 1e-3]
     answered, _ = page.ask("answer", {**said, "unit": "um", "size": "1 mm", **PAIR})
@@ -491,7 +494,7 @@ def test_the_command_repeats_the_answers(page, invoke, only_drawn, tmp_path, mon
     command = shlex.split(documents.as_command(said, ["ground-steel.x3p"]))
     code, out, errors = invoke(*command[1:], "--all")
     assert code == 0, errors
-    table = [row[1] for row in header["panels"]["measured-stiffness"]["table"][1]]
+    table = [row[1] for row in header["panels"]["stiffness"]["rows"]]
     assert all(value.split(" (")[0] in out for value in table)
     page_html = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
     assert "Contact of ground-steel.x3p" in page_html
@@ -754,9 +757,9 @@ def test_a_joint_is_answered_for_with_its_area(page):
     assert expected.question.joint == pytest.approx(1e-4)
     header, _ = page.ask("answer", said)
     assert header["tables"]["measured-answers"][:2] == list(in_answers(expected))
-    panel = header["panels"]["measured-stiffness"]
+    panel = header["panels"]["stiffness"]
     assert panel["axes"][0] == "force F on the joint [kN]"
-    assert max(panel["sources"]["stiffness line"]["x"]) == pytest.approx(1)
+    assert max(panel["series"]["line"]["x"]) == pytest.approx(1)
     sides = list(expected.body.sizes)
     told, _ = page.ask("bodies", said, sides=sides)
     assert "1 kN on the joint of 100 mm²" in told["lists"]["loads"][0]
@@ -808,16 +811,15 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
     assert given["names"] == expected.names == ["place 0.nc", "place 1.nc", "place 2.nc"]
     tables = header["tables"]
     assert tables["measured-part-answers"][:2] == list(
-        answer_table(expected, write=in_three_digits)
+        answer_table(expected, write=up_to_three_digits)
     )
     assert tables["measured-part-leading"] == list(leading_table(expected))
     assert tables["measured-part-maps"] == list(maps_table(expected))
     assert "broken.x3p" in header["remarks"]["Limits"][0]
-    drawn = header["choices"]["measured-part"]["contact stiffness k"]
+    drawn = header["choices"]["part"]["contact stiffness k"]["series"]
     mean = expected.answers["contact_stiffness"].mean[1]
-    assert drawn["models"]["part mean"]["location"] / drawn["sources"]["part"]["y"][
-        0
-    ] == pytest.approx(mean / expected.assessments[0].answers["contact_stiffness"].values[1])
+    first = expected.assessments[0].answers["contact_stiffness"].values[1]
+    assert drawn["mean"]["y"][0] / drawn["maps"]["y"][0] == pytest.approx(mean / first)
     alone = expected.assessments[2]
     assert header["tables"]["measured-answers"][:2] == list(in_answers(alone))
     marks = alone.fields.contact.astype(int) + alone.fields.plastic

@@ -154,6 +154,22 @@ def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(pages)
     page.context.close()
 
 
+def test_theories_have_their_names_and_their_dashes_beside_the_curve(pages):
+    page = pages.open(
+        "?view=measured&v=1&example=film&resample=64&loads=2+MPa&boundary=periodic"
+        "&theories=persson,bush-gibson-thomas"
+    )
+    page.wait_for_selector(CONNECTED)
+    page.click("[data-press]:not([disabled])")
+    page.locator('[data-table="measured-answers"]').filter(has_text="N/m").wait_for(timeout=60_000)
+    named = page.locator("#measured-area .names li:visible", has_text=re.compile("Persson|Bush"))
+    assert named.all_inner_texts() == ["Persson", "Bush, Gibson, Thomas"]
+    dashes = [each.locator("path").get_attribute("stroke-dasharray") for each in named.all()]
+    assert len({*dashes, ""}) == 3
+    assert page.inner_text("#measured > .error") == ""
+    page.context.close()
+
+
 def test_a_coated_material_is_typed_pressed_and_kept_in_the_address(pages):
     page = pages.open("?view=measured&v=1&example=ground&resample=64&loads=2+MPa&second=steel")
     page.wait_for_selector(CONNECTED)

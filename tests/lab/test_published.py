@@ -53,7 +53,7 @@ def test_the_controls_are_those_of_the_study(published_results):
 def test_the_published_windows_give_the_published_exponents(fits, published_results):
     for model, name in (("1D", "reduced"), ("3D", "full")):
         laws = [getattr(each, name) for each in published_results.laws]
-        shown = fits["draw"][f"exponents {model}"]
+        shown = fits["panels"]["exponents"]["series"][model]
         assert shown["x"] == [each.fractal_dimension for each in published_results.laws]
         assert shown["y"] == [law.exponent for law in laws]
         ends = zip(shown["low"], shown["high"], strict=True)
@@ -128,12 +128,13 @@ def test_another_window_and_mean_are_fitted_as_the_library_fits_them(published_r
     one = published_results.full.sel(fractal_dimension=2.4)
     force, stiffness = one.force_bar.values, one.stiffness.values
     law = rl.fit_power_law(force, stiffness, (0.02, 0.4), averaging="geometric")
-    assert answer["draw"]["exponents 3D"]["y"] == [law.exponent]
+    assert answer["panels"]["exponents"]["series"]["3D"]["y"] == [law.exponent]
     stated = stated_exponents("3D", 2.4)[1].verdict(exponent_estimate(law))
     assert rows(answer, "3D")[0][4].endswith(stated)
     assert answer["state"]["low_3D"] == "0.02"
     assert "geometric mean of 60 surfaces" in answer["words"]["note-3D"]
-    (xs,), (ys,) = (answer["draw"]["stiffness 3D fits"][each] for each in ("xs", "ys"))
+    line = answer["panels"]["stiffness-3D"]["series"]["fits"]
+    xs, ys = (line[each][:2] for each in "xy")
     slope = math.log(ys[1] / ys[0]) / math.log(xs[1] / xs[0])
     assert slope == pytest.approx(law.exponent)
 
@@ -143,7 +144,7 @@ def test_an_edge_that_the_address_has_rounded_is_the_load_again(published_result
     low, high = float(force[12]), float(force[27])
     said = {"D_f": "3", "low_1D": f"{low:.4g}", "high_1D": f"{high:.4g}"}
     assert float(said["low_1D"]) > low
-    (shown,) = ask("fits", said)["draw"]["exponents 1D"]["y"]
+    (shown,) = ask("fits", said)["panels"]["exponents"]["series"]["1D"]["y"]
     stiffness = published_results.reduced.sel(fractal_dimension=3.0).stiffness.values
     assert shown == rl.fit_power_law(force, stiffness, (low, high)).exponent
 
@@ -176,7 +177,8 @@ def test_numbers_keep_three_digits_and_their_zeros():
 
 
 def test_the_page_has_no_symbol_as_plain_text():
-    told = re.sub(r"<[^>]+>", "", page().partition('<main id="published"')[2])
+    inside = page().partition('<main id="published"')[2].partition(">")[2]
+    told = re.sub(r"<[^>]+>", "", inside)
     assert re.findall(r"\w*[A-Za-zα-ω]_[A-Za-z0-9]\w*|\S*\d\^\S*", told) == []
 
 

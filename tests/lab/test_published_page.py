@@ -261,21 +261,30 @@ def test_a_link_of_an_earlier_version_shows_the_same(pages):
     page.context.close()
 
 
+def test_the_trust_map_names_its_axes(paper):
+    named = paper.evaluate(
+        """() => {
+            const name = "published-trust-1";
+            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
+            const {xaxes: [x], yaxes: [y]} = made.get_model_by_name(name);
+            return [x.axis_label, y.axis_label];
+        }"""
+    )
+    assert named == ["force F̄", "fractal dimension"]
+
+
 def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other(pages):
     page = pages.open("?view=measured")
     named = page.evaluate(
         """async () => {
-            const {embedded} = await import("/lab/plots.js");
-            const {publishedFigures} = await import("/lab/published-figures.js");
-            const {exploreFigures} = await import("/lab/explore-figures.js");
+            const {panelsOf} = await import("/lab/panels.js");
             for (const view of document.querySelectorAll("main")) view.hidden = false;
-            const {panels} = JSON.parse(document.querySelector("[data-declared]").dataset.declared);
-            const declared = [() => exploreFigures(panels), () => publishedFigures(["1", "2"])];
-            const made = await Promise.all(declared.map(embedded));
-            return made.map(({made}) => made.roots().map(({name}) => name));
+            const views = ["#explore", "#published"].map((id) => document.querySelector(id));
+            const made = await Promise.all(views.map((view) => panelsOf(view)));
+            return made.map(({plots}) => plots.made.roots().map(({name}) => name));
         }"""
     )
     page.context.close()
     explore, published = map(set, named)
-    assert any("published-trust" in name for name in published)
+    assert "published-kappa" in published
     assert not explore & published

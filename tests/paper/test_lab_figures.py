@@ -47,34 +47,35 @@ def test_the_figures_are_those_of_the_data(kept, found):
 @pytest.mark.parametrize("averaging", AVERAGES)
 @pytest.mark.parametrize("punch", PUNCHES)
 def test_curves_are_means_with_their_standard_error(found, averaging, punch, published_results):
-    curves = found["curves"][f"3D {averaging} {punch}"]
-    for i, dimension in enumerate(published_results.full.fractal_dimension.values):
+    series = found["curves"][f"3D {averaging} {punch}"]["panels"]["stiffness-3D"]["series"]
+    for dimension in published_results.full.fractal_dimension.values:
         one = published_results.full.sel(fractal_dimension=dimension)
         mean = rl.average(one.stiffness.values / PUNCHES[punch], averaging)
-        assert curves["draw"]["stiffness 3D all"]["ys"][i] == pytest.approx(mean.mean)
-        high = np.array(curves["draw"]["stiffness 3D bands"]["ys"][i][mean.mean.size :])[::-1]
+        drawn = series[f"{dimension:g} mean"]
+        assert drawn["y"] == pytest.approx(mean.mean)
+        high = drawn["high"]
         if averaging == "geometric":
             assert np.log(high / mean.mean) == pytest.approx(mean.standard_error)
         else:
             assert high - mean.mean == pytest.approx(mean.standard_error)
     limit = 1.1523 / PUNCHES[punch]
-    assert curves["look"]["saturated 3D"]["location"] == pytest.approx(limit, rel=1e-4)
+    assert series["saturated"]["y"] == pytest.approx([limit, limit], rel=1e-4)
 
 
 def test_the_area_law_is_the_published_one(kept, published_results):
-    assert list(kept["look"]["window area"].values()) == pytest.approx(WINDOW_AREA, rel=1e-4)
+    assert kept["windows"]["area"] == pytest.approx(WINDOW_AREA, rel=1e-4)
     kappas = [laws.corrected.kappa.value for laws in published_results.laws]
-    assert kept["draw"]["kappa corrected"]["y"] == pytest.approx(kappas, rel=1e-4)
+    assert kept["panels"]["kappa"]["series"]["corrected"]["y"] == pytest.approx(kappas, rel=1e-4)
 
 
 def test_the_trust_map_is_that_of_the_package(kept):
     whole = rl.trust_map()
     assert len(kept["legend"]) == 10
     for i, roll_off in enumerate(whole.roll_off_ratios):
-        cells = kept["draw"][f"trust {roll_off:g}"]
+        cells = kept["sources"][f"trust {roll_off:g}"]
         middles = np.sqrt(np.multiply(cells["left"], cells["right"])).reshape(11, 15)
         assert np.allclose(middles, whole.force_bars, rtol=1e-4)
-        unsure = kept["draw"][f"trust {roll_off:g} unsure"]
+        unsure = kept["sources"][f"trust {roll_off:g} unsure"]
         assert len(unsure["left"]) == np.count_nonzero(~whole.resolved[i])
     strongest = cells["colour"][int(np.argmax(whole.difference[-1]))]
     assert strongest == kept["legend"][-1][0]

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from roughline.report.values import value_and_interval, with_interval
+from roughline.report.page import KeyFigure
+from roughline.report.values import up_to_three_digits, value_and_interval, with_interval
 from roughline.units import supported_digits
 
 
@@ -44,3 +45,23 @@ def test_no_digit_is_written_that_the_interval_does_not_support():
             assert place <= shorter / 3 * (1 + 1e-9) or digits == 4
         if digits < 4:
             assert place > shorter / 30 * (1 - 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("value", "ends", "unit", "written"),
+    [
+        (297e3, (150e3, 900e3), "N/m", "300 kN/m (150 to 900 kN/m)"),
+        (2.0, None, "m", "2.00 m"),
+        (0.123456, (0.1234, 0.1244), "%", "12.3% (12.3 to 12.4%)"),
+        (0.0, (0.0, 0.01), "%", "0% (up to 1%)"),
+        (1.5, (1.2, np.inf), "N", "1.5 N (1.20 to infinite)"),
+    ],
+)
+def test_the_lab_writes_three_digits_at_most_and_both_ends(value, ends, unit, written):
+    assert up_to_three_digits(value, ends, unit) == written
+
+
+def test_a_key_figure_has_its_interval_with_the_whole_unit():
+    figure = KeyFigure.of("conductance", "2.0 MW/(m² K) (0.74 to 4.8 MW/(m² K))")
+    assert (figure.value, figure.interval) == ("2.0 MW/(m² K)", "0.74 to 4.8 MW/(m² K)")
+    assert KeyFigure.of("stiffness", "14.8 MN/m ± 7.5%").interval == "± 7.5%"

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.lab.maps import Map
+from roughline.lab.panels import Filled
 from roughline.report.json_output import plain
 
 _ALIGNMENT = 8  # typed arrays of a browser begin at multiples of their items
@@ -32,3 +34,19 @@ def frame(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None =
     text = json.dumps(plain({**header, "arrays": places}), allow_nan=False).encode()
     text += b" " * (-(len(text) + 4) % _ALIGNMENT)
     return b"".join([len(text).to_bytes(4, "little"), text, *chunks])
+
+
+def drawn(
+    header: Mapping[str, Any],
+    panels: Mapping[str, Filled],
+    maps: Mapping[str, Map],
+    arrays: Mapping[str, NDArray[Any]] | None = None,
+) -> bytes:
+    """Put what panels and maps show into a message with a header, and further arrays."""
+    arrays = {**(arrays or {}), **{name: each.values for name, each in maps.items()}}
+    shown = {
+        "panels": {key: vars(each) for key, each in panels.items()},
+        "maps": {name: each.look for name, each in maps.items()},
+    }
+    # rows of an image run along x
+    return frame({**header, **shown}, {name: values.T for name, values in arrays.items()})

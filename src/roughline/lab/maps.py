@@ -1,7 +1,8 @@
-"""Maps as the page draws them, and that of a flow."""
+"""Maps as the page draws them: of heights, of a contact, and of a flow."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +13,10 @@ import roughline as rl
 
 _WEAKEST = -2.0  # decimal logarithm of the flux over its mean that has the palest colour
 _NONE = -9.0  # the same, for no flow
+_PRESSED = 1e-6  # of the largest pressure: where less presses, the paper shows
+
+Scale = tuple[float, str]
+"""Factor to the numbers that are shown, and their unit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,12 +34,57 @@ class Map:
     is_logarithmic: bool = False
     caption: str = ""
     marks: tuple[str, ...] = ()  # the colours that mean something, by their names
-    ring: tuple[float, float] | None = None  # a place that is marked, in sides of the surface
+    rings: Sequence[Sequence[float]] = ()  # places that are marked, in sides of the surface
+    sizes: Sequence[float] = (1.0, 1.0)  # sides, in the unit of its axes
+    along: str = "/ L"  # that unit
+    corner: Sequence[float] = (0.0, 0.0)  # where it lies in the frame
+    table: tuple[list[str], list[list[str]]] | None = None  # for those who do not see it
 
     @property
     def look(self) -> dict[str, Any]:
         """How it is drawn, without its numbers."""
         return {name: value for name, value in vars(self).items() if name != "values"}
+
+
+def height_map(values: NDArray[Any], unit: str, **others: Any) -> Map:
+    """Heights, from the lowest that is known to the highest."""
+    known = values[np.isfinite(values)].astype(np.float32)  # as the page has them
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    return Map(values, "Cividis256", low, high, "height", unit, **others)
+
+
+def contact_maps(
+    fields: rl.Fields, *, pressure: Scale, gap: Scale, deflection: Scale, yields: bool
+) -> dict[str, Map]:
+    """The maps of a contact, by the words that choose them."""
+    open_gap = np.where(fields.contact, np.nan, np.maximum(fields.gap, 0))
+    marked = fields.contact.astype(np.uint8) + fields.plastic
+    marks = ("ink", "plastic") if yields else ("ink",)
+    return {
+        "area": Map(marked, "marks", 0, 2, marks=marks),
+        "pressure": _scaled(
+            *(fields.pressure, pressure, "Viridis256", "pressure", _PRESSED),
+            caption="blank where nothing touches",
+        ),
+        "gap": _scaled(
+            *(open_gap, gap, "Cividis256", "gap"),
+            nothing="in contact",
+            caption="blank where they touch",
+        ),
+        "displacement": _scaled(
+            *(fields.displacement, deflection, "Cividis256", "deflection"),
+            caption="of the half-space",
+        ),
+    }
+
+
+def _scaled(
+    values: NDArray[Any], scale: Scale, palette: str, title: str, low: float = 0.0, **said: Any
+) -> Map:
+    """A map from a share of its largest number, or zero, to that."""
+    shown = values * scale[0]
+    high = float(np.nanmax(shown, initial=0.0))
+    return Map(shown, palette, low * high, high or 1.0, title, scale[1], **said)
 
 
 def flux_map(flow: rl.Flow) -> Map:
@@ -60,7 +110,7 @@ def flux_map(flow: rl.Flow) -> Map:
         blank="ink",
         caption="ring: throttled most",
         marks=("ink",),
-        ring=throttled_at(flow),
+        rings=[throttled_at(flow)],
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import asdict
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -18,11 +19,14 @@ from roughline.lab.explore import controls as explore
 from roughline.lab.explore import physics
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.examples import EXAMPLES
+from roughline.lab.measured.panels import PANELS as MEASURED
 from roughline.lab.published import controls as published
+from roughline.lab.published.panels import PANELS as PUBLISHED
 from roughline.lab.server.tasks import Place, Site
 from roughline.paper.studies import study_summaries
 from roughline.statistics.verdict import Verdict
 
+_PANELS = {"measured": MEASURED, "published": PUBLISHED}
 _SYMBOL = re.compile(r"_([A-Za-z0-9]+)|(\^|(?<=\d)e)(-?)0*([\wα-ω]+(?:\.\d+)?)")
 
 
@@ -75,6 +79,11 @@ def page() -> str:
         physics=physics,
         measured=measured,
         published=published,
+        panels={view: {each.key: each for each in some} for view, some in _PANELS.items()},
+        declared={
+            "explore": physics.declared(),
+            **{view: {"panels": list(map(asdict, some))} for view, some in _PANELS.items()},
+        },
         examples=EXAMPLES,
         materials=list(materials()),
         fluids=list(fluids()),

@@ -11,7 +11,7 @@ from roughline.contact.status import Status
 from roughline.engineering.coated import Coated
 from roughline.engineering.symbols import symbols_of
 from roughline.report.answers import starred
-from roughline.report.values import value_and_interval, with_interval
+from roughline.report.values import Write, value_and_interval, with_interval
 from roughline.units import change_in_words, engineering
 
 if TYPE_CHECKING:
@@ -107,12 +107,12 @@ def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     return header, rows
 
 
-def area_in_words(assessment: Assessment, load: int) -> str:
+def area_in_words(assessment: Assessment, load: int, write: Write = with_interval) -> str:
     """Write the corrected area fraction under a load of the curve, with the digits known of it."""
     share = assessment.curve.area_fraction_corrected
     if share is None:
         return "an area that is not known"
-    written = with_interval(float(share[load]), _at(assessment.area_interval, load), "%")
+    written = write(float(share[load]), _at(assessment.area_interval, load), "%")
     return value_and_interval(written)[0]
 
 

@@ -69,7 +69,8 @@ class KeyFigure:
     def of(cls, name: str, cell: str) -> KeyFigure:
         """A cell of a table as a key figure."""
         value, *interval = value_and_interval(cell)
-        return cls(name, value, " ".join(interval).strip("()"))
+        told = " ".join(interval)
+        return cls(name, value, told[1:-1] if told.startswith("(") else told)
 
 
 @dataclass(frozen=True)

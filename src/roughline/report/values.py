@@ -43,25 +43,26 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     return f"{shown} ({first} to {last}{percent})"
 
 
-def in_three_digits(value: float, ends: tuple[float, float] | None, unit: str) -> str:
-    """Write a value with three digits, and both ends of its interval with their unit."""
+def up_to_three_digits(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+    """Write a value with the digits that are known of it, and both ends of its interval."""
     if not np.isfinite(value) or not value:
         return with_interval(value, ends, unit)
-    factor, sign = scale_of(value, unit, _SHOWN)
-    shown = f"{three_digits(value * factor)}{sign}"
+    digits = supported_digits(value, ends, _SHOWN)
+    factor, sign = scale_of(value, unit, digits)
+    shown = f"{figure(value * factor, digits)}{sign}"
     if ends is None or np.isnan(ends).any():
         return shown
-    first, last = (three_digits(end * factor) for end in ends)
+    first, last = (figure(end * factor) for end in ends)
     return f"{shown} ({first} to {last}{sign if np.isfinite(ends[1]) else ''})"
 
 
-def three_digits(value: float) -> str:
-    """Write a number with three digits, zeros at its end among them: 0.200."""
-    if not np.isfinite(value) or not 1e-4 <= abs(value) < 1e6:
-        return "infinite" if np.isinf(value) else f"{value:.{_SHOWN}g}"
-    rounded = float(f"{value:.{_SHOWN}g}")
-    decimals = _SHOWN - 1 - math.floor(math.log10(abs(rounded)))
-    return f"{rounded:.{max(decimals, 0)}f}"
+def figure(value: float, digits: int = _SHOWN) -> str:
+    """A number with significant digits, its zeros kept: 0.200."""
+    text = "infinite" if np.isinf(value) else decimal(value, digits)
+    if not value or not math.isfinite(value) or "e" in text:
+        return text
+    exponent = math.floor(math.log10(abs(float(text))))
+    return f"{float(text):.{max(digits - 1 - exponent, 0)}f}"
 
 
 def scale_of(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, str]:

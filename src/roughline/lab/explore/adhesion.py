@@ -11,12 +11,14 @@ import numpy as np
 import roughline as rl
 from roughline.lab.controls import ControlError, as_code
 from roughline.lab.explore.controls import Quantity
-from roughline.lab.explore.panels import BACK, FORCE, Filled, Panel, Series, kept, linear_span
+from roughline.lab.explore.panels import BACK, kept
 from roughline.lab.explore.pressing import pressed_under
 from roughline.lab.explore.state import OF_THE_SURFACE, Answer, ExploreState, Item, Physics
-from roughline.lab.explore.words import engineering_figure, figure, item, number_rows
+from roughline.lab.explore.words import item, number_rows
 from roughline.lab.maps import Map
+from roughline.lab.panels import FORCE, Filled, Panel, Series, linear_span
 from roughline.lab.server.tasks import Progress
+from roughline.report.values import figure, up_to_three_digits
 
 _COARSE, _FINER = 128, 256  # points along a side of the surface that is followed, at first and then
 _HISTORY = 1.0, 2.0, 1.0, 0.0  # over the present load: beyond it, back to it, to none
@@ -294,7 +296,7 @@ def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
     by_forces, pull = found.by_forces, found.pull_off[1]
     assert by_forces.area_fraction_corrected is not None
     area = float(by_forces.area_fraction_corrected[_BACK])
-    pressure = engineering_figure(pull / by_forces.length**2, "Pa")
+    pressure = up_to_three_digits(pull / by_forces.length**2, None, "Pa")
     return [
         item(
             *("retreat", "contact, way back", f"{figure(100 * area)}%"),
@@ -306,7 +308,7 @@ def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
             *("pull_off", "pull-off", _pull_off(found, state)),
             "Largest pull F / (E* h L) that the contact bears on the way back; below it with its "
             "unit, and over the nominal area.",
-            f"{engineering_figure(pull, 'N')}, {pressure}, on {n}² points"
+            f"{up_to_three_digits(pull, None, 'N')}, {pressure}, on {n}² points"
             if math.isfinite(pull)
             else "the grid does not resolve the pull",
         ),

@@ -22,12 +22,12 @@ from roughline.computing.disk import write_dataset
 from roughline.lab.controls import STRANGE, ControlError, rounded
 from roughline.lab.explore import physics, pictures
 from roughline.lab.explore.controls import FILES
-from roughline.lab.explore.panels import Filled, Panel
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.reading import state_in
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.maps import Map
+from roughline.lab.panels import Filled, Panel
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.plot.pixels import draw_map
 from roughline.plot.style import PAGE, new_figure, styled

@@ -10,22 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.lab.explore.panels import (
-    Filled,
-    Points,
-    Series,
-    loads,
-    marks,
-    note_of,
-    over_force,
-    span,
-    theory_lines,
-)
+from roughline.lab.explore.panels import loads, note_of, over_force
 from roughline.lab.explore.pressing import CURVE_POINTS, borne, pressed_under
 from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
-from roughline.lab.explore.words import bounded, figure, item, number_rows
+from roughline.lab.explore.words import item, number_rows
 from roughline.lab.maps import Map, flux_map, throttled_at
+from roughline.lab.panels import Filled, Points, Series, marks, span, theory_lines
 from roughline.lab.server.tasks import Progress
+from roughline.report.values import figure, up_to_three_digits
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.units import engineering, supported_digits
 
@@ -109,7 +101,7 @@ class Fluid(Physics):
             item(
                 *("aperture", "u_h", f"{value} h" + (" *" if doubt else "")),
                 _MEANING + (f" But {doubt}." if doubt else ""),
-                bounded(aperture, ends, "m"),
+                up_to_three_digits(aperture, ends, "m"),
             ),
             item(
                 *("channel", "largest channel", share),

@@ -9,7 +9,8 @@ import roughline as rl
 from roughline.lab.controls import Control, ControlError, as_code
 from roughline.lab.explore.controls import Quantity
 from roughline.lab.explore.state import ExploreState, Item, Physics
-from roughline.lab.explore.words import engineering_figure, figure, item
+from roughline.lab.explore.words import item
+from roughline.report.values import figure, up_to_three_digits
 
 _THINNEST = 0.5  # of a cell, below which the library refuses a layer
 
@@ -89,14 +90,15 @@ class Layer(Physics):
 
     def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Its thickness on the grid, and its modulus."""
-        thickness, modulus = self.t * state.length, self.E_l * state.E_star
+        thickness = up_to_three_digits(self.t * state.length, None, "m")
+        modulus = up_to_three_digits(self.E_l * state.E_star, None, "Pa")
         cells = self.t * fields.gap.shape[0]
         return [
             item(
                 *("layer", "layer", f"{figure(cells)} cells"),
                 "Thickness of the layer in cells of this grid; with its unit, and the contact "
                 "modulus of the layer, below.",
-                f"{engineering_figure(thickness, 'm')}, E*_l {engineering_figure(modulus, 'Pa')}",
+                f"{thickness}, E*_l {modulus}",
             )
         ]
 

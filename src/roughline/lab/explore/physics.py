@@ -10,9 +10,10 @@ from roughline.lab.explore.adhesion import Adhesion
 from roughline.lab.explore.controls import CHOICES, NUMBERS
 from roughline.lab.explore.fluid import Fluid
 from roughline.lab.explore.layer import Layer
-from roughline.lab.explore.panels import PANELS, Panel
+from roughline.lab.explore.panels import PANELS
 from roughline.lab.explore.state import Physics
 from roughline.lab.explore.yielding import Yielding
+from roughline.lab.panels import Panel
 
 PHYSICS: tuple[type[Physics], ...] = (Layer, Yielding, Adhesion, Fluid)
 """All kinds, in the order of their ticks."""

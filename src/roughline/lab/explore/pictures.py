@@ -16,8 +16,7 @@ from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES
-from roughline.lab.explore.maps import contact_maps
-from roughline.lab.explore.panels import Filled, Points, kept, loads, note_of, span
+from roughline.lab.explore.panels import kept, loads, note_of
 from roughline.lab.explore.pressing import CURVE_POINTS, borne, pressed_under
 from roughline.lab.explore.reading import usable_state
 from roughline.lab.explore.state import ExploreState
@@ -29,8 +28,9 @@ from roughline.lab.explore.words import (
     status,
     unlike,
 )
-from roughline.lab.frames import frame
-from roughline.lab.maps import Map
+from roughline.lab.frames import drawn
+from roughline.lab.maps import Map, contact_maps, height_map
+from roughline.lab.panels import Filled, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
 from roughline.theories.theory import OF_ONE_MATERIAL, why_not
@@ -67,8 +67,8 @@ def line(state: ExploreState, count: int = _LINES) -> dict[str, Any]:
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
     here = int(np.searchsorted(forces, state.F))
     rows = [[*row, "1D"] for row in number_rows(forces, mean)]
-    drawn = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
-    filled = Filled({"line": drawn}, rows, legends={"line": _line_legend(state)})
+    points = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
+    filled = Filled({"line": points}, rows, legends={"line": _line_legend(state)})
     return {
         "panels": {"stiffness": filled},
         "stiffness_bar_1d": float(mean[here]),
@@ -159,7 +159,7 @@ def contact(
         measures=state.measures,
     )
     fields = pressed.fields[0]
-    maps = {} if fields is None else contact_maps(state, surface, fields)
+    maps = {} if fields is None else _maps(state, surface, fields)
     strip = contact_words(pressed, fields, surface, state)
     is_known, force = pressed.converged, state.force_bars(pressed)
     panels = {
@@ -179,6 +179,24 @@ def contact(
     return told, maps, {"topography": shaded(surface)}
 
 
+def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
+    """The maps of a contact, by the words that choose them."""
+    height = surface.rms_height
+    maps = {
+        "height": height_map((surface.heights - surface.heights.mean()) / height, "/ h"),
+        **contact_maps(
+            fields,
+            pressure=(1 / state.E_star, "/ E*"),
+            gap=(1 / height, "/ h"),
+            deflection=(1 / height, "/ h"),
+            yields=isinstance(state.law, rl.Yielding),
+        ),
+    }
+    for each in state.added:
+        maps |= each.maps_of(fields, state)
+    return maps
+
+
 def _message(
     state: ExploreState,
     refused: Mapping[str, str],
@@ -187,13 +205,8 @@ def _message(
     arrays: Mapping[str, NDArray[Any]] | None = None,
 ) -> bytes:
     """An answer, with what the page is told of its controls: what counts, and what does not."""
-    arrays = {**(arrays or {}), **{name: each.values for name, each in (maps or {}).items()}}
-    panels = {name: vars(each) for name, each in told.get("panels", {}).items()}
-    looks = {name: each.look for name, each in (maps or {}).items()}
-    return frame(
-        {**_settled(state, refused), **told, "panels": panels, "maps": looks},
-        {name: values.T for name, values in arrays.items()},  # rows of an image run along x
-    )
+    header = {**_settled(state, refused), **told}
+    return drawn(header, told.get("panels", {}), maps or {}, arrays)
 
 
 def _is_first_step(arguments: Arguments) -> bool:
@@ -259,7 +272,7 @@ def _theories(
     state: ExploreState, surface: rl.Surface
 ) -> tuple[dict[str, dict[str, Points]], list[str]]:
     """Theories for the waves of the surface, as panels draw them, and how far they hold."""
-    drawn: dict[str, dict[str, Points]] = {"stiffness": {}, "area": {}}
+    lines: dict[str, dict[str, Points]] = {"stiffness": {}, "area": {}}
     remarks, pressures = [], state.force(_THEORY_FORCES) / surface.area
     for name in state.theories:
         called = CHOICES["theories"].options[name]
@@ -270,8 +283,8 @@ def _theories(
             warnings.simplefilter("ignore", rl.ContinuumWarning)  # its sentence is in the validity
             found = rl.theory(name, surface, pressure=pressures, half_space=state.half_space)
         remarks.append(f"{called}: {found.validity}")
-        drawn["area"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": found.area_fraction}
+        lines["area"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": found.area_fraction}
         if found.stiffness is not None:
             values = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)
-            drawn["stiffness"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": values}
-    return drawn, remarks
+            lines["stiffness"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": values}
+    return lines, remarks

@@ -16,8 +16,8 @@ from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.errors.checks import shown
 from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_code, as_text, has_unit
 from roughline.lab.explore.controls import CHOICES, NUMBERS, Quantity
-from roughline.lab.explore.panels import Filled, Panel, Series
 from roughline.lab.maps import Map
+from roughline.lab.panels import Filled, Panel, Series
 from roughline.lab.server.tasks import Progress
 from roughline.units import in_si
 

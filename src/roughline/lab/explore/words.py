@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -12,8 +11,8 @@ import roughline as rl
 from roughline.assessment.uncertainty import intervals_of
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.lab.explore.state import ExploreState, Item
-from roughline.report.values import scale_of
-from roughline.units import decimal, supported_digits
+from roughline.report.values import figure, up_to_three_digits
+from roughline.units import supported_digits
 
 _DIGITS = 3
 
@@ -46,7 +45,7 @@ def contact_words(
         *_stiffness_and_area(pressed, state),
         *_pressure_and_depth(pressed, fields, state),
         item(
-            *("roughness", "h", engineering_figure(surface.rms_height, "m")),
+            *("roughness", "h", up_to_three_digits(surface.rms_height, None, "m")),
             "Rms height; the rms slope on this grid is given below.",
             f"slope {figure(surface.rms_slope)}",
         ),
@@ -71,14 +70,14 @@ def _stiffness_and_area(pressed: rl.Curve, state: ExploreState) -> list[Item]:
             "square punch. The interval shows how far finer grids may change it."
             + " It is that at a given reach of the pull: along a branch the slope is less." * sticks
             + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
-            bounded(stiffness, of_k, "N/m"),
+            up_to_three_digits(stiffness, of_k, "N/m"),
         ),
         item(
             *("area", "contact"),
             f"{figure(100 * area, supported_digits(area, of_area, _DIGITS))}%",
             "Real contact area over the nominal one, corrected for the steps of its outline. The "
             "interval shows how much finer grids, with finer roughness, may change it.",
-            bounded(area, of_area, "%").partition(" ")[2],
+            up_to_three_digits(area, of_area, "%").partition(" ")[2],
         ),
     ]
 
@@ -91,17 +90,17 @@ def _pressure_and_depth(pressed: rl.Curve, fields: rl.Fields, state: ExploreStat
         item(
             *("pressure", "p_c", f"{figure(in_contact / state.E_star)} E*"),
             "Mean pressure within the contact, over the cells that touch.",
-            engineering_figure(in_contact, "Pa") + over_hardness,
+            up_to_three_digits(in_contact, None, "Pa") + over_hardness,
         ),
         item(
             *("depth", "d", f"{figure(depth / pressed.rms_height)} h"),
             "Depth since the first touch of the highest summit.",
-            engineering_figure(depth, "m"),
+            up_to_three_digits(depth, None, "m"),
         ),
         item(
-            *("force", "F", engineering_figure(force, "N")),
+            *("force", "F", up_to_three_digits(force, None, "N")),
             "Total force on the surface, for the side and the contact modulus that are set.",
-            f"{engineering_figure(force / state.length**2, 'Pa')} over the nominal area",
+            f"{up_to_three_digits(force / state.length**2, None, 'Pa')} over the nominal area",
         ),
     ]
 
@@ -119,31 +118,6 @@ def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str
 def first(ends: Any) -> tuple[float, float] | None:
     """Both ends of an interval at the first load; None where there is no interval."""
     return None if ends is None else (float(ends[0][0]), float(ends[1][0]))
-
-
-def figure(value: float, digits: int = _DIGITS) -> str:
-    """A number with significant digits, its zeros kept."""
-    text = decimal(value, digits)
-    if not value or not math.isfinite(value) or "e" in text:
-        return text
-    exponent = math.floor(math.log10(abs(float(text))))
-    return f"{float(text):.{max(digits - 1 - exponent, 0)}f}"
-
-
-def engineering_figure(value: float, unit: str, digits: int = _DIGITS) -> str:
-    """A value with its unit and a prefix, its zeros kept."""
-    factor, sign = scale_of(value, unit, digits)
-    return f"{figure(factor * value, digits)}{sign}"
-
-
-def bounded(value: float, ends: tuple[float, float] | None, unit: str) -> str:
-    """A value with its unit, and its interval with the same unit in brackets."""
-    if ends is None or not np.isfinite([value, *ends]).all():
-        return engineering_figure(value, unit)
-    digits = supported_digits(value, ends, _DIGITS)
-    factor, sign = scale_of(value, unit, digits)
-    low, high = (figure(factor * end) for end in ends)
-    return f"{figure(factor * value, digits)}{sign} ({low} to {high}{sign})"
 
 
 def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:

@@ -13,12 +13,13 @@ from roughline.assessment.question import UNLOADING
 from roughline.assessment.uncertainty import intervals_of
 from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import Quantity
-from roughline.lab.explore.panels import BACK, Filled, kept, marks
+from roughline.lab.explore.panels import BACK, kept
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
-from roughline.lab.explore.words import bounded, engineering_figure, figure, first, item, rows_of
-from roughline.lab.maps import Map
+from roughline.lab.explore.words import first, item, rows_of
+from roughline.lab.panels import Filled, marks
 from roughline.lab.server.tasks import Progress
+from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
 _IN_PYTHON = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
@@ -90,25 +91,20 @@ class Yielding(Physics):
                 "Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs back, "
                 "while on loading the spots at the hardness bear no more. Ultrasound and currents "
                 "depend on it.",
-                bounded(unloading, ends, "N/m"),
+                up_to_three_digits(unloading, ends, "N/m"),
             ),
             item(
                 *("plastic", "plastic", f"{figure(100 * float(pressed.plastic_fraction[0]))}%"),
                 "Share of the contact that is at the hardness; the hardness is given below.",
-                f"H {engineering_figure(self.hardness(state), 'Pa')}",
+                f"H {up_to_three_digits(self.hardness(state), None, 'Pa')}",
             ),
             item(
                 *("indentation", "indentation"),
                 f"{figure(indentation / pressed.rms_height)} h",
                 "Largest permanent indentation, which remains after unloading.",
-                bounded(indentation, None, "m"),
+                up_to_three_digits(indentation, None, "m"),
             ),
         ]
-
-    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
-        """Where points of the contact are at the hardness."""
-        area = fields.contact.astype(np.uint8) + fields.plastic
-        return {"area": Map(area, "marks", 0, 2, marks=("ink", "plastic"))}
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
         """Follow the way back from the load to none."""

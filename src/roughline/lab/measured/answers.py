@@ -17,7 +17,7 @@ from roughline.assessment.part import PartAssessment
 from roughline.assessment.question import Question
 from roughline.errors.remark import DATA, INTERVALS, LIMITS, Remark
 from roughline.errors.words import speaking
-from roughline.lab.frames import frame
+from roughline.lab.frames import drawn
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.part import part_in_words
 from roughline.lab.measured.pictures import of_contact, of_curve, of_models
@@ -43,7 +43,7 @@ from roughline.report.answers import (
 from roughline.report.comparison import verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table, modulus_in_words
 from roughline.report.page import sentence
-from roughline.report.values import in_three_digits
+from roughline.report.values import up_to_three_digits
 from roughline.units import engineering
 
 _SLIP_ROWS = 12
@@ -63,19 +63,17 @@ def answer(arguments: Arguments, progress: Progress) -> bytes:
         shown = int(wanted or 0) if is_there else 0
         told += [_in_words(result, "part"), part_in_words(result, shown)]
         result = result.assessments[shown]
-    panels, contact, arrays = of_contact(result)
     told += [_in_words(result, "answers"), _of_body(result)]
-    told += [{"panels": panels | of_curve(result), "choices": {"measured-contact": contact}}]
     header: dict[str, Any] = {}
     for each in told:
         for key, value in each.items():
             header[key] = {**header.get(key, {}), **value} if isinstance(value, dict) else value
-    return frame(header, arrays)
+    return drawn(header, of_curve(result), of_contact(result))
 
 
 def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]:
     """What was asked, the answers that lead, and all answers in a table with groups."""
-    write, has_elastic = in_three_digits, isinstance(result, Assessment)
+    write, has_elastic = up_to_three_digits, isinstance(result, Assessment)
     star = f"* {UNRESOLVED}" if star_is_shown(result) else ""
     table: tuple[Any, ...] = (["the maps have no common answers"], [])
     if result.answers:
@@ -176,4 +174,4 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
     star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"
     words = {"what": found.what, "verdict": sentence(verdict_in_words(found)), "compare-star": star}
     lists = {"compare-notes": result.warnings}
-    return frame({"words": words, "lists": lists, "panels": {"measured-models": of_models(found)}})
+    return drawn({"words": words, "lists": lists}, of_models(found), {})

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from roughline.assessment.asked import Theories
 from roughline.assessment.loads import Hardness, hardness_of
 from roughline.assessment.notes import meaning_of_loads, of_unknown_hardness
 from roughline.assessment.question import DEFAULT_LOADS, Question
@@ -38,7 +39,8 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         question = question_of(said, Source(Path("no file yet"), "", ""))
         with at("joint_area" if "joint_area" in said else ""):
             if body is not None:
-                question = replace(question, body=body, reading=Reading())
+                asked = [each for each in question.ask if not isinstance(each, Theories)]
+                question = replace(question, body=body, reading=Reading(), ask=asked)
         return question, said
 
     (question, said), refused = used_in(arguments, read)

@@ -9,7 +9,7 @@ from roughline.assessment.description import Description, describe_measurement
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
 from roughline.errors.words import speaking
-from roughline.lab.frames import frame
+from roughline.lab.frames import drawn
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.pictures import of_file, of_preparation
 from roughline.lab.measured.state import (
@@ -36,7 +36,6 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
     """What the file holds, what it leaves open, and its roughness as it is read."""
     found, refused, _ = _described(arguments, "file")
     content = found.measurement
-    panels, arrays = of_file(found)
     header = {
         "name": source_of(said_of(arguments), arguments["session"]).name,
         "refused": refused,
@@ -47,32 +46,30 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
         },
         "channel": content.channel,
         "body": _body(found),
-        "panels": panels,
         "tables": {"measured-roughness": [["", ""], description_table(found)]},
         "lists": {"obstacles": found.obstacles, "remarks": _remarks(found)},
     }
-    return frame(header, arrays)
+    return drawn(header, *of_file(found))
 
 
 @speaking(CONTROLS)
 def prepare(arguments: Arguments, progress: Progress) -> bytes:
     """The file before and after its preparation."""
     found, refused, crop = _described(arguments, "preparation")
-    header = {"refused": refused, "body": _body(found)}
+    header = {"refused": refused, "body": _body(found), "crop": crop}
     obstacles, body = {"obstacles": found.obstacles}, found.body
     if body is None:
-        return frame({**header, "lists": obstacles})
+        return drawn({**header, "lists": obstacles}, {}, {})
     before, _, _ = _described(arguments, "file")
-    panels, arrays = of_preparation(before.body or body, body, crop)
     old, new = (dict(description_table(each)) for each in (before, found))
     names = [name for name in old | new if name != "file"]
     rows = [[name, old.get(name, "-"), new.get(name, "-")] for name in names]
     header |= {
-        "panels": panels,
         "lists": obstacles | {"prepared-remarks": _remarks(found)},
         "tables": {"measured-prepared": [["", "before", "after"], rows]},
     }
-    return frame(header, arrays)
+    corner = (crop or (0.0, 0.0, 0.0, 0.0))[::2]
+    return drawn(header, *of_preparation(before.body or body, body, corner))
 
 
 def _described(

@@ -14,7 +14,6 @@ from roughline.assessment.source import Topography
 from roughline.errors.checks import shortened
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
-from roughline.lab.measured.pictures import Panel
 from roughline.lab.measured.state import (
     CONTROLS,
     preparation_of,
@@ -23,10 +22,11 @@ from roughline.lab.measured.state import (
     sources_of,
     used_in,
 )
+from roughline.lab.panels import Filled, Points
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
 from roughline.report.answers import leading_keys, unit_shown
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
-from roughline.report.values import scale_of, three_digits
+from roughline.report.values import figure, scale_of
 
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
 
@@ -61,37 +61,30 @@ def part_in_words(part: PartAssessment, shown: int) -> dict[str, Any]:
         assert answer is not None
         values = np.array([each.values[part.largest] for each in answer.of_maps])
         if np.ptp(values) > _SAME * np.max(values):  # those that differ between the maps
-            drawn[f"{answer.name} {answer.symbol}"] = _panel(part, answer, values)
+            drawn[f"{answer.name} {answer.symbol}"] = vars(_panel(part, answer, values))
     maps = {"names": part.names, "shown": shown}
-    return {"part": maps, "tables": tables, "choices": {"measured-part": drawn}}
+    return {"part": maps, "tables": tables, "choices": {"part": drawn}}
 
 
-def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]) -> Panel:
+def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]) -> Filled:
     """One answer of each map at the largest load, the mean, and the part's interval."""
-    load = part.largest
+    load, count = part.largest, len(part.names)
     factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer))
     unit, (low, high) = unit.strip(), (end * factor for end in answer.ends_of_maps(load))
     values, mean = values * factor, float(answer.mean[load]) * factor
     whole = [float(end[load]) * factor for end in (answer.low, answer.high)]
     cells = zip([*values, mean], [*low, whole[0]], [*high, whole[1]], strict=True)
-    rows = [[f"{three_digits(each)} {unit}".strip() for each in row] for row in cells]
-    maps = [f"{i} {shortened(name)}" for i, name in enumerate(part.names, 1)]
-    band = {"bottom": whole[0], "top": whole[1]} if np.isfinite(whole).all() else {}
-    line = {"location": mean} if np.isfinite(mean) else {}
-    return {
-        "factors": maps,
-        "span": [*values, *low, *high, mean, *whole],
-        "sources": {"part": {"map": maps, "y": values, "low": low, "high": high}},
-        "models": {
-            "part mean": {"visible": bool(line), **line},
-            "part interval": {"visible": bool(band), **band},
-        },
-        "axes": [None, f"{answer.name} {answer.symbol}" + (f" [{unit}]" if unit else "")],
-        "caption": f"at {part.headings[load]}; marks: each map and its interval; band: that of the "
-        "mean, for the part",
-        "table": [
-            ["map", "value", "from", "to"],
-            [[name, *row] for name, row in zip([*part.names, "mean"], rows, strict=True)],
-        ],
-        "extent": f"{maps} {answer.name}",
+    rows = [[f"{figure(each)} {unit}".strip() for each in row] for row in cells]
+    ends = (0.5, count + 0.5)
+    series: dict[str, Points] = {
+        "maps": {"x": np.arange(1, count + 1), "y": values, "low": low, "high": high},
+        "mean": {"x": ends, "y": 2 * [mean], "low": 2 * whole[:1], "high": 2 * whole[1:]},
     }
+    return Filled.fitted(
+        series,
+        x=ends,
+        axes=("", f"{answer.name} {answer.symbol}" + (f" [{unit}]" if unit else "")),
+        caption=f"at {part.headings[load]}",
+        names=[f"{i} {shortened(name)}" for i, name in enumerate(part.names, 1)],
+        rows=[[name, *row] for name, row in zip([*part.names, "mean"], rows, strict=True)],
+    )

@@ -17,12 +17,7 @@ from roughline.assessment.reading import Reading
 from roughline.assessment.told import refuse_alone
 from roughline.engineering.materials import material
 from roughline.errors.words import Words
-from roughline.lab.controls import (
-    ControlError,
-    refuse_strange,
-    texts_of,
-    usable,
-)
+from roughline.lab.controls import ControlError, refuse_strange, texts_of, usable
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import EXAMPLES, path_of
 from roughline.lab.server.tasks import Arguments
@@ -66,10 +61,7 @@ class Source:
 def said_of(arguments: Arguments) -> Said:
     """The texts of the controls by their keys; empty ones are as if they were not there.
 
-    Raises
-    ------
-    ControlError
-        If one has no place here, or the link that they are from is of another version.
+    One that has no place here is refused, and a link of another version.
     """
     said = texts_of(arguments)
     refuse_strange(said, _KNOWN)
@@ -79,10 +71,7 @@ def said_of(arguments: Arguments) -> Said:
 def used_in(arguments: Arguments, read: Callable[[Said], _Read]) -> tuple[_Read, dict[str, str]]:
     """What is read of the texts that can be used, and why others are not, by control.
 
-    Raises
-    ------
-    ControlError
-        If what is wrong is the whole link, or not the text of a control.
+    What is wrong with the whole link, or not with the text of a control, is refused.
     """
     settings = {key: text for key, text in texts_of(arguments).items() if key not in _FILES}
     return usable(
@@ -94,24 +83,12 @@ def used_in(arguments: Arguments, read: Callable[[Said], _Read]) -> tuple[_Read,
 
 
 def source_of(said: Said, session: Mapping[str, Any]) -> Source:
-    """The file that a page means, or the first of them.
-
-    Raises
-    ------
-    ControlError
-        If there is none, or it is gone.
-    """
+    """The file that a page means, or the first of them."""
     return sources_of(said, session)[0]
 
 
 def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
-    """The files that a page means: several are maps of one part.
-
-    Raises
-    ------
-    ControlError
-        If there is none, or one is gone.
-    """
+    """The files that a page means, unless one is gone: several are maps of one part."""
     if key := said.get("example"):
         if key not in EXAMPLES:
             raise ControlError(
@@ -132,13 +109,7 @@ def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
 
 
 def told_in(said: Said, *groups: str) -> dict[str, Any]:
-    """What the controls of the fields in some groups tell, by the names of the fields.
-
-    Raises
-    ------
-    ControlError
-        If a text cannot be used, at its control.
-    """
+    """What the controls of the fields in some groups tell, by the names of the fields."""
     given = {}
     for key, field in c.BY_CONTROL.items():
         text = said.get(key)
@@ -178,13 +149,7 @@ def preparation_of(said: Said) -> Preparation | None:
 
 
 def question_of(said: Said, source: Source) -> Question:
-    """The question that the page asks of one of its files.
-
-    Raises
-    ------
-    ControlError
-        If a text cannot be used; it says at which control.
-    """
+    """The question that the page asks of one of its files."""
     given = bodies_of(said) | told_in(said) | {"whole_curve": bool(loads_of(said))}
     with at(""):
         return told.question_of(source.path, given, source.name)

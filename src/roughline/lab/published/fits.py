@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from roughline.lab.frames import frame
+from roughline.lab.frames import drawn
+from roughline.lab.panels import Filled
 from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
 from roughline.lab.published.ensembles import curve_of, law_of, usable_state
 from roughline.lab.published.state import PublishedState, Window
@@ -59,23 +60,23 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
     """The power laws of both models in their windows, with what the paper states beside them."""
     state, settled = usable_state(arguments)
     every = {m: [_Fit.of(state, m, d) for d in state.dimensions] for m in MODELS}
-    answer: dict[str, Any] = {"draw": {}, "look": {}, "tables": {}, "words": {}, "strip": []}
+    panels = {"exponents": Filled()}
+    answer: dict[str, Any] = {"windows": {}, "tables": {}, "words": {}, "strip": []}
     for model, found in every.items():
         keys = {edge.key for edge in WINDOWS[model]}
         refused = (text for key, text in settled["refused"].items() if key in keys)
-        edges = [np.array(each.law.window) for each in found]
-        answer["draw"][f"stiffness {model} fits"] = {
-            "xs": edges,
-            "ys": [each.law(x) for each, x in zip(found, edges, strict=True)],
-        }
-        answer["draw"][f"exponents {model}"] = {
+        edges = [np.array([*each.law.window, np.nan]) for each in found]  # a gap before the next
+        laws = [each.law(x) for each, x in zip(found, edges, strict=True)]
+        panels[f"stiffness-{model}"] = Filled(
+            {"fits": {"x": np.concatenate(edges), "y": np.concatenate(laws)}}
+        )
+        panels["exponents"].series[model] = {
             "x": [each.dimension for each in found],
             "y": [each.alpha.value for each in found],
             "low": [each.alpha.low for each in found],
             "high": [each.alpha.high for each in found],
         }
-        window = state.window(model)
-        answer["look"][f"window {model}"] = dict(zip(("left", "right"), window, strict=True))
+        answer["windows"][model] = window = state.window(model)
         answer["tables"][f"fit-{model}"] = {
             "header": ["D_f", "α", "ζ", "paper: 1 / (4 - D_f)", f"paper: {_OTHER[model]}"],
             "rows": [_row(model, each) for each in found],
@@ -92,7 +93,7 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
             for d, one, three in zip(state.dimensions, *rows, strict=True)
         ],
     }
-    return frame({**settled, **answer})
+    return drawn({**settled, **answer}, panels, {})
 
 
 def _row(model: ModelLabel, fit: _Fit) -> list[str]:

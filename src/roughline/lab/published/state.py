@@ -33,13 +33,7 @@ class PublishedState:
 
 
 def state_of(said: Texts) -> PublishedState:
-    """Read the parameters of an address, or the texts of the controls, or their defaults.
-
-    Raises
-    ------
-    ControlError
-        If the version is another, or a text cannot be used; it says at which control.
-    """
+    """Read the parameters of an address, or the texts of the controls, or their defaults."""
     refuse_strange(said, {*NUMBERS, *CHOICES, "D_f"})
     state = PublishedState(
         _dimensions(said.get("D_f")),

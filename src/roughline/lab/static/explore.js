@@ -1,11 +1,9 @@
 // Explore: a random surface under both models, as sliders move. What can be added to the contact, and which curves
 // there are, the server declares.
 import {Controls} from "./controls.js";
-import {typeset} from "./elements.js";
-import {exploreFigures} from "./explore-figures.js";
 import {onDraw} from "./hands.js";
-import {Maps, layersOf} from "./maps.js";
-import {embedded, points} from "./plots.js";
+import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
+import {panelsOf} from "./panels.js";
 import {Strip} from "./strip.js";
 import {fillCaption, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
@@ -13,7 +11,6 @@ import {TakeAlong} from "./take_along.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
-const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
 const MAPS = ["explore-topography", "explore-contact"];
 const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
 const LEFT_BY_OTHERS = "curves belong to the contact before";
@@ -27,14 +24,14 @@ export async function open(link, address, said) {
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
   #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
-  #physics; #panels; #cursors; // as the server declares them
+  #physics; #cursors; // as the server declares them
+  #panels = null;
 
   constructor(link, address) {
     this.#link = link;
     this.#address = address;
-    const {physics, panels, strip} = JSON.parse(this.#find("[data-declared]").dataset.declared);
+    const {physics, panels, strip} = JSON.parse(this.#root.dataset.declared);
     this.#physics = physics;
-    this.#panels = panels;
     this.#cursors = panels.filter(({cursor}) => cursor);
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
     this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
@@ -58,7 +55,8 @@ class Explore {
     this.#stale = new Set(this.#finer);
     this.#dim(["contact", ...this.#stale]);
     this.#askNow();
-    this.#plots = await embedded(() => exploreFigures(this.#panels));
+    this.#panels = await panelsOf(this.#root, maps);
+    this.#plots = this.#panels.plots;
     for (const {key, cursor} of this.#cursors) {
       this.#plots.onMove(`${key} cursor`, (force) => this.#cursorMoved(force));
       onDraw(this.#plots.root(`explore-${key}`), this.#find(`[data-draw="${key}"]`),
@@ -79,7 +77,6 @@ class Explore {
   }
 
   #find(selector) { return this.#root.querySelector(selector); }
-  #declared(key) { return this.#panels.find((panel) => panel.key === key); }
   #isAdded(key) { return Boolean(this.#controls.said[key]); }
 
   // Take the texts of an address, or none.
@@ -106,7 +103,7 @@ class Explore {
     else if (tabs.some((tab) => tab.ariaSelected === "true")) this.#find("[role=tab]").click();
     if (isAdded) return;
     this.#show(key, {});
-    for (const panel of panels) this.#panelOf(panel).classList.replace("dimmed", "empty");
+    for (const panel of panels) this.#panelOf(panel).classList.remove("dimmed");
   }
 
   #missed = []; // answers that came before the plots were there
@@ -231,58 +228,10 @@ class Explore {
     const before = this.#answers.get(what) ?? {};
     this.#answers.delete(what);
     this.#answers.set(what, header); // those that came last are at the end
-    if (!this.#plots) return;
-    for (const [key, {series}] of Object.entries(before.panels ?? {})) {
-      for (const name of Object.keys(series)) if (!header.panels?.[key]?.series[name]) this.#mark(key, name, {x: [], y: []});
-      if (header.panels?.[key]) continue;
-      this.#fillRows(key);
-      this.#remark(key, "");
-    }
-    for (const [key, filled] of Object.entries(header.panels ?? {})) this.#fill(what, key, filled, header.numbers);
+    if (!this.#panels) return;
+    this.#panels.show(what, header.panels ?? {}, header.numbers);
     const said = (header.strip ?? []).map(({key}) => key);
     this.#strip.add(header.strip ?? [], (before.strip ?? []).map(({key}) => key).filter((key) => !said.includes(key)));
-  }
-
-  #fill(what, key, {series, legends, rows, caption, remarks, x, y}, numbers) {
-    for (const [axis, range] of Object.entries({x, y})) if (range) this.#plots.range(`explore-${key}`, axis, ...range);
-    for (const [name, columns] of Object.entries(series)) this.#mark(key, name, columns);
-    for (const [name, value] of Object.entries(legends)) this.#plots.call(`${key} ${name}`, value);
-    if (y) this.#placeZeros(key);
-    if (caption) this.#captionOf(key).textContent = caption;
-    if (remarks !== null) this.#remark(key, remarks);
-    if (!rows) return;
-    this.#fillRows(key);
-    this.#plots.shows(`explore-${key}`, {what, numbers});
-    const {task} = this.#declared(key), {classList} = this.#panelOf(key);
-    if (task === what) classList.remove("dimmed");
-    if (task === what || what === "line") classList.remove("empty");
-  }
-
-  #remark(key, text) { this.#find(`[data-remarks="${key}"]`).replaceChildren(...typeset(text)); }
-
-  // The table of a panel has the rows of all answers; those of the lines stand below.
-  #fillRows(key) {
-    const rows = [...this.#answers].sort(([a], [b]) => (a === "line") - (b === "line"))
-      .flatMap(([, {panels}]) => panels?.[key]?.rows ?? []);
-    fillTable(`explore-${key}`, this.#declared(key).columns, rows);
-  }
-
-  // Draw points, and name them in the legend if there are any; zeros stand at the foot of a logarithmic axis.
-  #mark(key, name, {x, y, ...others}) {
-    const {start, end} = this.#plots.root(`explore-${key}`).y_range, {is_logarithmic} = this.#declared(key);
-    const foot = start * (end / start) ** FOOT;
-    const raised = is_logarithmic ? y.map((value) => (value === 0 ? foot : value)) : y;
-    const drawn = "low" in others ? {x, y, ...others} : points(x, raised);
-    this.#plots.set(`${key} ${name}`, drawn);
-  }
-
-  // Put zeros of all answers at the foot of an axis whose range has changed.
-  #placeZeros(key) {
-    for (const {panels} of this.#answers.values()) {
-      for (const [name, columns] of Object.entries(panels?.[key]?.series ?? {})) {
-        if (columns.y.includes(0)) this.#mark(key, name, columns);
-      }
-    }
   }
 
   // Take away what belongs to another load from the panels that others fill.
@@ -296,11 +245,11 @@ class Explore {
   #drawField() {
     const {shown: wanted} = this.#controls.said, {maps, arrays} = this.#fields, shown = wanted in maps ? wanted : "area";
     if (!(shown in maps)) return; // the load was not solved
-    const {caption, marks, ring} = maps[shown];
+    const {caption, marks, rings} = maps[shown];
     fillCaption(this.#captionOf("shown"), caption, marks);
     this.#maps.show("topography", arrays.topography, maps.height);
     this.#maps.show("contact", arrays[shown], maps[shown]);
-    this.#plots.set("contact rings", {x: ring ? [ring[0]] : [], y: ring ? [ring[1]] : []});
+    this.#plots.set("contact rings", {x: rings.map(([x]) => x), y: rings.map(([, y]) => y)});
     this.#maps.tell(layersOf(maps, arrays));
   }
 
@@ -380,6 +329,16 @@ class Explore {
     this.#find('[data-control="h"]').hidden = bySlope;
     this.#find('[data-control="slope"]').hidden = !bySlope;
   }
+}
+
+// Both maps with their profile.
+function maps() {
+  const ranges = sharedRanges();
+  return {
+    "explore-topography": mapFigure("topography", {isOfColours: true, ranges}),
+    "explore-contact": mapFigure("contact", {rings: "here", ranges}),
+    "explore-profile": profileFigure(),
+  };
 }
 
 // Let controls stay in sight while the page scrolls: by their end, if they are longer than the window.

@@ -6,8 +6,6 @@ const COLUMNS = { // that glyphs take
   line: {x: "x", y: "y"},
   scatter: {x: "x", y: "y"},
   varea: {x: "x", y1: "low", y2: "high"},
-  multi_line: {xs: "xs", ys: "ys"},
-  patches: {xs: "xs", ys: "ys"},
   quad: {left: "left", right: "right", bottom: "bottom", top: "top"},
   image: IMAGE,
   image_rgba: IMAGE,
@@ -34,11 +32,10 @@ function tools(match_aspect = false) {
 // What the legend of a plot names: of each glyph its source, its words, and how it looks.
 const legends = new WeakMap();
 export function legendOf(plot) { return legends.get(plot) ?? []; }
-export function name(plot, ...glyphs) { legends.set(plot, [...legendOf(plot), ...glyphs]); }
 
 // Let a plot draw the columns of a source, which several glyphs may share, and name it in its legend.
-export function draw(plot, kind, source_name, {columns, colours = {}, legend, ...look} = {}) {
-  const fields = Object.fromEntries(Object.entries({...COLUMNS[kind], ...columns}).map(([key, field]) => [key, {field}]));
+export function draw(plot, kind, source_name, {colours = {}, legend, ...look} = {}) {
+  const fields = Object.fromEntries(Object.entries(COLUMNS[kind]).map(([key, field]) => [key, {field}]));
   if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
   const source = plot.renderers.find(({data_source}) => data_source.name === source_name)?.data_source
     ?? new Bokeh.ColumnDataSource({name: source_name});
@@ -47,7 +44,7 @@ export function draw(plot, kind, source_name, {columns, colours = {}, legend, ..
   const drawn = plot[kind]({...fields, ...look, source});
   drawn.setv({selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
   drawn.glyph.tags = [{colours}];
-  if (legend) name(plot, {source: source.name, legend, kind, look, colours});
+  if (legend) legends.set(plot, [...legendOf(plot), {source: source.name, legend, kind, look, colours}]);
   return drawn;
 }
 
@@ -58,9 +55,9 @@ export function add(plot, kind, name, {colours = {}, ...look}, side = "center") 
   return added;
 }
 
-// Draw marks with their intervals, from "low" to "high".
-export function drawIntervals(plot, name, colour, {size = 8, ...look} = {}) {
-  const {data_source: source} = draw(plot, "scatter", name, {size, ...look, colours: {fill_color: colour, line_color: colour}});
+// Draw intervals from "low" to "high" about the points of a source that is drawn.
+export function drawIntervals(plot, name, colour, size) {
+  const {data_source: source} = plot.renderers.find(({data_source}) => data_source.name === name);
   source.data = {...source.data, low: [], high: []};
   const head = () => new Bokeh.TeeHead({size: size - 1, tags: [{colours: {line_color: colour}}]});
   add(plot, "Whisker", `${name} intervals`, {

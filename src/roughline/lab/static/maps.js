@@ -176,7 +176,7 @@ export class Maps {
     const along = (layer) => shares.map((share) => at(layer,
       (from.x + share * (to.x - from.x)) / this.#sizes[0], (from.y + share * (to.y - from.y)) / this.#sizes[1]));
     const x = shares.map((share) => share * Math.hypot(to.x - from.x, to.y - from.y)), surface = along(height);
-    const factor = gap ? gap.factor ?? 1 : 1, body = gap ? along(gap).map((value, i) => surface[i] + factor * (value || 0)) : [];
+    const body = gap ? along(gap).map((value, i) => surface[i] + (value || 0)) : [];
     this.#plots.set("profile surface", {x, y: surface});
     this.#plots.set("profile body", {x: gap ? x : [], y: body});
     this.#plots.label(plot, withUnit("along the line", this.#unit), withUnit("height", height.unit));
@@ -241,7 +241,7 @@ function ofFlux() {
 // Layers to tell of: looks by their keys, with their arrays; what has no title is not told.
 export function layersOf(looks, arrays) {
   return Object.entries(looks).flatMap(([key, look]) => {
-    const array = arrays[look.array ?? key];
+    const array = arrays[key];
     return look.title && array ? [{key, ...look, array}] : [];
   });
 }

@@ -5,7 +5,6 @@ import {element} from "./elements.js";
 import {recall, remember} from "./remember.js";
 
 export const TASKS = ["answers", "compare", "report"];
-const VERDICTS = {confirmed: "good", refuted: "error", undecided: "doubt"};
 
 export class Answers {
   #link; #view; #part;
@@ -117,7 +116,7 @@ export class Answers {
       if (answer.part) this.#part.show(answer.part);
       view.find("[data-slip]").hidden = !answer.tables["measured-slip"][1].length;
       view.say("line-answers", answer.words["part-lead"] ?? answer.words["answers-lead"]);
-      view.show(answer);
+      view.show(answer, "answers");
       if (isByHand) view.step("answers").scrollIntoView({block: "start"});
       then();
     });
@@ -127,12 +126,7 @@ export class Answers {
     this.#ask("measured.compare", "compare", given, (found) => {
       this.#view.step("answers").open = true;
       this.#view.showResult("compare", true);
-      this.#view.show(found);
-      this.#view.pictures.then(() => {
-        for (const cell of this.#view.findAll('[data-table="measured-models"] td')) {
-          if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
-        }
-      });
+      this.#view.show(found, "compare");
     });
   }
 

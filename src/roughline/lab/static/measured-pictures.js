@@ -1,22 +1,51 @@
-// Pictures of My surface, as the server declares them: maps, the columns of sources, axes, captions and tables.
+// Pictures of My surface: maps beside each other, and panels of curves.
+import {add} from "./figures.js";
 import {onDraw} from "./hands.js";
-import {Maps, layersOf} from "./maps.js";
+import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
+import {panelsOf} from "./panels.js";
 import {fillCaption, fillTable} from "./tables.js";
 
-export class Pictures {
-  #view; #plots; #unsettled = new Map(); #extents = new Map(); #choices = new Map();
-  #maps = {}; // by the names of each
-  #before = null; // the map on which a piece is drawn, and the box that is shown
+const BESIDE = {file: ["file"], preparation: ["before", "after"], answers: ["topography", "contact"]}; // maps, by their steps
+const RINGS = {file: "here", contact: "theory"};
+const NOTHING = {image: [], x: [], y: [], dw: [], dh: []};
 
-  constructor(view, plots) {
+// Embed all pictures of the view.
+export async function picturesOf(view, root) {
+  const maps = () => Object.fromEntries(Object.values(BESIDE).flatMap(mapsOf));
+  return new Pictures(view, await panelsOf(root, () => ({...maps(), "measured-profile": profileFigure()})));
+}
+
+function mapsOf(names) {
+  const ranges = sharedRanges();
+  return names.map((name) => {
+    const made = mapFigure(name, {rings: RINGS[name], ranges});
+    if (name === "before") takeBoxes(made);
+    return [`measured-${name}`, made];
+  });
+}
+
+// Let a piece be drawn on a map.
+function takeBoxes(made) {
+  const tool = new Bokeh.BoxSelectTool({description: "draw the piece to keep"});
+  made.add_tools(tool);
+  made.toolbar.active_drag = tool;
+  add(made, "BoxAnnotation", "crop box", {
+    left: 0, right: 0, top: 0, bottom: 0, fill_alpha: 0, line_width: 3, visible: false, colours: {line_color: "here"},
+  });
+}
+
+class Pictures {
+  #view; #plots; #panels; #maps;
+  #before = null; // the map on which a piece is drawn, and the box about what is kept
+  #kept = {visible: false};
+
+  constructor(view, panels) {
     this.#view = view;
-    this.#plots = plots;
-    const linked = [[["file"]], [["before", "after"]], [["topography", "contact"], "profile"]];
-    for (const [names, profile] of linked) {
-      const maps = new Maps(plots, "measured", names, profile);
-      for (const name of names) this.#maps[name] = maps;
-    }
-    for (const select of view.findAll("[data-choice]")) select.addEventListener("change", () => this.#choose(select));
+    this.#panels = panels;
+    this.#plots = panels.plots;
+    this.#maps = Object.fromEntries(Object.entries(BESIDE).map(([step, names]) => [
+      step, new Maps(panels.plots, "measured", names, step === "answers" ? "profile" : "")]));
+    for (const {classList} of view.findAll(".panel:not(.wide)")) classList.add("empty");
   }
 
   // Call with the crop, as text, when a box was drawn on the map.
@@ -24,9 +53,9 @@ export class Pictures {
     const map = this.#plots.root("measured-before"), box = this.#plots.model("crop box");
     const keep = (...corners) => {
       if (!this.#before) return;
-      const {map: {sizes, along}, models} = this.#before;
+      const {sizes, along} = this.#before;
       const ends = corners.map((value, i) => Math.min(Math.max(value, 0), sizes[i < 2 ? 0 : 1]));
-      if (!(ends[0] < ends[1] && ends[2] < ends[3])) { box.setv(models["crop box"]); return; }
+      if (!(ends[0] < ends[1] && ends[2] < ends[3])) { box.setv(this.#kept); return; }
       drawn(ends.map((value) => `${Number(value.toPrecision(4))} ${along}`).join(", "));
     };
     map.on_event("selectiongeometry", ({geometry: {type, x0, x1, y0, y1}}) => { if (type === "rect") keep(x0, x1, y0, y1); });
@@ -37,65 +66,50 @@ export class Pictures {
     });
   }
 
-  // Draw panels; of a choice the one that is chosen, which stays chosen where there is one of that name again.
-  show(panels, choices, arrays) {
-    if (panels["measured-before"]) this.#before = panels["measured-before"];
-    for (const [id, panel] of Object.entries(panels)) this.#draw(id, panel, arrays);
-    for (const [id, options] of Object.entries(choices)) {
-      const select = this.#view.find(`[data-choice="${id}"]`), names = Object.keys(options), chosen = select.value;
-      select.replaceChildren(...names.map((name) => new Option(name)));
-      if (names.includes(chosen)) select.value = chosen;
-      this.#choices.set(select, {id, options, arrays});
-      this.#choose(select);
-    }
+  // Show what the answer of a step, or of the comparison, has for maps and panels.
+  show(step, {panels, maps, choices = {}, arrays, crop}) {
+    this.#panels.show(step, panels);
+    if (choices.part) this.#offer("part", choices.part, (part) => this.#panels.show("part", {part}));
+    if (!(step in BESIDE)) return;
+    const {height, after, ...others} = maps, [first] = BESIDE[step];
+    for (const name of BESIDE[step]) this.#view.find(`#measured-${name}`).classList.toggle("empty", !height);
+    if (!height) return;
+    this.#maps[step].frame(height.sizes, height.along);
+    this.#maps[step].tell(layersOf({height, ...others}, arrays));
+    this.#draw(step, first, height, arrays.height);
+    if (after) this.#draw(step, "after", after, arrays.after);
+    if (after) this.#keep(height, after, crop !== null);
+    if (step !== "answers") return;
+    this.#offer("contact", others, (look, chosen) => this.#draw(step, "contact", look, arrays[chosen]));
   }
 
-  #choose(select) {
-    const {id, options, arrays} = this.#choices.get(select);
-    this.#draw(id, options[select.value] ?? null, arrays);
+  #keep(before, {corner: [left, bottom], sizes: [width, height]}, visible) {
+    this.#before = before;
+    this.#kept = {visible, left, right: left + width, bottom, top: bottom + height};
+    this.#plots.model("crop box").setv(this.#kept);
   }
 
-  #draw(id, panel, arrays) {
-    const plots = this.#plots, place = this.#view.find(`#${id}`);
-    place.hidden = !panel;
-    if (!panel) return;
-    const {map, sources = {}, models = {}, axes = [], factors, span, caption, marks, more = "", table, extent} = panel;
-    const columnOf = (column) => (typeof column === "string" ? [...arrays[column].values] : column);
-    for (const [name, columns] of Object.entries(sources)) {
-      plots.set(name, Object.fromEntries(Object.entries(columns).map(([key, column]) => [key, columnOf(column)])));
-    }
-    if (map) {
-      const maps = this.#maps[map.name];
-      if (map.frame) maps.frame(map.frame, map.along);
-      maps.show(map.name, arrays[map.array], map.look, map.sizes, map.corner);
-      if (map.layers) maps.tell(layersOf(map.layers, arrays));
-    }
-    for (const [name, look] of Object.entries(models)) plots.model(name).setv(look);
-    if (factors) plots.root(id).x_range.factors = factors;
-    if (span) plots.span(id, "y", span);
-    plots.label(id, ...axes);
-    const told = place.querySelector("[data-caption]");
-    if (told) {
-      fillCaption(told, caption ?? "", marks);
-      told.append(told.hasChildNodes() && told.textContent ? more : more.replace(/^; /, ""));
-    }
-    if (table) fillTable(id, ...table);
-    if (!map) this.#settle(id, extent);
+  // Let one of several pictures be chosen; what is chosen stays chosen where there is one of that name again.
+  #offer(name, options, show) {
+    const select = this.#view.find(`[data-choice="measured-${name}"]`), names = Object.keys(options), chosen = select.value;
+    select.replaceChildren(...names.map((each) => new Option(each)));
+    if (names.includes(chosen)) select.value = chosen;
+    select.onchange = () => show(options[select.value], select.value);
+    select.onchange();
   }
 
-  // Lay a plot out anew: its labels may have come, or it may have been hidden before. All of it is
-  // shown where its extent, as text, is another one.
-  #settle(id, extent) {
-    if (this.#unsettled.size === 0) requestAnimationFrame(() => {
-      for (const [name, isOther] of this.#unsettled) {
-        const view = Bokeh.index.find_one(this.#plots.root(name));
-        view?.invalidate_layout();
-        if (isOther) view?.reset();
-      }
-      this.#unsettled.clear();
-    });
-    const isOther = Boolean(extent) && this.#extents.get(id) !== extent;
-    if (isOther) this.#extents.set(id, extent);
-    this.#unsettled.set(id, isOther || (this.#unsettled.get(id) ?? false));
+  #draw(step, name, look, array) {
+    const told = this.#view.find(`[data-caption="measured-${name}"]`);
+    if (!look) {
+      this.#plots.set(name, NOTHING);
+      fillCaption(told, "the load was not solved");
+      return;
+    }
+    const {caption, marks, rings, sizes, corner, table} = look;
+    this.#maps[step].show(name, array, look, sizes, corner);
+    const [x, y] = [0, 1].map((axis) => rings.map((ring) => corner[axis] + ring[axis] * sizes[axis]));
+    if (name in RINGS) this.#plots.set(`${name} rings`, {x, y});
+    fillCaption(told, caption, marks);
+    fillTable(`measured-${name}`, ...table);
   }
 }

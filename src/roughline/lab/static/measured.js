@@ -2,11 +2,9 @@
 import {Controls} from "./controls.js";
 import {element, typeset} from "./elements.js";
 import {Answers, TASKS} from "./measured-answers.js";
-import {measuredFigures} from "./measured-figures.js";
 import {Source} from "./measured-file.js";
 import {Part} from "./measured-part.js";
-import {Pictures} from "./measured-pictures.js";
-import {embedded} from "./plots.js";
+import {picturesOf} from "./measured-pictures.js";
 import {recall, remember} from "./remember.js";
 import {fillFigures, fillGroups, fillList, fillTable} from "./tables.js";
 import {Waiting} from "./waiting.js";
@@ -45,7 +43,7 @@ class Measured {
       if (works.includes("measured file")) this.#source.stop();
       this.#answers.stopped(works);
     });
-    this.pictures = embedded(measuredFigures).then((plots) => new Pictures(this, plots));
+    this.pictures = picturesOf(this, this.#root);
     this.#source = new Source(link, this);
     this.#part = new Part(this);
     this.#answers = new Answers(link, this, this.#part);
@@ -85,14 +83,15 @@ class Measured {
 
   shown() { this.#write(); }
 
-  // Show what an answer of the server tells: words, tables, lists, figures, remarks and pictures by their places.
-  show({words = {}, tables = {}, lists = {}, figures = {}, remarks, panels = {}, choices = {}, arrays = {}}) {
+  // Show what an answer of the server tells: words, tables, lists, figures and remarks by their places, and pictures.
+  show(answer, step = "") {
+    const {words = {}, tables = {}, lists = {}, figures = {}, remarks} = answer;
     for (const [name, text] of Object.entries(words)) this.say(name, text);
     for (const [id, [header, rows, groups, quiet]] of Object.entries(tables)) fillTable(id, header, rows, groups, quiet);
     for (const [name, sentences] of Object.entries(lists)) fillList(this.find(`[data-list="${name}"]`), sentences);
     for (const [name, each] of Object.entries(figures)) fillFigures(this.find(`[data-figures="${name}"] dl`), each);
     if (remarks) fillGroups(this.find("[data-remarks]"), remarks);
-    this.pictures.then((pictures) => pictures.show(panels, choices, arrays));
+    if (step) this.pictures.then((pictures) => pictures.show(step, answer));
   }
 
   say(name, text) {
@@ -287,7 +286,7 @@ class Measured {
         this.#settle("file", asked, read.refused, OF_READING);
         this.showResult("file", true);
         this.say("line-file", read.name);
-        this.show(read);
+        this.show(read, "file");
         this.#prepare();
       },
       error: (sentence, at) => {
@@ -331,7 +330,7 @@ class Measured {
       answer: (prepared) => {
         this.#undim();
         this.showResult("preparation", prepared.body !== null);
-        this.show(prepared);
+        this.show(prepared, "preparation");
         take(prepared.body, prepared.refused);
       },
       error: (sentence, at) => { this.#undim(); this.refuse(sentence, at || "preparation"); },

@@ -113,14 +113,7 @@ class Plots {
     if (y) yaxes[0].axis_label = y;
   }
 
-  // Show a range of values on an axis, which is widened by a little.
-  span(name, axis, values, atLeast = [Infinity, -Infinity]) {
-    const known = [...values, ...atLeast].filter((value) => Number.isFinite(value) && value > 0);
-    if (!known.length) return;
-    const [low, high] = [Math.min(...known), Math.max(...known)];
-    this.range(name, axis, low / 1.2, high * 1.2);
-  }
-
+  // Show a range of an axis, all of which it is from now on.
   range(name, axis, start, end) {
     this.root(name)[`${axis}_range`].setv({start, end, reset_start: start, reset_end: end});
   }
@@ -140,12 +133,6 @@ export function recolourAll() {
 
 // Call when the theme was changed.
 export function onRecolour(told) { recoloured.push(told); }
-
-// Points of a curve in columns: those that are known, and wanted.
-export function points(x, y, isWanted = () => true) {
-  const kept = x.flatMap((_, i) => (y[i] !== null && isWanted(i) ? [i] : []));
-  return {x: kept.map((i) => x[i]), y: kept.map((i) => y[i])};
-}
 
 const known = new Map(); // colours: to ask for one makes the browser style the page again
 

@@ -1,20 +1,27 @@
 // The paper: its figures from the published study, with windows and averages to choose.
 import {Controls} from "./controls.js";
 import {element, typeset} from "./elements.js";
+import {add, draw, plot} from "./figures.js";
 import {onDraw, onTouch} from "./hands.js";
-import {colour, embedded} from "./plots.js";
-import {publishedFigures} from "./published-figures.js";
+import {panelsOf} from "./panels.js";
 import {Strip} from "./strip.js";
-import {fillTable} from "./tables.js";
+import {fillTable, judged} from "./tables.js";
 
 const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
 const STRIP = ["exponent_1D", "stated_1D", "exponent_3D", "stated_3D"];
 const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance", "claims"];
 const TASKS = ["fits", "point"];
-const DIMENSIONS = ["2", "2.2", "2.4", "2.6", "2.8", "3"]; // of the curves, by their place in the ramp of colours
+const DIMENSIONS = ["2", "2.2", "2.4", "2.6", "2.8", "3"]; // of the curves
 const PANEL = "published-trust-"; // with a roll-off ratio, the panel of the trust map
+const HATCH = {hatch_pattern: "right_diagonal_line", hatch_color: "#1c1c1a", hatch_alpha: 0.7, hatch_scale: 7, hatch_weight: 0.8};
+const WINDOW = {movable: "x", resizable: "x", fill_alpha: 0.12, line_alpha: 0.6, level: "underlay",
+  colours: {fill_color: "quiet", line_color: "quiet"}};
 
 const mapped = (each, change) => Object.fromEntries(Object.entries(each).map(([key, value]) => [key, change(value)]));
+const ofDimensions = (series, wanted) => Object.fromEntries(Object.entries(series).filter(([name]) => {
+  const [dimension] = name.split(" ");
+  return !DIMENSIONS.includes(dimension) || wanted.includes(dimension);
+}));
 
 export async function open(link, address, said) {
   const view = new Published(link, address);
@@ -23,8 +30,8 @@ export async function open(link, address, said) {
 }
 
 class Published {
-  #link; #address; #root = document.querySelector("#published"); #controls; #plots = null; #strip; #constants = null; #panels;
-  #later = new Set(); #drawn = {}; #looks = {}; #state = {}; #ofLink = ""; #shown = "";
+  #link; #address; #root = document.querySelector("#published"); #controls; #panels; #strip; #constants = null; #trust;
+  #later = new Set(); #windows = {}; #state = {}; #ofLink = ""; #shown = "";
 
   constructor(link, address) {
     this.#link = link;
@@ -33,7 +40,7 @@ class Published {
       this.#ofLink = "";
       this.#ask(OF_THE_POINT.includes(key) ? "point" : "fits");
     });
-    this.#panels = [...this.#root.querySelectorAll(`[id^="${PANEL}"]`)];
+    this.#trust = [...this.#root.querySelectorAll(`[id^="${PANEL}"]`)];
     this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#root.querySelector("#published-windows").addEventListener("click", () => {
       const kept = Object.entries(this.#controls.said).filter(([key]) => !Object.values(EDGES).flat().includes(key));
@@ -45,13 +52,14 @@ class Published {
   async open({view, ...texts}) {
     this.#controls.take(texts);
     TASKS.forEach((task) => this.#ask(task));
+    this.#panels = panelsOf(this.#root, (made) => ({...withWindows(made), ...trustMap(this.#trust)}));
     this.#constants = await (await fetch("/lab/paper/figures.json")).json();
-    this.#take(this.#constants);
+    this.#take("constants", this.#constants);
     this.#showCurves();
-    this.#plots = await embedded(() => publishedFigures(this.#panels.map(({id}) => id.replace(PANEL, ""))));
-    for (const model of Object.keys(EDGES)) this.#bindWindow(model);
-    for (const {id} of this.#panels) {
-      onTouch(this.#plots.root(id), ({x, y}) => {
+    const {plots} = await this.#panels;
+    for (const model of Object.keys(EDGES)) this.#bindWindow(plots, model);
+    for (const {id} of this.#trust) {
+      onTouch(plots.root(id), ({x, y}) => {
         const [map_F, map_D_f] = [this.#controls.within("map_F", x), this.#controls.within("map_D_f", y)];
         this.#controls.take({...this.#controls.said, roll_off: id.replace(PANEL, ""), map_F, map_D_f});
         this.#ask("point");
@@ -59,8 +67,6 @@ class Published {
     }
     this.#root.querySelector("[data-legend]").replaceChildren(...this.#constants.legend.map(([background, text]) =>
       element("li", {}, element("span", {className: "patch", style: `background: ${background}`}), text)));
-    this.#draw(this.#drawn, this.#looks);
-    new MutationObserver(() => this.#draw(this.#drawn)).observe(document.documentElement, {attributeFilter: ["data-theme"]});
   }
 
   shown() { this.#address.write("published", this.#state); }
@@ -76,7 +82,7 @@ class Published {
         this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
         this.#state = header.state;
         if (!this.#root.hidden) this.shown();
-        this.#take(header);
+        this.#take(task, header);
         if (task === "fits") this.#showCurves();
         else this.#showPoint(header);
         ended();
@@ -95,10 +101,9 @@ class Published {
     } else if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
   }
 
-  // Take an answer: columns of what is drawn, looks of models, tables, words at their places, large figures.
-  #take({draw = {}, look = {}, tables = {}, words = {}, strip = []}) {
-    Object.assign(this.#drawn, draw);
-    Object.assign(this.#looks, look);
+  // Take an answer: what panels and other sources show, windows, tables, words at their places, large figures.
+  #take(what, {panels, sources = {}, windows = {}, tables = {}, words = {}, strip = []}) {
+    Object.assign(this.#windows, windows);
     for (const [id, {header, rows}] of Object.entries(tables)) {
       const labelled = (cell, i) => [element("span", {className: "label"}, ...typeset(header[i])), ...typeset(cell)];
       fillTable(id, header.map(typeset), rows.map((cells) => cells.map(labelled)));
@@ -107,71 +112,100 @@ class Published {
       this.#root.querySelector(`[data-words="${place}"]`).replaceChildren(...typeset(text));
     }
     this.#strip.add(strip);
-    for (const place of this.#root.querySelectorAll(".fit td, .strip dd:nth-child(2)")) {
-      place.dataset.verdict = place.textContent.match(/confirmed|refuted|undecided/)?.[0] ?? "";
-    }
-    if (this.#plots) this.#draw(draw, look);
+    this.#root.querySelectorAll(".strip dd:nth-child(2)").forEach(judged);
+    this.#panels.then((shown) => {
+      if (panels) shown.show(what, panels);
+      for (const [name, columns] of Object.entries(sources)) shown.plots.set(name, columns);
+      this.#place(shown.plots, windows);
+    });
   }
 
   // Show the curves for what is chosen, of the fractal dimensions that are chosen.
   #showCurves() {
-    const {mean, punch, D_f} = this.#state, kept = D_f?.split(",").map((each) => DIMENSIONS.indexOf(each));
-    if (!this.#constants || !kept || this.#shown === `${mean} ${punch} ${D_f}`) return;
+    const {mean, punch, D_f} = this.#state, wanted = D_f?.split(",");
+    if (!this.#constants || !wanted || this.#shown === `${mean} ${punch} ${D_f}`) return;
     this.#shown = `${mean} ${punch} ${D_f}`;
-    const first = (cells) => cells.filter((_, i) => i === 0 || kept.includes(i - 1));
+    const some = (cells) => cells.filter((_, i) => i === 0 || wanted.includes(DIMENSIONS[i - 1]));
     for (const name of [`1D ${mean}`, `3D ${mean} ${punch}`, "area"]) {
-      const {draw, look, tables} = this.#constants.curves[name];
-      const shown = ({ramp, ...columns}) => mapped({ramp, ...columns}, (each) => each.filter((_, i) => kept.includes(ramp[i])));
-      const table = ({header, rows}) => ({header: first(header), rows: rows.map(first)});
-      this.#take({look, draw: mapped(draw, shown), tables: mapped(tables, table)});
+      const {panels, tables} = this.#constants.curves[name];
+      this.#take(name.slice(0, 2), {
+        panels: mapped(panels, ({series, ...panel}) => ({...panel, series: ofDimensions(series, wanted)})),
+        tables: mapped(tables, ({header, rows}) => ({header: some(header), rows: rows.map(some)})),
+      });
     }
   }
 
   // Mark the point of the trust map, and what is said of it.
   #showPoint({state, numbers, verdict}) {
     this.#root.querySelector('[data-words="point"]').dataset.verdict = verdict;
-    const marks = this.#panels.map((panel) => {
+    const marks = this.#trust.map((panel) => {
       const isChosen = panel.id === PANEL + state.roll_off;
       panel.classList.toggle("chosen", isChosen);
       return [panel.id.replace(PANEL, "trust point "), isChosen ? {x: [numbers.map_F], y: [numbers.map_D_f]} : {x: [], y: []}];
     });
-    this.#take({draw: Object.fromEntries(marks)});
+    this.#take("point", {sources: Object.fromEntries(marks)});
   }
 
-  // Fill sources, in the colours of the theme; a window that is moved by hand stays where it is.
-  #draw(columns, looks = {}) {
-    for (const [name, each] of Object.entries(columns)) {
-      this.#plots.set(name, each.ramp ? {...each, colour: each.ramp.map((i) => colour(`ramp-${i}`))} : each);
-    }
+  // Place windows; one that is moved by hand stays where it is.
+  #place(plots, windows) {
     this.#placing = true;
-    for (const [name, each] of Object.entries(looks)) if (name !== this.#moving) this.#plots.model(name).setv(each);
+    for (const [name, [left, right]] of Object.entries(windows)) {
+      if (name !== this.#moving) plots.model(`window ${name}`).setv({left, right});
+    }
     this.#placing = false;
   }
 
   #placing = false; #moving = null; #rest = null; // the window that is held by the mouse
 
-  #bindWindow(model) {
-    const box = this.#plots.model(`window ${model}`), plot = this.#plots.root(`published-stiffness-${model}`);
-    const moved = () => { if (!this.#placing) this.#windowMoved(model, box.left, box.right); };
+  #bindWindow(plots, model) {
+    const box = plots.model(`window ${model}`), plot = plots.root(`published-stiffness-${model}`);
+    const move = (...edges) => this.#windowMoved(plots, model, edges);
+    const moved = () => { if (!this.#placing) move(box.left, box.right); };
     for (const side of ["left", "right"]) box.properties[side].change.connect(moved);
     plot.on_event("selectiongeometry", ({geometry}) => {
-      if (geometry.type === "rect" && geometry.x0 !== geometry.x1) this.#windowMoved(model, geometry.x0, geometry.x1);
+      if (geometry.type === "rect" && geometry.x0 !== geometry.x1) move(geometry.x0, geometry.x1);
     });
     onDraw(plot, this.#root.querySelector(`[data-draw="${model}"]`), (from, to) => {
       if (from.x !== to.x) box.setv({left: Math.min(from.x, to.x), right: Math.max(from.x, to.x)});
     });
   }
 
-  #windowMoved(model, ...edges) {
-    const name = `window ${model}`;
-    this.#moving = name;
+  #windowMoved(plots, model, edges) {
+    this.#moving = model;
     const ends = edges.sort((a, b) => a - b).map((edge, i) => [EDGES[model][i], this.#controls.within(EDGES[model][i], edge)]);
     this.#controls.take({...this.#controls.said, ...Object.fromEntries(ends)});
     this.#ask("fits");
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => {
       this.#moving = null;
-      this.#draw({}, {[name]: this.#looks[name]});
+      this.#place(plots, {[model]: this.#windows[model]});
     }, 400);
   }
+}
+
+// Put windows on figures, two of which can be drawn anew.
+function withWindows(made) {
+  for (const name of ["stiffness-1D", "stiffness-3D", "area"]) {
+    const figure = made[`published-${name}`], [, model = ""] = name.split("-");
+    add(figure, "BoxAnnotation", `window ${model || name}`, {...WINDOW, editable: Boolean(model)});
+    if (!model) continue;
+    const tool = new Bokeh.BoxSelectTool({dimensions: "width", renderers: []});
+    figure.add_tools(tool);
+    figure.toolbar.active_drag = tool;
+  }
+  return made;
+}
+
+function trustMap(panels) { return Object.fromEntries(panels.map(({id}) => [id, trust(id.replace(PANEL, ""))])); }
+
+// One panel of the trust map, with the point that is asked about.
+function trust(rollOff) {
+  const made = plot(["force F̄", "fractal dimension"], [[7.5e-4, 4.217], [1.95, 3.05]], {x_axis_type: "log", tools: [], toolbar_location: null});
+  draw(made, "quad", `trust ${rollOff}`, {fill_color: {field: "colour"}, line_color: {field: "colour"}});
+  draw(made, "quad", `trust ${rollOff} unsure`, {fill_color: null, line_color: null, ...HATCH});
+  for (const [line_color, line_width] of [["#ffffff", 5], ["#000000", 2]]) { // seen on any colour
+    draw(made, "scatter", `trust point ${rollOff}`, {marker: "circle", size: 15, fill_alpha: 0, line_color, line_width});
+  }
+  for (const grid of made.grids) grid.visible = false;
+  return made;
 }

@@ -24,7 +24,7 @@ export function fillTable(id, header, rows, groups = null, quiet = null) {
 function tableOf(header, rows, groups, quiet) {
   const pieces = (cell) => (Array.isArray(cell) ? cell : typeset(cell));
   const row = (cells, kind, more) => element("tr", {className: quiet !== null && cells[0] === quiet ? "quiet" : ""},
-    ...cells.map((cell) => element(kind, more, ...pieces(cell))));
+    ...cells.map((cell) => judged(element(kind, more, ...pieces(cell)))));
   const table = element("table", {}, element("thead", {}, row(header, "th", {scope: "col"})));
   const body = (some) => element("tbody", {}, ...some.map((cells) => row(cells, "td", {})));
   if (!groups) table.append(body(rows));
@@ -42,6 +42,12 @@ function tableOf(header, rows, groups, quiet) {
     show(i === 0);
   }
   return table;
+}
+
+// Mark an element with the verdict that its text has, or with none.
+export function judged(place) {
+  place.dataset.verdict = place.textContent.match(/confirmed|refuted|undecided/)?.[0] ?? "";
+  return place;
 }
 
 // Fill a list of sentences; without any it is not there.
