@@ -111,7 +111,7 @@ def _of_body(result: Assessment) -> dict[str, Any]:
         rows = [[engineering(float(each[i]), unit, 3) for each, unit in columns] for i in some]
     tables["measured-slip"] = (["displacement", "tangential force"], rows)
     can_report = result.question.pair is not None and bool(result.question.loads)
-    modulus = in_three_digits(result.curve.E_star, None, "Pa")
+    modulus = up_to_three_digits(result.curve.E_star, None, "Pa")
     words = {"modulus": modulus_in_words(result, modulus)}
     return {"words": words, "tables": tables, "can_report": can_report}
 

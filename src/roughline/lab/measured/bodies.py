@@ -23,7 +23,7 @@ from roughline.lab.measured import controls as c
 from roughline.lab.measured.state import CONTROLS, Said, Source, at, question_of, used_in
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.contact_tables import solid_in_words
-from roughline.report.values import in_three_digits
+from roughline.report.values import up_to_three_digits
 from roughline.topography.body import Body, Line, Surface
 
 
@@ -45,7 +45,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
 
     (question, said), refused = used_in(arguments, read)
     of = ", of what lies at the surfaces" if question.coated else ""
-    rows = [["contact modulus E*", in_three_digits(question.modulus, None, "Pa") + of]]
+    rows = [["contact modulus E*", up_to_three_digits(question.modulus, None, "Pa") + of]]
     pair, notes = question.pair, ["a contact modulus alone gives the curve, and no answers"]
     if pair is not None:
         bodies = zip(c.BODIES.values(), (pair.first, pair.second), strict=False)
@@ -81,7 +81,7 @@ def _line_of_preparation(said: Said) -> str:
 def _line_of_bodies(question: Question, said: Said) -> str:
     """What is pressed under which loads, in one line."""
     pair = question.pair
-    pressed = f"E* = {in_three_digits(question.modulus, None, 'Pa')}"
+    pressed = f"E* = {up_to_three_digits(question.modulus, None, 'Pa')}"
     if pair is not None:
         pressed = f"{pair.first.name} {'against' if pair.coated else 'on'} {pair.second.name}"
     loads = ", ".join(question.headings) or f"{DEFAULT_LOADS} loads"
@@ -105,7 +105,7 @@ def _yield_in_words(question: Question, hardness: Hardness | None) -> str:
     if hardness is None:
         return "left out" if question.elastic else "no hardness is known: elastic"
     known = "as given" if hardness.factor == 1 else f"known to a factor of {hardness.factor:g}"
-    return f"at {in_three_digits(hardness.value, None, 'Pa')}, {known}"
+    return f"at {up_to_three_digits(hardness.value, None, 'Pa')}, {known}"
 
 
 def _flat(sides: Any) -> Body | None:
