@@ -86,6 +86,7 @@ export class Controls {
     }
     for (const [key, low] of Object.entries(lows)) {
       const slider = this.#slider(key);
+      if (Number(slider.dataset.low) === low) continue;
       slider.dataset.low = low;
       span(slider);
     }
@@ -104,8 +105,10 @@ export class Controls {
   refuse(key, sentence) {
     const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
     if (!place) return !sentence;
-    if (place.textContent !== sentence) place.textContent = sentence;
-    this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
+    if (place.textContent !== sentence) {
+      place.textContent = sentence;
+      this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
+    }
     return sentence === "" || place.parentElement.checkVisibility();
   }
 
@@ -176,8 +179,9 @@ function shown(value) {
 }
 
 function place(slider, value) {
-  slider.value = position(slider, value);
-  slider.ariaValueText = shown(value);
+  const at = String(position(slider, value)), text = shown(value); // what is the same is not written, as answers come often
+  if (slider.value !== at) slider.value = at;
+  if (slider.ariaValueText !== text) slider.ariaValueText = text;
 }
 
 // Steps of a slider; on a logarithmic scale as many as lie between its ends, each as near to its own step as can be.

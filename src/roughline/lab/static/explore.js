@@ -23,7 +23,7 @@ export async function open(link, address, said) {
 
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
-  #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
+  #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false; #force = 0.1;
   #physics; #cursors; // as the server declares them
   #panels = null;
 
@@ -46,7 +46,7 @@ class Explore {
     for (const panel of this.#root.querySelectorAll(".panel:not(.wide)")) panel.classList.add("empty");
     for (const {key, task} of panels) this.#panelOf(key).dataset.task = task;
     for (const map of MAPS) this.#find(`#${map}`).dataset.task = "contact";
-    bindTabs(this.#root);
+    bindTabs(this.#root, () => this.#placeCursors());
     keepInSight(this.#find(".controls"));
   }
 
@@ -128,7 +128,7 @@ class Explore {
     this.#dim(["contact", ...this.#stale]);
     this.#askNow();
     clearTimeout(this.#rest);
-    this.#waiting.stop(["full", ...this.#finer]);
+    this.#waiting.stop(["full", "curve", ...Object.keys(this.#physics)]); // also of what is added no more
     this.#rest = setTimeout(() => this.#sharpen(), isFinal ? 0 : REST);
   }
 
@@ -287,8 +287,15 @@ class Explore {
   }
 
   #cursorTo(force) {
+    this.#force = force;
+    this.#placeCursors();
+  }
+
+  // Place the cursors of the load; those of hidden panels, which Bokeh would lay out each time, when they are shown.
+  #placeCursors() {
+    if (!this.#plots) return;
     this.#fromCursor = true;
-    for (const {key} of this.#cursors) this.#plots.model(`${key} cursor`).location = force;
+    for (const {key} of this.#cursors) if (!this.#panelOf(key).hidden) this.#plots.model(`${key} cursor`).location = this.#force;
     this.#fromCursor = false;
   }
 

@@ -63,7 +63,7 @@ class Plots {
     const shown = this.#shown.get(plot);
     if (!shown?.length) return;
     this.#shown.delete(plot);
-    requestAnimationFrame(() => {
+    setTimeout(() => { // after this frame
       const place = placeOf(plot);
       for (const detail of shown) {
         place.dataset.shown = JSON.stringify(detail);

@@ -36,7 +36,7 @@ function empty(key) {
 function write(item, {symbol, value, below, meaning}) {
   const {place, said} = item;
   item.said = {symbol, value, below, meaning};
-  place.title = meaning;
+  if (meaning !== said?.meaning) place.title = meaning;
   [symbol, value, below].forEach((text, i) => {
     if (said && text === [said.symbol, said.value, said.below][i]) return;
     place.children[i].replaceChildren(...typeset(text));

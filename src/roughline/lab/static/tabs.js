@@ -1,5 +1,5 @@
-// Tabs: one of several panels is shown; arrow keys go from one to the next.
-export function bindTabs(root) {
+// Tabs: one of several panels is shown, and told of then; arrow keys go from one to the next.
+export function bindTabs(root, shown) {
   const tabs = [...root.querySelectorAll('[role="tab"]')];
   const panel = (tab) => root.querySelector(`#${tab.getAttribute("aria-controls")}`);
   const choose = (chosen) => {
@@ -8,6 +8,7 @@ export function bindTabs(root) {
       tab.tabIndex = tab === chosen ? 0 : -1;
       panel(tab).hidden = tab !== chosen;
     }
+    shown();
   };
   for (const tab of tabs) {
     panel(tab).setAttribute("role", "tabpanel");
