@@ -132,8 +132,7 @@ def test_without_free_files_the_server_waits_and_then_goes_on(small_lab):
     with ExitStack() as held:
         for _ in range(30):
             held.enter_context(connected(small_lab))
-        time.sleep(0.2)
-        assert is_at_rest(small_lab)
+        wait_until(lambda: is_at_rest(small_lab))
     allow(256)
     run(lambda: served(small_lab))
 

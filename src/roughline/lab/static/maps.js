@@ -110,7 +110,7 @@ export class Maps {
   // Take what is told of a point and drawn along a line: looks with a key and an array; `height` and `gap` make a profile.
   tell(layers) {
     this.#layers = layers;
-    this.#drawProfile();
+    if (this.#cut) this.#drawProfile();
   }
 
   #colour(name) {

@@ -29,11 +29,13 @@ export async function embedded(declared) {
 
 // With each picture Bokeh writes the places of all that it draws into the style of the page and asks that for colours,
 // hundreds of times a second while a slider moves, and each time the browser styles the page anew. A place that is the
-// same is not written, and the page has no such colours.
+// same is not written, that of a glyph is not asked for, and the page has no such colours.
 function spareStyles() {
   const {InlineStyleSheet} = Bokeh.require("core/dom"), {VisualProperties} = Bokeh.require("core/visuals/visual");
+  const {GlyphRendererView} = Bokeh.require("models/renderers/glyph_renderer");
   InlineStyleSheet.prototype._update = function (css) { if (this.css !== css) this.el.textContent = css; };
   VisualProperties.prototype._get_css_value = () => "";
+  GlyphRendererView.prototype.update_position = () => {};
 }
 
 function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)}`); }

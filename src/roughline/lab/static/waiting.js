@@ -53,8 +53,8 @@ export class Waiting {
     if (this.#works.size) return;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => { // unless another begins at once
-      this.#bar.hidden = this.#cancel.hidden = true;
-      if (this.#text) this.#text.textContent = "";
+      if (!this.#bar.hidden) this.#bar.hidden = this.#cancel.hidden = true;
+      if (this.#text?.textContent) this.#text.textContent = "";
     });
   }
 }
