@@ -86,7 +86,10 @@ def test_the_contact_is_that_of_the_library(curve):
     assert loads(header, "stiffness", "here")[1] == pytest.approx(curve.stiffness_bar, rel=1e-12)
     assert loads(header, "area", "here")[1].tolist() == curve.area_fraction_corrected.tolist()
     np.testing.assert_array_equal(arrays["area"], fields.contact.T)
-    np.testing.assert_allclose(arrays["pressure"], (fields.pressure / E_STAR).T, rtol=1e-6)
+    pressures = (
+        (fields.pressure / E_STAR).astype("f4").T
+    )  # of which a product may round another way
+    np.testing.assert_array_max_ulp(arrays["pressure"], pressures, maxulp=1)
     for name in ("gap", "displacement"):
         wanted = getattr(fields, name) / HEIGHT
         if name == "gap":
