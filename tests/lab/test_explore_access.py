@@ -89,12 +89,12 @@ def press_by_keys(page):
     page.focus('#explore [data-key="shown"]')
     page.keyboard.press("p")
     assert address(page)["shown"] == "pressure"
-    page.focus("#as-command")
+    page.focus("#explore [data-code=command]")
     page.keyboard.press("Enter")
-    page.wait_for_selector("#code[open]")
+    page.wait_for_selector("#explore-code[open]")
     page.keyboard.press("Escape")
-    page.wait_for_selector("#code", state="hidden")
-    assert page.evaluate("() => document.activeElement.id") == "as-command"
+    page.wait_for_selector("#explore-code", state="hidden")
+    assert page.evaluate("() => document.activeElement.dataset.code") == "command"
     page.focus("#saved")
     for _ in range(5):
         page.keyboard.press("ArrowDown")

@@ -287,8 +287,8 @@ def test_the_line_of_the_load_can_be_dragged(fresh):
 
 
 def test_code_is_shown_and_a_file_arrives(fresh, tmp_path):
-    fresh.click("#as-python")
-    code = fresh.locator("#code pre")
+    fresh.click("#explore [data-code=python]")
+    code = fresh.locator("#explore-code pre")
     code.filter(has_text="rl.press").wait_for()
     assert "fractal_dimension=2.4" in code.inner_text()
     fresh.keyboard.press("Escape")
@@ -334,8 +334,8 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
         ("python", ("in_si('2 mm', ", "load_in_newtons('11 MPa', surface.area)")),
         ("command", ("--length '2 mm'", "--load '11 MPa'")),
     ):
-        fresh.click(f"#as-{which}")
-        code = fresh.locator("#code pre")
+        fresh.click(f"#explore [data-code={which}]")
+        code = fresh.locator("#explore-code pre")
         code.filter(has_text="rl.press" if which == "python" else "roughline press").wait_for()
         assert all(line in code.inner_text() for line in lines)
         fresh.keyboard.press("Escape")

@@ -302,12 +302,10 @@ def test_a_dialog_closes_by_its_button_by_escape_and_beside_it(kind, request):
     page = views("explore")
     if kind == "phone":
         page.click("#explore .drawer")
-    close_in_every_way(page, ["#as-python", "#as-command"], "#code", "#copy-code")
+    close_its_code_in_every_way(page, "explore")
     if kind == "phone":
         page.click("#explore .drawer")
-    page = views("measured")
-    openers = [f"[data-code={name}]" for name in ("python", "command")]
-    close_in_every_way(page, openers, "[data-code-dialog]", "[data-copy]")
+    close_its_code_in_every_way(views("measured"), "measured")
 
 
 def test_after_its_button_a_finger_moves_the_load_and_chooses_a_piece(phone):
@@ -329,8 +327,10 @@ def test_after_its_button_a_finger_moves_the_load_and_chooses_a_piece(phone):
     assert [float(each.split()[0]) for each in crop[:2]] == pytest.approx(wanted, rel=0.02)
 
 
-def close_in_every_way(page, openers, dialog, copying):
-    place = page.locator(dialog)
+def close_its_code_in_every_way(page, view):
+    openers = [f"#{view} [data-code={name}]" for name in ("python", "command")]
+    place = page.locator(f"#{view}-code")
+    copying = place.get_by_role("button").first
     ways_out = (
         lambda: place.get_by_text("close").click(),
         lambda: page.keyboard.press("Escape"),
@@ -340,11 +340,11 @@ def close_in_every_way(page, openers, dialog, copying):
     for opener, way_out in zip([*openers, *openers], ways_out, strict=True):
         page.click(opener)
         place.wait_for()
-        page.click(f"{dialog} pre")
+        place.locator("pre").click()
         assert place.is_visible()
         if way_out is ways_out[0]:
-            page.click(copying)
-            page.locator(copying, has_text="copied").wait_for()
+            copying.click()
+            copying.filter(has_text="copied").wait_for()
         way_out()
         place.wait_for(state="hidden")
         assert page.evaluate("(opener) => document.activeElement.matches(opener)", opener)

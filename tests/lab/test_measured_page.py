@@ -227,8 +227,8 @@ def test_reports_and_code_are_of_the_answers_that_are_shown(pages, tmp_path):
     page.press("#measured-loads-text", "Tab")
     page.wait_for_selector("[data-changed]:visible")
     assert page.locator("[data-links] a").count() > 0  # which are of what is shown still
-    page.click('[data-code="command"]')
-    code = page.locator("[data-code-dialog] pre")
+    page.click('#measured [data-code="command"]')
+    code = page.locator("#measured-code pre")
     code.filter(has_text="--load").wait_for()
     assert "20 MPa" not in code.inner_text()
     page.keyboard.press("Escape")

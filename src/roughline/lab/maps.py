@@ -24,7 +24,7 @@ class Map:
     """Numbers over a surface, and all that the page needs to draw them."""
 
     values: NDArray[Any]
-    palette: str  # the page knows it by this name
+    palette: str | tuple[str, ...]  # of Bokeh, or "flux"; or colours of the theme, by their names
     low: float
     high: float
     title: str = ""  # of its scale, and of what is told of a point; empty where colours are marks
@@ -33,7 +33,6 @@ class Map:
     blank: str = "paper"  # colour of the theme where there is none
     is_logarithmic: bool = False
     caption: str = ""
-    marks: tuple[str, ...] = ()  # the colours that mean something, by their names
     rings: Sequence[Sequence[float]] = ()  # places that are marked, in sides of the surface
     sizes: Sequence[float] = (1.0, 1.0)  # sides, in the unit of its axes
     along: str = "/ L"  # that unit
@@ -59,9 +58,9 @@ def contact_maps(
     """The maps of a contact, by the words that choose them."""
     open_gap = np.where(fields.contact, np.nan, np.maximum(fields.gap, 0))
     marked = fields.contact.astype(np.uint8) + fields.plastic
-    marks = ("ink", "plastic") if yields else ("ink",)
+    colours = ("paper", "ink", "plastic") if yields else ("paper", "ink")
     return {
-        "area": Map(marked, "marks", 0, 2, marks=marks),
+        "area": Map(marked, colours, 0, len(colours) - 1),
         "pressure": _scaled(
             *(fields.pressure, pressure, "Viridis256", "pressure", _PRESSED),
             caption="blank where nothing touches",
@@ -94,7 +93,7 @@ def flux_map(flow: rl.Flow) -> Map:
         reached = flow.pressure == 1
         marks = np.where(is_open, 2 * reached, 1).astype(np.uint8)
         caption = "sealed: no way through"
-        return Map(marks, "reach", 0, 2, caption=caption, marks=("ink", "reach"))
+        return Map(marks, ("paper", "ink", "reach"), 0, 2, caption=caption)
     flux = np.hypot(*flow.flux) * _width(flow) / flow.inflow
     logarithm = np.full(flux.shape, _NONE)
     np.log10(flux, out=logarithm, where=flux > 0)
@@ -109,7 +108,6 @@ def flux_map(flow: rl.Flow) -> Map:
         nothing="no flow",
         blank="ink",
         caption="ring: throttled most",
-        marks=("ink",),
         rings=[throttled_at(flow)],
     )
 

@@ -243,7 +243,7 @@ def _cycle(
 
 def _area_map(fields: rl.Fields) -> Map:
     touching_and_pulling = fields.contact + 2 * fields.pulling.astype(np.uint8)
-    return Map(touching_and_pulling, "pull", 0, 2, marks=("ink", "pull"))
+    return Map(touching_and_pulling, ("paper", "ink", "pull"), 0, 2)
 
 
 def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:

@@ -5,7 +5,9 @@ All is computed anew, as the tasks of the page do.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
@@ -36,19 +38,11 @@ _ROW = 3.4  # height of a row of two plots [inch]
 _SMALL = 7  # font size [pt]
 _PER_PIXEL = 0.6  # of sizes on the page, for those on paper [pt]
 _FOOT = 0.04  # of a logarithmic axis: how far above its end zeros stand
-_COLOURS = {
-    **{"text": "black", "ink": "black", "paper": "white", "dark-line": "#31688e"},
-    **{"light-line": "#35b779", "mark": "#440154", "here": "#c2410c", "theory": "#6b6b66"},
-    **{"plastic": "#d55e00", "pull": "#3f8fc5"},
-}
+_LIGHT = Path(str(files("roughline.lab").joinpath("static/lab.css"))).read_text(encoding="utf-8")
+_COLOURS = dict(re.findall(r"--([\w-]+): (#\w+)", _LIGHT.partition("}")[0]))
 """Those of the page on paper, by their names in its style."""
 _MARKERS = {"circle": "o", "square": "s", "triangle": "^", "inverted_triangle": "v", "x": "x"}
 _DASHES = {"dashed": "--", "dotted": ":", "dashdot": "-."}
-_MARKS = {
-    "marks": ["paper", "ink", "plastic"],
-    "reach": ["paper", "ink", "dark-line"],
-    "pull": ["paper", "ink", "pull"],
-}
 _PALETTES = {"Cividis256": "cividis", "Viridis256": "viridis", "flux": "YlGnBu"}
 
 
@@ -257,8 +251,8 @@ def _draw_maps(state: ExploreState, points: int, path: Path, progress: Progress)
 def _draw_map(axes: Axes, shown: Map, sizes: tuple[float, float]) -> None:
     """Draw a map in the colours of the page, with their scale or their meanings."""
     look: dict[str, Any] = {"vmin": shown.low, "vmax": shown.high}
-    if shown.palette in _MARKS:
-        look["cmap"] = ListedColormap([_COLOURS[name] for name in _MARKS[shown.palette]])
+    if isinstance(shown.palette, tuple):
+        look["cmap"] = ListedColormap([_COLOURS[name] for name in shown.palette])
     else:
         palette = colormaps[_PALETTES[shown.palette]]
         look["cmap"] = palette.with_extremes(bad=_COLOURS[shown.blank])

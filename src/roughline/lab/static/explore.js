@@ -1,13 +1,14 @@
 // Explore: a random surface under both models, as sliders move. What can be added to the contact, and which curves
 // there are, the server declares.
+import {bindCode} from "./code.js";
 import {Controls} from "./controls.js";
+import {element} from "./elements.js";
 import {onDraw} from "./hands.js";
 import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
 import {panelsOf} from "./panels.js";
 import {Strip} from "./strip.js";
 import {fillCaption, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
-import {TakeAlong} from "./take_along.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
@@ -35,7 +36,8 @@ class Explore {
     this.#cursors = panels.filter(({cursor}) => cursor);
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
     this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
-    new TakeAlong(this.#root, link, () => this.#seen, this.#waiting, (...said) => this.#refuse(...said));
+    bindCode(this.#root, link, () => this.#seen, (...said) => this.#refuse(...said));
+    this.#find("#save").addEventListener("click", () => this.#save(this.#find("#saved").value));
     this.#strip = new Strip(this.#find(".strip"), strip);
     this.#find("#another").addEventListener("click", () => {
       this.#controls.put("seed", String(Math.floor(Math.random() * 1e6)));
@@ -74,6 +76,13 @@ class Explore {
   get #seen() {
     const {state, texts, points} = this.#last ?? {state: {}, texts: this.#controls.used};
     return {state: {...state, ...texts, shown: this.#controls.said.shown ?? "area"}, points};
+  }
+
+  #save(name) {
+    this.#waiting.ask("explore.download", "download", {...this.#seen, name}, {
+      answer: ({file}) => element("a", {href: `/results/${this.#link.session}/${file}?save=1`, download: name}).click(),
+      error: (...said) => this.#refuse(...said),
+    });
   }
 
   #find(selector) { return this.#root.querySelector(selector); }
@@ -245,8 +254,8 @@ class Explore {
   #drawField() {
     const {shown: wanted} = this.#controls.said, {maps, arrays} = this.#fields, shown = wanted in maps ? wanted : "area";
     if (!(shown in maps)) return; // the load was not solved
-    const {caption, marks, rings} = maps[shown];
-    fillCaption(this.#captionOf("shown"), caption, marks);
+    const {rings} = maps[shown];
+    fillCaption(this.#find('[data-caption="shown"]'), maps[shown]);
     this.#maps.show("topography", arrays.topography, maps.height);
     this.#maps.show("contact", arrays[shown], maps[shown]);
     this.#plots.set("contact rings", {x: rings.map(([x]) => x), y: rings.map(([, y]) => y)});
@@ -328,7 +337,6 @@ class Explore {
     if (atRest) this.#find("[data-spoken]").textContent = `${text}; ${this.#strip.spoken}`;
   }
 
-  #captionOf(name) { return this.#find(`[data-caption="${name}"]`); }
   #panelOf(key) { return this.#find(`#explore-${key}`); }
 
   #showHeightOrSlope() {

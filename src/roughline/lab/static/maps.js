@@ -8,11 +8,6 @@ import {colour, onRecolour} from "./plots.js";
 const BORDERS = {left: 60, right: 40, top: 8, bottom: 46}; // for the axes and their names [px]
 const LOWEST = 48; // frame of a map that is much longer than wide [px]
 const HIGHEST = 0.38, AT_LEAST = 280; // frame, in heights of the window, and [px]
-const MARKS = { // palettes of a few colours of the theme
-  marks: ["paper", "ink", "plastic"], // gap, contact, contact at the hardness
-  reach: ["paper", "ink", "dark-line"], // gap, contact, gap that a fluid comes to
-  pull: ["paper", "ink", "pull"], // gap, contact, gap across which bodies pull each other
-};
 const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
 const STOPS = 24; // of the scale's gradient
 const SAMPLES = 600; // along a profile
@@ -115,11 +110,12 @@ export class Maps {
 
   #colour(name) {
     const {palette, low, high, title = "", unit = "", is_logarithmic: isLogarithmic = false, blank = "here"} = this.#looks[name];
-    const wanted = MARKS[palette]?.map(colour) ?? (palette === "flux" ? ofFlux() : Bokeh.Palettes[palette]);
+    const isOfTheme = Array.isArray(palette);
+    const wanted = isOfTheme ? palette.map(colour) : palette === "flux" ? ofFlux() : Bokeh.Palettes[palette];
     this.#plots.model(`${name} colours`)?.setv({palette: wanted, low, high: high > low ? high : low + 1, low_color: colour("paper"),
       nan_color: colour(blank)});
     const place = scaleAbove(this.#places[name]);
-    place.hidden = palette in MARKS;
+    place.hidden = isOfTheme;
     if (!place.hidden) place.replaceChildren(...scaleOf(title, unit, wanted, [low, high], isLogarithmic));
   }
 

@@ -1,6 +1,5 @@
 // Answers of My surface: pressing, both models, the report, and code that repeats it.
-import {copy} from "./clipboard.js";
-import {openDialog} from "./dialogs.js";
+import {bindCode} from "./code.js";
 import {element} from "./elements.js";
 import {recall, remember} from "./remember.js";
 
@@ -19,9 +18,8 @@ export class Answers {
     on("[data-press]", "click", () => this.#press({}, true));
     on("[data-compare]", "click", () => this.#compare());
     on("[data-report]", "click", () => this.#report());
-    on("[data-code]", "click", ({currentTarget}) => this.#code(currentTarget));
     on("[data-part-map]", "change", ({target}) => this.#press({...this.#seen, map: Number(target.value)}));
-    on("[data-copy]", "click", ({target}) => copy(view.find("[data-code-dialog] pre").textContent, target));
+    bindCode(view.root, link, () => ({state: this.#seen.state}), (sentence, at) => view.refuseTask(sentence, at, "report"));
   }
 
   // The file can be pressed, or not.
@@ -147,16 +145,6 @@ export class Answers {
         : {href: `${address}?save=1`, textContent: `${name}, to save`, download: place}));
     });
     this.#view.find("[data-links]").replaceChildren(...links);
-  }
-
-  #code(button) {
-    this.#link.ask("measured.code", "measured code", {state: this.#seen.state, which: button.dataset.code}, {
-      answer: ({text}) => {
-        this.#view.find("[data-code-dialog] pre").textContent = text;
-        openDialog(this.#view.find("[data-code-dialog]"), button);
-      },
-      error: (sentence, at) => this.#view.refuseTask(sentence, at, "report"),
-    });
   }
 
   #dim(isDimmed) {

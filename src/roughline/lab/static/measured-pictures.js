@@ -102,14 +102,14 @@ class Pictures {
     const told = this.#view.find(`[data-caption="measured-${name}"]`);
     if (!look) {
       this.#plots.set(name, NOTHING);
-      fillCaption(told, "the load was not solved");
+      told.textContent = "the load was not solved";
       return;
     }
-    const {caption, marks, rings, sizes, corner, table} = look;
+    const {rings, sizes, corner, table} = look;
     this.#maps[step].show(name, array, look, sizes, corner);
     const [x, y] = [0, 1].map((axis) => rings.map((ring) => corner[axis] + ring[axis] * sizes[axis]));
     if (name in RINGS) this.#plots.set(`${name} rings`, {x, y});
-    fillCaption(told, caption, marks);
+    fillCaption(told, look);
     fillTable(`measured-${name}`, ...table);
   }
 }

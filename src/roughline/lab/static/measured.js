@@ -25,7 +25,7 @@ export async function open(link, address, said) {
 }
 
 class Measured {
-  #link; #address; #root = document.querySelector("#measured");
+  #link; #address; root = document.querySelector("#measured");
   #controls; #source; #part; #answers;
   #read = null; // what the file holds, as last read
   #body = null; // the same, prepared, as far as it can be pressed
@@ -37,13 +37,13 @@ class Measured {
   constructor(link, address) {
     this.#link = link;
     this.#address = address;
-    this.#controls = new Controls(this.#root, (key) => this.#changed(key));
+    this.#controls = new Controls(this.root, (key) => this.#changed(key));
     this.waiting = new Waiting(this.find("[data-waiting]"), link, (works) => {
       this.#undim();
       if (works.includes("measured file")) this.#source.stop();
       this.#answers.stopped(works);
     });
-    this.pictures = picturesOf(this, this.#root);
+    this.pictures = picturesOf(this, this.root);
     this.#source = new Source(link, this);
     this.#part = new Part(this);
     this.#answers = new Answers(link, this, this.#part);
@@ -57,8 +57,8 @@ class Measured {
     }
   }
 
-  find(selector) { return this.#root.querySelector(selector); }
-  findAll(selector) { return [...this.#root.querySelectorAll(selector)]; }
+  find(selector) { return this.root.querySelector(selector); }
+  findAll(selector) { return [...this.root.querySelectorAll(selector)]; }
   step(name) { return this.find(`#measured-step-${name}`); }
 
   async open(given) {
@@ -234,7 +234,7 @@ class Measured {
   #take(said) {
     this.#controls.take(said);
     for (const place of this.findAll("[data-bodies]")) place.hidden = place.dataset.bodies !== (said.bodies ?? "materials");
-    this.#root.classList.toggle("has-file", this.hasSource);
+    this.root.classList.toggle("has-file", this.hasSource);
     this.#answers?.ready();
   }
 
@@ -254,7 +254,7 @@ class Measured {
 
   #write() {
     remember("set", this.#set);
-    if (!this.#root.hidden) this.#address.write("measured", this.#set);
+    if (!this.root.hidden) this.#address.write("measured", this.#set);
   }
 
   #forgetFile() {

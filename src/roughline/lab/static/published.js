@@ -11,7 +11,7 @@ const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
 const STRIP = ["exponent_1D", "stated_1D", "exponent_3D", "stated_3D"];
 const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance", "claims"];
 const TASKS = ["fits", "point"];
-const DIMENSIONS = ["2", "2.2", "2.4", "2.6", "2.8", "3"]; // of the curves
+const DIMENSIONS = [...document.querySelectorAll('#published [data-key="D_f"]')].map(({value}) => value);
 const PANEL = "published-trust-"; // with a roll-off ratio, the panel of the trust map
 const HATCH = {hatch_pattern: "right_diagonal_line", hatch_color: "#1c1c1a", hatch_alpha: 0.7, hatch_scale: 7, hatch_weight: 0.8};
 const WINDOW = {movable: "x", resizable: "x", fill_alpha: 0.12, line_alpha: 0.6, level: "underlay",

@@ -72,15 +72,16 @@ export function fillFigures(place, figures) {
     element("dt", {textContent: name}), ...[value, interval].map((textContent) => element("dd", {textContent})))));
 }
 
-const MEANINGS = { // of the colours of marks
+const MEANINGS = { // of colours of the theme
   ink: "in contact",
   plastic: "of this at the hardness: permanently indented",
   reach: "reached by the fluid",
   pull: "pulled across a gap",
 };
 
-// Say in a caption what a map shows, and what the colours of its marks mean.
-export function fillCaption(place, caption, marks = []) {
-  const patches = marks.flatMap((name) => [element("span", {className: `patch ${name}`}), MEANINGS[name]]);
+// Say in a caption what a map shows, and what colours of the theme mean in it.
+export function fillCaption(place, {caption, palette, blank}) {
+  const named = [palette, blank].flat().filter((name) => name in MEANINGS);
+  const patches = named.flatMap((name) => [element("span", {className: "patch", style: `background: var(--${name})`}), MEANINGS[name]]);
   place.replaceChildren(caption, ...patches);
 }
