@@ -327,6 +327,36 @@ def test_after_its_button_a_finger_moves_the_load_and_chooses_a_piece(phone):
     assert [float(each.split()[0]) for each in crop[:2]] == pytest.approx(wanted, rel=0.02)
 
 
+COVERED = """() => [...document.querySelectorAll(".control")]
+    .filter((each) => each.checkVisibility()).flatMap((control) => {
+        const meaning = control.querySelector(":scope > .meaning");
+        if (!meaning) return [];
+        control.querySelector("input, select").focus();
+        const told = meaning.getBoundingClientRect();
+        return [...document.querySelectorAll(".control :is(input, select, label, legend)")]
+            .filter((other) => other.checkVisibility()).filter((other) => {
+                const {left, right, top, bottom} = other.getBoundingClientRect();
+                return left < told.right && right > told.left
+                    && top < told.bottom && bottom > told.top;
+            }).map((other) => `${control.dataset.control} covers ${other.outerHTML}`);
+    })"""
+
+
+@pytest.mark.parametrize("kind", ["phone", "desk"])
+@pytest.mark.parametrize("view", list(QUERIES))
+def test_what_a_control_means_covers_no_control(kind, view, request):
+    page = request.getfixturevalue(kind)(view)
+    drawer = page.locator(f"#{view} .drawer:visible")
+    for opener in drawer.all():
+        opener.click()
+    page.evaluate(
+        "() => document.querySelectorAll('.step').forEach((each) => { each.open = true; })"
+    )
+    assert len(page.evaluate(COVERED)) == 0
+    for opener in drawer.all():
+        opener.click()
+
+
 def close_its_code_in_every_way(page, view):
     openers = [f"#{view} [data-code={name}]" for name in ("python", "command")]
     place = page.locator(f"#{view}-code")

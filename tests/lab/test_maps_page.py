@@ -110,5 +110,7 @@ def test_the_scale_of_a_map_has_its_name_and_unit(pages):
     assert page.inner_text("#explore-contact .scale > span") == "gap / h"
     assert page.locator("#explore-contact .scale i span").count() >= 2
     page.select_option('[data-key="shown"]', "area")
-    assert not page.is_visible("#explore-contact .scale")
+    assert page.inner_text("#explore-contact .scale") == ""
+    tops = [page.locator(f"#plot-{name}").bounding_box()["y"] for name in MAPS]
+    assert tops[0] == pytest.approx(tops[1], abs=1)  # also beside a map without a scale
     page.context.close()

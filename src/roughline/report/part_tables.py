@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from roughline.report.answers import NO_MEAN, leading_keys, quantity, starred
+from roughline.report.values import Write, with_interval
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering
 
@@ -24,7 +25,9 @@ def maps_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
     return header, rows
 
 
-def leading_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
+def leading_table(
+    part: PartAssessment, write: Write = with_interval
+) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of each map's leading answers at the largest load."""
     first, load = part.assessments[0], part.largest
     of_maps = map(leading_keys, part.assessments)  # some maps may yield, and others not
@@ -34,7 +37,8 @@ def leading_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
     for name, each in zip(part.names, part.assessments, strict=True):
         star = starred(each)[load].removeprefix(part.headings[load])
         cells = [
-            quantity(each.answers[key], load) if key in each.answers else NO_MEAN for key in keys
+            quantity(each.answers[key], load, write) if key in each.answers else NO_MEAN
+            for key in keys
         ]
         rows.append([f"{name}{star}", *cells])
     return header, rows

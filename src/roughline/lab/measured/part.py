@@ -26,7 +26,7 @@ from roughline.lab.panels import Filled, Points
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
 from roughline.report.answers import leading_keys, unit_shown
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
-from roughline.report.values import figure, scale_of
+from roughline.report.values import figure, scale_of, up_to_three_digits
 
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
 
@@ -53,7 +53,10 @@ def maps(arguments: Arguments, progress: Progress) -> bytes:
 
 def part_in_words(part: PartAssessment, shown: int) -> dict[str, Any]:
     """Names and tables of the maps of a part, of which one is shown alone, and its drawings."""
-    tables = {"measured-part-leading": leading_table(part), "measured-part-maps": maps_table(part)}
+    tables = {
+        "measured-part-leading": leading_table(part, up_to_three_digits),
+        "measured-part-maps": maps_table(part),
+    }
     leading = [key for key in leading_keys(part.assessments[0]) if key in part.answers]
     others = [key for key in part.answers if key not in leading]
     drawn = {}

@@ -30,9 +30,12 @@ _OF_ARGUMENTS = {each.name: (key,) for key, each in c.BY_CONTROL.items()} | {
 }
 """Keys of controls by the names of arguments."""
 
+_SHOWN = dict(pair for field in c.BY_CONTROL.values() for pair in field.choices.values())
+"""What the page calls the values of choices."""
+
 CONTROLS = Words(
     names_by(lambda field: field.word or field.label or field.control.replace("_", " ")),
-    lambda text: f'"{text}"',
+    lambda text: f'"{_SHOWN.get(text, text)}"',
 )
 """What the page calls arguments of the library: its controls."""
 

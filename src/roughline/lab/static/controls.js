@@ -23,6 +23,7 @@ export class Controls {
       choice.addEventListener("change", () => this.set(key, chosen(this.#choices(key), "checked")));
       this.#defaults[key] ??= chosen(this.#choices(key), "defaultChecked");
     }
+    for (const beside of root.querySelectorAll(":scope > .controls")) keepInSight(beside);
     root.addEventListener("submit", (event) => {
       if (event.target.method !== "dialog") event.preventDefault();
     });
@@ -201,4 +202,11 @@ function position(slider, value) {
 function number(slider) {
   const {low, high, scale} = slider.dataset;
   return scale === "linear" ? Number(slider.value) : low * (high / low) ** (slider.value / slider.max);
+}
+
+// Let controls stay in sight while the page scrolls: by their end, if they are longer than the window.
+function keepInSight(controls) {
+  const fit = () => controls.style.setProperty("top", `${Math.min(0, innerHeight - controls.offsetHeight)}px`);
+  new ResizeObserver(fit).observe(controls);
+  addEventListener("resize", fit);
 }

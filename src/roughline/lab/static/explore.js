@@ -49,7 +49,6 @@ class Explore {
     for (const {key, task} of panels) this.#panelOf(key).dataset.task = task;
     for (const map of MAPS) this.#find(`#${map}`).dataset.task = "contact";
     bindTabs(this.#root, () => this.#placeCursors());
-    keepInSight(this.#find(".controls"));
   }
 
   async open(said) {
@@ -354,13 +353,6 @@ function maps() {
     "explore-contact": mapFigure("contact", {rings: "here", ranges}),
     "explore-profile": profileFigure(),
   };
-}
-
-// Let controls stay in sight while the page scrolls: by their end, if they are longer than the window.
-function keepInSight(controls) {
-  const fit = () => controls.style.setProperty("top", `${Math.min(0, innerHeight - controls.offsetHeight)}px`);
-  new ResizeObserver(fit).observe(controls);
-  addEventListener("resize", fit);
 }
 
 function sameState(first, second) { return JSON.stringify(first) === JSON.stringify(second); }

@@ -115,8 +115,7 @@ export class Maps {
     this.#plots.model(`${name} colours`)?.setv({palette: wanted, low, high: high > low ? high : low + 1, low_color: colour("paper"),
       nan_color: colour(blank)});
     const place = scaleAbove(this.#places[name]);
-    place.hidden = isOfTheme;
-    if (!place.hidden) place.replaceChildren(...scaleOf(title, unit, wanted, [low, high], isLogarithmic));
+    place.replaceChildren(...(isOfTheme ? [] : scaleOf(title, unit, wanted, [low, high], isLogarithmic)));
   }
 
   // Give all maps the size at which the sides of the surface fill the frame: as wide as their rooms, and as high as
