@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import asdict
 from functools import cache
@@ -10,7 +9,6 @@ from importlib.resources import files
 from pathlib import Path
 
 import jinja2
-from markupsafe import Markup, escape
 
 import roughline as rl
 from roughline.engineering.fluids import fluids
@@ -24,10 +22,10 @@ from roughline.lab.published import controls as published
 from roughline.lab.published.panels import PANELS as PUBLISHED
 from roughline.lab.server.tasks import Place, Site
 from roughline.paper.studies import study_summaries
+from roughline.report.typeset import typeset
 from roughline.statistics.verdict import Verdict
 
 _PANELS = {"measured": MEASURED, "published": PUBLISHED}
-_SYMBOL = re.compile(r"_([A-Za-z0-9]+)|(\^|(?<=\d)e)(-?)0*([\wα-ω]+(?:\.\d+)?)")
 
 
 def _place(
@@ -103,20 +101,8 @@ def _environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
     )
-    environment.filters |= {"typeset": _typeset, "verdict": _verdict}
+    environment.filters |= {"typeset": typeset, "verdict": _verdict}
     return environment
-
-
-def _typeset(text: str) -> Markup:
-    """A text with symbols such as D_f and 2^20: what follows is set low, or high."""
-
-    def mark(found: re.Match[str]) -> str:
-        low, base, sign, high = found.groups()
-        if low:
-            return f"<sub>{low}</sub>"
-        return f"{'·10' if base == 'e' else ''}<sup>{sign and '−'}{high}</sup>"
-
-    return Markup(_SYMBOL.sub(mark, str(escape(text))))
 
 
 def _verdict(text: str) -> str:

@@ -92,7 +92,10 @@ def render(
     """Return the page as HTML; `made` says when and with which version it was made."""
     import jinja2  # here because the terminal needs none
 
+    from roughline.report.typeset import typeset
+
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    environment.filters["typeset"] = typeset
     environment.filters["verdict_class"] = _verdict_class
     environment.filters["value_and_interval"] = value_and_interval
     source = files("roughline.report").joinpath("page.html.jinja").read_text(encoding="utf-8")

@@ -1,4 +1,5 @@
 // Sliders, their text fields and choices of one view, and the texts that they stand for.
+import {typeset} from "./elements.js";
 import {letScroll} from "./hands.js";
 
 const CHOICES = ':is(select, input[type="radio"], input[type="checkbox"])[data-key]';
@@ -106,8 +107,9 @@ export class Controls {
   refuse(key, sentence) {
     const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
     if (!place) return !sentence;
-    if (place.textContent !== sentence) {
-      place.textContent = sentence;
+    if ((place.dataset.said ?? "") !== sentence) {
+      place.dataset.said = sentence;
+      place.replaceChildren(...typeset(sentence));
       this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
     }
     return sentence === "" || place.parentElement.checkVisibility();

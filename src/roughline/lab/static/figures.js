@@ -18,9 +18,18 @@ export function plot([x_axis_label, y_axis_label], [x_range, y_range] = [], look
   const made = new Bokeh.Plotting.Figure({
     x_axis_label, y_axis_label, x_range, y_range, tools: tools(look.match_aspect), sizing_mode: "stretch_both", ...look,
   });
-  for (const axis of made.axes) axis.major_label_policy = new Bokeh.NoOverlap();
+  for (const axis of made.axes) {
+    axis.major_label_policy = new Bokeh.NoOverlap();
+    const {basic_formatter: ofShort} = axis.formatter; // of a logarithmic axis of less than two decades: 1.000e+5
+    if (ofShort) ofShort.doFormat = (ticks) => ticks.map(inFewDigits);
+  }
   made.toolbar.setv({logo: null, autohide: true});
   return made;
+}
+
+function inFewDigits(tick) {
+  const rounded = Number(tick.toPrecision(6));
+  return rounded >= 1e5 || rounded < 1e-3 ? rounded.toExponential() : String(rounded);
 }
 
 // Tools for the mouse; the wheel is left to the page.

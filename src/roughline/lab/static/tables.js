@@ -74,7 +74,7 @@ export function fillFigures(place, figures) {
 
 const MEANINGS = { // of colours of the theme
   ink: "in contact",
-  plastic: "of this at the hardness: permanently indented",
+  plastic: "of this at the hardness",
   reach: "reached by the fluid",
   pull: "pulled across a gap",
 };
