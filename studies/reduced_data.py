@@ -192,4 +192,7 @@ def _short(value: Any) -> str:
 
 
 def _in_double(data: xarray.Dataset) -> xarray.Dataset:
-    return data.map(lambda each: each.astype(np.float64) if each.dtype == np.float32 else each)
+    def in_double(each: xarray.DataArray) -> xarray.DataArray:
+        return each.astype(np.float64) if each.dtype == np.float32 else each
+
+    return data.map(in_double, keep_attrs=True)

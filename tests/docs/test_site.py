@@ -25,6 +25,7 @@ CUT = """() => [...document.querySelectorAll("header *, nav *, .prev-next-area *
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     """Return a folder with pages of long names."""
+    pytest.importorskip("pydata_sphinx_theme")
     source = tmp_path_factory.mktemp("site")
     settings = f"""
 html_theme = "pydata_sphinx_theme"

@@ -107,8 +107,8 @@ export class Controls {
   refuse(key, sentence) {
     const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
     if (!place) return !sentence;
-    if ((place.dataset.said ?? "") !== sentence) {
-      place.dataset.said = sentence;
+    if ((place.dataset.sentence ?? "") !== sentence) {
+      place.dataset.sentence = sentence;
       place.replaceChildren(...typeset(sentence));
       this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
     }
