@@ -333,7 +333,8 @@ COVERED = """() => [...document.querySelectorAll(".control")]
         if (!meaning) return [];
         control.querySelector("input, select").focus();
         const told = meaning.getBoundingClientRect();
-        return [...document.querySelectorAll(".control :is(input, select, label, legend)")]
+        const around = control.closest(".controls, .block");
+        return [...around.querySelectorAll(".control :is(input, select, label, legend)")]
             .filter((other) => other.checkVisibility()).filter((other) => {
                 const {left, right, top, bottom} = other.getBoundingClientRect();
                 return left < told.right && right > told.left

@@ -813,7 +813,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
     assert tables["measured-part-answers"][:2] == list(
         answer_table(expected, write=up_to_three_digits)
     )
-    assert tables["measured-part-leading"] == list(leading_table(expected))
+    assert tables["measured-part-leading"] == list(leading_table(expected, up_to_three_digits))
     assert tables["measured-part-maps"] == list(maps_table(expected))
     assert "broken.x3p" in header["remarks"]["Limits"][0]
     drawn = header["choices"]["part"]["contact stiffness k"]["series"]
