@@ -87,6 +87,9 @@ def test_a_refused_map_is_named_and_the_others_go_on(maps, tmp_path):
     assert part.answers["contact_stiffness"].count == 2
     with pytest.raises(rl.InputError, match="none of the 2 maps can be pressed: bad.txt.*; 2.nc"):
         pressed([tmp_path / "bad.txt", files[2]])
+    softer = ASKED | {"materials": ", ".join([FIRST, SECOND.replace("1000 GPa", "1 MPa")])}
+    with pytest.raises(rl.InputError, match="2 maps can be pressed: 0.nc, 1.nc: load 5 MPa is"):
+        pressed(files[:2], **softer)
 
 
 def test_a_single_map_gives_no_interval_of_the_part(maps):

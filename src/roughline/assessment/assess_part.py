@@ -140,10 +140,10 @@ def assess_part(
     if not done.assessments:
         if done.left:
             raise KeyboardInterrupt
-        names: dict[str, list[str]] = {}
+        alike: dict[str, list[str]] = {}
         for name, why in done.refused.items():
-            names.setdefault(why, []).append(name)
-        reasons = "; ".join(_reason(", ".join(some), why) for why, some in names.items())
+            alike.setdefault(why, []).append(name)
+        reasons = "; ".join(_reason(", ".join(some), why) for why, some in alike.items())
         raise InputError(f"none of the {len(todo)} maps can be pressed: {reasons}")
     return _part_of(done)
 
