@@ -353,7 +353,7 @@ def test_what_a_control_means_covers_no_control(kind, view, request):
     page.evaluate(
         "() => document.querySelectorAll('.step').forEach((each) => { each.open = true; })"
     )
-    assert len(page.evaluate(COVERED)) == 0
+    assert page.evaluate(COVERED) == []
     for opener in drawer.all():
         opener.click()
 

@@ -109,7 +109,8 @@ export class Controls {
     if (!place) return !sentence;
     if ((place.dataset.sentence ?? "") !== sentence) {
       place.dataset.sentence = sentence;
-      place.replaceChildren(...typeset(sentence));
+      const parts = sentence.split(/("[^"]*")/); // what is quoted stays as it was typed
+      place.replaceChildren(...parts.flatMap((part, i) => (i % 2 ? [part] : typeset(part))));
       this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
     }
     return sentence === "" || place.parentElement.checkVisibility();

@@ -7,7 +7,7 @@ export function element(kind, properties = {}, ...inside) {
 
 const NAMES = {phi: "φ", rho: "ρ", m_dot: "ṁ"};
 const SYMBOLS = [ // k_i and E*_l, but no names of files; powers; numbers such as 1e-05
-  String.raw`(?<![\p{L}\d.])\p{L}\p{M}?\*?_[\p{L}\d]{1,4}(?![\p{L}\d_]|\.\p{L})`,
+  String.raw`(?<![\p{L}\d.])\p{L}\p{M}?\*?_(?!star)[\p{L}\d]{1,4}(?![\p{L}\d_]|\.\p{L})`,
   String.raw`\^-?[\wα-ω]+(?:\.\d+)?`,
   String.raw`(?<=(?<![\p{L}\d_.-])\d+(?:\.\d+)?)e-?\d+(?![\p{L}\d])`,
 ];
