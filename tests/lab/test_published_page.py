@@ -1,12 +1,15 @@
 """The paper's view in a browser: windows drawn with the mouse, choices, trust map, claims."""
 
+import html
 import re
 
 import pytest
 
 import roughline as rl
 from lab.looks import asked, cut_off, faint, tabbed
+from report.test_typeset import SET
 from roughline.paper.studies import study_summaries
+from roughline.report.typeset import typeset
 from roughline.units import decimal
 
 HEADER = "published-stiffness-3D"
@@ -288,3 +291,21 @@ def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other
     explore, published = map(set, named)
     assert "published-kappa" in published
     assert not explore & published
+
+
+def test_pages_set_symbols_as_reports_do(pages):
+    page = pages.open("?view=measured")
+    texts = [text for text, _ in SET] + [
+        cell for study in study_summaries().values() for row in study.rows for cell in row
+    ]
+    assert len(texts) > 100
+    written = page.evaluate(
+        """async (texts) => {
+            const {element, typeset} = await import("/lab/elements.js");
+            return texts.map((text) => element("p", {}, ...typeset(text)).innerHTML);
+        }""",
+        texts,
+    )
+    page.context.close()
+    for text, shown in zip(texts, written, strict=True):
+        assert html.unescape(shown) == html.unescape(typeset(text)), text

@@ -30,6 +30,7 @@ from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.topography.body import Body, Line, Surface
+from roughline.units import decimal
 
 _LEAST_SHARE = 1e-9  # of the area that is in contact, or is not; less counts as this
 
@@ -197,7 +198,7 @@ def which_surface(beyond: Beyond, of: Literal["stiffness", "gap"] = "stiffness")
             "of the larger surface that the map was cut out of; the map holds "
             f"{beyond.roll_offs:.2g} roll-off wavelengths along a side"
         )
-    times = f"{2**beyond.doublings:.2g} times as long as the map, which shows no roll-off"
+    times = f"{decimal(2**beyond.doublings, 2)} times as long as the map, which shows no roll-off"
     if beyond.whole is None:
         further = "lower the stiffness" if of == "stiffness" else "open the gap"
         return (

@@ -9,7 +9,7 @@ from markupsafe import Markup, escape
 _LETTER = r"[^\W\d_]"
 _SYMBOL = re.compile(  # k_i and E*_l, but no names; powers; numbers such as 1e-05
     rf"(?<![\w.])({_LETTER}\u0304?\*?)_((?!star)[^\W_]{{1,4}})(?!\w|\.{_LETTER})"
-    r"|(?:\^|(?<![\w.-])(\d+(?:\.\d+)?)e(?=-?\d+(?!\w)))(-?)0*([\wα-ω]+(?:\.\d+)?)"
+    r"|(?:\^|(?<![\w.-])(\d+(?:\.\d+)?)e(?=[+-]?\d+(?!\w)))\+?(-?)0*([\wα-ω]+(?:\.\d+)?)"
 )
 
 

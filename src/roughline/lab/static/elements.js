@@ -9,7 +9,7 @@ const NAMES = {phi: "φ", rho: "ρ", m_dot: "ṁ"};
 const SYMBOLS = [ // k_i and E*_l, but no names of files; powers; numbers such as 1e-05
   String.raw`(?<![\p{L}\d.])\p{L}\p{M}?\*?_(?!star)[\p{L}\d]{1,4}(?![\p{L}\d_]|\.\p{L})`,
   String.raw`\^-?[\wα-ω]+(?:\.\d+)?`,
-  String.raw`(?<=(?<![\p{L}\d_.-])\d+(?:\.\d+)?)e-?\d+(?![\p{L}\d])`,
+  String.raw`(?<=(?<![\p{L}\d_.-])\d+(?:\.\d+)?)e[+-]?\d+(?![\p{L}\d])`,
 ];
 const SYMBOL = new RegExp(`(${SYMBOLS.join("|")})`, "u");
 
@@ -20,7 +20,7 @@ export function typeset(text) {
     if (i % 2 === 0) return part ? [part] : [];
     const [base, low] = part.split("_");
     if (low) return [base, element("sub", {textContent: low})];
-    const textContent = part.slice(1).replace(/^(-?)0*(?=\d)/, "$1").replace("-", "−");
+    const textContent = part.slice(1).replace(/^\+?(-?)0*(?=\d)/, "$1").replace("-", "−");
     return [...(part[0] === "e" ? ["·10"] : []), element("sup", {textContent})];
   });
 }
