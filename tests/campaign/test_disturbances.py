@@ -12,9 +12,11 @@ from functools import partial
 
 import psutil
 import pytest
+from distributed import Client
 
 from roughline import campaign
 from roughline.campaign.cluster import interrupts_held_back
+from roughline.errors import ClusterError
 from small_campaign import finish, hear_interrupts, run, start, tree
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
@@ -96,6 +98,21 @@ def test_the_scheduler_killed(plan, resume, tmp_path, dask_cluster):
     assert "the Dask scheduler is gone; what is done is kept" in err
     assert "Traceback" not in err
     resume(store)
+
+
+@pytest.mark.parametrize("asked", ["wait_for_workers", "run", "ncores", "submit"])
+def test_the_scheduler_killed_while_it_is_asked(plan, tmp_path, dask_cluster, monkeypatch, asked):
+    scheduler, address = dask_cluster
+    ask = getattr(Client, asked)
+
+    def kill_and_ask(*args, **options):
+        scheduler.kill()
+        scheduler.wait()
+        return ask(*args, **options)
+
+    monkeypatch.setattr(Client, asked, kill_and_ask)
+    with pytest.raises(ClusterError, match="the Dask scheduler is gone"):
+        campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
 
 
 def test_ctrl_c(plan, resume, tmp_path):

@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from multiprocessing import resource_tracker
@@ -21,6 +22,8 @@ from urllib.parse import urlsplit
 from roughline._version import __version__
 from roughline.campaign.batch import check_version
 from roughline.errors import ClusterError, InputError
+
+GONE = "the Dask scheduler is gone; what is done is kept: start it again and repeat the command"
 
 _PATIENCE = 30.0  # until a scheduler and its workers are ready [s]
 _TO_ANSWER = 3.0  # until a scheduler has answered [s]
@@ -69,7 +72,17 @@ class Cluster:
     def cores(self) -> int:
         """Return how many cases it can compute at a time now."""
         self.restore()
-        return sum(self.client.ncores().values())
+        with answered():
+            return sum(self.client.ncores().values())
+
+
+@contextmanager
+def answered() -> Iterator[None]:
+    """Say that the scheduler is gone where what is asked of it in the context is not answered."""
+    try:
+        yield
+    except (OSError, CancelledError) as error:  # the connection is closed, and not made anew
+        raise ClusterError(GONE) from error
 
 
 @contextmanager
@@ -136,15 +149,19 @@ def remote(address: str) -> Iterator[Cluster]:
                 "or leave the address out to compute on this machine"
             ) from error
         with client:
-            try:
-                client.wait_for_workers(1, timeout=_PATIENCE)
-            except (OSError, TimeoutError) as error:
-                raise ClusterError(
-                    f"the scheduler at {address} has no workers; start some with "
-                    f"`dask worker {address}`"
-                ) from error
-            _check_versions(client)
+            with answered():
+                _wait_for_workers(client, address)
+                _check_versions(client)
             yield Cluster(client, client.dashboard_link, lambda: None)
+
+
+def _wait_for_workers(client: Any, address: str) -> None:
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except TimeoutError as error:
+        raise ClusterError(
+            f"the scheduler at {address} has no workers; start some with `dask worker {address}`"
+        ) from error
 
 
 def refuse_senseless(address: str) -> None:

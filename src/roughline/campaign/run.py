@@ -31,7 +31,6 @@ _BYTES_PER_CASE = 500  # in the process that runs the campaign, which lists all 
 _BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for work
 _CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
 _LONGEST_WITHOUT_WORKERS = 60.0  # [s]
-_GONE = "the Dask scheduler is gone; what is done is kept: start it again and repeat the command"
 
 _Progress = Callable[[str, int, int, int], None]
 """Called with (ensemble, cases done, cases failed, cases in all)."""
@@ -278,8 +277,6 @@ class _Dispatch:
 
     def work(self, batches: dict[str, list[Batch]]) -> None:
         """Compute and write all batches."""
-        from distributed.comm.core import CommClosedError  # here because it loads slowly
-
         waiting = iter([batch for each in batches.values() for batch in each])
         try:
             self._send(waiting)
@@ -291,8 +288,6 @@ class _Dispatch:
                 for future in self._finished():
                     self._take(future)
                 self._send(waiting)
-        except CommClosedError as error:  # between two looks at the states of the futures
-            raise ClusterError(_GONE) from error
         finally:
             with suppress(Exception):  # a cluster that is gone has nothing to cancel
                 self._cluster.client.cancel(list(self._pending), force=True)
@@ -306,7 +301,8 @@ class _Dispatch:
 
     def _submit(self, batch: Batch) -> Any:
         work = partial(evaluate, batch)
-        return self._cluster.client.submit(work, self.threads, __version__, pure=False)
+        with clusters.answered():
+            return self._cluster.client.submit(work, self.threads, __version__, pure=False)
 
     def _finished(self) -> list[Any]:
         """Wait until something has finished; raise if the cluster is lost."""
@@ -314,11 +310,15 @@ class _Dispatch:
 
         while True:
             # the states of the futures tell what either exception means
-            with self._cluster.client.as_current(), suppress(TimeoutError, CancelledError):
+            with (
+                clusters.answered(),
+                self._cluster.client.as_current(),
+                suppress(TimeoutError, CancelledError),
+            ):
                 wait(list(self._pending), timeout=_CHECK_INTERVAL, return_when="FIRST_COMPLETED")
             finished = [future for future in self._pending if future.status != "pending"]
             if any(future.status in ("cancelled", "lost") for future in finished):
-                raise ClusterError(_GONE)
+                raise ClusterError(clusters.GONE)
             self._check_cluster()
             if finished:
                 return finished
@@ -346,8 +346,9 @@ class _Dispatch:
         if type(error).__name__ == "KilledWorker" and not self._alone:
             self._suspects += batch.split()
             return
-        result = _failed(batch, error) if error is not None else future.result()
-        future.release()
+        with clusters.answered():
+            result = _failed(batch, error) if error is not None else future.result()
+            future.release()
         with clusters.interrupts_held_back():  # so that what is written is counted too
             self._writer.put(batch, result)
             self.summary.add(batch, result)
