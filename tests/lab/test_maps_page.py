@@ -114,3 +114,18 @@ def test_the_scale_of_a_map_has_its_name_and_unit(pages):
     tops = [page.locator(f"#plot-{name}").bounding_box()["y"] for name in MAPS]
     assert tops[0] == pytest.approx(tops[1], abs=1)  # also beside a map without a scale
     page.context.close()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_scale_of_a_map_has_its_colours(pages, theme):
+    page = pages.open(SMALL + "&fluid=x&shown=flux", theme=theme)
+    settled(page, points=64)
+    for shown in ("flux", "pressure", "gap"):
+        page.select_option('[data-key="shown"]', shown)
+        page.locator("#explore-contact .scale > span").filter(has_text=shown).wait_for()
+        for name in ("topography", "contact"):
+            bar = page.locator(f"#explore-{name} .scale i")
+            drawn = bar.evaluate("(each) => getComputedStyle(each).backgroundImage")
+            assert drawn.startswith("linear-gradient")
+            assert len(set(re.findall(r"rgba?\([^)]*\)", drawn))) > 9, shown
+    page.context.close()

@@ -222,7 +222,11 @@ function roundNumbers(low, high, isWhole) {
   return Array.from({length: Math.floor(high / step + 1e-9) - first + 1}, (_, i) => Number(((first + i) * step).toPrecision(6)));
 }
 
-function css(shown) { return typeof shown === "string" ? shown : `#${shown.toString(16).padStart(8, "0").slice(0, 6)}`; }
+// A colour of Bokeh: a name, red, green, blue and opacity, or all four in one number.
+function css(shown) {
+  if (typeof shown === "string") return shown;
+  return Array.isArray(shown) ? `rgb(${shown.slice(0, 3)})` : `#${shown.toString(16).padStart(8, "0").slice(0, 6)}`;
+}
 
 function scaleAbove({parentElement: room}) { return room.previousElementSibling; }
 
