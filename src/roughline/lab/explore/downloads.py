@@ -6,9 +6,10 @@ All is computed anew, as the tasks of the page do.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from importlib.resources import files
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 from urllib.parse import urlencode
 
@@ -16,8 +17,9 @@ import numpy as np
 import pandas as pd
 import xarray
 from matplotlib import colormaps
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
 import roughline as rl
 from roughline.computing.disk import write_dataset
@@ -36,7 +38,9 @@ from roughline.plot.style import PAGE, new_figure, styled
 
 _ROW = 3.4  # height of a row of two plots [inch]
 _SMALL = 7  # font size [pt]
+_LEGEND = 36  # of a line [characters]
 _PER_PIXEL = 0.6  # of sizes on the page, for those on paper [pt]
+_RING = ((5, "paper"), (2, "here"))  # its widths on the page, and the colours of the theme
 _FOOT = 0.04  # of a logarithmic axis: how far above its end zeros stand
 _LIGHT = Path(str(files("roughline.lab").joinpath("static/lab.css"))).read_text(encoding="utf-8")
 _COLOURS = dict(re.findall(r"--([\w-]+): (#\w+)", _LIGHT.partition("}")[0]))
@@ -205,33 +209,31 @@ def _draw_panel(axes: Axes, panel: Panel, filled: Filled) -> None:
     axes.set(xlim=filled.x or panel.ranges[0], ylim=filled.y or panel.ranges[1])
     low, high = axes.get_ylim()
     foot = low * (high / low) ** _FOOT if panel.is_logarithmic else low
+    named: dict[str, list[Artist]] = {}
+    drawn: Sequence[Artist]
     for series in panel.series:
         points = filled.series.get(series.name, {})
         if not len(points.get("x", ())):
             continue
         x, y = (np.asarray(points[name], dtype=float) for name in "xy")
         y = np.where(y == 0, foot, y) if panel.is_logarithmic else y
-        label = filled.legends.get(series.name, series.legend)
+        label = fill(filled.legends.get(series.name, series.legend), _LEGEND)
         colour = _COLOURS[series.colour]
         for kind, look in series.glyphs.items():
             size, width = look.get("size", 6) * _PER_PIXEL, look.get("line_width", 1) * _PER_PIXEL
             if kind == "varea":
                 bottom, top = (np.asarray(points[end], dtype=float) for end in ("low", "high"))
                 alpha = look["fill_alpha"]
-                axes.fill_between(
-                    x, bottom, top, color=colour, alpha=alpha, linewidth=0, label=label
-                )
+                drawn = [axes.fill_between(x, bottom, top, color=colour, alpha=alpha, linewidth=0)]
             elif kind == "line":
                 dash = _DASHES.get(look.get("line_dash", ""), "-")
-                axes.plot(x, y, dash, color=colour, linewidth=width, label=label)
+                drawn = axes.plot(x, y, dash, color=colour, linewidth=width)
             else:
-                axes.plot(
-                    *(x, y, _MARKERS[look["marker"]] if "marker" in look else "."),
-                    **{"color": colour, "markersize": size, "label": label},
-                    markerfacecolor="none" if look.get("fill_alpha") == 0 else colour,
-                )
-            label = "_"  # once in the legend
-    axes.legend(fontsize=_SMALL)
+                marker = _MARKERS[look["marker"]] if "marker" in look else "."
+                face = "none" if look.get("fill_alpha") == 0 else colour
+                drawn = axes.plot(x, y, marker, color=colour, markersize=size, markerfacecolor=face)
+            named.setdefault(label, []).extend(drawn)
+    axes.legend([tuple(each) for each in named.values()], [*named], fontsize=_SMALL)
 
 
 def _draw_maps(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
@@ -250,16 +252,25 @@ def _draw_maps(state: ExploreState, points: int, path: Path, progress: Progress)
 
 def _draw_map(axes: Axes, shown: Map, sizes: tuple[float, float]) -> None:
     """Draw a map in the colours of the page, with their scale or their meanings."""
-    look: dict[str, Any] = {"vmin": shown.low, "vmax": shown.high}
+    norm, values, unit = Normalize(shown.low, shown.high), shown.values, shown.unit
+    if shown.is_logarithmic:
+        norm, values = LogNorm(10**shown.low, 10**shown.high), 10.0**values
+    look: dict[str, Any] = {"norm": norm}
     if isinstance(shown.palette, tuple):
         look["cmap"] = ListedColormap([_COLOURS[name] for name in shown.palette])
     else:
         palette = colormaps[_PALETTES[shown.palette]]
         look["cmap"] = palette.with_extremes(bad=_COLOURS[shown.blank])
-    image = draw_map(axes, np.ma.masked_invalid(shown.values), sizes, "m", **look)
+    image = draw_map(axes, np.ma.masked_invalid(values), sizes, "m", **look)
     if shown.title:
-        of = "logarithm of " if shown.is_logarithmic else ""
-        axes.figure.colorbar(image, ax=axes, shrink=0.85, label=f"{of}{shown.title} {shown.unit}")
+        label = f"{shown.title} {unit if unit.startswith('/') else f'[{unit}]'}"
+        axes.figure.colorbar(image, ax=axes, shrink=0.85, label=label)
+    x, y = image.get_extent()[1::2]
+    for place in shown.rings:
+        for width, colour in _RING:
+            ring = axes.plot(place[0] * x, place[1] * y, "o", markerfacecolor="none")[0]
+            ring.set(markersize=14 * _PER_PIXEL, markeredgewidth=width * _PER_PIXEL)
+            ring.set_markeredgecolor(_COLOURS[colour])
     axes.set_title(shown.caption, fontsize=_SMALL)
 
 
@@ -268,6 +279,7 @@ def _write_figure(path: Path, plots: list[Callable[[Axes], Any]]) -> None:
     rows = -(-len(plots) // 2)
     with styled():
         figure = new_figure(PAGE, _ROW * rows)
+        figure.set_layout_engine("compressed")
         axes = figure.subplots(rows, 2, squeeze=False).ravel()
         for draw, each in zip(plots, axes, strict=False):
             draw(each)
