@@ -14,6 +14,7 @@ import asyncio
 import collections
 import contextlib
 import multiprocessing
+import os
 import random
 import resource
 import statistics
@@ -65,10 +66,10 @@ class Watch:
 
     def look(self):
         own = megabytes(self.server)
-        files = [each for each in self.lab.folder.rglob("*") if each.is_file()]
+        files = [Path(at) / name for at, _, names in os.walk(self.lab.folder) for name in names]
         sizes = []
         for each in files:
-            with contextlib.suppress(OSError):
+            with contextlib.suppress(OSError):  # as it may be gone by now
                 sizes.append(each.stat().st_size)
         memory = (self.server.memory_info().rss / 1e6, own[0], sum(own))
         on_disk = (len(files), sum(sizes) / 1e3, self.lab.log.stat().st_size)

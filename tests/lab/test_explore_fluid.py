@@ -22,8 +22,9 @@ from lab.test_explore import (
 from lab.unpacked import unpacked
 from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, pictures
+from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.reading import state_of
+from roughline.plot import style
 
 SCALE = E_STAR * HEIGHT * LENGTH
 FLOWS = {**SMALL, "fluid": "x"}
@@ -205,6 +206,46 @@ def test_pictures_have_the_flow(name, tmp_path):
     for more in ({"shown": "flux"}, {"shown": "flux", "hardness_bar": "0.3"}):
         file = saved(name, {**FLOWS, **more}, tmp_path)
         assert image.imread(file).size if file.suffix == ".png" else file.read_bytes()
+
+
+@pytest.fixture
+def figures(monkeypatch):
+    """The figures that are saved."""
+    made = []
+
+    def new_figure(*size):
+        made.append(style.new_figure(*size))
+        return made[-1]
+
+    monkeypatch.setattr(downloads, "new_figure", new_figure)
+    return made
+
+
+def test_the_saved_map_has_the_ring_and_the_scale_of_the_page(tmp_path, figures, surface):
+    saved("contact.png", {**FLOWS, "shown": "flux"}, tmp_path)
+    drawn, scale = figures[0].axes[1], figures[0].axes[3]
+    look = answer(pictures.full, {**FLOWS, "shown": "flux"})[0]["maps"]["flux"]
+    assert scale.get_ylabel() == "flux [of its mean]"
+    assert scale.get_ylim() == pytest.approx((10 ** look["low"], 10 ** look["high"]))
+    sides = drawn.get_xlim()[1], drawn.get_ylim()[1]
+    for ring in drawn.lines:
+        np.testing.assert_allclose(ring.get_xydata()[0] / sides, look["rings"][0])
+    assert len(drawn.lines) == 2
+    legend = drawn.get_legend()
+    assert legend.get_title().get_text() == look["caption"]
+    assert [each.get_text() for each in legend.get_texts()] == [*look["meanings"].values()]
+
+
+def test_legends_of_saved_curves_stay_within_their_frames(tmp_path, figures):
+    stick = {**FLOWS, "w": "0.3", "D_f": "2.2", "t": "0.05"}
+    for state in (SMALL, {**FLOWS, "hardness_bar": "0.3"}, stick):
+        saved("curve.png", state, tmp_path)
+        (figure,) = figures
+        for axes in figure.axes:
+            if legend := axes.get_legend():
+                frame, box = axes.get_window_extent(), legend.get_window_extent()
+                assert frame.x0 < box.x0 < box.x1 < frame.x1
+        figures.clear()
 
 
 def test_a_saved_table_has_the_apertures_of_the_plot(tmp_path):

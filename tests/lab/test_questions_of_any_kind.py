@@ -56,6 +56,13 @@ def test_what_is_no_text_is_refused_at_its_control(task, session):
         )
 
 
+def test_sides_beyond_all_floats_are_refused(session, capfd):
+    told = {"state": STATES["measured"], "sides": [10**400, 1], "session": session}
+    outcome = outcome_of(TASKS["measured.bodies"], told, lambda done, total: None)
+    assert "give two positive, finite numbers" in outcome.error
+    assert capfd.readouterr() == ("", "")
+
+
 def mistaken(arguments, progress):
     """A task with a mistake in its program."""
     return arguments["nothing"]

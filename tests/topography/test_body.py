@@ -1,6 +1,7 @@
 """Surface and Line: what they hold, and what they refuse."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -135,6 +136,21 @@ def test_what_is_no_map_or_says_things_twice_is_refused():
             rl.Surface(*arguments)
     with pytest.raises(rl.InputError, match="states its unit, um; leave unit out"):
         rl.Surface(given, unit="m")
+
+
+@pytest.mark.parametrize(
+    "huge", [10**400, 10**6000, Fraction(10**400)], ids=["400 digits", "6000", "a fraction"]
+)
+def test_numbers_beyond_those_of_floats_are_refused(huge):
+    for build in (
+        lambda: rl.Surface(wave(), (huge, 1)),
+        lambda: rl.Surface([[0, huge], [1, 1]], (1, 1)),
+        lambda: rl.Line(wave()[0], huge),
+        lambda: rl.Line([0, huge, 1], 1.0),
+        lambda: rl.flow([[0, huge], [1, 1]]),
+    ):
+        with pytest.raises(rl.InputError, match="0000 ... 000|a Fraction|a number of thousands"):
+            build()
 
 
 def test_bodies_are_values():

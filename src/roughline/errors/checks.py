@@ -10,6 +10,7 @@ from typing import Any, NoReturn, TypeVar
 from roughline.errors import InputError
 
 _LONGEST = 80  # characters of a value that a message shows
+_MOST_BITS = 10_000  # of a whole number that Python writes out
 _Choice = TypeVar("_Choice")
 
 
@@ -28,9 +29,11 @@ def shown(given: Any) -> str:
     if given is None or isinstance(given, bool | complex):
         return repr(given)
     if isinstance(given, Integral):
-        return shortened(str(int(given)))
-    if isinstance(given, Real):
-        return repr(float(given))
+        whole_number = int(given)
+        is_short = whole_number.bit_length() < _MOST_BITS
+        return shortened(str(whole_number)) if is_short else "a number of thousands of digits"
+    if isinstance(given, Real) and (value := as_number(given)) is not None:
+        return repr(value)
     shape = getattr(given, "shape", None)
     if isinstance(shape, tuple) and shape and type(given).__module__ == "numpy":
         return f"an array of shape {shape}"

@@ -362,7 +362,7 @@ def _checked_gap(given: Any) -> Real:
         return np.where(given.contact, 0.0, np.maximum(given.gap, 0.0))
     try:
         gap = np.array(given, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         refuse("gap", given, "an array of numbers, shape (nx, ny), is needed")
     if gap.ndim != 2 or min(gap.shape) < 2:
         refuse(

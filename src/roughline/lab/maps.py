@@ -14,6 +14,12 @@ import roughline as rl
 _WEAKEST = -2.0  # decimal logarithm of the flux over its mean that has the palest colour
 _NONE = -9.0  # the same, for no flow
 _PRESSED = 1e-6  # of the largest pressure: where less presses, the paper shows
+_MEANINGS = {  # of colours of the theme
+    "ink": "in contact",
+    "plastic": "of this at the hardness",
+    "reach": "reached by the fluid",
+    "pull": "pulled across a gap",
+}
 
 Scale = tuple[float, str]
 """Factor to the numbers that are shown, and their unit."""
@@ -40,9 +46,16 @@ class Map:
     table: tuple[list[str], list[list[str]]] | None = None  # for those who do not see it
 
     @property
+    def meanings(self) -> dict[str, str]:
+        """What colours of the theme mean in it, by their names."""
+        marks = self.palette if isinstance(self.palette, tuple) else ()
+        return {name: _MEANINGS[name] for name in (*marks, self.blank) if name in _MEANINGS}
+
+    @property
     def look(self) -> dict[str, Any]:
         """How it is drawn, without its numbers."""
-        return {name: value for name, value in vars(self).items() if name != "values"}
+        look = {name: value for name, value in vars(self).items() if name != "values"}
+        return look | {"meanings": self.meanings}
 
 
 def height_map(values: NDArray[Any], unit: str, **others: Any) -> Map:

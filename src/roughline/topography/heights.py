@@ -33,7 +33,7 @@ def checked_heights(heights: Any, dimensions: int, body: str = "") -> Real:
         if not array.flags.f_contiguous:  # instruments' maps often run along y first; left so
             array = np.ascontiguousarray(array)
         array = array.view()
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         what = "complex numbers" if str(error) == "complex" else shown(heights)
         raise InputError(f"are not an array of real numbers, but {what}", "heights") from error
     if array.ndim != dimensions:
@@ -59,7 +59,7 @@ def checked_radii(radii: Any) -> Real:
     needed = "numbers that rise from zero, at least two, are needed"
     try:
         given = np.ma.asarray(radii)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         refuse("radii", radii, needed)
     if given.dtype.kind not in "iuf" or given.ndim != 1 or given.size < 2:
         refuse("radii", radii, needed)
@@ -83,7 +83,7 @@ def checked_sides(sizes: Any) -> tuple[float, float]:
     """Return the sides of a surface."""
     try:
         sides = tuple(float(size) for size in sizes)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         sides = ()
     if len(sides) != 2 or not all(map(_is_length, sides)):
         refuse("sizes", sizes, "give two positive, finite numbers (Lx, Ly)")
@@ -94,7 +94,7 @@ def checked_length(length: Any) -> float:
     """Return the length of a line."""
     try:
         value = float(length)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         value = np.nan
     if not _is_length(value):
         refuse("length", length, "a positive, finite number is needed")

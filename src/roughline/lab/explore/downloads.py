@@ -20,6 +20,7 @@ from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
+from matplotlib.patches import Patch
 
 import roughline as rl
 from roughline.computing.disk import write_dataset
@@ -271,7 +272,16 @@ def _draw_map(axes: Axes, shown: Map, sizes: tuple[float, float]) -> None:
             ring = axes.plot(place[0] * x, place[1] * y, "o", markerfacecolor="none")[0]
             ring.set(markersize=14 * _PER_PIXEL, markeredgewidth=width * _PER_PIXEL)
             ring.set_markeredgecolor(_COLOURS[colour])
-    axes.set_title(shown.caption, fontsize=_SMALL)
+    marks = [Patch(color=_COLOURS[name], label=said) for name, said in shown.meanings.items()]
+    axes.legend(
+        handles=marks,
+        title=shown.caption,
+        ncols=2,
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        fontsize=_SMALL,
+        title_fontsize=_SMALL,
+    )
 
 
 def _write_figure(path: Path, plots: list[Callable[[Axes], Any]]) -> None:

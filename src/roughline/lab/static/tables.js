@@ -72,16 +72,9 @@ export function fillFigures(place, figures) {
     element("dt", {textContent: name}), ...[value, interval].map((textContent) => element("dd", {textContent})))));
 }
 
-const MEANINGS = { // of colours of the theme
-  ink: "in contact",
-  plastic: "of this at the hardness",
-  reach: "reached by the fluid",
-  pull: "pulled across a gap",
-};
-
 // Say in a caption what a map shows, and what colours of the theme mean in it.
-export function fillCaption(place, {caption, palette, blank}) {
-  const named = [palette, blank].flat().filter((name) => name in MEANINGS);
-  const patches = named.flatMap((name) => [element("span", {className: "patch", style: `background: var(--${name})`}), MEANINGS[name]]);
+export function fillCaption(place, {caption, meanings}) {
+  const patches = Object.entries(meanings).flatMap(([name, meaning]) =>
+    [element("span", {className: "patch", style: `background: var(--${name})`}), meaning]);
   place.replaceChildren(caption, ...patches);
 }
