@@ -236,6 +236,16 @@ def test_the_saved_map_has_the_ring_and_the_scale_of_the_page(tmp_path, figures,
     assert [each.get_text() for each in legend.get_texts()] == [*look["meanings"].values()]
 
 
+def test_the_saved_map_of_the_pressure_is_blank_where_nothing_touches(tmp_path, figures):
+    saved("contact.png", {**SMALL, "shown": "pressure"}, tmp_path)
+    (shown,) = figures[0].axes[1].images
+    colours = shown.to_rgba(shown.get_array())
+    free = shown.get_array() == 0
+    assert 0.5 < free.mean() < 1
+    assert (colours[free] == 1).all()
+    assert (colours[~free] != 1).any(axis=-1).all()
+
+
 def test_legends_of_saved_curves_stay_within_their_frames(tmp_path, figures):
     stick = {**FLOWS, "w": "0.3", "D_f": "2.2", "t": "0.05"}
     for state in (SMALL, {**FLOWS, "hardness_bar": "0.3"}, stick):

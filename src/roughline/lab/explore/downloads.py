@@ -261,7 +261,8 @@ def _draw_map(axes: Axes, shown: Map, sizes: tuple[float, float]) -> None:
         look["cmap"] = ListedColormap([_COLOURS[name] for name in shown.palette])
     else:
         palette = colormaps[_PALETTES[shown.palette]]
-        look["cmap"] = palette.with_extremes(bad=_COLOURS[shown.blank])
+        extremes = {"bad": _COLOURS[shown.blank], "under": _COLOURS["paper"]}
+        look["cmap"] = palette.with_extremes(**extremes)
     image = draw_map(axes, np.ma.masked_invalid(values), sizes, "m", **look)
     if shown.title:
         label = f"{shown.title} {unit if unit.startswith('/') else f'[{unit}]'}"
