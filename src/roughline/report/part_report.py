@@ -241,4 +241,5 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
 
 def _short(name: str) -> str:
     """A name that fits under an axis; maps of a part mostly differ in the end of their names."""
-    return name if len(name) <= _LONGEST else f"{name[:_BEGIN]}…{name[_BEGIN + 1 - _LONGEST :]}"
+    short = name if len(name) <= _LONGEST else f"{name[:_BEGIN]}…{name[_BEGIN + 1 - _LONGEST :]}"
+    return short.replace("$", r"\$")  # which would begin a formula

@@ -28,10 +28,13 @@ def test_uploads_lie_under_random_names_and_are_gone_when_the_page_says_so(lab):
             said = json.loads(answer.body)
             assert "<" not in said["name"]
             assert "/" not in said["name"]
+            assert said["name"].isprintable()
             (file,) = (lab.folder / page.token).iterdir()
             assert file.read_bytes() == b"1 2\n3 4\n"
             assert re.fullmatch(r"[0-9a-f]{16}\.txt", file.name)
             assert file.parent.stat().st_mode & 0o077 == 0
+            kept = 'it\'s #1, a & b "c" $x$ µ; `d`.txt'
+            assert json.loads((await upload(lab, page.token, b"1", kept)).body)["name"] == kept
             long = await upload(lab, page.token, b"1", "n" * 5000)
             assert len(json.loads(long.body)["name"]) == 100
             folder = lab.folder / page.token

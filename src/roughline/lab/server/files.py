@@ -18,7 +18,9 @@ _PREFIX = "roughline-lab-"
 _ROOT = re.compile(_PREFIX + r"(?P<pid>\d+)-\w+")
 _MOST_FILES = 20  # of one page at once
 _MOST_UPLOADS = 3  # largest files that a page's files may make together
-_NAME = re.compile(r"[^\w.()+ -]")
+_NOT_IN_NAMES = re.compile(r"[<>/\\\0-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""What no system lets a name have, or what a terminal or a page could take for something else."""
+
 _SUFFIX = re.compile(r"\.[A-Za-z0-9]{1,8}")
 _MOST_DISK = 20_000_000_000  # [bytes]
 _LOOKS = 1.0  # after which files are counted again [s]
@@ -47,7 +49,7 @@ class Files:
 
         The oldest go if they are too many or too large.
         """
-        shown = _NAME.sub("_", name)[-100:] or "file"
+        shown = _NOT_IN_NAMES.sub("_", name)[-100:] or "file"
         suffix = _SUFFIX.fullmatch(Path(shown).suffix)
         self.folder.mkdir(mode=0o700, exist_ok=True)
         while self.uploads and (
