@@ -155,7 +155,8 @@ def _read_array(path: Path, name: str) -> Measurement:
         if stored.ndim not in (1, 2) or not np.can_cast(stored.dtype, np.float64, "same_kind"):
             raise ValueError(f"{stored.ndim} dimensions of type {stored.dtype}")
     except (ValueError, OSError, EOFError, OverflowError) as error:
-        reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
+        # NumPy's first sentence; what follows may advise to load what is not safe
+        reason = shortened(str(error).partition(". ")[0]) or type(error).__name__
         raise InputError(
             f"{name} holds no array of real heights ({reason}): save one or two dimensions"
         ) from error
