@@ -134,9 +134,7 @@ def test_a_page_that_is_loaded_again_shows_file_settings_answers_and_report(pres
     page.reload()
     assert answers(page) == before
     page.wait_for_selector('[data-result="compare"]')
-    page.locator(
-        "[data-words=line-file]", has_text="Ausschnitt_ große Fläche_ 1 (β).npy"
-    ).wait_for()
+    page.locator("[data-words=line-file]", has_text=NAME).wait_for()
     page.wait_for_selector('[data-result="preparation"]')
     assert is_set(page) == SET
     assert not page.is_visible("[data-changed]")
