@@ -243,3 +243,20 @@ def test_the_page_of_the_flow_quotes_its_table():
     near, one, two, rare = (float(gas[path]) for path in ("0.1", "1", "2", "20"))
     assert f"{near:.1f} times as much through" in page
     assert f"{one:.1f} times at 1, {two:.1f} times at 2 and {rare:.1f} times at 20" in page
+
+
+def test_the_page_of_the_flow_quotes_how_often_its_intervals_hold():
+    page = " ".join((ROOT / "docs" / "flow.md").read_text("utf-8").split())
+    table = rows_of("leak-coverage", "What flows through a part, from one map")
+    held = {(row["surfaces"], row["quantity"]): row["held"].rstrip("%") for row in table}
+    apertures = "hydraulic_aperture_x", "hydraulic_aperture_y"
+    of_all = sorted({held["all", name] for name in (*apertures, "mean_gap")})
+    assert f"{' or '.join(of_all)} of 100 intervals of the apertures" in page
+    kinds = {row["surfaces"] for row in table if not NUMBER.fullmatch(row["surfaces"])} - {"all"}
+    assert (f"of surfaces of {'eighteen' if len(kinds) == 18 else len(kinds)} kinds") in page
+    short = {each: int(part) for each, part in held.items() if part != "–" and int(part) < 90}
+    uneven = [part for (kind, _), part in short.items() if kind == "uneven roughness"]
+    assert f"varies over many maps ({min(uneven)} to {max(uneven)})" in page
+    rest = {each: part for each, part in short.items() if each[0] != "uneven roughness"}
+    assert [*rest] == [("plateau-honed", "mean_gap")]
+    assert f"plateau-honed surfaces ({rest['plateau-honed', 'mean_gap']})" in page
