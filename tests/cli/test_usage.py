@@ -27,7 +27,10 @@ PAGE = Path(__file__).parents[2] / "docs" / "not_offered.md"
             "there is no option --coating; did you mean --materials?",
         ),
         (("press", "x", "--xyzzy"), "there is no option --xyzzy; --help lists the options"),
-        (("press", "x", "--loads", "abc"), '--loads is "abc"; a whole number is needed'),
+        (
+            ("press", "x", "--loads", "10 N"),
+            '--loads is "10 N"; a whole number is needed; did you mean --load?',
+        ),
         (("press", "x", "--friction", "1,5"), '--friction is "1,5"; a number is needed'),
         (("press", "x", "--trend", "up"), '--trend is "up"; allowed are "none", "mean", "tilt"'),
         (("press", "x", "--modulus", ""), '--modulus is ""; give a value, or leave --modulus out'),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from benchmarks.made_surfaces import Make, parent_of
 from random_cases import cases
 from roughline.fluid import measures
 from roughline.fluid.measures import (
@@ -125,3 +126,26 @@ def test_intervals_hold_what_grids_four_times_finer_give():
                     opened += ((found.values == 0) & (truth > 0)).tolist()
     assert np.mean(held) >= 0.9
     assert any(opened)  # sealed on the coarse grid alone, and told so by the interval
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["worn", "ground, 30"])
+def test_intervals_hold_where_pixels_hide_most_of_the_roughness(kind):
+    """Pixels of an instrument lose the edges of worn plateaus, and most of a coarse grinding."""
+    held = {"mean_gap": [], "hydraulic_aperture_x": []}
+    for seed in range(13, 13 + cases(6, share=2)):
+        rng = np.random.default_rng(seed)
+        make = Make(points=256, maps=1, hurst=0.6, waves=rng.uniform(4, 12), cells=4.0)
+        fine = parent_of(kind, make, rng)
+        coarse = fine.coarsened().coarsened()
+        for hardness in (None, 0.15 * fine.rms_slope):
+            given = {"E_star": 1.0, "measures": [rl.MEAN_GAP, hydraulic_aperture("x")]}
+            given |= {"forces": fine.rms_slope * fine.area * np.array([0.003, 0.02])}
+            given |= {"periodic": False, "hardness": hardness, "throw": False}
+            found = rl.press(coarse, grid_error=True, **given).measured
+            truth = rl.press(fine, **given).measured
+            for name, inside in held.items():
+                low, high = found[name].low, found[name].high
+                inside += ((low <= truth[name].values) & (truth[name].values <= high)).tolist()
+    for name, inside in held.items():
+        assert np.mean(inside) >= 0.9, name

@@ -267,7 +267,7 @@ def test_measured_files_are_described_as_by_the_command(measured_page, topograph
     for _ in range(2):  # read, and kept
         header, arrays = measured_page.ask("look", said)
         table = [tuple(row) for row in header["tables"]["measured-roughness"][1]]
-        assert table == description_table(expected)
+        assert table == description_table(expected, up_to_three_digits)
         assert header["lists"]["obstacles"] == list(expected.obstacles)
         assert header["body"]["points"] == list(expected.body.heights.shape)
         assert RANDOM not in str(header)

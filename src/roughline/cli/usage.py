@@ -67,7 +67,7 @@ def in_one_line(mistake: Any) -> str:
         takes_none = "not take" in mistake.message
         return f"{option} {'takes no value: leave it out' if takes_none else 'needs a value'}"
     if parameter is not None:
-        return _of_parameter(parameter, mistake)
+        return _of_parameter(parameter, mistake, _options(command))
     path = getattr(context, "command_path", "").rpartition("roughline")[2]
     see = f"see roughline{path} --help"
     if extra := re.search(r"unexpected extra argument[()s]* \((.*)\)", mistake.message, re.DOTALL):
@@ -81,7 +81,7 @@ def in_one_line(mistake: Any) -> str:
 def _unknown(option: str, command: Any) -> str:
     """Say of an unknown option what is near it, or that what it asks for is not offered."""
     word = option.lstrip("-").lower().replace("_", "-")
-    options = [name for each in getattr(command, "params", ()) for name in each.opts]
+    options = _options(command)
     for topic, words in _NOT_DONE.items():
         if word in words.split():
             return (
@@ -93,6 +93,11 @@ def _unknown(option: str, command: Any) -> str:
     return f"there is no option {shown(option)[1:-1]}; {_meant(option, options, 'options')}"
 
 
+def _options(command: Any) -> list[str]:
+    """The names of all options of a command."""
+    return [name for each in getattr(command, "params", ()) for name in each.opts]
+
+
 def _meant(given: str, names: list[str], called: str) -> str:
     """Name what is near, or where the list is."""
     near = difflib.get_close_matches(given, names, 2, cutoff=0.75)
@@ -101,8 +106,8 @@ def _meant(given: str, names: list[str], called: str) -> str:
     return f"--help lists the {called}"
 
 
-def _of_parameter(parameter: Any, mistake: Any) -> str:
-    """Say what an option or an argument needs."""
+def _of_parameter(parameter: Any, mistake: Any, options: list[str]) -> str:
+    """Say what an option or an argument needs, and which option of the command may be meant."""
     name = max(parameter.opts, key=len)
     name = name if name.startswith("-") else name.upper()
     if not mistake.message:
@@ -117,4 +122,6 @@ def _of_parameter(parameter: Any, mistake: Any) -> str:
         needed = f"at least {bounds['ge']} is needed"
     elif choices := re.search(r"is not one of (.*?)\.?$", mistake.message):
         needed = f"allowed are {choices[1]}".replace("'", '"')
-    return f"{name} is {shown(found[0]['input'])}; {needed}"
+    one = name.removesuffix("s")  # --load "10 N" beside --loads 20
+    meant = f"; did you mean {one}?" if one != name and one in options else ""
+    return f"{name} is {shown(found[0]['input'])}; {needed}{meant}"

@@ -24,6 +24,7 @@ from roughline.topography.preparation import resampled
 _OF_YIELD = 1.1  # of what a softer body shows
 _OF_AREA = 1.3  # of differences of the area's logarithm
 _OF_STEEPENING = 1.4  # of the logarithm of the steepening that opens the area
+_OF_MEASURES = 0.5  # of the logarithm of the steepening, which widens what measures differ by
 # Of what yield takes from the stiffness on loading, which few cells decide, so much is uncertain.
 _SHARE_OF_YIELD = 0.3
 # Weights of differences from every other point, from means of two by two points, and between these
@@ -105,7 +106,7 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
     area is less than the force over the hardness. Layers that are harder than their base meet short
     waves more stiffly than long ones, which opens it further. Besides, an area of N points scatters
     as a count does, by 1 / sqrt(N). The logarithm of a measure is as uncertain as it differs
-    between grids.
+    between grids, times the root of m.
 
     The error under a load does not depend on the other loads. The errors cover grids four times
     finer, but no noise that begins at the spacing. A value v with error e lies between
@@ -295,7 +296,7 @@ def _measured(
         steeper = _pressed_again(curve, surface, law, press, 1 / steepening).measured
     found = {}
     for name, each in curve.measured.items():
-        low, high = _ends_of_measure(grids[name])
+        low, high = _ends_of_measure(grids[name], steepening**_OF_MEASURES)
         if steeper:
             opened = np.fmax(high, steeper[name].values)
             high = np.where((grids[name] == 0).any(axis=0), opened, high)
@@ -303,15 +304,17 @@ def _measured(
     return found
 
 
-def _ends_of_measure(on_grids: Real) -> tuple[Real, Real]:
+def _ends_of_measure(on_grids: Real, widening: float) -> tuple[Real, Real]:
     """Both ends of a measure's interval, from what it is on the surface and on coarser grids.
 
-    Its logarithm is as uncertain as that differs between grids. Where it is zero on one of them, or
-    changes its sign, it is the value itself; then nothing gets below zero that is not so on any.
+    Its logarithm is so many times as uncertain as that differs between grids. Where it is zero on
+    one of them, or changes its sign, it is the value itself; then nothing gets below zero that is
+    not so on any.
     """
     value, *coarser = on_grids
     log, *of_coarser = np.log(np.where(on_grids > 0, on_grids, np.nan))
-    factor, error = np.exp(_between(of_coarser, log)), _between(coarser, value)
+    factor = np.exp(widening * _between(of_coarser, log))
+    error = widening * _between(coarser, value)
     least = np.where((on_grids >= 0).all(axis=0), 0.0, -np.inf)
     return (
         np.where(np.isnan(factor), np.maximum(value - error, least), value / factor),

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from roughline.assessment.assumptions import broken
 from roughline.report.terminal import print_files, print_remarks, print_rows
+from roughline.report.values import Write, figure, with_interval
 from roughline.topography.body import Surface, sides_of, spacings_of
 from roughline.units import engineering, metres_per
 
@@ -27,18 +28,20 @@ _SHADES = ".+#"
 _NOT_JUDGED = "not judged"
 
 
-def description_table(description: Description) -> list[tuple[str, str]]:
+def description_table(
+    description: Description, write: Write = with_interval
+) -> list[tuple[str, str]]:
     """Return names and values of what is known, in SI units where the file states its unit."""
     rows = _rows_of_file(description)
     body = description.body
     if body is not None:
         letter = "S" if isinstance(body, Surface) else "R"
         rows += [
-            (f"{letter}q, rms height", engineering(body.rms_height, "m")),
-            (f"{letter}dq, rms slope", f"{body.rms_slope:.4g}"),
+            (f"{letter}q, rms height", write(body.rms_height, None, "m")),
+            (f"{letter}dq, rms slope", write(body.rms_slope, None, "1")),
         ]
         if description.roughness is not None:
-            rows += _rows_of_roughness(description.roughness, letter, broken("fit", body))
+            rows += _rows_of_roughness(description.roughness, letter, broken("fit", body), write)
     return rows
 
 
@@ -116,7 +119,7 @@ def _rows_of_sizes(description: Description) -> list[tuple[str, str]]:
 
 
 def _rows_of_roughness(
-    parameters: Roughness, letter: str, departures: Sequence[Departure]
+    parameters: Roughness, letter: str, departures: Sequence[Departure], write: Write
 ) -> list[tuple[str, str]]:
     fit = parameters.fit
     rows = [
@@ -136,7 +139,7 @@ def _rows_of_roughness(
         rows += [
             (
                 "Sq of such surfaces",
-                f"{engineering(low, 'm')} to {engineering(high, 'm')}"
+                f"{write(low, None, 'm')} to {write(high, None, 'm')}"
                 if fit.is_judged
                 else _NOT_JUDGED,
             ),
@@ -181,4 +184,4 @@ def _times(points: tuple[int, ...]) -> str:
 
 
 def _number(value: float) -> str:
-    return "-" if np.isnan(value) else f"{value:.3g}"
+    return "-" if np.isnan(value) else figure(value)

@@ -25,6 +25,7 @@ from roughline.lab.measured.state import (
 )
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.description_table import description_table
+from roughline.report.values import up_to_three_digits
 from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
@@ -46,7 +47,7 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
         },
         "channel": content.channel,
         "body": _body(found),
-        "tables": {"measured-roughness": [["", ""], description_table(found)]},
+        "tables": {"measured-roughness": [["", ""], description_table(found, up_to_three_digits)]},
         "lists": {"obstacles": found.obstacles, "remarks": _remarks(found)},
     }
     return drawn(header, *of_file(found))
@@ -61,7 +62,7 @@ def prepare(arguments: Arguments, progress: Progress) -> bytes:
     if body is None:
         return drawn({**header, "lists": obstacles}, {}, {})
     before, _, _ = _described(arguments, "file")
-    old, new = (dict(description_table(each)) for each in (before, found))
+    old, new = (dict(description_table(each, up_to_three_digits)) for each in (before, found))
     names = [name for name in old | new if name != "file"]
     rows = [[name, old.get(name, "-"), new.get(name, "-")] for name in names]
     header |= {

@@ -241,7 +241,7 @@ def _spectrum(found: Description) -> Panels:
         axes=("", label),
         caption="" if fit is None else f"H = {fit.hurst_in_words}",
         columns=["q [1/m]", label],
-        rows=[[f"{q[i]:.3g}", f"{power[i]:.3g}"] for i in some],
+        rows=[[f"{q[i]:.2e}", f"{power[i]:.2e}"] for i in some],
     )
     return {"spectrum": panel}
 
