@@ -260,3 +260,15 @@ def test_the_page_of_the_flow_quotes_how_often_its_intervals_hold():
     rest = {each: part for each, part in short.items() if each[0] != "uneven roughness"}
     assert [*rest] == [("plateau-honed", "mean_gap")]
     assert f"plateau-honed surfaces ({rest['plateau-honed', 'mean_gap']})" in page
+
+
+def test_the_page_of_the_grid_quotes_how_often_intervals_of_measures_hold():
+    page = " ".join((ROOT / "docs" / "how-to" / "grid_error.md").read_text("utf-8").split())
+    gap, aperture = (
+        next(row for row in rows_of("intervals", "The grid") if row["quantity"] == name)
+        for name in ("u_m", "u_h")  # whose first row is that of all surfaces
+    )
+    assert gap["surfaces"] == aperture["surfaces"] == "all"
+    assert f"On {gap['intervals']} loads of maps of all kinds of made surfaces" in page
+    held = [row["held"].replace("%", " %") for row in (gap, aperture)]
+    assert f"hold {held[0]} of the mean gaps and {held[1]} of the apertures" in page
