@@ -632,6 +632,13 @@ def test_every_field_with_a_flag_and_a_control_is_run_above():
     assert set(BY_CONTROL) - of_one_channel <= {*EVERY, *STICKING}
 
 
+def test_a_folded_step_names_theories_as_its_boxes_do(page):
+    said = {"example": "ground", **SMALL, "theories": "persson,bush-gibson-thomas"}
+    said |= {"first": "steel", "second": "copper"}
+    header, _ = page.ask("bodies", said, sides=[1e-3, 1e-3])
+    assert "theories Persson and Bush, Gibson, Thomas" in header["words"]["line-bodies"]
+
+
 COATED = {"first": "gold 20 µm on nickel 40 µm on copper", "second": "steel", "loads": "2 MPa"}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
@@ -18,6 +19,7 @@ from roughline.assessment.reading import Reading
 from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
 from roughline.lab.controls import STRANGE, ControlError
+from roughline.lab.explore.controls import CHOICES as EXPLORED
 from roughline.lab.frames import frame
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.state import CONTROLS, Said, Source, at, question_of, used_in
@@ -94,8 +96,11 @@ def _others(said: Said, step: str, told: str) -> list[str]:
     for key in chain(*c.STEPS[step].values()):
         usual = key in c.CHOICES and said.get(key) == c.CHOICES[key].default
         if key in said and key != told and not usual:
-            field = c.BY_CONTROL[key]
-            shown = field.choices[said[key]][1] if field.choices else said[key]
+            field, text = c.BY_CONTROL[key], said[key]
+            shown = field.choices[text][1] if field.choices else text
+            if key == "theories":
+                names = EXPLORED[key].options
+                shown = " and ".join(names.get(each, each) for each in re.split(r"\s*,\s*", text))
             found.append(f"{field.label or key.replace('_', ' ')} {shown}")
     return found
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from roughline.errors import InputError, RoughlineError
+from roughline.errors.checks import shortened
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import READ_AS_TEXT
@@ -58,7 +59,7 @@ def read_instrument(
             "another format such as X3P, SDF, SUR or GWY"
         ) from error
     except Exception as error:  # of a damaged file the readers raise errors of any type
-        first_line = (str(error).strip() or "no reason given").splitlines()[0][:120]
+        first_line = shortened((str(error).strip() or "no reason given").splitlines()[0])
         raise InputError(
             f"{name} cannot be read ({type(error).__name__}: {first_line}): export it again"
         ) from error
