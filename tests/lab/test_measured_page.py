@@ -1,6 +1,7 @@
 """My surface in a browser: a file or an example, its answers, reports and refusals."""
 
 import re
+from dataclasses import replace
 from urllib.parse import parse_qs, urljoin, urlsplit
 
 import pytest
@@ -42,6 +43,23 @@ def test_a_click_before_the_view_is_ready_is_not_lost(pages, late):
     page.goto(pages.address + "?view=measured", wait_until="domcontentloaded")
     page.click(LINE_SCAN)
     page.wait_for_selector("[data-press]:not([disabled])")
+    page.context.close()
+
+
+def test_a_step_that_is_opened_while_a_file_comes_stays_open(pages, tmp_path):
+    """And all fold when the file is deleted."""
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    rl.write(replace(surface, unit="m"), tmp_path / "map.nc")
+    page = pages.open("?view=measured")
+    page.wait_for_selector(CONNECTED)
+    page.route("**/upload*", lambda route: (page.wait_for_timeout(1000), route.continue_()))
+    page.set_input_files("#measured [data-file]", tmp_path / "map.nc")
+    page.click("#measured-step-preparation > summary")
+    page.wait_for_selector('[data-table="measured-prepared"] tbody tr', state="attached")
+    assert page.locator("#measured .step[open]").count() == 3  # file, preparation, bodies
+    page.click("[data-forget-file]")
+    page.wait_for_selector("#measured-step-preparation:not([open])")
+    page.wait_for_selector("#measured-step-bodies:not([open])")
     page.context.close()
 
 

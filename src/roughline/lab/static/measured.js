@@ -261,7 +261,8 @@ class Measured {
     this.#read = this.#body = null;
     for (const name of ["file", "preparation", "answers", "compare"]) this.showResult(name, false);
     for (const place of this.findAll("[data-asked], [data-asks]")) place.hidden = true;
-    for (const name of ["preparation", "bodies", "answers"]) this.step(name).open = false;
+    const idle = this.hasSource ? ["answers"] : ["preparation", "bodies", "answers"]; // what was opened for a file on its way stays
+    for (const name of idle) this.step(name).open = false;
     this.say("line-file", "");
     this.#answers.forget();
     this.#askBodies();
