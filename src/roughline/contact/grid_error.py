@@ -24,7 +24,7 @@ from roughline.topography.preparation import resampled
 _OF_YIELD = 1.1  # of what a softer body shows
 _OF_AREA = 1.3  # of differences of the area's logarithm
 _OF_STEEPENING = 1.4  # of the logarithm of the steepening that opens the area
-_OF_MEASURES = 0.5  # of the logarithm of the steepening, which widens what measures differ by
+_OF_MEASURES = 0.5  # the same, by which differences of a measure's logarithm are widened
 # Of what yield takes from the stiffness on loading, which few cells decide, so much is uncertain.
 _SHARE_OF_YIELD = 0.3
 # Weights of differences from every other point, from means of two by two points, and between these
