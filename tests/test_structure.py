@@ -1,5 +1,6 @@
 """Limits of size and of coupling, which keep the code readable; `make architecture` prints them."""
 
+import ast
 import re
 import tomllib
 from pathlib import Path
@@ -49,6 +50,20 @@ def test_the_rooms_of_the_solver_import_downwards(graph):
 def test_the_solver_has_few_constants_and_few_arrows_between_its_files(graph):
     assert len(constants(SOURCE / SOLVER)) <= MOST_CONSTANTS_OF_THE_SOLVER
     assert len(arrows_of_the_solver(graph)) <= MOST_ARROWS_OF_THE_SOLVER
+
+
+def test_rooms_are_imported_by_statements_that_checkers_see():
+    """And by no name in a text; the front door apart, whose names the types of users list."""
+    hidden = {"import_module", "__import__", "resolve_name", "locate", "run_module"}
+    found = [
+        f"{path.relative_to(SOURCE)}, line {node.lineno}: {ast.unparse(node)}"
+        for path in sorted(SOURCE.rglob("*.py"))
+        if path != SOURCE / "__init__.py"
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Name | ast.Attribute | ast.alias)
+        and (ast.unparse(node).split(".")[-1]).split(" ")[0] in hidden
+    ]
+    assert found == []
 
 
 def test_no_function_is_too_large():

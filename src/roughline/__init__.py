@@ -5,11 +5,15 @@ The names in ``__init__.pyi`` load on first use, so that ``import roughline`` co
 
 from importlib import import_module
 
+from roughline.computing.notebook import filled_by
+
 _LINES = __loader__.get_data(f"{__path__[0]}/__init__.pyi").decode().splitlines()
 _WORDS = [line.split() for line in _LINES if line.startswith("from ")]
 _HOMES = {name: home for _, home, _, name, *_ in _WORDS}
 
 __all__ = [name for name in _HOMES if name != "plot"]  # which ``import *`` would load
+
+filled_by(lambda: import_module("roughline.plot.notebook"))
 
 
 def __getattr__(name):

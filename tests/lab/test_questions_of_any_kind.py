@@ -69,6 +69,8 @@ def mistaken(arguments, progress):
 
 
 def test_a_mistake_in_the_program_leaves_a_trace(session, capfd):
-    outcome = outcome_of(Place(__name__, "mistaken"), {"session": session}, lambda *steps: None)
+    outcome = outcome_of(
+        Place(lambda name: mistaken, "mistaken"), {"session": session}, lambda *steps: None
+    )
     assert "the terminal in which the lab was started shows more" in outcome.error
     assert "KeyError: 'nothing'" in capfd.readouterr().err

@@ -65,6 +65,7 @@ def lab(
     from roughline.lab.server.opening import open_page
     from roughline.lab.server.process import noted_interrupts, start_forking
     from roughline.lab.server.settings import ServerSettings, networks_in, password_in
+    from roughline.lab.tasks import warm_up
 
     sizes = (("max_upload", max_upload), ("max_memory", max_memory), ("max_disk", max_disk))
     for name, megabytes in sizes:
@@ -110,7 +111,7 @@ def lab(
 
     with ExitStack() as opened, bounded_log(), noted_interrupts() as interrupted:
         # which loads numerics while this process loads the server
-        start_forking("roughline.lab.warm")
+        start_forking(warm_up, preloaded="roughline.lab.warm")
         from roughline.lab.server.serve import serve
         from roughline.lab.site import site
 

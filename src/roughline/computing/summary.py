@@ -1,9 +1,8 @@
-"""What a prompt and a notebook show of values that hold arrays."""
+"""What a prompt shows of values that hold arrays."""
 
 from __future__ import annotations
 
 import dataclasses
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -19,12 +18,6 @@ def summary(value: Any) -> str:
         if field.repr and getattr(value, field.name) is not None
     ]
     return f"{type(value).__name__}({', '.join(parts)})"
-
-
-def in_notebook(value: Any) -> str:
-    """Return what a notebook shows; the room of pictures is loaded when one is wanted."""
-    html: str = import_module("roughline.plot.notebook").html_of(value)
-    return html
 
 
 def _part(value: Any) -> str:

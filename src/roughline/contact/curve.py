@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.disk import write_dataset
-from roughline.computing.summary import in_notebook
+from roughline.computing.notebook import in_notebook
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation

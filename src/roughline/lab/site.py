@@ -13,6 +13,7 @@ import jinja2
 import roughline as rl
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
+from roughline.lab import tasks
 from roughline.lab.explore import controls as explore
 from roughline.lab.explore import physics
 from roughline.lab.measured import controls as measured
@@ -28,31 +29,24 @@ from roughline.statistics.verdict import Verdict
 _PANELS = {"measured": MEASURED, "published": PUBLISHED}
 
 
-def _place(
-    module: str, function: str, *, is_quick: bool = False, reads_files: bool = False
-) -> Place:
-    """The place of a task in this package."""
-    return Place(f"roughline.lab.{module}", function, is_quick, reads_files)
-
-
 TASKS: Mapping[str, Place] = {
-    "explore.reduced": _place("explore.pictures", "reduced", is_quick=True),
-    "explore.coarse": _place("explore.pictures", "coarse", is_quick=True),
-    "explore.full": _place("explore.pictures", "full"),
-    "explore.curve": _place("explore.pictures", "curve"),
-    "explore.further": _place("explore.pictures", "further"),
-    "explore.code": _place("explore.code", "code", is_quick=True),
-    "explore.download": _place("explore.downloads", "download"),
-    "measured.look": _place("measured.file", "look", reads_files=True),
-    "measured.maps": _place("measured.part", "maps", reads_files=True),
-    "measured.prepare": _place("measured.file", "prepare", reads_files=True),
-    "measured.bodies": _place("measured.bodies", "bodies", is_quick=True),
-    "measured.answer": _place("measured.answers", "answer", reads_files=True),
-    "measured.compare": _place("measured.answers", "compare", reads_files=True),
-    "measured.report": _place("measured.documents", "report", reads_files=True),
-    "measured.code": _place("measured.documents", "code", reads_files=True),
-    "published.fits": _place("published.fits", "fits", is_quick=True),
-    "published.point": _place("published.trust", "point", is_quick=True),
+    "explore.reduced": Place(tasks.of_explore_pictures, "reduced", is_quick=True),
+    "explore.coarse": Place(tasks.of_explore_pictures, "coarse", is_quick=True),
+    "explore.full": Place(tasks.of_explore_pictures, "full"),
+    "explore.curve": Place(tasks.of_explore_pictures, "curve"),
+    "explore.further": Place(tasks.of_explore_pictures, "further"),
+    "explore.code": Place(tasks.of_explore_code, "code", is_quick=True),
+    "explore.download": Place(tasks.of_explore_downloads, "download"),
+    "measured.look": Place(tasks.of_measured_file, "look", reads_files=True),
+    "measured.maps": Place(tasks.of_measured_part, "maps", reads_files=True),
+    "measured.prepare": Place(tasks.of_measured_file, "prepare", reads_files=True),
+    "measured.bodies": Place(tasks.of_measured_bodies, "bodies", is_quick=True),
+    "measured.answer": Place(tasks.of_measured_answers, "answer", reads_files=True),
+    "measured.compare": Place(tasks.of_measured_answers, "compare", reads_files=True),
+    "measured.report": Place(tasks.of_measured_documents, "report", reads_files=True),
+    "measured.code": Place(tasks.of_measured_documents, "code", reads_files=True),
+    "published.fits": Place(tasks.of_published_fits, "fits", is_quick=True),
+    "published.point": Place(tasks.of_published_trust, "point", is_quick=True),
 }
 """All tasks by name."""
 

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from roughline.computing.arrays import Real
+from roughline.computing.notebook import in_notebook
 from roughline.contact.curve import Curve
 from roughline.contact.quantities import unit_of
 from roughline.contact.status import Status
@@ -24,11 +25,7 @@ _MOST_PIXELS = 200  # of a surface in a thumbnail, along a side
 _FIRST, _LAST = 12, 4  # loads of a long curve that are shown
 
 
-def html_of(value: Body | Curve) -> str:
-    """Return what a notebook shows of a body or of a curve."""
-    return _of_curve(value) if isinstance(value, Curve) else _of_body(value)
-
-
+@in_notebook.register
 def _of_body(body: Body) -> str:
     """A table, and a picture of the heights."""
     is_surface = isinstance(body, Surface)
@@ -49,6 +46,7 @@ def _of_body(body: Body) -> str:
     return _html(kind, ("", ""), rows, _thumbnail(body.heights))
 
 
+@in_notebook.register
 def _of_curve(curve: Curve) -> str:
     """A table of the loads."""
     # name, values, their errors and their dimension; None for numbers

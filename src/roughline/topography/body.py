@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeVar
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.computing.summary import in_notebook
+from roughline.computing.notebook import in_notebook
 from roughline.errors import InputError
 from roughline.errors.checks import is_whole, one_of, refuse, rising_pair
 from roughline.errors.public import public

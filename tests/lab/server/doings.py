@@ -20,10 +20,15 @@ _serve = processes._serve
 
 def place_of(name):
     """Where a task of this file is."""
-    return Place(__name__, name, reads_files=name == "read")
+    return Place(task_of, name, reads_files=name == "read")
 
 
-def serve(connection, memory, warm):
+def task_of(name):
+    """A task of this file, in a process."""
+    return globals()[name]
+
+
+def serve(connection, memory, warm_up):
     """Do the tasks of this file, in a process."""
     sys.modules.setdefault("lab.server.doings", sys.modules[__name__])
     _serve(connection, memory, None)

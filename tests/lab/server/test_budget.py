@@ -50,7 +50,7 @@ def test_a_small_machine_starts_with_less_for_one_task(monkeypatch, capsys):
 
     started = []
     monkeypatch.setattr(budget, "free_memory", lambda: 1.8 * GB)
-    monkeypatch.setattr("roughline.lab.server.process.start_forking", lambda warm: None)
+    monkeypatch.setattr("roughline.lab.server.process.start_forking", lambda *warm, **named: None)
     monkeypatch.setattr(
         "roughline.lab.server.serve.serve",
         lambda site, settings, ready, interrupted: (started.append(settings), ready("http://x/")),

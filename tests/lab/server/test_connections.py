@@ -19,11 +19,12 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix"
 linux = pytest.mark.skipif(sys.platform != "linux", reason="addresses and limits of Linux")
 HALF = b"GET / HTTP/1.1\r\nHo"
 SHORT = (
+    "import json",
     "from roughline.lab.server import connections",
     "connections._PATIENCE, connections._STALL, connections._SPEED = 1, 1, 10_000",
     "from roughline.lab.site import TASKS",
     "from roughline.lab.server.tasks import Place",
-    "TASKS['fails'] = Place('json', 'loads', is_quick=True)",
+    "TASKS['fails'] = Place(json.loads, 'no JSON', is_quick=True)",
 )
 
 

@@ -15,6 +15,7 @@ from roughline.lab.server import process as processes
 from roughline.lab.server.budget import Limits
 from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.tasks import without_paths
+from roughline.lab.tasks import warm_up
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 LIMITS = Limits(count=2, most=4, per_session=2, seconds=20.0, memory=1e9)
@@ -68,7 +69,7 @@ async def becomes(is_so, seconds=20):
 @pytest.fixture(scope="module", autouse=True)
 def _doings():
     """Let processes do the tasks of :mod:`doings`, forked from one that has loaded the lab."""
-    processes.start_forking("roughline.lab.warm")
+    processes.start_forking(warm_up, preloaded="roughline.lab.warm")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(processes, "_serve", doings.serve)
         yield

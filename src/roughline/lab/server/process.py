@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from contextlib import contextmanager, suppress
-from importlib import import_module
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
@@ -22,7 +21,7 @@ from roughline.lab.server.tasks import Outcome, Place, outcome_of
 
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
-_loaded_first: str | None = None
+_warms_up: Callable[[], None] | None = None
 _LARGEST_FILE = 2_000_000_000  # that a task may ever write [bytes]
 _LOW, LOWEST = 3, 15
 """Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
@@ -52,7 +51,7 @@ class Process:
     def _begin(self, memory: float, gives_way: bool) -> None:
         self._connection, theirs = _CONTEXT.Pipe()
         with _without_interrupts():
-            given = theirs, memory, _loaded_first
+            given = theirs, memory, _warms_up
             process = _CONTEXT.Process(target=_serve, args=given, daemon=True)
             process.start()
         theirs.close()
@@ -108,18 +107,17 @@ class Process:
             self._connection.close()
 
 
-def start_forking(warm: str) -> None:
+def start_forking(warm_up: Callable[[], None], preloaded: str) -> None:
     """Start the process that the others are forked from, so that the first task need not wait.
 
-    It loads the module `warm`, whose function ``up`` is called in each process before its first
-    task.
+    It loads a module by its name; `warm_up` is called in each process before its first task.
     """
-    global _loaded_first
-    _loaded_first = warm
+    global _warms_up
+    _warms_up = warm_up
     if _FORKS:
         from multiprocessing import forkserver
 
-        _CONTEXT.set_forkserver_preload(["__main__", warm])
+        _CONTEXT.set_forkserver_preload(["__main__", preloaded])
         with _without_interrupts():
             forkserver.ensure_running()
 
@@ -158,12 +156,12 @@ def _without_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _serve(connection: Connection, memory: float, warm: str | None) -> None:
+def _serve(connection: Connection, memory: float, warm_up: Callable[[], None] | None) -> None:
     """Do tasks until the other end is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it could not be kept away from the start
     threading.Thread(target=_end_with_server, daemon=True).start()
-    if warm is not None:
-        import_module(warm).up()
+    if warm_up is not None:
+        warm_up()
     from roughline.computing.memory import limit_process  # here because the server needs it not
 
     limit_process(int(memory))

@@ -10,7 +10,6 @@ import traceback
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -30,14 +29,17 @@ _PROGRAM = (str(Path(__file__).parents[1]), sys.prefix)
 
 Arguments = Mapping[str, Any]  # of a task, and the "session" that asks
 Progress = Callable[[int, int], None]  # called with (steps done, steps in all)
+Task = Callable[[Arguments, Progress], bytes | None]  # gives a message for the page
 
 
 @dataclass(frozen=True)
 class Place:
     """Where a task is, and how it is done."""
 
-    module: str  # by its whole name
-    function: str  # in it, of arguments and progress; gives a message for the page
+    # Loads what the task is in, in the process that computes, and gives the task of a name. The
+    # process knows it by the module that it is in, so that this one must load fast.
+    load: Callable[[str], Task]
+    name: str
     # Whether it is so short that it waits only for other quick tasks. Other tasks have a process
     # each, with limits of time and memory, and are stopped when they are no longer wanted.
     is_quick: bool = False
@@ -69,7 +71,7 @@ class Site:
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
     """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
-        task = getattr(import_module(place.module), place.function)
+        task = place.load(place.name)
         return Outcome(task(arguments, progress))
     except MemoryError:
         return Outcome(error=_NO_MEMORY)
