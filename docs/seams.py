@@ -10,8 +10,9 @@ import ast
 import re
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import grimp
 from architecture import ROOT, SOURCE, import_graph, layers
@@ -20,7 +21,6 @@ PAGE = ROOT / "docs" / "architecture.md"
 BEGIN, END = "<!-- counts: `make architecture` writes them -->", "<!-- end of counts -->"
 SOLVER = "halfspace"
 
-_CONSTANT = re.compile(r"_?[A-Z][A-Z0-9_]*")
 _ONE_PRESS = """
 import sys
 import numpy as np
@@ -53,6 +53,14 @@ class Change:
 
 CHANGES = (
     Change("a contact law: yield, before laws were a room", ("87d841c",)),
+    Change("a contact law: adhesion, its first form", ("b30579f6",)),
+    Change("adhesion made whole in the solver", ("f2dff3f7",)),
+    Change("layers, strips and creep; adhesion in questions and answers", ("faad8e04",)),
+    Change("the flow of a fluid through the gap", ("54b6e958",)),
+    Change("a fluid in questions and answers", ("330846d6",)),
+    Change("the pressure that seals", ("5c82a720",)),
+    Change("a fluid in Explore, before physics were declared", ("2612a566",)),
+    Change("a layer in Explore, with the declaration of physics", ("31eba658",)),
     Change("a contact law: an uneven hardness", test="tests/halfspace/test_foreign_law.py"),
     Change("a half-space: a coating", test="tests/halfspace/test_foreign_half_space.py"),
     Change("an exact solution: a disc that yields at its rim", ("12afc3a",)),
@@ -61,6 +69,7 @@ CHANGES = (
     Change("a field of a question: the area of a joint", ("00e2273", "d60321c")),
     Change("a command: `roughline about`", ("3ad058f",)),
     Change("file formats: text with any separator, lists of points", ("fff1072",)),
+    Change("pictures and tasks loaded by statements, not by texts", ("12ddc21b",)),
 )
 
 
@@ -75,19 +84,6 @@ def files_of_one_press() -> list[Path]:
     return [path.relative_to(SOURCE) for path in paths if path.name != "__init__.py"]
 
 
-def constants(room: Path) -> list[str]:
-    """Return the constants of the modules of a room, as file and name."""
-    return [
-        f"{path.relative_to(SOURCE)}, {name.id}"
-        for path in sorted(room.rglob("*.py"))
-        for line in ast.parse(path.read_text("utf-8")).body
-        if isinstance(line, ast.Assign | ast.AnnAssign)
-        for target in (line.targets if isinstance(line, ast.Assign) else [line.target])
-        for name in ast.walk(target)
-        if isinstance(name, ast.Name) and _CONSTANT.fullmatch(name.id)
-    ]
-
-
 def arrows_of_the_solver(graph: grimp.ImportGraph) -> list[tuple[str, str]]:
     """Return every import between files of the solver, as (importer, imported)."""
     inside = sorted(name for name in graph.modules if name.startswith(f"roughline.{SOLVER}."))
@@ -99,18 +95,6 @@ def arrows_of_the_solver(graph: grimp.ImportGraph) -> list[tuple[str, str]]:
     ]
 
 
-def arrows_up(pairs: list[tuple[str, str]]) -> list[str]:
-    """Return the imports of a higher room of the solver, or of one beside, by a lower one."""
-    rows = layers(f"roughline.{SOLVER}")
-    floor = {name: len(rows) - i for i, row in enumerate(rows) for name in row}
-    return [
-        f"{importer} -> {imported}"
-        for importer, imported in pairs
-        if (here := solver_room(importer)) != (there := solver_room(imported))
-        and floor[there] >= floor[here]
-    ]
-
-
 def solver_room(module: str) -> str:
     """Return the room of the solver that a module lies in."""
     return module.split(".")[2]
@@ -119,40 +103,28 @@ def solver_room(module: str) -> str:
 def table_of_the_solver() -> str:
     """Return the rooms of the solver with their files, constants and imports."""
     pairs = arrows_of_the_solver(import_graph())
-    lines = [
-        "| room of the solver | files | constants | imports |",
-        "|---|---|---|---|",
-    ]
+    lines = ["| room of the solver | files | imports |", "|---|---|---|"]
     for name in (name for row in layers(f"roughline.{SOLVER}") for name in row):
         room = SOURCE / SOLVER / name
         files = [path for path in room.rglob("*.py") if path.name != "__init__.py"]
         below = {solver_room(to) for by, to in pairs if solver_room(by) == name} - {name}
         imports = ", ".join(f"`{each}`" for each in sorted(below))
-        named = f"`{SOLVER}/{name}/` | {len(files)} | {len(constants(room))}"
-        lines.append(f"| {named} | {imports} |")
-    apart = [pair for pair in pairs if solver_room(pair[0]) != solver_room(pair[1])]
-    return "\n".join(
-        [
-            *lines,
-            "",
-            f"Its files import each other {len(pairs)} times, {len(apart)} times across rooms and "
-            f"{len(arrows_up(pairs)) or 'never'} upwards. One press of a surface opens",
-            f"{len(files_of_one_press())} files of the package.",
-        ]
-    )
+        lines.append(f"| `{SOLVER}/{name}/` | {len(files)} | {imports} |")
+    opened = len(files_of_one_press())
+    return "\n".join([*lines, "", f"One press of a surface opens {opened} files of the package."])
 
 
 def table_of_changes(kept: str) -> str:
-    """Return how many files of the package changes touched; kept rows where history is missing."""
-    lines = ["| added | in | files of `src/` |", "|---|---|---|"]
+    """Return the files and lines that changes touched; kept rows where history is missing."""
+    lines = ["| added | in | files of `src/` | lines by room |", "|---|---|---|---|"]
     for change in CHANGES:
         where = f"`{change.test}`" if change.test else ", ".join(change.commits)
         row = f"| {change.what} | {where} |"
-        count = _naming(change.test) if change.test else _touched(change.commits)
-        if count is None:
+        counts = f"{_naming(change.test)} | " if change.test else _touched(change.commits)
+        if counts is None:
             lines += [line for line in kept.splitlines() if line.startswith(row)]
         else:
-            lines.append(f"{row} {count} |")
+            lines.append(f"{row} {counts} |")
     return "\n".join(lines)
 
 
@@ -164,14 +136,28 @@ def written(text: str) -> str:
     return f"{before}{BEGIN}\n\n{tables}\n\n{END}{after}"
 
 
-def _touched(commits: tuple[str, ...]) -> int | None:
-    """Count the files of the package that commits touched; None where they are not known."""
+def _touched(commits: tuple[str, ...]) -> str | None:
+    """Tell the files of the package that commits touched, and lines by room; None if unknown."""
     if _git("rev-parse", "--is-shallow-repository") != "false":
         return None
-    names = [_git("show", "--format=", "--name-only", each, "--", "src") for each in commits]
-    if None in names:
-        return None
-    return len({line for told in names if told for line in told.splitlines()})
+    files: set[str] = set()
+    added, removed = Counter[str](), Counter[str]()
+    for commit in commits:
+        # a file that moved is one that went and one that came, whatever git is set to
+        told = _git("show", "--format=", "--numstat", "--no-renames", commit, "--", "src/roughline")
+        if told is None:
+            return None
+        for line in told.splitlines():
+            plus, minus, path = line.split("\t")
+            room = PurePosixPath(path).relative_to("src/roughline").parts[0].partition(".")[0]
+            room = room.replace("__init__", "front door")
+            files.add(path)
+            added[room] += int(plus) if plus != "-" else 0  # which is said of what is no text
+            removed[room] += int(minus) if minus != "-" else 0
+    rooms = sorted(added, key=lambda room: (-added[room], room))
+    return f"{len(files)} | " + ", ".join(
+        f"{room} +{added[room]}" + (f" −{removed[room]}" if removed[room] else "") for room in rooms
+    )
 
 
 def _git(*arguments: str) -> str | None:

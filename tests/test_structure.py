@@ -1,4 +1,7 @@
-"""Limits of size and of coupling, which keep the code readable; `make architecture` prints them."""
+"""What keeps the code readable: no circles, no hidden imports, no room or function too large.
+
+That imports go one way is checked by import-linter, in `make check`.
+"""
 
 import ast
 import re
@@ -6,26 +9,15 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from architecture import SOURCE, arrows, circles, import_graph, large_functions, rooms
-from seams import SOLVER, arrows_of_the_solver, arrows_up, constants
+from architecture import SOURCE, circles, import_graph, large_functions, rooms
 
 ROOT = Path(__file__).parents[1]
-MOST_ROOMS = 20
-MOST_ARROWS = 100
 LARGEST_SHARE = 0.15
-MOST_CONSTANTS_OF_THE_SOLVER = 71
-MOST_ARROWS_OF_THE_SOLVER = 93
 
 
 @pytest.fixture(scope="module")
 def graph():
     return import_graph()
-
-
-def test_there_are_few_rooms_and_few_arrows_between_them(graph):
-    found = rooms(graph)
-    assert len(found) <= MOST_ROOMS
-    assert len(arrows(found)) <= MOST_ARROWS
 
 
 def test_no_room_is_much_larger_than_the_others(graph):
@@ -41,15 +33,6 @@ def test_no_room_is_much_larger_than_the_others(graph):
 
 def test_no_files_import_each_other(graph):
     assert circles(graph) == []
-
-
-def test_the_rooms_of_the_solver_import_downwards(graph):
-    assert arrows_up(arrows_of_the_solver(graph)) == []
-
-
-def test_the_solver_has_few_constants_and_few_arrows_between_its_files(graph):
-    assert len(constants(SOURCE / SOLVER)) <= MOST_CONSTANTS_OF_THE_SOLVER
-    assert len(arrows_of_the_solver(graph)) <= MOST_ARROWS_OF_THE_SOLVER
 
 
 def test_rooms_are_imported_by_statements_that_checkers_see():
