@@ -9,6 +9,7 @@ import pytest
 import typer
 
 import roughline as rl
+import tiers
 from lab_in_browser import WANTED, chromium_of, launched
 from roughline import cli
 from validation import hold
@@ -16,23 +17,32 @@ from validation import hold
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
 
-# Folders whose tests share a cluster or a store; and what takes longest, which therefore goes
-# first, so that no process is left with a long file at the end.
-_SHARING = ("campaign", "paper")
-_LONGEST = (
-    *("campaign", "lab/test_hands", "lab/test_resumed_page", "lab/test_measured_page", "paper"),
-    *("lab/test_measured", "lab/test_controls_walk", "halfspace/test_robustness"),
-    *("spectra/test_fit", "cli/test_real_files", "contact/test_grid_error"),
-    *("lab/test_explore_page", "halfspace/test_near_full_contact", "spectra/test_profile"),
-    *("lab/test_published_page", "studies/test_finite_size", "halfspace/test_windows"),
-    *("studies/test_averaging", "contact/test_fuzz", "docs/test_examples"),
-)
+def pytest_addoption(parser):
+    """Take which tests run, and whether it is written how long each takes."""
+    group = parser.getgroup("which tests run")
+    group.addoption(
+        "--tier",
+        choices=["all", "short", "long"],
+        default="all",
+        help="short: what is short, and a representative of what is long; long: all others",
+    )
+    group.addoption(
+        "--part", default="1/1", help="one of some parts of these that take as long, such as 3/12"
+    )
+    group.addoption(
+        "--record", action="store_true", help="write how long each test takes to durations.json"
+    )
+
+
+def pytest_configure(config):
+    """Choose tests by how long they take."""
+    config.pluginmanager.register(tiers.Choice(config))
+    if config.option.record:
+        config.pluginmanager.register(tiers.Record(config))
 
 
 def pytest_collection_modifyitems(items):
-    """Begin with what takes longest; mark what needs a browser."""
-    order = {group: i for i, group in enumerate(_LONGEST)}
-    items.sort(key=lambda item: order.get(_group_of(item.nodeid), len(order)))
+    """Mark what needs a browser."""
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.browser)
@@ -48,16 +58,10 @@ def pytest_xdist_make_scheduler(config, log):
 
     class Groups(LoadScopeScheduling):
         def _split_scope(self, nodeid):
-            return _group_of(nodeid)
+            return tiers.group_of(nodeid.removeprefix("tests/"))
 
-    config.option.loadscopereorder = False  # the order is that above
+    config.option.loadscopereorder = False  # what takes longest goes first
     return Groups(config, log)
-
-
-def _group_of(nodeid):
-    """Return the name of the tests that stay in one process with this one."""
-    *_, folder, file = nodeid.partition("::")[0].split("/")
-    return folder if folder in _SHARING else f"{folder}/{file.removesuffix('.py')}"
 
 
 @pytest.fixture(scope="session")

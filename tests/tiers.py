@@ -1,0 +1,209 @@
+"""Which tests run: all, those that are short, or those that are long; and how long each takes.
+
+That stands in ``durations.json`` and nowhere else; ``make durations`` writes it. A test is short if
+it takes at most `SHORT`. Of a test function without such a case the shortest is its representative:
+it counts as short, so that every function runs in `make test`.
+"""
+
+import json
+import time
+from collections import Counter, defaultdict
+
+import pytest
+
+from reference import DURATIONS, seconds_here, slowness
+
+SHORT = 0.5  # [s]
+LONGEST = 10.0  # that a representative may take [s]; both on the machine of the durations
+_TOGETHER = ("campaign", "paper")  # folders whose tests share a cluster or a store
+_EACH = 0.01  # that a test takes beside itself [s]
+_SLOW = 1.5  # times as long as there, from which on it is said
+
+
+def durations():
+    """Return what each test takes alone, by its node; nothing without a file. [s]"""
+    if not DURATIONS.is_file():
+        return {}
+    files = json.loads(DURATIONS.read_text("utf-8"))["tests"]
+    return {
+        f"{file}::{test}": taken for file, tests in files.items() for test, taken in tests.items()
+    }
+
+
+def short(nodes, taken):
+    """Return the nodes that are short, are new, or represent a function without short ones."""
+    cases = defaultdict(list)
+    for node in nodes:
+        cases[node.partition("[")[0]].append(node)
+    chosen = set()
+    for some in cases.values():
+        quick = {node for node in some if taken.get(node, 0) <= SHORT}
+        chosen |= quick or {min(some, key=lambda node: (taken[node], node))}
+    return chosen
+
+
+def part(nodes, taken, number, of):
+    """Return one of some parts that take about as long as each other, in whatever order."""
+    sums, parts = [0.0] * of, [set() for _ in range(of)]
+    for node in sorted(nodes, key=lambda node: (-taken.get(node, 0), node)):
+        least = sums.index(min(sums))
+        sums[least] += taken.get(node, 0) + _EACH
+        parts[least].add(node)
+    return parts[number - 1]
+
+
+def group_of(node):
+    """Return the name of the tests that stay in one process with this one."""
+    folder, _, rest = node.partition("::")[0].partition("/")
+    return folder if folder in _TOGETHER else f"{folder}/{rest}"
+
+
+def node_of(item):
+    """Return the name of a test, from the folder of the tests on."""
+    return item.nodeid.removeprefix("tests/")
+
+
+def part_in(text):
+    """Read a part, such as 3/12."""
+    number, _, of = text.partition("/")
+    if not (number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of)):
+        raise pytest.UsageError(f"--part {text}: give one of some parts, such as 3/12")
+    return int(number), int(of)
+
+
+class Choice:
+    """The tests that run, those that take longest first, and a word on those that do not."""
+
+    def __init__(self, config):
+        self._config, self._taken = config, durations()
+        self._part = part_in(config.option.part)
+        self._told = {"all": 0, "left out": 0, "new": 0}
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items):
+        nodes = {node_of(item) for item in items}
+        tier, wanted = self._config.option.tier, nodes
+        if tier != "all" and self._taken:
+            quick = short(nodes, self._taken)
+            wanted = quick if tier == "short" else nodes - quick
+        wanted = part(wanted, self._taken, *self._part)
+        self._config.hook.pytest_deselected(
+            items=[item for item in items if node_of(item) not in wanted]
+        )
+        self._told = {
+            "all": len(nodes),
+            "left out": len(nodes - wanted),
+            "new": len(wanted - set(self._taken)),
+        }
+        sums = Counter()
+        for node in wanted:
+            sums[group_of(node)] += self._taken.get(node, 0)
+        chosen = [item for item in items if node_of(item) in wanted]
+        items[:] = sorted(chosen, key=lambda item: -sums[group_of(node_of(item))])
+
+    def pytest_sessionfinish(self):
+        if hasattr(self._config, "workeroutput"):
+            self._config.workeroutput["told"] = self._told
+
+    @pytest.hookimpl(optionalhook=True)
+    def pytest_testnodedown(self, node):
+        self._told = getattr(node, "workeroutput", {}).get("told", self._told)
+
+    def pytest_terminal_summary(self, terminalreporter):
+        for line in self._lines(terminalreporter.stats.get("skipped", [])):
+            terminalreporter.write_line(line)
+
+    def _lines(self, skipped):
+        told, tier = self._told, self._config.option.tier
+        name = DURATIONS.name
+        if not self._taken:
+            yield f"{name} is missing, so that all tests ran: `make durations` writes it"
+        elif told["new"]:
+            yield f"{told['new']} tests ran that are not in {name}: `make durations` adds them"
+        if told["left out"] and tier != "all":
+            yield (
+                f"left out: {told['left out']} of {told['all']} tests, which are "
+                f"{'long' if tier == 'short' else 'short, or in other parts'}; `make full` runs all"
+            )
+        reasons = Counter(each.longrepr[2].removeprefix("Skipped: ") for each in skipped)
+        for reason, count in reasons.most_common():
+            yield f"left out: {count} tests: {reason}"
+        if self._taken and slowness() > _SLOW:
+            yield f"this machine takes {slowness():.1f} times as long as that of {name}"
+
+
+class Record:
+    """What each test takes alone: what several share counts for each of them."""
+
+    def __init__(self, config):
+        self._config = config
+        self._shared, self._now, self._within = {}, 0.0, []
+        self._taken, self._collected = Counter(), []
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_finish(self, session):
+        self._collected = [node_of(item) for item in session.items]
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_fixture_setup(self, fixturedef):
+        began = time.perf_counter()
+        self._within.append(0.0)
+        try:
+            return (yield)
+        finally:
+            whole = time.perf_counter() - began
+            own = whole - self._within.pop()
+            if self._within:  # one that another asked for
+                self._within[-1] += whole
+            if fixturedef.scope != "function":
+                self._shared[fixturedef] = own
+                self._now += own
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(self, item, call):
+        report = yield
+        if call.when == "teardown":
+            used = item._fixtureinfo.name2fixturedefs.values()
+            alone = sum(self._shared.get(each[-1], 0.0) for each in used)
+            report.user_properties.append(("shared", alone - self._now))
+            self._now = 0.0
+        return report
+
+    def pytest_runtest_logreport(self, report):
+        if report.skipped:
+            return
+        self._taken[report.nodeid.removeprefix("tests/")] += report.duration + sum(
+            seconds for name, seconds in report.user_properties if name == "shared"
+        )
+
+    def pytest_sessionfinish(self):
+        if hasattr(self._config, "workeroutput"):
+            self._config.workeroutput["collected"] = self._collected
+            return
+        write(self._taken, self._collected)
+
+    @pytest.hookimpl(optionalhook=True)
+    def pytest_testnodedown(self, node):
+        self._collected = getattr(node, "workeroutput", {}).get("collected", self._collected)
+
+
+def write(taken, collected):
+    """Write what tests took, in seconds of the machine that the file was first written on.
+
+    What was known stays, but for tests that are gone from the files that were collected.
+    """
+    factor = 1 / slowness()
+    reference = seconds_here() * factor
+    files = {node.partition("::")[0] for node in collected}
+    known = {
+        node: seconds
+        for node, seconds in durations().items()
+        if node in collected or node.partition("::")[0] not in files
+    }
+    known |= {node: round(max(0.0, seconds) * factor, 2) for node, seconds in taken.items()}
+    tests = defaultdict(dict)
+    for node in sorted(known):
+        file, _, test = node.partition("::")
+        tests[file][test] = known[node]
+    text = json.dumps({"reference": round(reference, 4), "tests": tests}, indent=0)
+    DURATIONS.write_text(f"{text}\n", "utf-8")
