@@ -5,10 +5,11 @@ BIN := $(VENV)/bin
 TOOLS := out/tools
 OUT ?= out/paper
 TEST_PROCESSES ?= 2
+PART ?= 1/1
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage leak-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off layers permeance lab-benchmark fuzz study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage leak-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -19,16 +20,25 @@ paper: $(VENV)/installed
 paper-full: $(VENV)/installed
 	$(BIN)/roughline paper --scale full --out out/paper-full
 
+# What is short, and of each test that is long a short case.
 test: $(VENV)/installed
-	$(PYTEST)
+	$(PYTEST) --tier short
 
-# The same with all random cases, of which `make test` tries a fixed share.
+# All tests, or one of some parts of them that take as long as each other: PART=2/3.
 full: $(VENV)/installed
-	ROUGHLINE_FULL=1 $(PYTEST)
+	$(PYTEST) --part $(PART)
 
-# What matters while editing, in about a minute: no tests marked slow, no processes, no reports.
-quick: check
-	$(PYTEST) -m "not slow" $(addprefix --ignore=tests/,campaign cli docs lab paper)
+# Or a part of those that `make test` leaves out, such as PART=5/12.
+long: $(VENV)/installed
+	$(PYTEST) --tier long --part $(PART)
+
+# Runs all tests, and writes how long each takes: tests/durations.json, by which the tests above are chosen.
+durations: $(VENV)/installed
+	$(PYTEST) --record
+
+# All random cases, of which `make full` tries a fixed share; in some hours.
+cases: $(VENV)/installed
+	ROUGHLINE_CASES=all $(PYTEST) $$(grep -rl "^from random_cases import" tests)
 
 # Which of the mistakes of tests/mutants.toml the tests find that each names; in about half an hour.
 mutants: $(VENV)/installed
@@ -119,9 +129,6 @@ lab-sessions: $(VENV)/installed
 # Half an hour: 20 minutes of attack, and the time that a session waits for its page. Linux only.
 lab-attack: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_attack.py
-
-fuzz: $(VENV)/installed
-	ROUGHLINE_FULL=1 $(BIN)/python -m pytest tests/contact/test_fuzz.py tests/halfspace/test_hardness_robustness.py
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr

@@ -9,36 +9,13 @@ import pytest
 import typer
 
 import roughline as rl
-import tiers
-from lab_in_browser import WANTED, chromium_of, launched
+from lab_in_browser import WANTED, Chromium
 from roughline import cli
+from tiers import pytest_addoption, pytest_configure, pytest_xdist_make_scheduler  # noqa: F401
 from validation import hold
 
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
-
-
-def pytest_addoption(parser):
-    """Take which tests run, and whether it is written how long each takes."""
-    group = parser.getgroup("which tests run")
-    group.addoption(
-        "--tier",
-        choices=["all", "short", "long"],
-        default="all",
-        help="short: what is short, and a representative of what is long; long: all others",
-    )
-    group.addoption(
-        "--part", default="1/1", help="one of some parts of these that take as long, such as 3/12"
-    )
-    group.addoption(
-        "--record", action="store_true", help="write how long each test takes to durations.json"
-    )
-
-
-def pytest_configure(config):
-    """Choose tests by how long they take."""
-    config.pluginmanager.register(tiers.Choice(config))
-    if config.option.record:
-        config.pluginmanager.register(tiers.Record(config))
+_CHROMIUM = Chromium()
 
 
 def pytest_collection_modifyitems(items):
@@ -46,22 +23,6 @@ def pytest_collection_modifyitems(items):
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.browser)
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config, log):
-    """Keep the tests of a file in one process, and those of a folder that share what costs much.
-
-    pytest-xdist's own groups are lost from pytest 9.2 on, which lets no test be renamed.
-    """
-    from xdist.scheduler import LoadScopeScheduling
-
-    class Groups(LoadScopeScheduling):
-        def _split_scope(self, nodeid):
-            return tiers.group_of(nodeid.removeprefix("tests/"))
-
-    config.option.loadscopereorder = False  # what takes longest goes first
-    return Groups(config, log)
 
 
 @pytest.fixture(scope="session")
@@ -74,14 +35,27 @@ def topographies() -> Path:
 
 @pytest.fixture(scope="module")
 def browser():
-    """Return a headless Chromium."""
-    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    with api.sync_playwright() as playwright:
-        if chromium_of(playwright) is None:
-            pytest.skip(WANTED)
-        started = launched(playwright)
-        yield started
-        started.close()
+    """Return the headless Chromium of this process."""
+    pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    started = _CHROMIUM.started()
+    if started is None:
+        pytest.skip(WANTED)
+    return started
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown(item, nextitem):
+    """Close the Chromium before the tests of another file, if the first needs none."""
+    try:
+        return (yield)
+    finally:
+        if nextitem and nextitem.path != item.path and "browser" not in nextitem.fixturenames:
+            _CHROMIUM.close()
+
+
+def pytest_unconfigure():
+    """Close the Chromium at the end."""
+    _CHROMIUM.close()
 
 
 @pytest.fixture

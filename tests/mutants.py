@@ -1,5 +1,6 @@
 """Plant mistakes in a copy of the package, one at a time, and tell which the tests do not find."""
 
+import argparse
 import os
 import shutil
 import subprocess
@@ -27,12 +28,12 @@ def mutants() -> list[Mutant]:
         return [Mutant(**each) for each in tomllib.load(file)["mutant"]]
 
 
-def survives(mutant: Mutant, copy: Path) -> bool:
-    """Run the tests on a copy of the package that has the mistake."""
+def survives(mutant: Mutant, copy: Path, tier: str) -> bool:
+    """Run the tests of a tier on a copy of the package that has the mistake."""
     file = copy / mutant.file
     whole = file.read_text(encoding="utf-8")
     file.write_text(whole.replace(mutant.right, mutant.wrong), encoding="utf-8")
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "--tier", tier]
     found = subprocess.run(
         [*command, TESTS / mutant.found_by],
         cwd=TESTS.parent,
@@ -46,17 +47,22 @@ def survives(mutant: Mutant, copy: Path) -> bool:
     return found.returncode == 0
 
 
-def main(folder: str, *words: str) -> None:
-    """Try all mutants, or those of files whose names hold one of the words."""
-    copy = Path(folder) / "src" / "roughline"
+def main() -> None:
+    """Try all mutants, or those of files whose names hold one of some words."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path, help="for the copy of the package")
+    parser.add_argument("words", nargs="*", help="of the names of files; none: all")
+    parser.add_argument("--tier", choices=["all", "short", "long"], default="all")
+    given = parser.parse_args()
+    copy, words = given.folder / "src" / "roughline", given.words
     if copy.resolve() == PACKAGE.resolve():
-        raise SystemExit(f"{folder} holds the package itself: name another folder for its copy")
+        parser.error(f"{given.folder} holds the package itself: name another folder for its copy")
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     tried = [each for each in mutants() if not words or any(word in each.file for word in words)]
     survivors = 0
     for mutant in tried:
-        survived = survives(mutant, copy.resolve())
+        survived = survives(mutant, copy.resolve(), given.tier)
         survivors += survived
         verdict = "SURVIVED" if survived else "found"
         print(f"{verdict:8}  {mutant.file}: {mutant.wrong}  ({mutant.found_by})", flush=True)
@@ -65,4 +71,4 @@ def main(folder: str, *words: str) -> None:
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main()

@@ -18,6 +18,7 @@ LONGEST = 10.0  # that a representative may take [s]; both on the machine of the
 _TOGETHER = ("campaign", "paper")  # folders whose tests share a cluster or a store
 _EACH = 0.01  # that a test takes beside itself [s]
 _SLOW = 1.5  # times as long as there, from which on it is said
+PROCESSES = 2  # of `make test`
 
 
 def durations():
@@ -69,6 +70,46 @@ def part_in(text):
     if not (number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of)):
         raise pytest.UsageError(f"--part {text}: give one of some parts, such as 3/12")
     return int(number), int(of)
+
+
+def pytest_addoption(parser):
+    """Take which tests run, and whether it is written how long each takes."""
+    group = parser.getgroup("which tests run")
+    group.addoption(
+        "--tier",
+        choices=["all", "short", "long"],
+        default="all",
+        help="short: what is short, and a representative of what is long; long: all others",
+    )
+    group.addoption(
+        "--part", default="1/1", help="one of some parts of these that take as long, such as 3/12"
+    )
+    group.addoption(
+        "--record", action="store_true", help="write how long each test takes to durations.json"
+    )
+
+
+def pytest_configure(config):
+    """Choose tests by how long they take."""
+    config.pluginmanager.register(Choice(config))
+    if config.option.record:
+        config.pluginmanager.register(Record(config))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Keep the tests of a file in one process, and those of a folder that share what costs much.
+
+    pytest-xdist's own groups are lost from pytest 9.2 on, which lets no test be renamed.
+    """
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Groups(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            return group_of(nodeid.removeprefix("tests/"))
+
+    config.option.loadscopereorder = False  # what takes longest goes first
+    return Groups(config, log)
 
 
 class Choice:
@@ -138,7 +179,7 @@ class Record:
     def __init__(self, config):
         self._config = config
         self._shared, self._now, self._within = {}, 0.0, []
-        self._taken, self._collected = Counter(), []
+        self._taken, self._skipped, self._collected = Counter(), set(), []
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_finish(self, session):
@@ -170,17 +211,18 @@ class Record:
         return report
 
     def pytest_runtest_logreport(self, report):
+        node = report.nodeid.removeprefix("tests/")
         if report.skipped:
-            return
-        self._taken[report.nodeid.removeprefix("tests/")] += report.duration + sum(
-            seconds for name, seconds in report.user_properties if name == "shared"
-        )
+            self._skipped.add(node)
+        shared = [seconds for name, seconds in report.user_properties if name == "shared"]
+        self._taken[node] += report.duration + sum(shared)
 
     def pytest_sessionfinish(self):
         if hasattr(self._config, "workeroutput"):
             self._config.workeroutput["collected"] = self._collected
             return
-        write(self._taken, self._collected)
+        ran = set(self._taken) - self._skipped
+        write({node: self._taken[node] for node in ran}, self._collected)
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node):
