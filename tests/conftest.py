@@ -46,6 +46,7 @@ def browser():
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_teardown(item, nextitem):
     """Close the Chromium before the tests of another file, if the first needs none."""
+    __tracebackhide__ = True
     try:
         return (yield)
     finally:

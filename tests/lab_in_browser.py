@@ -10,6 +10,8 @@ import sys
 import time
 from urllib.parse import urlsplit
 
+from reference import patience
+
 WANTED = (
     "no Chromium: install Debian's (apt-get install chromium), or `playwright install chromium`"
 )
@@ -34,6 +36,36 @@ def launched(playwright):
     )
 
 
+class Chromium:
+    """A headless Chromium that is started when it is asked for, and stays.
+
+    Meanwhile Playwright's loop runs in this thread, so that no test can run one of its own.
+    """
+
+    def __init__(self):
+        self._playwright = self._browser = None
+
+    def started(self):
+        """Return it; None where there is none to start."""
+        if self._browser is not None and self._browser.is_connected():
+            return self._browser
+        self.close()
+        from playwright.sync_api import sync_playwright  # which is not everywhere
+
+        self._playwright = sync_playwright().start()
+        if chromium_of(self._playwright) is None:
+            self.close()
+            return None
+        self._browser = launched(self._playwright)
+        return self._browser
+
+    def close(self):
+        """Close it, if it is open; it can be started again."""
+        if self._playwright is not None:
+            self._playwright.stop()
+        self._playwright = self._browser = None
+
+
 class RunningLab:
     """A lab on a free port of this machine.
 
@@ -54,7 +86,7 @@ class RunningLab:
         self.process = subprocess.Popen(
             [*command, *arguments], stdout=subprocess.PIPE, stderr=self._log
         )
-        line = _first_line(self.process.stdout, 60)
+        line = _first_line(self.process.stdout)
         self.seconds_to_open = time.perf_counter() - started
         found = re.search(rb"http://\S+", line)
         if found is None:
@@ -68,7 +100,7 @@ class RunningLab:
         with contextlib.suppress(ProcessLookupError):
             self.process.send_signal(signal.SIGINT)
         try:
-            code = self.process.wait(20)
+            code = self.process.wait(patience())
         finally:
             self.process.kill()
             self.process.wait()
@@ -79,11 +111,11 @@ class RunningLab:
         return code, said
 
 
-def _first_line(stream, seconds):
+def _first_line(stream):
     """Return the first line of a stream, or what came of it in time."""
     with selectors.DefaultSelector() as ready:
         ready.register(stream, selectors.EVENT_READ)
-        return stream.readline() if ready.select(seconds) else b""
+        return stream.readline() if ready.select(patience()) else b""
 
 
 class Pages:
@@ -94,8 +126,8 @@ class Pages:
     address : str
         Of the page, without the token; each profile is logged in.
     complaints : list of str
-        Errors on the console, errors of scripts, refusals of the content security policy, and
-        requests that leave the machine.
+        Warnings and errors on the console, errors of scripts, refusals of the content security
+        policy, and requests that leave the machine.
     """
 
     def __init__(self, browser, address):
@@ -119,15 +151,14 @@ class Pages:
             accept_downloads=True,
             **context,
         )
-        made.set_default_timeout(60_000)
+        made.set_default_timeout(1000 * patience())
         made.request.get(self._opened)  # which logs its pages in
         self._contexts.append(made)
-        page = made.new_page()
-        page.on("console", self._console)
-        page.on("pageerror", lambda error: self.complaints.append(f"error of a script: {error}"))
-        page.on("request", lambda request: self._request(request.url))
-        page.on("websocket", lambda socket: self._request(socket.url))
-        return page
+        made.on("console", self._console)
+        made.on("weberror", lambda told: self.complaints.append(f"of a script: {told.error}"))
+        made.on("request", lambda request: self._request(request.url))
+        made.on("page", lambda page: page.on("websocket", lambda each: self._request(each.url)))
+        return made.new_page()
 
     def close(self):
         """Close all of them."""
@@ -139,12 +170,15 @@ class Pages:
         """Let complaints pass that match a pattern; one at least must come."""
         before, self.complaints = self.complaints, []
         yield
+        end = time.monotonic() + patience()
+        while not any(re.search(pattern, each) for each in self.complaints):
+            assert time.monotonic() < end, self.complaints
+            self._contexts[-1].pages[0].wait_for_timeout(20)  # in which a page may tell
         came, self.complaints = self.complaints, before
-        assert any(re.search(pattern, each) for each in came), came
         self.complaints += [each for each in came if not re.search(pattern, each)]
 
     def _console(self, message):
-        if message.type == "error":
+        if message.type in ("warning", "error"):
             self.complaints.append(f"console: {message.text} ({message.location.get('url')})")
 
     def _request(self, url):

@@ -2,10 +2,7 @@
 
 from pathlib import Path
 
-import pytest
 from markdown_it import MarkdownIt
-
-from lab_in_browser import WANTED, chromium_of, launched
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted(path for path in DOCS.glob("*.md") if "\n| --" in path.read_text("utf-8"))
@@ -16,17 +13,13 @@ STYLE = (
 )
 
 
-@pytest.mark.browser
-def test_tables_do_not_run_out_of_the_page():
-    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+def test_tables_do_not_run_out_of_the_page(browser):
     reader = MarkdownIt("commonmark").enable("table")
     studies = ("area", "averaging", "correlations", "finite_size", "paper", "sealing")
     assert {f"{name}.md" for name in studies} <= {p.name for p in PAGES}
-    with api.sync_playwright() as playwright:
-        if chromium_of(playwright) is None:
-            pytest.skip(WANTED)
-        page = launched(playwright).new_page(viewport={"width": 1200, "height": 900})
-        for path in PAGES:
-            page.set_content(f"<style>{STYLE}</style>{reader.render(path.read_text('utf-8'))}")
-            widths = page.evaluate("() => [document.body.scrollWidth, document.body.clientWidth]")
-            assert widths[0] <= widths[1], f"{path.name} is {widths[0]} pixels wide"
+    page = browser.new_page(viewport={"width": 1200, "height": 900})
+    for path in PAGES:
+        page.set_content(f"<style>{STYLE}</style>{reader.render(path.read_text('utf-8'))}")
+        widths = page.evaluate("() => [document.body.scrollWidth, document.body.clientWidth]")
+        assert widths[0] <= widths[1], f"{path.name} is {widths[0]} pixels wide"
+    page.close()
