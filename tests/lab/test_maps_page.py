@@ -80,6 +80,20 @@ def draw(page, name, start, end, button="[data-profile=explore-profile]"):
         act()
 
 
+def assert_fits(page, axis, values):
+    """An axis of the profile has a twentieth of room about values."""
+    low, high = page.evaluate(
+        """(axis) => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name("explore-profile"));
+            const {start, end} = made.get_model_by_name("explore-profile")[`${axis}_range`];
+            return [start, end];
+        }""",
+        axis,
+    )
+    room = 0.05 * (max(values) - min(values))
+    assert (low, high) == pytest.approx((min(values) - room, max(values) + room))
+
+
 def test_a_line_across_a_map_shows_the_profile_of_both_bodies(pages):
     page = pages.open(SMALL + "&F=1")
     settled(page, points=64, F=1)
@@ -93,11 +107,14 @@ def test_a_line_across_a_map_shows_the_profile_of_both_bodies(pages):
         line = page.evaluate(SOURCE, name)
         assert line["x"] == pytest.approx([0.1, 0.9], abs=0.02)
         assert line["y"] == pytest.approx([0.5, 0.5], abs=0.02)
+    for axis, values in (("x", surface["x"]), ("y", surface["y"] + body["y"])):
+        assert_fits(page, axis, values)
     page.fill("#explore-F-text", "0.1")  # which the profile follows
     page.press("#explore-F-text", "Enter")
     settled(page, points=64, F=0.1)
     lifted = page.evaluate(SOURCE, "profile body")
     assert sum(lifted["y"]) > sum(body["y"])
+    assert_fits(page, "y", surface["y"] + lifted["y"])
     page.click("[data-profile=explore-profile]")
     assert not page.is_visible("#explore-profile")
     page.context.close()

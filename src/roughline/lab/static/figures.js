@@ -13,8 +13,8 @@ const COLUMNS = { // that glyphs take
 const DASHES = {dashed: [6], dotted: [2, 4], dashdot: [6, 4, 2, 4]}; // as long for lines of any width
 export const LOGARITHMIC = {x_axis_type: "log", y_axis_type: "log"};
 
-// An empty plot with the labels of its axes; its ranges follow what is drawn if there are none.
-export function plot([x_axis_label, y_axis_label], [x_range, y_range] = [], look = {}) {
+// An empty plot with the labels of its axes and their ranges.
+export function plot([x_axis_label, y_axis_label], [x_range, y_range], look = {}) {
   const made = new Bokeh.Plotting.Figure({
     x_axis_label, y_axis_label, x_range, y_range, tools: tools(look.match_aspect), sizing_mode: "stretch_both", ...look,
   });

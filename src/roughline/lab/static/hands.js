@@ -167,7 +167,6 @@ function zoom(root, factor, from, to = from) {
   axesOf(root).forEach(([range, scale], i) => {
     const [start, end] = [range.start, range.end].map(scale.to), length = end - start;
     const first = start + length * (from[i] - factor * to[i]);
-    range.have_updated_interactively = true; // otherwise it goes on following the data
     range.setv({start: scale.from(first), end: scale.from(first + factor * length)});
   });
 }
@@ -186,12 +185,9 @@ const bounded = new WeakSet(); // plots may share a range
 function keepBounded(range, {to, from}) {
   if (bounded.has(range)) return;
   bounded.add(range);
-  let followed = null; // what a range that follows the data last had of itself
   const keep = () => {
     if (!range.is_valid) return;
-    if (range.type === "DataRange1d" && !range.have_updated_interactively) followed = [range.start, range.end];
-    const whole = range.type === "DataRange1d" ? followed : [range._reset_start, range._reset_end];
-    if (!whole) return;
+    const whole = [range._reset_start, range._reset_end];
     const [[low, high], [start, end]] = [whole.map(to), [range.start, range.end].map(to)];
     const length = high - low, beside = ((WIDEST - 1) / 2) * length;
     const half = within(end - start, NARROWEST * length, WIDEST * length) / 2;

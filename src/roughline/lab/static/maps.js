@@ -11,9 +11,10 @@ const HIGHEST = 0.38, AT_LEAST = 280; // frame, in heights of the window, and [p
 const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
 const STOPS = 24; // of the scale's gradient
 const SAMPLES = 600; // along a profile
+const ROOM = 0.05; // about it, in shares of what it spans
 
 // An empty map; its numbers are colours themselves, or get those of a palette. Rings may be drawn on it in a colour.
-export function mapFigure(name, {isOfColours = false, rings = "", ranges} = {}) {
+export function mapFigure(name, {isOfColours = false, rings = "", ranges}) {
   const borders = Object.fromEntries(Object.entries(BORDERS).map(([side, width]) => [`min_border_${side}`, width]));
   const made = plot(["x", "y"], ranges, {match_aspect: true, ...borders});
   const mapper = new Bokeh.LinearColorMapper({palette: Bokeh.Palettes.Cividis256, low: -1, high: 1, name: `${name} colours`});
@@ -36,7 +37,7 @@ export function sharedRanges() { return [1, 2].map(() => new Bokeh.Range1d({star
 
 // An empty profile: heights of the surface and, where a contact is shown, of the body that is pressed on it.
 export function profileFigure() {
-  const made = plot(["along the line", "height"]);
+  const made = plot(["along the line", "height"], [[0, 1], [0, 1]]);
   draw(made, "line", "profile body", {line_width: 1.5, legend: "the other body", colours: {line_color: "here"}});
   draw(made, "line", "profile surface", {line_width: 1.5, legend: "surface", colours: {line_color: "dark-line"}});
   return made;
@@ -174,8 +175,16 @@ export class Maps {
     const body = gap ? along(gap).map((value, i) => surface[i] + (value || 0)) : [];
     this.#plots.set("profile surface", {x, y: surface});
     this.#plots.set("profile body", {x: gap ? x : [], y: body});
+    for (const [axis, values] of Object.entries({x, y: [...surface, ...body]})) this.#plots.follow(plot, axis, endsAbout(values));
     this.#plots.label(plot, withUnit("along the line", this.#unit), withUnit("height", height.unit));
   }
+}
+
+// The ends of an axis about values.
+function endsAbout(values) {
+  const known = values.filter(Number.isFinite), low = Math.min(...known), high = Math.max(...known);
+  const room = ROOM * (high - low) || 1;
+  return [low - room, high + room];
 }
 
 // A quantity with its unit, or over a scale: height [µm], height / h.

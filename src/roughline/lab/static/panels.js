@@ -6,7 +6,6 @@ import {fillTable} from "./tables.js";
 
 const FILLED = ["scatter", "varea"]; // glyphs that have an inside
 const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
-const NONE = {x: [], y: [], low: [], high: []};
 const SLOPE = 0.6; // of the names of places [rad]
 const DECADES = Array.from({length: 13}, (_, i) => 10 ** (i - 6));
 const ROUND = DECADES.flatMap((decade) => [decade, 2 * decade, 5 * decade]); // Bokeh's own miss decades
@@ -63,7 +62,7 @@ class Panels {
     this.#answers.delete(what);
     this.#answers.set(what, panels);
     for (const [key, {series}] of Object.entries(before)) {
-      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.#mark(key, name, NONE);
+      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.plots.empty(`${key} ${name}`);
       if (panels[key]) continue;
       this.#fillRows(key);
       this.#remark(key, "");
@@ -73,7 +72,7 @@ class Panels {
 
   #fill(what, key, {series, legends, rows, caption, remarks, x, y, axes, names}, numbers) {
     const {plots} = this, plot = this.#plot(key);
-    for (const [axis, range] of Object.entries({x, y})) if (range) this.#range(plot, axis, range);
+    for (const [axis, range] of Object.entries({x, y})) if (range) plots.follow(plot, axis, range);
     for (const [name, columns] of Object.entries(series)) this.#mark(key, name, columns);
     for (const [name, value] of Object.entries(legends ?? {})) plots.call(`${key} ${name}`, value);
     if (y) this.#placeZeros(key);
@@ -90,12 +89,6 @@ class Panels {
   #plot(key) { return `${this.#view}-${key}`; }
   #find(key, selector) { return document.querySelector(`#${this.#plot(key)} ${selector}`); }
   #remark(key, text) { this.#find(key, "[data-remarks]")?.replaceChildren(...typeset(text)); }
-
-  // Show another range; where it is what it was, a part that is shown alone stays.
-  #range(plot, axis, [start, end]) {
-    const {reset_start, reset_end} = this.plots.root(plot)[`${axis}_range`];
-    if (start !== reset_start || end !== reset_end) this.plots.range(plot, axis, start, end);
-  }
 
   // The table of a panel has the rows of all answers; those of the lines stand below.
   #fillRows(key) {

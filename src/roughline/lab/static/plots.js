@@ -90,6 +90,9 @@ class Plots {
     }
   }
 
+  // Take all points from a source.
+  empty(name) { this.set(name, Object.fromEntries(Object.keys(this.model(name).data).map((column) => [column, []]))); }
+
   // Call a source by other words in the legend.
   call(name, words) { for (const {item} of this.#named.get(name) ?? []) item.lastChild.replaceChildren(...typeset(words)); }
 
@@ -118,6 +121,12 @@ class Plots {
   // Show a range of an axis, all of which it is from now on.
   range(name, axis, start, end) {
     this.root(name)[`${axis}_range`].setv({start, end, reset_start: start, reset_end: end});
+  }
+
+  // Show another range of an axis; where it is what it was, a part that is shown alone stays.
+  follow(name, axis, [start, end]) {
+    const {reset_start, reset_end} = this.root(name)[`${axis}_range`];
+    if (start !== reset_start || end !== reset_end) this.range(name, axis, start, end);
   }
 
   // Call when a cursor was moved by hand.
