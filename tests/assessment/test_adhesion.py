@@ -13,18 +13,22 @@ from roughline.exact.adhesion import MaugisSphere
 
 E_STAR, RADIUS, WORK = 6.58e6, 20e-6, 0.05  # a silicone rubber on a stiff lens [Pa], [m], [J/m²]
 RUBBER = ("E=5 MPa nu=0.49", "rigid")
+CELL = 0.3125e-6  # of the rough maps [m]
+RANGE = "50 mJ/m^2 over 250 nm"  # that eight cells of them resolve
 
 
-def lens(n=96):
+def lens(n):
     """A lens on points, about twice as far out as it touches without a load."""
     side = 13e-6
     x = (np.arange(n) - (n - 1) / 2) * side / n
     return rl.Surface(-(x[:, None] ** 2 + x**2) / (2 * RADIUS), sizes=(side, side), unit="m")
 
 
-def rough(n=64, rms_height=60e-9, rng=5):
-    """A rough map of micrometres."""
-    spectrum = rl.SelfAffine(hurst=0.8, length=20e-6, rms_height=rms_height, q_roll=6e5, q_high=4e6)
+def rough(n=32, rms_height=60e-9, rng=5):
+    """A rough map of micrometres; the more points, the larger it is."""
+    spectrum = rl.SelfAffine(
+        hurst=0.8, length=n * CELL, rms_height=rms_height, q_roll=6.5e5, q_high=4e6
+    )
     return replace(spectrum.surface(n, rng=rng), unit="m")
 
 
@@ -37,20 +41,22 @@ def value(result, key):
     return float(result.answers[key].values[-1])
 
 
-def test_a_lens_comes_off_as_maugis_says():
-    pair = rl.Question(lens(), RUBBER).pair
+@pytest.mark.parametrize("n", [48, 96])
+def test_a_lens_comes_off_as_maugis_says(n):
+    pair = rl.Question(lens(n), RUBBER).pair
     exact = MaugisSphere(RADIUS, WORK, 200e-9, pair.E_star)
-    result = asked(lens(), rl.Adhesion("50 mJ/m^2 over 200 nm"))
+    result = asked(lens(n), rl.Adhesion("50 mJ/m^2 over 200 nm"))
     assert value(result, "pull_off_force") == pytest.approx(-exact.pull_off_force, rel=0.01)
     unloaded = brentq(exact.force, 1 + 1e-6, exact.pull_off_ratio())
-    touching = np.pi * exact.radius(unloaded) ** 2 / lens().area
+    touching = np.pi * exact.radius(unloaded) ** 2 / lens(n).area
     assert value(result, "area_without_load") == pytest.approx(touching, rel=0.03)
 
 
-def test_the_interval_of_the_pull_off_holds_the_exact_one():
-    pair = rl.Question(lens(), RUBBER).pair
+@pytest.mark.parametrize("n", [64, 96])
+def test_the_interval_of_the_pull_off_holds_the_exact_one(n):
+    pair = rl.Question(lens(n), RUBBER).pair
     exact = MaugisSphere(RADIUS, WORK, 200e-9, pair.E_star)
-    result = asked(lens(), rl.Adhesion("50 mJ/m^2 over 200 nm"), grid_error=True)
+    result = asked(lens(n), rl.Adhesion("50 mJ/m^2 over 200 nm"), grid_error=True)
     answer = result.answers["pull_off_force"]
     assert answer.low[0] <= -exact.pull_off_force <= answer.high[0]
 
@@ -69,11 +75,12 @@ def test_smooth_bodies_take_the_work_of_adhesion_and_no_more():
     assert value(result, "work_of_separation") == pytest.approx(1.0, rel=0.03)
 
 
-def test_a_joint_is_as_much_more_as_its_area():
-    attraction = rl.Adhesion("50 mJ/m^2 over 200 nm")
-    of_map = asked(rough(), attraction, loads=["10 kPa"], periodic=True)
-    of_joint = asked(rough(), attraction, rl.Joint("1 cm^2"), loads=["10 kPa"])
-    ratio = 1e-4 / rough().area
+@pytest.mark.parametrize("n", [32, 64])
+def test_a_joint_is_as_much_more_as_its_area(n):
+    attraction = rl.Adhesion(RANGE)
+    of_map = asked(rough(n), attraction, loads=["10 kPa"], periodic=True)
+    of_joint = asked(rough(n), attraction, rl.Joint("1 cm^2"), loads=["10 kPa"])
+    ratio = 1e-4 / rough(n).area
     force = ratio * value(of_map, "pull_off_force")
     assert value(of_joint, "pull_off_force") == pytest.approx(force, rel=1e-3)
     pressure = value(of_map, "pull_off_pressure")
@@ -88,7 +95,7 @@ def test_a_range_that_was_not_given_is_in_the_name_and_resolved():
     assert answer.name == f"pull-off force at a range of {reach:.4g} nm"
     assert result.curve.settings["pulling_zone_cells"] == pytest.approx(9)
     assert any("shorter ones give other answers" in note for note in result.notes)
-    given = asked(rough(), rl.Adhesion("50 mJ/m^2 over 200 nm"), periodic=True)
+    given = asked(rough(), rl.Adhesion(RANGE), periodic=True)
     assert given.answers["pull_off_force"].name == "pull-off force"
 
 
@@ -103,17 +110,18 @@ def test_a_range_without_cells_enough_gives_no_pull_off_and_says_so():
 
 
 def test_depths_and_spaced_loads_may_be_asked_of_bodies_that_stick():
-    attraction = rl.Adhesion("50 mJ/m^2 over 200 nm")
-    spaced = asked(rough(), attraction, loads=(), n_loads=4, periodic=True)
+    attraction = rl.Adhesion(RANGE)
+    spaced = asked(rough(), attraction, loads=(), n_loads=3, periodic=True)
     assert (np.diff(spaced.curve.force) > 0).all()
     assert np.isfinite(spaced.answers["pull_off_force"].values).all()
     at_depths = asked(rough(), attraction, loads=(), depths=["-50 nm", "100 nm"], periodic=True)
     assert at_depths.curve.on_approach.all()
 
 
-def test_a_load_that_is_taken_off_leaves_bodies_together():
-    attraction = rl.Adhesion("50 mJ/m^2 over 200 nm")
-    result = asked(rough(), attraction, rl.Unloading(), loads=["20 kPa"], periodic=True)
+@pytest.mark.parametrize("n", [32, 64])
+def test_a_load_that_is_taken_off_leaves_bodies_together(n):
+    attraction = rl.Adhesion(RANGE)
+    result = asked(rough(n), attraction, rl.Unloading(), loads=["20 kPa"], periodic=True)
     assert result.curve.force[-1] == 0
     touching = result.curve.area_fraction_corrected[-1]
     assert touching == pytest.approx(value(result, "area_without_load"), rel=1e-3)
@@ -131,7 +139,7 @@ def test_a_contact_modulus_alone_gives_a_curve_and_no_answers():
 
 def test_several_maps_are_averaged():
     maps = [rough(), rough(rng=6)]
-    result = asked(maps, rl.Adhesion("50 mJ/m^2 over 200 nm"), loads=["10 kPa"], periodic=True)
+    result = asked(maps, rl.Adhesion(RANGE), loads=["10 kPa"], periodic=True)
     of_maps = [value(each, "pull_off_pressure") for each in result.assessments]
     mean = np.exp(np.mean(np.log(of_maps)))
     assert float(result.answers["pull_off_pressure"].mean[0]) == pytest.approx(mean)
@@ -196,11 +204,12 @@ def test_what_is_not_known_of_bodies_that_stick_is_refused(others, told):
         rl.Question(body, materials, **settings)
 
 
-def test_the_command_line_asks_for_it(invoke, tmp_path):
+def test_the_command_line_asks_for_it(invoke, only_drawn, tmp_path):
+    only_drawn()
     rl.write(rough(), tmp_path / "map.nc")
     code, out, _ = invoke(
         "press", str(tmp_path / "map.nc"), "--materials", "E=5 MPa nu=0.49, rigid", "--load",
-        "1 uN", "--adhesion", "50 mJ/m^2 over 200 nm, exponential", "--periodic", "--json",
+        "1 uN", "--adhesion", f"{RANGE}, exponential", "--periodic", "--json",
         "--report", str(tmp_path / "report"),
     )  # fmt: skip
     assert code == 0
