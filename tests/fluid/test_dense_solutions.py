@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from random_cases import cases
+from random_cases import cases, seeds
 
 N = 12
 ALL = 5000
@@ -120,13 +120,13 @@ def flowing(gap, periodic):
 
 @pytest.mark.parametrize("sides", ["periodic", "closed"])
 @pytest.mark.parametrize("along", ["x", "y"])
-def test_dense_solutions_find_the_same(sides, along):
-    number = cases(ALL, 20)
+@seeds(50, cases(ALL, 20))
+def test_dense_solutions_find_the_same(sides, along, seeds):
     periodic, lengths = sides == "periodic", (1.3, 0.7)
     square = 0.7 / 1.3 if along == "x" else 1.3 / 0.7
     sealed = 0
-    for first in range(0, number, 500):
-        some = gaps(first, min(500, number - first))
+    for first in seeds[::500]:
+        some = gaps(first, min(500, seeds.stop - first))
         turned = some if along == "x" else some.swapaxes(1, 2)
         expected = inflows(turned, square, periodic)
         for gap, inflow, flows in zip(some, expected, flowing(turned, periodic), strict=True):
@@ -135,12 +135,13 @@ def test_dense_solutions_find_the_same(sides, along):
             assert found.inflow == pytest.approx(inflow, rel=DENSE, abs=1e-12)
             assert found.imbalance < 1e-10
             sealed += not flows
-    assert 0.2 < sealed / number < 0.8
+    assert 0.2 < sealed / len(seeds) < 0.8
 
 
-def test_five_thousand_gaps_beside_one_another():
+@seeds(50, ALL)
+def test_five_thousand_gaps_beside_one_another(seeds):
     """All of them as one wide gap, 50 at a time, with a closed line between."""
-    for first in range(0, ALL, 50):
+    for first in seeds[::50]:
         some = gaps(first, 50)
         row = np.zeros((N, 50, N + 1))
         row[:, :, :N] = some.swapaxes(0, 1)

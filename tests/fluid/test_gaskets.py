@@ -11,10 +11,11 @@ from roughline.exact.layers import BondedLayer
 YOUNG, WAVE = 5e6, 8e-3  # modulus [Pa], longest wave [m]
 
 
-def flange(seed, n=64, finest=6.0):
+def flange(seed, n=64, finest=6.0, waves=4):
+    """A flange that is some of the longest waves wide."""
     q = 2 * math.pi / WAVE
     spectrum = rl.SelfAffine(
-        hurst=0.8, length=4 * WAVE, rms_height=10e-6, q_roll=q, q_high=finest * q
+        hurst=0.8, length=waves * WAVE, rms_height=10e-6, q_roll=q, q_high=finest * q
     )
     return spectrum.surface(n, rng=seed)
 
@@ -39,14 +40,19 @@ def test_thick_rubber_seals_as_a_half_space_of_it(seed, poisson):
     )
 
 
-def test_the_thinner_the_rubber_the_more_it_takes_in_the_mean_of_flanges():
+@pytest.mark.parametrize(
+    "flanges",
+    [[{"seed": 5, "n": 32, "waves": 2}], [{"seed": seed} for seed in range(1, 9)]],
+    ids=["one of two waves", "eight"],
+)
+def test_the_thinner_the_rubber_the_more_it_takes_in_the_mean_of_flanges(flanges):
     """One flange may seal a tenth sooner than on thick rubber, near half a wave.
 
     Rubber so thin is harder to the longest waves alone. Under the pressures of thick rubber it
     would sink less at some places and more at others than in the contact on average. Those flanges
     seal sooner whose last channel lies at one of the former.
     """
-    surfaces, shares = [flange(seed) for seed in range(1, 9)], (0.04, 0.1, 0.3, 0.5, 4)
+    surfaces, shares = [flange(**each) for each in flanges], (0.04, 0.1, 0.3, 0.5, 4)
     found = np.log(
         [[sealing_pressure(each, rubber(h * WAVE)) for h in shares] for each in surfaces]
     )
@@ -54,13 +60,16 @@ def test_the_thinner_the_rubber_the_more_it_takes_in_the_mean_of_flanges():
     assert (np.diff(found[:, :3]) < 0).all()
     beside_thick = np.exp(found - found[:, -1:])
     assert (beside_thick[:, 0] > 30).all()
+    if len(flanges) == 1:
+        return  # how much they differ is told by several
     assert 0.85 < beside_thick[:, 3].min() < 0.95
     assert 1.2 < beside_thick[:, 3].max() < 1.4
     assert 6 < np.exp((found[:, 1] - found[:, -1]).mean()) < 8
 
 
-def test_rubber_that_keeps_its_volume_better_takes_more_where_it_is_thin():
-    surface = flange(2)
+@pytest.mark.parametrize("given", [{"n": 32, "waves": 2}, {}], ids=["two waves", "four"])
+def test_rubber_that_keeps_its_volume_better_takes_more_where_it_is_thin(given):
+    surface = flange(2, **given)
     thin, thick = (
         [sealing_pressure(surface, rubber(h * WAVE, nu)) for nu in (0.49, 0.499)] for h in (0.04, 2)
     )
@@ -98,13 +107,15 @@ def test_grooves_close_where_a_wave_is_in_full_contact(poisson, thickness):
     assert exact * (1 - 3 / n) < found.value <= exact * 1.0001
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_very_thin_layer_seals_as_springs_do_with_a_rate(seed):
+@pytest.mark.parametrize(
+    ("seed", "n", "waves"), [(1, 64, 2), (1, 128, 4), (2, 128, 4), (3, 128, 4)]
+)
+def test_a_very_thin_layer_seals_as_springs_do_with_a_rate(seed, n, waves):
     """Springs touch where the flange is above a level, and islands close the last channel.
 
     Waves feel springs up to the square of wavenumber and thickness.
     """
-    surface, poisson = flange(seed, n=128, finest=3.0), 0.2
+    surface, poisson = flange(seed, n, finest=3.0, waves=waves), 0.2
     low, high = float(surface.heights.min()), float(surface.heights.max())
     while high - low > 1e-4 * surface.rms_height:
         level = (low + high) / 2

@@ -11,9 +11,16 @@ STIFF_COATING = Coating(1.0, -1.5, 0.02, periodic=True)
 SOFT_COATING = Coating(1.0, 0.7, 0.02, periodic=True)
 
 
-@pytest.fixture(scope="module")
-def surface():
-    return rl.SelfAffine(hurst=0.5, rms_height=0.01, q_roll=8 * np.pi).surface(64, rng=1)
+@pytest.fixture(scope="module", params=[32, 64])
+def surface(request):
+    spectrum = rl.SelfAffine(hurst=0.5, rms_height=0.01, q_roll=8 * np.pi)
+    return spectrum.surface(request.param, rng=1)
+
+
+@pytest.fixture
+def rtol(surface):
+    """How far apart ends may be: on few points far, where nothing that is compared shows it."""
+    return 0.2 if surface.shape == (32, 32) else 0.01
 
 
 @pytest.mark.parametrize("half_space", [STIFF_COATING, SOFT_COATING, OnRigidBase(1.0, 0.1)])
@@ -44,7 +51,8 @@ def test_an_even_hardness_of_each_node_is_that_of_all(surface):
 def test_a_law_of_each_node_is_taken_to_the_half_grid_and_the_quarters(surface):
     """The quarter that is softer than the others seals sooner."""
     hardness = np.full(surface.shape, 10 * surface.rms_slope)
-    hardness[32:, 32:] = 0.1 * surface.rms_slope
+    nx, ny = surface.shape
+    hardness[nx // 2 :, ny // 2 :] = 0.1 * surface.rms_slope
     half_space, law = rl.Homogeneous(1.0, periodic=True), UnevenHardness(hardness)
     found = rl.sealing_pressure(surface, half_space=half_space, law=law)
     elastic = rl.sealing_pressure(surface, half_space=half_space)
@@ -59,26 +67,27 @@ def test_a_law_of_each_node_is_taken_to_the_half_grid_and_the_quarters(surface):
     assert 0 <= low < high <= 1
 
 
-def test_waves_that_the_grid_lacks_meet_the_coating_alone(surface):
+def test_waves_that_the_grid_lacks_meet_the_coating_alone(surface, rtol):
     """They add more to the pressure where the coating is stiffer than its base."""
     softer, same, stiffer = (
         found.interval[1] / found.high
         for half_space in (SOFT_COATING, rl.Homogeneous(1.0, periodic=True), STIFF_COATING)
-        for found in [rl.sealing_pressure(surface, half_space=half_space)]
+        for found in [rl.sealing_pressure(surface, half_space=half_space, rtol=rtol)]
     )
     assert softer < 0.95 * same
     assert stiffer > 1.05 * same
 
 
-def test_the_half_grid_is_left_by_the_largest_load_before(surface):
+def test_the_half_grid_is_left_by_the_largest_load_before(surface, rtol):
     """Its dents are of that load, as those of the surface are."""
     given = {"E_star": 1.0, "hardness": 0.4 * surface.rms_slope, "periodic": True}
+    asked = {"along": "x", "rtol": rtol}
     after, alone = (
-        rl.reopening(rl.press(surface, forces=forces, **given), along="x", interval=True)
+        rl.reopening(rl.press(surface, forces=forces, **given), interval=True, **asked)
         for forces in ([0.08, 0.05], [0.05])
     )
     coarse = rl.press(surface.coarsened(), forces=[0.08, 0.05], **given)
-    assert after.on_half == rl.reopening(coarse, along="x").value
+    assert after.on_half == rl.reopening(coarse, **asked).value
     assert after.on_half != alone.on_half
 
 
