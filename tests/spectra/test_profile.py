@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from random_cases import cases
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.leakage import map_leakage
 from roughline.spectra.profile import profile_spectrum
@@ -81,29 +80,22 @@ def test_pieces_of_surfaces_have_the_expected_spectrum(hurst, roll):
     assert found[24:28].max() < 0.2 * found[20]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("hurst", "roll"), [(0.8, 4.0), (0.8, 1 / 4), (0.3, 4.0)])
 def test_one_scan_leads_to_the_stiffness_of_its_surface(hurst, roll):
-    """Rows of tilted pieces of Gaussian surfaces against the full model of the pieces."""
+    """A row of a tilted piece of a Gaussian surface against the full model of the piece."""
     n, longer = 128, 4
     parent = rl.SelfAffine(hurst=hurst, length=longer, C_0=1.0, q_roll=roll * Q_0 * (1 + 1e-12))
-    ratios, held, seeds = [], [], cases(12, share=2)
-    for seed in range(seeds):
-        heights = parent.surface(longer * n, seed, "gaussian").heights
-        for first in (0, 2 * n):
-            piece = rl.Surface(heights[first : first + n, :n], (1.0, 1.0), is_cut_out=True)
-            forces = np.array([0.01, 0.1, 1.0]) * piece.detrended().rms_height
-            full = rl.press(piece.detrended(), E_star=1.0, forces=forces, rtol=1e-3).stiffness
-            row = heights[first, :n] + 5 * np.linspace(-1, 1, n)
-            scan = rl.Line(row, 1.0, kind="profile")
-            found = rl.press_scan(scan, E_star=1.0, forces=forces, gaussian=True, rng=seed)
-            ratios.append(np.log(found.curve.stiffness / full))
-            if np.isfinite(found.low).all():
-                held.append((found.low <= full) & (full <= found.high))
-    # of 24 scans, the mean is known to 8 % (one standard error)
-    assert np.abs(np.mean(ratios, axis=0)).max() < math.log(1.1) + 0.16
-    assert len(held) >= 20 / 24 * len(ratios)
-    assert np.mean(held) >= 0.92
+    heights = parent.surface(longer * n, 1, "gaussian").heights
+    piece = rl.Surface(heights[:n, :n], (1.0, 1.0), is_cut_out=True).detrended()
+    forces = np.array([0.01, 0.1, 1.0]) * piece.rms_height
+    full = rl.press(piece, E_star=1.0, forces=forces, rtol=1e-3).stiffness
+    scan = rl.Line(heights[0, :n] + 5 * np.linspace(-1, 1, n), 1.0, kind="profile")
+    found = rl.press_scan(scan, E_star=1.0, forces=forces, gaussian=True, rng=1)
+    assert ((found.low < full) & (full < found.high)).all()
+    assert (found.low < found.curve.stiffness).all()
+    assert (found.curve.stiffness < found.high).all()
+    # one scan of few long waves knows the stiffness of its surface to a factor of 1.6
+    assert np.abs(np.log(found.curve.stiffness / full)).max() < math.log(1.6)
 
 
 def test_what_does_not_follow_a_law_is_kept():
