@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy.stats import t
 
 import roughline as rl
 from roughline.statistics.averages import relative_difference
+from roughline.statistics.bootstrap import ROUNDS
 
 
 def test_the_mean_is_the_mean(ensemble):
@@ -21,21 +23,50 @@ def test_the_mean_is_the_mean(ensemble):
     assert (geometric.mean < found.mean).all()
 
 
-@pytest.mark.slow
+def curves(realisations, seed):
+    """Log-normal curves of two correlated loads, each of mean 1."""
+    rng = np.random.default_rng(seed)
+    common, own = rng.normal(0, 0.3, (2, realisations, 1))
+    return np.exp(common + np.array([-0.3, 0.3]) * own - 0.3**2 * (1 + 0.3**2) / 2)
+
+
+def resampled_means(values, seed):
+    """Logarithm of a mean with its error: of the ensemble first, then of each resample."""
+    count = len(values)
+    draws = np.random.default_rng(seed).integers(count, size=(ROUNDS, count))
+    drawn = np.concatenate([values[np.newaxis], values[draws]])
+    means = drawn.mean(axis=1)
+    return means, drawn.std(axis=1, ddof=1) / np.sqrt(count)
+
+
+def studentised(values, errors, freedom):
+    """Ends of the interval: on each side the farther of Student's and the resamples'."""
+    steps = np.sort((values[1:] - values[0]) / errors[1:], axis=0)
+    low, high = steps[round(0.025 * (ROUNDS - 1))], steps[round(0.975 * (ROUNDS - 1))]
+    width = t.ppf(0.975, freedom)
+    return values[0] - np.maximum(high, width) * errors[0], values[0] - (
+        np.minimum(low, -width) * errors[0]
+    )
+
+
 @pytest.mark.parametrize("realisations", [10, 20, 60])
-def test_intervals_hold_the_truth_as_often_as_they_say(realisations):
+def test_intervals_are_studentised_and_hold_the_truth(realisations):
     """Of means and differences of log-normal curves of two correlated loads."""
-    trials, rng = 1000, np.random.default_rng(realisations)
-    common, own = rng.normal(0, 0.3, (2, realisations + 200, trials, 1))
-    tilted = np.array([-0.3, 0.3]) * own
-    curves = np.exp(common + tilted - 0.3**2 * (1 + 0.3**2) / 2)  # of mean 1
-    few, many = (part.reshape(len(part), -1) for part in np.split(curves, [realisations]))
+    few, many = curves(realisations, 3), curves(200, 4)
+    means, errors = resampled_means(few, 0)
     found = rl.average(few)
+    assert [found.low, found.high] == pytest.approx(
+        np.array(studentised(means, errors, realisations - 1))
+    )
+    assert ((found.low < 1) & (found.high > 1)).all()
+    others, of_others = resampled_means(many, 1)
+    own, other = errors / means, of_others / others
+    share = own[0] ** 2 / (own[0] ** 2 + other[0] ** 2)
+    welch = 1 / (share**2 / (realisations - 1) + (1 - share) ** 2 / 199)
+    ends = studentised(np.log(means / others), np.hypot(own, other), welch)
     _, low, high = relative_difference(few, many, paired=False)
-    held = ((found.low <= 1) & (found.high >= 1), (low <= 0) & (high >= 0))
-    for each in held:
-        # three standard errors of a binomial of 1000; percentiles hold 88, 92 and 93 %
-        assert each.mean() == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / trials))
+    assert [low, high] == pytest.approx(np.expm1(ends))
+    assert ((low < 0) & (high > 0)).all()
 
 
 def test_what_is_not_finite_is_left_out_and_counted(ensemble):

@@ -5,6 +5,7 @@ import pytest
 from scipy.stats import linregress, t
 
 import roughline as rl
+from roughline.statistics import bootstrap
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 
 FORCE = np.geomspace(1e-5, 1, 51)
@@ -26,23 +27,32 @@ def test_only_the_window_counts_and_its_edges_belong_to_it():
     assert rl.fit_power_law(FORCE, broken, (1e-4, 2e-2)).exponent != pytest.approx(0.55, abs=0.01)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("realisations", [1, 10, 20, 60])
-def test_intervals_cover_the_truth_at_their_level(realisations):
-    rng = np.random.default_rng(1)
-    trials, covered = 200, 0
-    force = np.geomspace(1e-2, 1e-1, 10)
-    for _ in range(trials):
-        if realisations == 1:
-            noise = np.exp(0.05 * rng.normal(size=force.size))
-        else:  # each realisation is off by a factor and a tilt of its own, as surfaces are
-            factor, tilt = rng.normal(size=(2, realisations, 1))
-            steep = 0.1 * np.log(force / 0.03)
-            noise = np.exp(0.3 * factor + steep * tilt - steep**2 / 2)  # of the same mean
-        law = rl.fit_power_law(force, 0.8 * force**0.6 * noise, (1e-2, 1e-1))
-        covered += law.exponent_interval[0] <= 0.6 <= law.exponent_interval[1]
-    # 95 % of 200, less three standard errors of a binomial: 180.8
-    assert 0.95 * trials - 3 * np.sqrt(0.05 * 0.95 * trials) <= covered
+@pytest.mark.parametrize("realisations", [10, 20, 60])
+def test_the_interval_of_an_exponent_is_studentised_and_holds_the_truth(realisations):
+    """Each realisation is off by a factor and a tilt of its own, as surfaces are."""
+    rng, force = np.random.default_rng(1), np.geomspace(1e-2, 1e-1, 10)
+    factor, tilt = rng.normal(size=(2, realisations, 1))
+    steep = 0.1 * np.log(force / 0.03)
+    noise = np.exp(0.3 * factor + steep * tilt - steep**2 / 2)  # of the same mean
+    stiffness = 0.8 * force**0.6 * noise
+    law = rl.fit_power_law(force, stiffness, (1e-2, 1e-1))
+    assert law.exponent_interval[0] < 0.6 < law.exponent_interval[1]
+
+    draws = np.random.default_rng(0).integers(realisations, size=(bootstrap.ROUNDS, realisations))
+    weights = np.polyfit(np.log(force), np.eye(force.size), 1)[0]
+    ensembles = [stiffness, *(stiffness[draw] for draw in draws)]
+    slopes = np.array([np.log(each.mean(axis=0)) @ weights for each in ensembles])
+    # how far each realisation moves the slope
+    moves = np.array([(each / each.mean(axis=0)) @ weights for each in ensembles])
+    errors = moves.std(axis=1, ddof=1) / np.sqrt(realisations)
+    steps, last = np.sort((slopes[1:] - slopes[0]) / errors[1:]), bootstrap.ROUNDS - 1
+    width = t.ppf(0.975, realisations - 1)
+    assert law.exponent_interval == pytest.approx(
+        (
+            slopes[0] - max(width, steps[round(0.975 * last)]) * errors[0],
+            slopes[0] + max(width, -steps[round(0.025 * last)]) * errors[0],
+        )
+    )
 
 
 def test_the_intervals_of_a_single_curve_are_those_of_a_regression():
