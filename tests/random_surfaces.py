@@ -1,17 +1,27 @@
 """Rough surfaces for laws that hold whatever the surface, and how many of them are tried."""
 
 import numpy as np
-from hypothesis import HealthCheck, settings
+import pytest
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import roughline as rl
 
-laws = settings(
-    max_examples=25,
-    deadline=None,
-    derandomize=True,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+_TRIED = settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+
+
+def laws(*strategies, few=5, many=25):
+    """Hold a law to what strategies draw: few of it in a short case, and many in a long one."""
+
+    def of(law):
+        @pytest.mark.parametrize("examples", [few, many])
+        def holds(examples):
+            settings(_TRIED, max_examples=examples)(given(*strategies)(law))()
+
+        holds.__name__, holds.__doc__ = law.__name__, law.__doc__
+        return holds
+
+    return of
 
 
 @st.composite

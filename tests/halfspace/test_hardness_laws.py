@@ -1,11 +1,12 @@
 """Laws that bodies which yield obey whatever the surface."""
 
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 import random_surfaces
@@ -15,7 +16,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
 
-laws = settings(random_surfaces.laws, max_examples=15)
+laws = partial(random_surfaces.laws, many=15)
 
 RTOL = 1e-6  # the certified tolerance
 SETS_AGREE = 1e-7  # stiffness on equal sets, solved twice
@@ -69,8 +70,7 @@ def assert_same(one, other, i, j, hardness):
     assert other.work[j] == pytest.approx(one.work[i], rel=10 * RTOL)
 
 
-@laws
-@given(surfaces(), st.booleans(), st.booleans())
+@laws(surfaces(), st.booleans(), st.booleans())
 def test_without_a_node_at_the_hardness_all_is_elastic_to_the_last_bit(surface, periodic, by_force):
     loads = surface.rms_slope * surface.area * np.array([0.01, 0.05, 0.2])
     settings = {"E_star": 1.0, "periodic": periodic, "fields": True}
@@ -93,8 +93,7 @@ def test_without_a_node_at_the_hardness_all_is_elastic_to_the_last_bit(surface, 
     assert elastic.hardness is None
 
 
-@laws
-@given(yielding())
+@laws(yielding())
 def test_under_the_same_force_the_softer_body_has_more_contact(problem):
     """Area, depth and stiffness on unloading fall with the hardness: expected, and not proven."""
     curves = [
@@ -108,8 +107,7 @@ def test_under_the_same_force_the_softer_body_has_more_contact(problem):
         assert softer.unloading_stiffness[0] >= stiffness * (1 - SETS_AGREE)
 
 
-@laws
-@given(yielding())
+@laws(yielding())
 def test_the_contact_is_at_least_force_over_hardness(problem):
     curve = problem.pressed([0.3, 1.0])
     least = curve.force / (problem.hardness * problem.surface.area)
@@ -119,8 +117,7 @@ def test_the_contact_is_at_least_force_over_hardness(problem):
     assert (curve.stiffness <= curve.unloading_stiffness * (1 + SETS_AGREE)).all()
 
 
-@laws
-@given(yielding(), st.floats(0.02, 0.95))
+@laws(yielding(), st.floats(0.02, 0.95))
 def test_unloading_and_reloading_retrace(problem, share):
     straight = problem.pressed([1.0, 1.5])
     shaken = problem.pressed([1.0, 1.0, share, 1.0, 0.0, share / 2, 1.0, 1.5])
@@ -132,15 +129,13 @@ def test_unloading_and_reloading_retrace(problem, share):
         assert shaken.dissipated_work[i] == shaken.dissipated_work[0]
 
 
-@laws
-@given(yielding(), st.lists(st.floats(0.01, 0.99), min_size=1, max_size=4))
+@laws(yielding(), st.lists(st.floats(0.01, 0.99), min_size=1, max_size=4))
 def test_on_the_way_up_intermediate_loads_do_not_matter(problem, shares):
     steps = problem.pressed([*sorted(shares), 1.0])
     assert_same(problem.pressed([1.0]), steps, 0, len(shares), problem.hardness)
 
 
-@laws
-@given(
+@laws(
     yielding(),
     st.lists(st.sampled_from([0.0, 0.05, 0.4, 0.8, 1.2, 1.6]), min_size=1, max_size=6),
     st.booleans(),
@@ -179,8 +174,7 @@ def test_what_is_returned_obeys_the_conditions(problem, shares, by_force):
         before = dents
 
 
-@laws
-@given(yielding())
+@laws(yielding())
 def test_a_cycle_returns_no_more_than_it_took(problem):
     curve = problem.pressed([1.0, 0.5, 0.0, 0.7, 1.0, 0.0, 1.3, 0.0])
     assert (curve.work >= curve.dissipated_work).all()
@@ -198,8 +192,7 @@ def test_a_cycle_returns_no_more_than_it_took(problem):
         assert curve.depth[i] == pytest.approx(touch, abs=NEUTRAL * curve.rms_height)
 
 
-@laws
-@given(yielding(), st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
+@laws(yielding(), st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
 def test_units_do_not_matter(problem, height, length, modulus):
     height, length, modulus = 10.0 ** np.array([height, length, modulus])
     shares, surface = [0.4, 1.0, 0.6, 0.0, 1.2], problem.surface
@@ -222,8 +215,7 @@ def test_units_do_not_matter(problem, height, length, modulus):
         assert getattr(other, name) == pytest.approx(expected, rel=10 * RTOL, abs=1e-300), name
 
 
-@laws
-@given(yielding(), st.integers(0, 3))
+@laws(yielding(), st.integers(0, 3))
 def test_the_surface_after_a_load_is_elastic_up_to_it(problem, i):
     shares = np.array([0.5, 1.0, 0.4, 1.3])
     curve = problem.pressed(shares)
@@ -248,8 +240,7 @@ def test_the_surface_after_a_load_is_elastic_up_to_it(problem, i):
     assert again.stiffness[0] == pytest.approx(stiffness, rel=SETS_AGREE)
 
 
-@laws
-@given(yielding())
+@laws(yielding())
 def test_both_stiffnesses_are_slopes(problem):
     at = problem.pressed([1.0], rtol=1e-9)
     depth = at.depth[0]
@@ -263,8 +254,7 @@ def test_both_stiffnesses_are_slopes(problem):
         assert k == pytest.approx(slope, rel=1e-3, abs=1e-6 * at.unloading_stiffness[0])
 
 
-@laws
-@given(surfaces(), st.booleans(), st.permutations([0.3, 1.0, 0.5, 0.5, 0.1, 0.7]), st.booleans())
+@laws(surfaces(), st.booleans(), st.permutations([0.3, 1.0, 0.5, 0.5, 0.1, 0.7]), st.booleans())
 def test_elastic_bodies_forget(surface, periodic, shares, by_force):
     """Without a hardness a history gives what its sorted loads give, to the last bit."""
     forces = 0.2 * surface.rms_slope * surface.area * np.array(shares)

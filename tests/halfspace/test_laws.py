@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 import roughline as rl
@@ -23,8 +22,7 @@ def reachable_depths(surface, count=5, upto=0.95):
     return np.linspace(0.1, upto, count) * deepest
 
 
-@laws
-@given(surfaces(), boundaries, st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
+@laws(surfaces(), boundaries, st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
 def test_units_do_not_matter(surface, periodic, height, length, modulus):
     height, length, modulus = 10.0 ** np.array([height, length, modulus])
     depths = reachable_depths(surface, 3)
@@ -37,8 +35,7 @@ def test_units_do_not_matter(surface, periodic, height, length, modulus):
     assert (other.area_fraction == one.area_fraction).all()
 
 
-@laws
-@given(surfaces(square=True), boundaries)
+@laws(surfaces(square=True), boundaries)
 def test_mirrors_turns_and_shifts_of_the_datum_do_not_matter(surface, periodic):
     depths = reachable_depths(surface, 3)
     one = rl.press(surface, E_star=1.0, depths=depths, periodic=periodic)
@@ -52,8 +49,7 @@ def test_mirrors_turns_and_shifts_of_the_datum_do_not_matter(surface, periodic):
         assert (other.area_fraction == one.area_fraction).all()
 
 
-@laws
-@given(surfaces(), boundaries)
+@laws(surfaces(), boundaries)
 def test_contact_sets_are_nested_force_is_convex_and_stiffness_rises(surface, periodic):
     curve = rl.press(
         surface, E_star=1.0, depths=reachable_depths(surface, 6), periodic=periodic, fields=True
@@ -67,8 +63,7 @@ def test_contact_sets_are_nested_force_is_convex_and_stiffness_rises(surface, pe
     assert (chords <= curve.stiffness[1:] + slack).all()
 
 
-@laws
-@given(surfaces(square=True))
+@laws(surfaces(square=True))
 def test_stiffness_lies_between_the_secant_and_the_punch(surface):
     curve = rl.press(surface, E_star=1.0, n_loads=6)
     flat = rl.Surface(np.zeros(surface.shape), surface.sizes)
@@ -78,8 +73,7 @@ def test_stiffness_lies_between_the_secant_and_the_punch(surface):
     assert punch < square_stiffness(1.0, surface.sizes[0])
 
 
-@laws
-@given(surfaces(), boundaries)
+@laws(surfaces(), boundaries)
 def test_the_tangent_is_the_centred_difference(surface, periodic):
     depths = reachable_depths(surface, 4)
     tangent = rl.press(
@@ -99,8 +93,7 @@ def test_the_tangent_is_the_centred_difference(surface, periodic):
             assert tangent.stiffness[i] == pytest.approx(slope, rel=1e-4)
 
 
-@laws
-@given(surfaces(), boundaries)
+@laws(surfaces(), boundaries)
 def test_force_and_depth_control_are_one_problem(surface, periodic):
     by_depth = rl.press(surface, E_star=1.0, depths=reachable_depths(surface, 4), periodic=periodic)
     by_force = rl.press(surface, E_star=1.0, forces=by_depth.force, periodic=periodic)
@@ -109,8 +102,7 @@ def test_force_and_depth_control_are_one_problem(surface, periodic):
     assert (by_force.area_fraction == by_depth.area_fraction).all()
 
 
-@laws
-@given(surfaces(), boundaries, st.booleans())
+@laws(surfaces(), boundaries, st.booleans())
 def test_what_is_returned_obeys_the_contact_conditions(surface, periodic, by_force):
     """Residuals recomputed from the fields alone, with an operator made anew."""
     loads = {"forces": [1e-3, 0.1, 2.0]} if by_force else {"depths": reachable_depths(surface, 3)}
@@ -135,8 +127,7 @@ def test_what_is_returned_obeys_the_contact_conditions(surface, periodic, by_for
         assert curve.depth == pytest.approx(loads["depths"], rel=1e-14)
 
 
-@laws
-@given(surfaces(), st.integers(0, 10**6))
+@laws(surfaces(), st.integers(0, 10**6))
 def test_any_trial_pressure_bounds_the_stiffness_from_below(surface, seed):
     """On the contact set (1 q)² / (q K q) <= k, for every q."""
     curve = rl.press(surface, E_star=1.0, n_loads=3, fields=True)

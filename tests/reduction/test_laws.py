@@ -1,16 +1,18 @@
 """Laws of the reduced model: exact, convex, reversible, and honest about few springs."""
 
+from functools import partial
+
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+import random_surfaces
 import roughline as rl
 
 ROUNDING = 1e-11
 
-laws = settings(max_examples=60, deadline=None, derandomize=True)
+laws = partial(random_surfaces.laws, few=15, many=60)
 
 profiles = hnp.arrays(
     np.float64,
@@ -24,8 +26,7 @@ def brute_force(heights, depth, spring_stiffness):
     return spring_stiffness * pressed.sum(), spring_stiffness * np.count_nonzero(pressed)
 
 
-@laws
-@given(profiles, st.floats(1e-3, 10))
+@laws(profiles, st.floats(1e-3, 10))
 def test_the_curve_is_the_sum_over_springs(heights, depth):
     curve = rl.press(rl.Line(heights, length=2.0), E_star=3.0, depths=[depth])
     force, stiffness = brute_force(heights, depth, 3.0 * 2.0 / heights.size)
@@ -33,8 +34,7 @@ def test_the_curve_is_the_sum_over_springs(heights, depth):
     assert curve.stiffness[0] == pytest.approx(stiffness, rel=ROUNDING)
 
 
-@laws
-@given(profiles, st.floats(1e-3, 10))
+@laws(profiles, st.floats(1e-3, 10))
 def test_force_control_inverts_depth_control(heights, depth):
     line = rl.Line(heights, length=2.0)
     by_depth = rl.press(line, E_star=3.0, depths=[depth])
@@ -42,8 +42,7 @@ def test_force_control_inverts_depth_control(heights, depth):
     assert by_force.depth[0] == pytest.approx(depth, rel=1e-9)
 
 
-@laws
-@given(profiles)
+@laws(profiles)
 def test_force_is_convex_and_its_slope_is_the_stiffness(heights):
     depths = np.linspace(0.01, 1.5 * np.ptp(heights), 80)
     curve = rl.press(rl.Line(heights, length=2.0), E_star=3.0, depths=depths)
@@ -54,8 +53,7 @@ def test_force_is_convex_and_its_slope_is_the_stiffness(heights):
     assert curve.stiffness[-1] == pytest.approx(3.0 * 2.0)  # all springs
 
 
-@laws
-@given(profiles, st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
+@laws(profiles, st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
 def test_units_mirrors_and_order_do_not_matter(heights, height, length, modulus):
     height, length, modulus = 10.0 ** np.array([height, length, modulus])
     forces = np.array([0.1, 1.0]) * np.ptp(heights)
