@@ -4,6 +4,8 @@ import subprocess
 import sys
 import time
 
+from reference import patience
+
 
 def start_scheduler(folder):
     """Start a scheduler; the process and its address."""
@@ -15,7 +17,7 @@ def start_scheduler(folder):
         ],
         stderr=subprocess.DEVNULL,
     )
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + patience()
     while time.monotonic() < deadline:
         if note.exists() and '"address"' in (text := note.read_text()):
             return process, text.split('"address": "')[1].split('"')[0]

@@ -1,9 +1,12 @@
-"""A small campaign for tests, and how two stores are compared."""
+"""A small campaign for tests, how it is disturbed, and how two stores are compared."""
 
+import contextlib
 import signal
 import subprocess
 import sys
 from pathlib import Path
+
+from reference import patience
 
 # Nine batches of surfaces, of a fifth of a second under light loads, so that a campaign can be
 # disturbed on its way.
@@ -33,6 +36,21 @@ FEW = PLAN.replace("realisations = 60", "realisations = 6").replace(
 )
 """The same with 30 cases, on coarser grids."""
 
+HELD = """
+import importlib, time
+from pathlib import Path
+runs = importlib.import_module("roughline.campaign.run")
+evaluate = runs.evaluate
+def held(batch, *rest):
+    if batch.ensemble.name == "surfaces":
+        while not Path({end!r}).exists():
+            time.sleep(0.02)
+        raise InterruptedError
+    return evaluate(batch, *rest)
+runs.evaluate = held
+"""
+"""Makes surfaces take until there is a file, so that a campaign is disturbed before its end."""
+
 
 def tree(store):
     """All files of a store, byte by byte."""
@@ -44,11 +62,15 @@ def tree(store):
     }
 
 
-def start(plan, store, *arguments, **options):
-    """Start `roughline campaign run` in a process group of its own."""
-    command = [sys.executable, "-c", "from roughline.cli import main; main()", "campaign", "run"]
+def start(plan, store, *arguments, until=None, **options):
+    """Start `roughline campaign run` in a process group of its own.
+
+    Its surfaces take until there is a file, if one is named.
+    """
+    holding = "" if until is None else HELD.format(end=str(until))
+    command = [sys.executable, "-c", f"{holding}from roughline.cli import main; main()"]
     return subprocess.Popen(
-        [*command, str(plan), "--store", str(store), *map(str, arguments)],
+        [*command, "campaign", "run", str(plan), "--store", str(store), *map(str, arguments)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -62,12 +84,28 @@ def hear_interrupts():
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def finish(process, timeout=120):
+def finish(process):
     """Wait for a process; its exit code, output and errors."""
-    out, err = process.communicate(timeout=timeout)
+    out, err = process.communicate(timeout=patience())
     return process.returncode, out, err
 
 
 def run(plan, store, *arguments, **options):
     """Run a campaign to its end."""
     return finish(start(plan, store, *arguments, **options))
+
+
+def with_first_results(monkeypatch, act):
+    """Act once, as soon as a command in this process has written the first results of a campaign.
+
+    The command goes on afterwards, so that nothing depends on how long it takes.
+    """
+    to_come = [act]
+
+    def progress(name, done, failed, total):
+        if done and to_come:
+            to_come.pop()()
+
+    monkeypatch.setattr(
+        "roughline.report.progress.campaign_progress", lambda: contextlib.nullcontext(progress)
+    )

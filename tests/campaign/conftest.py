@@ -1,33 +1,82 @@
-"""Finished campaigns, and a Dask cluster that a test may disturb."""
+"""Finished campaigns, and Dask clusters of which some may be disturbed."""
 
+import logging
+
+import dask
 import pytest
+from distributed import LocalCluster
 
 from dask_processes import start_scheduler, start_worker
 from roughline import campaign
+from roughline.computing import fft
 from small_campaign import FEW, PLAN, tree
 
 
+@pytest.fixture(scope="package", autouse=True)
+def forked_workers():
+    """Fork the workers of campaigns in this process from one that has loaded Dask.
+
+    Those of campaigns in processes of their own are started afresh, which takes them seconds.
+    """
+    with dask.config.set({"distributed.worker.multiprocessing-method": "forkserver"}):
+        yield
+
+
+@pytest.fixture(scope="session", params=["few", "many"])
+def size(request):
+    """Which campaign: one of 30 cases, or of 207 in many batches."""
+    return request.param
+
+
 @pytest.fixture(scope="session")
-def plan_file(tmp_path_factory):
+def few_plan_file(tmp_path_factory):
+    """A plan of 30 cases."""
+    return plan_in(tmp_path_factory.mktemp("few"), FEW)
+
+
+@pytest.fixture(scope="session")
+def many_plan_file(tmp_path_factory):
+    """A plan of 207 cases."""
+    return plan_in(tmp_path_factory.mktemp("many"), PLAN)
+
+
+def plan_in(folder, text):
+    (folder / "plan.toml").write_text(text)
+    return folder / "plan.toml"
+
+
+@pytest.fixture(scope="session")
+def plan_file(size, request):
     """The small campaign's plan."""
-    path = tmp_path_factory.mktemp("plan") / "plan.toml"
-    path.write_text(PLAN)
+    return request.getfixturevalue(f"{size}_plan_file")
+
+
+@pytest.fixture(scope="session")
+def few_finished(few_plan_file, tmp_path_factory):
+    """The store of 30 cases, computed by this machine's workers; for reading, or to be copied."""
+    return computed(few_plan_file, tmp_path_factory.mktemp("few_finished") / "store.zarr")
+
+
+@pytest.fixture(scope="session")
+def many_finished(many_plan_file, tmp_path_factory):
+    """The store of 207 cases."""
+    return computed(many_plan_file, tmp_path_factory.mktemp("many_finished") / "store.zarr")
+
+
+def computed(plan_file, path):
+    plan, told = campaign.read_plan(plan_file), []
+    summary = campaign.run(plan, path, progress=lambda *told_now: told.append(told_now))
+    cases = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
+    assert summary.done == cases
+    assert told[:2] == [(name, 0, 0, count) for name, count in cases.items()]
+    assert {(name, count, 0, count) for name, count in cases.items()} <= {*told}
     return path
 
 
 @pytest.fixture(scope="session")
-def finished(plan_file, tmp_path_factory):
-    """Its store, computed by this machine's workers; for reading, or to be copied."""
-    path = tmp_path_factory.mktemp("finished") / "store.zarr"
-    told = []
-    summary = campaign.run(
-        campaign.read_plan(plan_file), path, progress=lambda *told_now: told.append(told_now)
-    )
-    assert (summary.done["lines"], summary.done["surfaces"]) == (180, 27)
-    assert told[:2] == [("lines", 0, 0, 180), ("surfaces", 0, 0, 27)]
-    assert ("lines", 180, 0, 180) in told
-    assert ("surfaces", 27, 0, 27) in told
-    return path
+def finished(size, request):
+    """The small campaign's store."""
+    return request.getfixturevalue(f"{size}_finished")
 
 
 @pytest.fixture(scope="session")
@@ -37,38 +86,57 @@ def undisturbed(finished):
 
 
 @pytest.fixture(scope="session")
-def few_plan_file(tmp_path_factory):
-    """A plan of 30 cases."""
-    path = tmp_path_factory.mktemp("few") / "plan.toml"
-    path.write_text(FEW)
-    return path
-
-
-@pytest.fixture(scope="session")
-def few_undisturbed(few_plan_file, tmp_path_factory):
-    """Every byte of its store, computed by one worker."""
-    path = tmp_path_factory.mktemp("few_undisturbed") / "store"
-    campaign.run(campaign.read_plan(few_plan_file), path, workers=1)
-    return tree(path)
+def few_undisturbed(few_finished):
+    """Every byte of the store of 30 cases."""
+    return tree(few_finished)
 
 
 @pytest.fixture
 def dask_cluster(tmp_path):
-    """A scheduler with two workers: its process and its address."""
+    """A scheduler with a worker, as processes of their own: its process and its address."""
     scheduler, address = start_scheduler(tmp_path)
-    workers = [start_worker(address, "--nthreads", "1") for _ in range(2)]
+    worker = start_worker(address, "--nthreads", "1")
     yield scheduler, address
-    for process in (*workers, scheduler):
+    for process in (worker, scheduler):
         process.kill()
         process.wait()
 
 
 @pytest.fixture(scope="package")
-def two_workers(tmp_path_factory):
-    """Address of a scheduler with two workers, for campaigns whose own processes do not matter."""
-    scheduler, address = start_scheduler(tmp_path_factory.mktemp("two_workers"))
-    workers = [start_worker(address, "--nthreads", "1") for _ in range(2)]
-    yield address
-    for process in (*workers, scheduler):
-        process.kill()
-        process.wait()
+def two_workers():
+    """Address of a cluster in this process, for campaigns whose own processes do not matter."""
+    with cluster_here(n_workers=2, threads_per_worker=1) as cluster:
+        yield cluster.scheduler_address
+
+
+@pytest.fixture
+def cluster_without_workers():
+    """Address of such a cluster in which nobody works."""
+    with cluster_here(n_workers=0) as cluster:
+        yield cluster.scheduler_address
+
+
+@pytest.fixture
+def two_threads():
+    """Address of such a cluster with one worker that computes two cases at a time."""
+    with cluster_here(n_workers=1, threads_per_worker=2) as cluster:
+        yield cluster.scheduler_address
+
+
+@pytest.fixture(autouse=True)
+def as_many_threads():
+    """Compute with as many threads as before after a campaign in this process."""
+    before = fft.threads()
+    yield
+    fft.set_threads(before)
+
+
+def cluster_here(**size):
+    return LocalCluster(
+        **size,
+        processes=False,
+        protocol="tcp",
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+        silence_logs=logging.CRITICAL,
+    )

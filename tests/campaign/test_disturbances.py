@@ -1,4 +1,8 @@
-"""Nothing is lost: whatever happens to a campaign, it ends in the bytes of an undisturbed one."""
+"""Nothing is lost: whatever happens to a campaign, it ends in the bytes of an undisturbed one.
+
+Small campaigns run in this process where that is not the one that is killed, and are disturbed
+between two of their batches; larger ones run in a process of their own.
+"""
 
 import contextlib
 import os
@@ -8,16 +12,20 @@ import signal
 import subprocess
 import sys
 import time
+import traceback
 from functools import partial
+from math import prod
 
 import psutil
 import pytest
 from distributed import Client
 
+from reference import patience
 from roughline import campaign
 from roughline.campaign.cluster import interrupts_held_back
+from roughline.campaign.cost import chunk_shape
 from roughline.errors import ClusterError
-from small_campaign import finish, hear_interrupts, run, start, tree
+from small_campaign import finish, hear_interrupts, run, start, tree, with_first_results
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
 
@@ -40,10 +48,14 @@ def resumed(plan, undisturbed, address, store):
     return summary.done.total()
 
 
-def wait_for_results(store, process, count=3):
-    """Wait until some batches of surfaces are written."""
-    chunks = store / "surfaces" / "case_status" / "c"
-    deadline = time.monotonic() + 60
+def cases_of(plan):
+    return campaign.read_plan(plan).cases
+
+
+def wait_for_results(store, process, count=3, ensemble="surfaces"):
+    """Wait until some batches are written."""
+    chunks = store / ensemble / "case_status" / "c"
+    deadline = time.monotonic() + patience()
     while time.monotonic() < deadline and process.poll() is None:
         if sum(path.is_file() for path in chunks.rglob("*")) >= count:
             return
@@ -52,48 +64,99 @@ def wait_for_results(store, process, count=3):
 
 
 def workers_of(process):
-    return [
-        child
-        for child in psutil.Process(process.pid).children(recursive=True)
-        if "spawn_main" in " ".join(child.cmdline())
-    ]
+    """Workers of a campaign in a process, which are started by it or forked from one that is."""
+    children = psutil.Process(process).children(recursive=True)
+    return [child for child in children if is_worker(child, process)]
 
 
-def test_workers_killed_and_another_campaign_on_the_same_store(plan, undisturbed, tmp_path, invoke):
+def is_worker(child, process):
+    command = " ".join(child.cmdline())
+    return "spawn_main" in command or ("forkserver" in command and child.ppid() != process)
+
+
+@pytest.fixture
+def disturbed(size, plan, invoke, monkeypatch):
+    """Run a campaign that is disturbed on its way; its exit code, output and errors."""
+
+    def here(store, disturb, *arguments, at):
+        with_first_results(monkeypatch, lambda: disturb(os.getpid()))
+        return invoke("campaign", "run", plan, "--store", store, *arguments)
+
+    def there(store, disturb, *arguments, at):
+        process = start(plan, store, *arguments)
+        for count in at:
+            wait_for_results(store, process, count)
+            disturb(process.pid)
+        return finish(process)
+
+    return here if size == "few" else there
+
+
+@pytest.fixture
+def begun(size, plan, tmp_path):
+    """Start a campaign in a process of its own and wait for results; more are still to come."""
+
+    def with_some_results(store):
+        if size == "many":
+            process = start(plan, store)
+            wait_for_results(store, process)
+        else:
+            process = start(plan, store, "--workers", 1, until=tmp_path / "the end")
+            wait_for_results(store, process, 1, "lines")
+        return process
+
+    return with_some_results
+
+
+@pytest.fixture
+def interrupts():
+    """Hear Ctrl-C, whatever process runs the tests."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_workers_killed_and_another_campaign_on_the_same_store(
+    size, plan, undisturbed, disturbed, tmp_path, invoke
+):
     store = tmp_path / "store"
-    process = start(plan, store)
-    wait_for_results(store, process, 1)
-    code, _, err = invoke("campaign", "run", plan, "--store", store)
-    assert code == 2
-    assert "is in use by another campaign: wait for it to end" in err
-    for count in (2, 5):
-        wait_for_results(store, process, count)
+
+    def disturb(process):
+        code, _, err = invoke("campaign", "run", plan, "--store", store)
+        assert code == 2
+        assert "is in use by another campaign: wait for it to end" in err
         workers_of(process)[0].kill()
-    code, out, err = finish(process)
+
+    workers = () if size == "many" else ("--workers", 1)
+    code, out, err = disturbed(store, disturb, *workers, at=(2, 5))
     assert code == 0, err
-    assert "207 cases computed, 0 failed" in out
+    assert f"{cases_of(plan)} cases computed, 0 failed" in out
     assert tree(store) == undisturbed
 
 
-def test_the_client_killed(plan, resume, tmp_path):
+@pytest.mark.parametrize("number", ["SIGKILL", "SIGTERM"])
+def test_the_client_killed(plan, resume, begun, tmp_path, number):
+    """At once, or as batch systems do when time is up."""
     store = tmp_path / "store"
-    process = start(plan, store)
-    wait_for_results(store, process)
-    workers = workers_of(process)
-    process.kill()
+    process = begun(store)
+    workers = workers_of(process.pid)
+    assert workers
+    process.send_signal(getattr(signal, number))
     finish(process)
-    _, alive = psutil.wait_procs(workers, timeout=30)
+    _, alive = psutil.wait_procs(workers, timeout=patience())
     assert not alive, "workers outlive their client"
-    assert resume(store) < 207, "what was done is computed again"
+    assert resume(store) < cases_of(plan), "what was done is computed again"
 
 
-def test_the_scheduler_killed(plan, resume, tmp_path, dask_cluster):
+def test_the_scheduler_killed(resume, disturbed, tmp_path, dask_cluster):
     store = tmp_path / "store"
     scheduler, address = dask_cluster
-    process = start(plan, store, "--scheduler", address)
-    wait_for_results(store, process)
-    scheduler.kill()
-    code, _, err = finish(process)
+
+    def kill(_):
+        scheduler.kill()
+        scheduler.wait()
+
+    code, _, err = disturbed(store, kill, "--scheduler", address, at=(3,))
     assert code == 2
     assert "the Dask scheduler is gone; what is done is kept" in err
     assert "Traceback" not in err
@@ -101,7 +164,9 @@ def test_the_scheduler_killed(plan, resume, tmp_path, dask_cluster):
 
 
 @pytest.mark.parametrize("asked", ["wait_for_workers", "run", "ncores", "submit"])
-def test_the_scheduler_killed_while_it_is_asked(plan, tmp_path, dask_cluster, monkeypatch, asked):
+def test_the_scheduler_killed_while_it_is_asked(
+    few_plan_file, tmp_path, dask_cluster, monkeypatch, asked
+):
     scheduler, address = dask_cluster
     ask = getattr(Client, asked)
 
@@ -112,30 +177,59 @@ def test_the_scheduler_killed_while_it_is_asked(plan, tmp_path, dask_cluster, mo
 
     monkeypatch.setattr(Client, asked, kill_and_ask)
     with pytest.raises(ClusterError, match="the Dask scheduler is gone"):
-        campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
+        campaign.run(campaign.read_plan(few_plan_file), tmp_path / "store", scheduler=address)
 
 
-def test_ctrl_c(plan, resume, tmp_path):
+def test_ctrl_c(resume, begun, tmp_path):
     store = tmp_path / "store"
-    process = start(plan, store)
-    wait_for_results(store, process)
-    workers = workers_of(process)
+    process = begun(store)
+    workers = workers_of(process.pid)
+    assert workers
     os.killpg(process.pid, signal.SIGINT)
-    code, _, err = finish(process, timeout=20)
+    (tmp_path / "the end").touch()
+    code, _, err = finish(process)
     assert code == 130
     assert "interrupted; what is done is kept in" in err
     assert "Traceback" not in err
-    assert not psutil.wait_procs(workers, timeout=10)[1]
+    assert not psutil.wait_procs(workers, timeout=patience())[1]
     resume(store)
 
 
-def test_ctrl_c_in_a_script_ends_in_one_line(plan, tmp_path):
-    store, script = tmp_path / "store", tmp_path / "study.py"
-    script.write_text(
-        "from roughline import campaign\n"
-        'if __name__ == "__main__":\n'
-        f"    campaign.run(campaign.read_plan({str(plan)!r}), {str(store)!r}, workers=1)\n"
-    )
+SCRIPT = """
+from roughline import campaign
+if __name__ == "__main__":
+    campaign.run(campaign.read_plan({plan!r}), {store!r}, workers=1)
+"""
+
+
+@pytest.mark.usefixtures("interrupts")
+@pytest.mark.parametrize("where", ["here", "there"])
+def test_ctrl_c_in_a_script_ends_in_one_line(
+    few_plan_file, many_plan_file, two_workers, tmp_path, where
+):
+    store = tmp_path / "store"
+    if where == "here":
+        err = interrupted_here(few_plan_file, store, two_workers)
+    else:
+        err = interrupted_there(many_plan_file, store, tmp_path / "study.py")
+    said = f"KeyboardInterrupt: interrupted; what is done is kept in {store}: run again to go on"
+    assert err.splitlines()[-1] == said
+    # the line of the script, the check of its arguments, and the call that it made
+    assert err.count("File ") == 3, err
+
+
+def interrupted_here(plan, store, address):
+    def interrupt(name, done, failed, total):
+        if done:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt) as caught:
+        campaign.run(campaign.read_plan(plan), store, scheduler=address, progress=interrupt)
+    return "".join(traceback.format_exception(caught.value))
+
+
+def interrupted_there(plan, store, script):
+    script.write_text(SCRIPT.format(plan=str(plan), store=str(store)))
     process = subprocess.Popen(
         [sys.executable, str(script)],
         stderr=subprocess.PIPE,
@@ -145,13 +239,10 @@ def test_ctrl_c_in_a_script_ends_in_one_line(plan, tmp_path):
     )
     wait_for_results(store, process)
     os.killpg(process.pid, signal.SIGINT)
-    _, _, err = finish(process, timeout=20)
-    said = f"KeyboardInterrupt: interrupted; what is done is kept in {store}: run again to go on"
-    assert err.splitlines()[-1] == said
-    # the line of the script, the check of its arguments, and the call that it made
-    assert err.count("File ") == 3, err
+    return finish(process)[2]
 
 
+@pytest.mark.usefixtures("interrupts")
 def test_interrupts_wait_for_what_must_be_whole():
     done = []
 
@@ -160,34 +251,20 @@ def test_interrupts_wait_for_what_must_be_whole():
         signal.raise_signal(signal.SIGINT)
         done.append(1)
 
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            interrupted()
-        assert done == [1]
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # as a shell's background jobs have it
-        with interrupts_held_back():
-            signal.raise_signal(signal.SIGINT)
-        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
-    finally:
-        signal.signal(signal.SIGINT, before)
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert done == [1]
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # as a shell's background jobs have it
+    with interrupts_held_back():
+        signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
 
 
-def test_terminated(plan, resume, tmp_path):
-    """What batch systems send when time is up."""
-    store = tmp_path / "store"
-    process = start(plan, store)
-    wait_for_results(store, process)
-    process.terminate()
-    finish(process, timeout=20)
-    resume(store)
-
-
-def test_files_cut_off(finished, resume, tmp_path):
+def test_files_cut_off(size, finished, resume, tmp_path):
     """Any chunk, of values, of marks or of coordinates, cut to half or to nothing, or lost."""
     shutil.copytree(finished, tmp_path / "store")
     chunks = sorted(path for path in (tmp_path / "store").rglob("c/**/*") if path.is_file())
-    assert len(chunks) > 90
+    assert len(chunks) > {"few": 20, "many": 90}[size]
     for i, path in enumerate(chunks[::2]):
         content = path.read_bytes()
         if i % 4 == 3:
@@ -197,12 +274,13 @@ def test_files_cut_off(finished, resume, tmp_path):
     resume(tmp_path / "store")
 
 
-def test_one_chunk_cut_off_costs_no_more_than_itself(finished, resume, tmp_path):
+def test_one_chunk_cut_off_costs_no_more_than_itself(plan, finished, resume, tmp_path):
     store = tmp_path / "store"
+    surfaces = campaign.read_plan(plan).ensemble("surfaces")
     shutil.copytree(finished, store)
     chunk = next(path for path in (store / "surfaces/stiffness").rglob("c/**/*") if path.is_file())
     chunk.write_bytes(chunk.read_bytes()[:-1])
-    assert 0 < resume(store) <= 30
+    assert 0 < resume(store) <= prod(chunk_shape(surfaces)) < 30
 
 
 def test_a_write_that_was_broken_off(finished, resume, tmp_path):
@@ -210,25 +288,26 @@ def test_a_write_that_was_broken_off(finished, resume, tmp_path):
     store = tmp_path / "store"
     shutil.copytree(finished, store)
     (store / "surfaces" / "stiffness" / "c" / "0" / "0" / "0.abc.partial").write_bytes(b"half")
-    shutil.rmtree(store / "surfaces" / "case_status" / "c" / "1")
+    shutil.rmtree(sorted((store / "surfaces" / "case_status" / "c").iterdir())[-1])
     resume(store)
 
 
-def test_a_disk_that_is_full(plan, resume, tmp_path):
+def test_a_disk_that_is_full(resume, disturbed, tmp_path):
     """A file system of its own, which somebody else fills up; room is made later."""
     disk = tmp_path / "disk"
     disk.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=20m", "tmpfs", str(disk)]
     if subprocess.run(mount, capture_output=True, check=False).returncode:
         pytest.skip("no rights to mount a small disk")
-    try:
-        store = disk / "store"
-        process = start(plan, store, "--workers", 1)
-        wait_for_results(store, process)
+
+    def fill(_):
         with contextlib.suppress(OSError), (disk / "filler").open("wb", buffering=0) as filler:
             while True:
                 filler.write(bytes(4096))
-        code, _, err = finish(process)
+
+    try:
+        store = disk / "store"
+        code, _, err = disturbed(store, fill, "--workers", 1, at=(3,))
         assert code == 2
         assert "No space left on device" in err
         assert "what is done is kept" in err
@@ -239,57 +318,83 @@ def test_a_disk_that_is_full(plan, resume, tmp_path):
         subprocess.run(["umount", "-l", str(disk)], check=False)
 
 
-def test_files_that_may_not_grow(few_plan_file, few_undisturbed, two_workers, tmp_path):
+@pytest.mark.parametrize("where", ["here", "there"])
+def test_files_that_may_not_grow(
+    few_plan_file, few_undisturbed, two_workers, invoke, tmp_path, where
+):
     """The same where no disk can be mounted: the system refuses to write on."""
-
-    def limit():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (1500, 1500))
-
     store = tmp_path / "store"
-    code, _, err = run(few_plan_file, store, "--workers", 1, preexec_fn=limit)
+    if where == "here":
+        with short_files():
+            code, _, err = invoke(
+                *("campaign", "run", few_plan_file, "--store", store, "--scheduler", two_workers)
+            )
+    else:
+        code, _, err = run(few_plan_file, store, "--workers", 1, preexec_fn=shorten_files)
     assert code == 2
     assert "cannot write to" in err
     assert "what is done is kept" in err
     resumed(few_plan_file, few_undisturbed, two_workers, store)
 
 
+def shorten_files():
+    """Refuse to write on in files of this process, instead of ending it."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1500, resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
+
+
+@contextlib.contextmanager
+def short_files():
+    """Write short files only, within a context."""
+    heard, limit = signal.getsignal(signal.SIGXFSZ), resource.getrlimit(resource.RLIMIT_FSIZE)
+    shorten_files()
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+        signal.signal(signal.SIGXFSZ, heard)
+
+
 def test_a_script_without_a_guard(few_plan_file, tmp_path):
     script, store = tmp_path / "study.py", tmp_path / "store"
-    run = f"campaign.run(campaign.read_plan({str(few_plan_file)!r}), {str(store)!r}, workers=1)\n"
-    script.write_text(f"from roughline import campaign\n{run}")
-    done = subprocess.run(
-        [sys.executable, script], capture_output=True, text=True, timeout=60, check=False
-    )
+    guarded = SCRIPT.format(plan=str(few_plan_file), store=str(store))
+    script.write_text(guarded.replace('__name__ == "__main__"', "True"))
+    done = ended([sys.executable, script])
     assert done.returncode == 1
     assert done.stderr.count("Traceback") == 1, done.stderr
     last = done.stderr.splitlines()[-1]
     assert last.endswith('put what it does under `if __name__ == "__main__":`')
     assert not store.exists()
-    script.write_text(f'from roughline import campaign\nif __name__ == "__main__":\n    {run}')
-    done = subprocess.run(
-        [sys.executable, script], capture_output=True, text=True, timeout=120, check=False
-    )
-    assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_a_prompt_and_a_notebook(few_plan_file, few_undisturbed, tmp_path):
-    """No file to import, and inside a running event loop as in a notebook."""
-    script = f"""
+CELL = """
 import asyncio
 from roughline import campaign
 async def cell():
-    campaign.run(
-        campaign.read_plan({str(few_plan_file)!r}), {str(tmp_path / "store")!r}, workers=1
-    )
+    campaign.run(campaign.read_plan({plan!r}), {store!r}, workers=1)
 asyncio.run(cell())
 """
-    command = [sys.executable, "-c", script]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+
+
+@pytest.mark.parametrize("where", ["cell", "script"])
+def test_a_notebook_and_a_script_with_a_guard(few_plan_file, few_undisturbed, tmp_path, where):
+    """Without a file to import, inside a running event loop; and from a file that is imported."""
+    texts = {"cell": CELL, "script": SCRIPT}
+    text = texts[where].format(plan=str(few_plan_file), store=str(tmp_path / "store"))
+    (tmp_path / "study.py").write_text(text)
+    done = ended([sys.executable, *(["-c", text] if where == "cell" else [tmp_path / "study.py"])])
     assert (done.returncode, done.stderr) == (0, "")
     assert tree(tmp_path / "store") == few_undisturbed
-    done = subprocess.run(
-        [sys.executable, "-"], input=script, capture_output=True, text=True, check=False
-    )
+
+
+def test_a_program_from_standard_input_is_refused(few_plan_file, tmp_path):
+    text = CELL.format(plan=str(few_plan_file), store=str(tmp_path / "store"))
+    done = ended([sys.executable, "-"], input=text)
     assert done.returncode == 1
     assert "cannot start workers, because they must import it: save it in a file" in done.stderr
+
+
+def ended(command, **options):
+    return subprocess.run(
+        command, capture_output=True, text=True, timeout=patience(), check=False, **options
+    )

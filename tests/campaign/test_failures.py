@@ -2,14 +2,17 @@
 
 import os
 
+import dask
+import pytest
+
 from roughline import campaign
+from roughline.campaign import cluster
 from small_campaign import run, tree
 
 FAILING = """
 import os
 import roughline.campaign.batch as batch
-original = batch.evaluate_case
-def evaluate_case(ensemble, dimension, realisation):
+def evaluate_case(ensemble, dimension, realisation, original=batch.evaluate_case):
     if ensemble.name == "surfaces":
         if (dimension, realisation) == (2.4, 2):
             raise FloatingPointError("the sky fell")
@@ -29,15 +32,26 @@ REASONS = {
 }
 
 
-def test_cases_that_fail(few_plan_file, few_undisturbed, two_workers, tmp_path):
+@pytest.mark.parametrize("where", ["here", "there"])
+def test_cases_that_fail(
+    few_plan_file, few_undisturbed, two_workers, invoke, monkeypatch, tmp_path, where
+):
     """They alone, even where one takes its worker and what lies with it along."""
-    failing = tmp_path / "failing"
-    failing.mkdir()
-    (failing / "sitecustomize.py").write_text(FAILING)
     store = tmp_path / "store"
-    code, out, err = run(
-        few_plan_file, store, "--workers", 1, env={**os.environ, "PYTHONPATH": str(failing)}
-    )
+    if where == "here":
+        # one death is enough, and every worker has the fault when it has started
+        faults = {key: [FAILING, *each] for key, each in cluster._SILENT_WHEN_CLOSED.items()}
+        monkeypatch.setattr(cluster, "_SILENT_WHEN_CLOSED", faults)
+        with dask.config.set({"distributed.scheduler.allowed-failures": 0}):
+            code, out, err = invoke(
+                *("campaign", "run", few_plan_file, "--store", store, "--workers", 1)
+            )
+    else:
+        failing = tmp_path / "failing"
+        failing.mkdir()
+        (failing / "sitecustomize.py").write_text(FAILING)
+        fault = {**os.environ, "PYTHONPATH": str(failing)}
+        code, out, err = run(few_plan_file, store, "--workers", 1, env=fault)
     assert code == 1
     assert "Traceback" not in err
     assert "27 cases computed, 3 failed" in out
