@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from random_cases import cases
+from random_cases import cases, seeds
 
 FORCE = 1e-5  # over the largest: rounds end where gaps are right to the tolerance
 LAWS = [rl.Dugdale, rl.Exponential]
@@ -239,11 +239,12 @@ def test_a_line_does_not_stick():
         rl.press(surface(), E_star=1.0, law=rl.Dugdale(1.0, 1.0), hardness=1.0, depths=[0.1])
 
 
-def test_random_problems_are_certified_or_refused():
+@seeds(5, cases(2000, share=50))
+def test_random_problems_are_certified_or_refused(seeds):
     from random_problems import E_STAR, random_problem
 
     solved, loads, refused = 0, 0, []
-    for seed in range(cases(2000, share=50)):
+    for seed in seeds:
         rng = np.random.default_rng(seed)
         problem = random_problem(rng, largest=60)
         body, ((control, values),) = problem.surface, problem.loads.items()

@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 import roughline as rl
 from halfspace.dense_contact import Body, DenseContact
-from random_cases import cases
+from random_cases import cases, seeds
 
 RTOL = 1e-9
 OFF = 1e-6  # forces and pressures, over the largest of their kind
@@ -115,9 +115,10 @@ def pressed(body, law, **loads):
 
 
 @pytest.mark.parametrize("law", [rl.Dugdale, rl.Exponential])
-def test_histories_are_the_dense_solutions(law):
-    count, both = cases(400, share=20), 0
-    for seed in range(count):
+@seeds(3, cases(400, share=20))
+def test_histories_are_the_dense_solutions(law, seeds):
+    both = 0
+    for seed in seeds:
         body, of_body, depths = posed(seed, law)
         curve = pressed(body, of_body, depths=depths)
         dense = DenseSticking(body, of_body)
@@ -134,13 +135,14 @@ def test_histories_are_the_dense_solutions(law):
                 assert (np.abs(state.pressure[differ]) <= OFF * most).all(), (seed, i)
             assert curve.stiffness[i] == pytest.approx(state.stiffness, rel=STIFFNESS), (seed, i)
         both += sum(each.touching.any() and each.pulling.any() for each in states)
-    assert both > 3 * count
+    assert both > 3 * len(seeds)
 
 
 @pytest.mark.parametrize("law", [rl.Dugdale, rl.Exponential])
-def test_forces_are_where_depths_have_them(law):
+@seeds(3, cases(60, share=8))
+def test_forces_are_where_depths_have_them(law, seeds):
     """A path of forces passes through contacts that dense depths have."""
-    for seed in range(cases(60, share=8)):
+    for seed in seeds:
         body, of_body, depths = posed(seed, law)
         largest = float(pressed(body, of_body, depths=[max(depths)]).force[0])
         if largest <= 0:

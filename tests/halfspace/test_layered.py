@@ -20,7 +20,7 @@ from halfspace.dense_contact import (
 from halfspace.dense_hardness import History
 from halfspace.test_adhesion_oracle import DenseSticking, assert_sticking_is_dense
 from halfspace.test_foreign_half_space import displaced
-from random_cases import cases
+from random_cases import cases, seeds
 from random_problems import E_STAR, random_problem
 from roughline.exact.layered_revolution import LayeredContact
 from roughline.exact.layers import BondedLayer
@@ -140,10 +140,10 @@ def by_quadrature(layer, x, y, spacing):
     return math.fsum(parts) / (math.pi * E_star)
 
 
-@pytest.mark.slow
-def test_the_free_kernel_is_that_of_an_independent_quadrature():
+@pytest.mark.parametrize("number", [8, cases(200, 5)])
+def test_the_free_kernel_is_that_of_an_independent_quadrature(number):
     rng, spacing = np.random.default_rng(3), (1.0, 0.8)
-    for _ in range(cases(200, 5)):
+    for _ in range(number):
         layer = replace(random_layer(rng), thickness=10 ** rng.uniform(0, 2.5))
         if math.isinf(layer.base_young):
             layer = replace(layer, base_young=1e3)
@@ -414,9 +414,10 @@ def test_histories_of_bodies_that_stick_are_those_of_the_dense_solution(half_spa
     assert_sticking_is_dense(curve, dense, depths)
 
 
-def test_random_problems_on_random_layers_are_certified():
+@seeds(10, cases(1_000, share=10))
+def test_random_problems_on_random_layers_are_certified(seeds):
     unsolved = []
-    for seed in range(cases(1_000, share=10)):
+    for seed in seeds:
         rng = np.random.default_rng([seed, 42])
         problem, layer = random_problem(rng), random_layer(rng)
         cell = max(problem.surface.spacing)
@@ -434,9 +435,10 @@ def test_random_problems_on_random_layers_are_certified():
     assert not unsolved
 
 
-def test_random_loads_on_plates_are_certified():
+@seeds(5, cases(900, share=60))
+def test_random_loads_on_plates_are_certified(seeds):
     """Noise and roughness; layers of 1 to 20 cells, 100 to 1e6 times as hard as their base."""
-    for seed in range(cases(900, share=60)):
+    for seed in seeds:
         rng = np.random.default_rng([seed, 7])
         shape, cell = rng.integers(48, 110, 2), rng.choice([1.0, 10.0])
         heights = rng.normal(size=shape)

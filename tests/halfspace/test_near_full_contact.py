@@ -10,7 +10,7 @@ import pytest
 
 import roughline as rl
 from halfspace.dense_hardness import Body
-from random_cases import cases
+from random_cases import cases, seeds
 
 BODIES = cases(84, share=4)  # for each precision, under four loads each: of 1,008 in all
 BELOW = 10.0 ** np.array([-6, -1])  # of the depths below that of full contact, over it
@@ -52,8 +52,9 @@ def exact(surface, E_star, depth, contact):
 
 
 @pytest.mark.parametrize("precision", RTOL)
-def test_depths_near_full_contact_are_certified(precision):
-    for seed in range(BODIES):
+@seeds(4, BODIES)
+def test_depths_near_full_contact_are_certified(precision, seeds):
+    for seed in seeds:
         surface, E_star, depths = near_full_contact(seed)
         small = surface.heights.size <= MOST
         for depth in depths:  # one at a time: none starts from the one before

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from random_cases import cases
+from random_cases import cases, seeds
 from random_problems import E_STAR, random_problem
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(1, 6))
-def test_random_problems_are_certified(seed):
-    for i in range(cases(500, share=8)):
+@seeds(10, cases(500, share=8))
+def test_random_problems_are_certified(seed, seeds):
+    for i in seeds:
         problem = random_problem(np.random.default_rng([seed, i]))
         given = {"periodic": problem.periodic, **problem.loads}
         curve = rl.press(problem.surface, E_star=E_STAR, **given, fields=True)
