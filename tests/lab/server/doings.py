@@ -54,6 +54,14 @@ def sleep(arguments, progress):
     return b"slept"
 
 
+def last(arguments, progress):
+    """Tell that it has begun, and last until a file is there."""
+    progress(0, 1)
+    while not Path(arguments["until"]).exists():
+        time.sleep(0.005)
+    return b"lasted"
+
+
 def compute(arguments, progress):
     """Use a core without end."""
     Path(arguments["mark"]).write_text(str(os.getpid()))

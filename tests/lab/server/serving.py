@@ -17,7 +17,7 @@ import psutil
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
-PATIENCE = 30  # [s]
+from reference import patience
 
 
 @contextmanager
@@ -48,7 +48,7 @@ def running_lab(*options, temporary, closes=True, files=None, statements=()):
             yield lab
         finally:
             process.send_signal(signal.SIGINT if closes else signal.SIGKILL)
-            process.wait(PATIENCE)
+            process.wait(patience())
 
 
 def _allow_files(number):
@@ -90,7 +90,9 @@ class Lab:
 
     async def fetch(self, path, **options):
         """Ask by HTTP; returns the response, whatever its status."""
-        options = {"follow_redirects": False, "decompress_response": False} | options
+        limits = {"connect_timeout": patience(), "request_timeout": patience()}
+        usual = {"follow_redirects": False, "decompress_response": False, **limits}
+        options = usual | options
         options["headers"] = {"Cookie": self.cookie} | options.get("headers", {})
         request = HTTPRequest(f"{self.address}{path}", **options)
         response = await AsyncHTTPClient().fetch(request, raise_error=False)
@@ -121,7 +123,7 @@ class Lab:
 def entered(address):
     """Open an address that may have a token; gives the bare one, and the cookie of the login."""
     parts = urlsplit(address)
-    connection = HTTPConnection(parts.netloc, timeout=PATIENCE)
+    connection = HTTPConnection(parts.netloc, timeout=patience())
     connection.request("GET", f"/?{parts.query}")
     cookie = connection.getresponse().getheader("Set-Cookie", "").partition(";")[0]
     connection.close()
@@ -136,7 +138,7 @@ class Page:
 
     async def heard(self):
         """Next message; None if the page is closed."""
-        message = await asyncio.wait_for(self.socket.read_message(), PATIENCE)
+        message = await asyncio.wait_for(self.socket.read_message(), patience())
         if message is None:
             self.is_closed = True
         else:
@@ -181,20 +183,20 @@ def assert_tells_nothing(said):
         assert secret not in said, said[:2000]
 
 
-def wait_until(is_so, seconds=PATIENCE):
+def wait_until(is_so):
     """Wait until something is so, and fail if it does not become so."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + patience()
     while not is_so():
         assert time.monotonic() < end
-        time.sleep(0.02)
+        time.sleep(0.01)
 
 
-async def becomes(is_so, seconds=PATIENCE):
+async def becomes(is_so):
     """Wait until something is so, while pages go on."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + patience()
     while not is_so():
         assert time.monotonic() < end
-        await asyncio.sleep(0.02)
+        await asyncio.sleep(0.01)
 
 
 def run(scenario):
@@ -226,7 +228,7 @@ async def raw(lab, request):
     """Send bytes; returns what comes back first."""
     reader, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
     writer.write(request)
-    said = await asyncio.wait_for(reader.read(2000), 10)
+    said = await asyncio.wait_for(reader.read(2000), patience())
     writer.close()
     assert_tells_nothing(said)
     return said
