@@ -26,7 +26,7 @@ def pressed_to(heights, depth, size=(1.0, 1.0), **settings):
     return rl.press(rl.Surface(heights, size), E_star=1.0, depths=[depth], **settings)
 
 
-@pytest.mark.parametrize("n", [8, 16, 32, 64, 128, pytest.param(256, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("n", [8, 16, 32, 64, 128, 256])
 def test_square_punch_of_uniform_elements(n, judged):
     table = {8: 1.10650, 16: 1.12863, 32: 1.14021, 64: 1.14617, 128: 1.14921, 256: 1.15074}
     curve = pressed_to(np.zeros((n, n)), 1.0)
@@ -50,7 +50,6 @@ def test_square_punch_converges_like_one_over_n_to_its_capacity(judged):
     judged("square punch, flat", "stiffness, extrapolated from 32, 64 and 128", 128, off)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "indenter", "reference"),
     [
@@ -79,7 +78,6 @@ def test_axisymmetric_indenters_converge_faster_than_first_order(name, indenter,
         assert forces[-1] < 3e-5
 
 
-@pytest.mark.slow
 def test_disc_punch_converges(judged):
     errors = []
     for n in GRIDS:

@@ -155,13 +155,13 @@ def test_senseless_gaps_get_one_line(gap, said):
         rl.effective_medium(gap)
 
 
-@pytest.mark.slow
-def test_theories_against_the_solved_flow():
+@pytest.mark.parametrize("n", [64, 128])
+def test_theories_against_the_solved_flow(n):
     """The table of the handbook, of half its surfaces: the mean flow both ways."""
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=16 * math.pi, q_high=32 * math.pi)
     solved, theories, media = np.zeros((3, 2, 4))
     for seed in range(4):
-        surface = spectrum.surface(128, seed)
+        surface = spectrum.surface(n, seed)
         p = surface.rms_slope * np.array([0.01, 0.03, 0.06, 0.14])  # 2, 7, 13 and 28 % contact
         curve = rl.press(surface, E_star=1.0, forces=p, periodic=True, fields=True, rtol=1e-4)
         flows = [rl.flow(fields, surface.sizes, along="both") for fields in curve.fields]

@@ -172,7 +172,6 @@ def test_bad_questions_get_one_line():
         theory("greenwood-williamson", SPECTRUM, 1.0, 100.0)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("hurst", [0.5, 0.8])
 @pytest.mark.parametrize("roll", [2, 8, 16])
 def test_persson_against_the_full_model_with_a_roll_off_at_2_waves_or_more(hurst, roll):
