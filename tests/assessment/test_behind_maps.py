@@ -86,8 +86,9 @@ def test_maps_that_are_alike_share_their_load_alike():
         assert np.abs(ends).max() == 0
 
 
-def test_a_part_of_alike_places_is_told_and_its_maps_agree():
-    parent, part, pressure = part_of("sharp roll-off", maps=3, grid_error=True)
+@pytest.mark.parametrize("maps", [2, 3])
+def test_a_part_of_alike_places_is_told_and_its_maps_agree(maps):
+    parent, part, pressure = part_of("sharp roll-off", maps=maps, grid_error=True)
     whole = rl.press(parent, E_star=E_STAR, forces=pressure * parent.area, periodic=True)
     for key, truth in (
         ("interface_stiffness", whole.stiffness[0]),

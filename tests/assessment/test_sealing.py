@@ -154,40 +154,35 @@ def test_of_a_map_it_is_that_of_the_map_that_goes_on(surface):
     assert not alone.curve.measured
 
 
-@pytest.fixture(scope="module")
-def part():
-    """A part with a roll-off, nine maps large."""
+@pytest.mark.parametrize("points", [32, 48])
+def test_the_interval_of_one_map_holds_the_leak_of_the_part(points):
+    """Of a whole part, nine maps large, the truth is the flow through its own gap."""
     spectrum = rl.SelfAffine(hurst=0.7, length=3e-4, rms_height=1e-6, q_roll=3e5, q_high=1e6)
-    return spectrum.surface(144, rng=11)
-
-
-def test_the_interval_of_one_map_holds_the_leak_of_the_part(part):
-    """Of the whole part the truth is the flow through its own gap."""
+    part = spectrum.surface(3 * points, rng=11)
     E_star = rl.contact_modulus(rl.material("steel"), rl.material("steel"))
     pressures = E_star * part.rms_slope * np.array([0.02, 0.08, 0.14, 0.18])
     measures = [rl.hydraulic_aperture("x"), rl.hydraulic_aperture("y"), rl.MEAN_GAP]
     truth = rl.press(
         part, E_star=E_star, forces=pressures * part.area, periodic=True, measures=measures
     )
-    loads, held, widened = [f"{each} Pa" for each in pressures], [], []
-    ask = [rl.Fluid("water"), rl.Joint(part.area)]
-    for x, y in ((0, 0), (40, 70), (90, 20)):
-        piece = part.cropped((x, x + 48), (y, y + 48))
-        result = asked(piece, ask, loads=loads, periodic=False, grid_error=True)
-        for measure in measures:
-            answer, true = result.answers[measure.name], truth.measured[measure.name].values
-            held += ((answer.low <= true) & (true <= answer.high)).tolist()
-            of_map = result.larger.measures[measure.name].of_map
-            widened += (answer.high > of_map.high[result.asked]).tolist()
-        assert "of a joint 3 times" in result.answers["hydraulic_aperture"].validity
-    assert np.mean(held) >= 0.9
-    assert np.mean(widened) >= 0.9
+    loads, ask = [f"{each} Pa" for each in pressures], [rl.Fluid("water"), rl.Joint(part.area)]
+    piece = part.cropped((0, points), (0, points))
+    result = asked(piece, ask, loads=loads, periodic=False, grid_error=True)
+    for measure in measures:
+        answer, true = result.answers[measure.name], truth.measured[measure.name].values
+        assert (answer.low <= true).all(), measure.name
+        assert (true <= answer.high).all(), measure.name
+        of_map = result.larger.measures[measure.name].of_map
+        assert (answer.high > of_map.high[result.asked]).all()
+        assert (answer.low <= of_map.low[result.asked]).all()
+    assert "of a joint 3 times" in result.answers["hydraulic_aperture"].validity
 
 
-def test_a_seal_much_longer_than_a_map_without_roll_off_has_no_interval(surface):
+@pytest.mark.parametrize("loads", [LOADS[1:], LOADS])
+def test_a_seal_much_longer_than_a_map_without_roll_off_has_no_interval(surface, loads):
     piece = surface.cropped((0, 32), (0, 32))
     short, long = (
-        asked(piece, [rl.Fluid("water"), *ASKED[:2], rl.Seal(seal)], grid_error=True)
+        asked(piece, [rl.Fluid("water"), *ASKED[:2], rl.Seal(seal)], loads=loads, grid_error=True)
         for seal in ("4 mm x 4 mm", "100 mm x 10 mm")
     )
     assert (short.answers["leak_rate"].high > short.answers["leak_rate"].values).all()
@@ -210,7 +205,9 @@ def test_several_maps_have_one_leak(surface):
     assert part.answers["leak_rate"].count.tolist() == [2, 2]
 
 
-def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface):
+@pytest.mark.parametrize("points", [32, 64])
+def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface, points):
+    surface = surface.cropped((0, points), (0, points))
     result = asked(surface, rl.Closure(), elastic=False, grid_error=True)
     seals = result.answers["sealing_pressure"]
     assert (seals.values == seals.values[0]).all()

@@ -154,14 +154,14 @@ def test_both_uncertainties_are_combined(made):
     assert larger_surface(curve, SEEN, None, (k, k), (a, a)).stiffness.ends is None
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize("points", [32, 64])
 @pytest.mark.parametrize(
     ("kind", "waves", "bar"),
     [("sharp roll-off", 6.0, None), ("lognormal pits", 6.0, 0.15), ("no roll-off", 0.0, None)],
 )
-def test_intervals_hold_parents_of_several_kinds(kind, waves, bar):
-    """Maps of a joint, as they are asked for, and the whole joint in the full model."""
-    make, rng = Make(points=64, hurst=0.6, waves=waves), np.random.default_rng(17)
+def test_intervals_of_a_map_hold_its_parent(kind, waves, bar, points):
+    """A map of a joint, as it is asked for, and the whole joint in the full model."""
+    make, rng = Make(points=points, hurst=0.6, waves=waves), np.random.default_rng(17)
     part = parent_of(kind, make, rng)
     pair = rl.Question(part, MATERIALS).pair
     pressures = np.array([0.003, 0.03, 0.2]) * pair.E_star * part.rms_slope
@@ -175,22 +175,23 @@ def test_intervals_hold_parents_of_several_kinds(kind, waves, bar):
         hardness=hardness,
         periodic=True,
     )
-    asked = {"ask": rl.Joint(part.area), "hardness": hardness, "elastic": bar is None}
-    loads = (pressures * part.area).tolist()
-    held = []
-    for _ in range(3):
-        piece = piece_of(part, make, rng)
-        question = rl.Question(
-            piece, MATERIALS, loads=loads, grid_error=True, fields=False, **asked
-        )
-        answers = rl.assess(question).answers
-        for key, true in (
-            ("interface_stiffness", truth.unloading_stiffness),
-            ("contact_area_fraction", truth.area_fraction_corrected),
-        ):
-            low, high = answers[key].ends
-            held.append((low <= true) & (true <= high))
-    assert np.mean(held) >= 0.9
+    question = rl.Question(
+        piece_of(part, make, rng),
+        MATERIALS,
+        loads=(pressures * part.area).tolist(),
+        ask=rl.Joint(part.area),
+        hardness=hardness,
+        elastic=bar is None,
+        grid_error=True,
+        fields=False,
+    )
+    answers = rl.assess(question).answers
+    for key, true in (
+        ("interface_stiffness", truth.unloading_stiffness),
+        ("contact_area_fraction", truth.area_fraction_corrected),
+    ):
+        low, high = answers[key].ends
+        assert ((low <= true) & (true <= high)).all(), key
 
 
 def test_waves_longer_than_the_map_take_down_what_rests_on_the_map_alone(made):
@@ -221,8 +222,9 @@ def test_roughness_that_drifts_takes_it_down_as_well(made):
     assert any("roughness drifts over the map: along x" in each for each in found.warnings)
 
 
-def test_the_answer_says_for_which_surface_it_is():
-    make, rng = Make(points=64, hurst=0.8, waves=0.0), np.random.default_rng(8)
+@pytest.mark.parametrize("points", [32, 64])
+def test_the_answer_says_for_which_surface_it_is(points):
+    make, rng = Make(points=points, hurst=0.8, waves=0.0), np.random.default_rng(8)
     part = parent_of("no roll-off", make, rng)
     piece = piece_of(part, make, rng)
     asked = {"loads": "100 MPa", "elastic": True, "fields": False, "grid_error": True}
