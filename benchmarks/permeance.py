@@ -78,11 +78,11 @@ def exact_values(page):
         page.row(name, *(f"{value:+.1e}" for value in errors), rate)
 
 
-def throttled(throat):
+def throttled(throat, shape=(9, 8)):
     """Two rough halves that one cell joins, narrower than the others by a factor."""
-    gap = np.random.default_rng(1).uniform(0.5, 1.5, (9, 8))
-    gap[4] = 0.0
-    gap[4, 3] = throat
+    gap = np.random.default_rng(1).uniform(0.5, 1.5, shape)
+    gap[shape[0] // 2] = 0.0
+    gap[shape[0] // 2, 3] = throat
     return gap
 
 
