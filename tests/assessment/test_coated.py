@@ -12,6 +12,7 @@ from roughline.contact.conduction import conductance
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4)
 SURFACE = SPECTRUM.surface(64, rng=7)
+SMALL = rl.SelfAffine(hurst=0.8, length=5e-4, rms_height=1e-6, q_roll=2.5e4).surface(32, rng=7)
 MAP = replace(SURFACE, is_cut_out=True)
 RTOL = 1e-11
 GOLD = (2.21e-8, 6.93e-8, 1.68e-8), (20e-6, 40e-6)
@@ -55,8 +56,14 @@ def differences(first, second):
         ({"elastic": True}, SURFACE),
         ({}, SURFACE),  # copper yields
         ({"periodic": True, "elastic": True, "loads": ("1 N", "20 N", "100 N")}, SURFACE),
-        ({"ask": [rl.Ultrasound("5 MHz"), rl.Fluid("helium"), rl.Closure()]}, SURFACE),
-        ({"ask": [rl.Adhesion("50 J/m^2")], "elastic": True, "loads": "0.1 N"}, SURFACE),
+        *(
+            ({"ask": [rl.Ultrasound("5 MHz"), rl.Fluid("helium"), rl.Closure()]}, body)
+            for body in (SMALL, SURFACE)
+        ),
+        *(
+            ({"ask": [rl.Adhesion("50 J/m^2")], "elastic": True, "loads": "0.1 N"}, body)
+            for body in (SMALL, SURFACE)
+        ),
         ({"ask": [rl.Unloading()], "loads": "1 N"}, SURFACE),
     ],
 )
@@ -76,7 +83,8 @@ def test_a_coating_of_its_base_changes_no_answer_that_is_kept(others, body):
 def test_spaced_loads_of_a_coating_of_its_base_are_the_same():
     """They come from a disc's stiffness, which is found from the waves."""
     each = ("steel", "copper"), ("steel 20 um on steel", "copper")
-    plain, coated = (assessed(pair, (), periodic=True, elastic=True) for pair in each)
+    asked = {"periodic": True, "elastic": True, "grid_error": False, "fields": False}
+    plain, coated = (assessed(pair, (), **asked) for pair in each)
     np.testing.assert_allclose(coated.curve.force, plain.curve.force, rtol=1e-12)
 
 
@@ -164,17 +172,18 @@ def test_a_layer_that_keeps_its_volume_may_be_repeated_on_a_rigid_base():
 
 
 def test_the_hardness_is_that_of_the_top_layer_and_a_remark_says_so():
-    found = assessed(("steel", "gold 20 um on nickel 40 um on copper"), "1 N")
+    values = {"grid_error": False, "fields": False}
+    found = assessed(("steel", "gold 20 um on nickel 40 um on copper"), "1 N", **values)
     assert found.curve.hardness == rl.material("gold").hardness
     said = " / ".join(found.notes)
     assert "the hardness of gold 20 µm on nickel 40 µm on copper is that of its top layer" in said
-    elastic = assessed(("steel", "gold 20 um on copper"), "1 N", elastic=True)
+    elastic = assessed(("steel", "gold 20 um on copper"), "1 N", elastic=True, **values)
     assert (
         "no plasticity index of coated bodies: it is of summits of one material each"
         in " / ".join(elastic.notes)
     )
     assert not any("plasticity index is" in each for each in elastic.remarks)
-    given = assessed(("steel", "gold 20 um on copper"), "1 N", hardness="1 GPa")
+    given = assessed(("steel", "gold 20 um on copper"), "1 N", hardness="1 GPa", **values)
     assert given.curve.hardness == 1e9
 
 
@@ -187,21 +196,23 @@ def test_what_is_left_out_is_named_with_its_reason():
     assert "no reflection of coated bodies: layers reflect a part of the wave themselves" in said
 
 
-def test_currents_are_solved_through_the_layers():
+@pytest.mark.parametrize("surface", [SMALL, SURFACE], ids=["small", "large"])
+def test_currents_are_solved_through_the_layers(surface):
     """Of a piece all of it, of a map its interface, of a joint both; each says what it lacks."""
     gold, bodies = "gold 20 um on nickel 40 um on copper", (GOLD, ((1.6e-7,), ()))
-    piece = assessed((gold, "steel"), "1 N", elastic=True)
+    map_ = replace(surface, is_cut_out=True)
+    piece = assessed((gold, "steel"), "1 N", surface, elastic=True)
     touching = piece.fields.contact
-    R = 1 / conductance(touching, SURFACE.sizes, bodies, False)
+    R = 1 / conductance(touching, surface.sizes, bodies, False)
     assert piece.answers["constriction_resistance"].values[0] == pytest.approx(R, rel=1e-9)
     assert "thermal_conductance_per_area" not in piece.answers
     assert any("no conductance per area of its interface" in each for each in piece.notes)
-    homogeneous = assessed(("gold", "steel"), "1 N", elastic=True)
+    homogeneous = assessed(("gold", "steel"), "1 N", surface, elastic=True)
     assert pytest.approx(homogeneous.answers["constriction_resistance"].values[0], rel=0.01) != R
-    of_map = assessed((gold, "steel"), "1 MPa", MAP, elastic=True)
+    of_map = assessed((gold, "steel"), "1 MPa", map_, elastic=True)
     assert "constriction_resistance" not in of_map.answers
     assert any("neither resistance nor conductance of the map alone" in n for n in of_map.notes)
-    joint = assessed((gold, "steel"), "1 MPa", MAP, elastic=True, ask=rl.Joint("2 cm^2"))
+    joint = assessed((gold, "steel"), "1 MPa", map_, elastic=True, ask=rl.Joint("2 cm^2"))
     h_c = [each.answers["thermal_conductance_per_area"].values[0] for each in (of_map, joint)]
     assert h_c[0] == pytest.approx(h_c[1], rel=1e-6)
     G = joint.answers["thermal_conductance"].values[0]
@@ -315,11 +326,13 @@ def test_what_cannot_be_asked_of_layers_gets_one_line(asked, message):
     assert told.value.argument == "materials" or "rl.Friction" in message or "strains" in message
 
 
-def test_thin_layers_have_no_bound_of_a_coarser_grid_where_they_are_sealed():
+@pytest.mark.parametrize(
+    ("surface", "load"), [(SMALL, "25 mN"), (SURFACE, "0.1 N")], ids=["small", "large"]
+)
+def test_thin_layers_have_no_bound_of_a_coarser_grid_where_they_are_sealed(surface, load):
     """Half as many points would not resolve the layer, so what they leave open is not known."""
-    found = assessed(
-        ("E=3 MPa nu=0.4 12 um on steel", "rigid"), "0.1 N", ask=[rl.Fluid("water"), rl.Closure()]
-    )
+    pair = ("E=3 MPa nu=0.4 12 um on steel", "rigid")
+    found = assessed(pair, load, surface, ask=[rl.Fluid("water"), rl.Closure()])
     sealing = found.answers["sealing_pressure"]
     assert np.isfinite(sealing.values).all()
     assert sealing.low is None

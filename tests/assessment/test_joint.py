@@ -15,6 +15,7 @@ SECOND = "E=120 GPa nu=0.3 hardness=1000 GPa resistivity=2e-8 ohm m conductivity
 PAIR = f"{FIRST} density=7800 kg/m^3, {SECOND} density=8900 kg/m^3"
 RESISTIVITIES = (1e-7, 2e-8)
 YIELDING = PAIR.replace("hardness=1000 GPa", "hardness=0.5 GPa")
+VALUES = {"grid_error": False, "fields": False}  # and no more
 SPECTRUM = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=math.tau / 12e-6)
 
 
@@ -30,7 +31,7 @@ def test_a_joint_of_four_maps_is_the_map_laid_four_times(materials):
     """Every answer, for every one grows with the area as is declared."""
     tile = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-7).surface(32, 5)
     four = rl.Surface(np.tile(tile.heights, (2, 2)), (2e-4, 2e-4))
-    asked = {"materials": materials, "grid_error": False, "fields": False}
+    asked = {"materials": materials, **VALUES}
     wave = rl.Ultrasound("5 MHz")
     joint = rl.assess(
         rl.Question(tile, loads="4 N", ask=[rl.Joint(four.area), wave], **asked)
@@ -112,6 +113,7 @@ def test_the_joint_slides_under_its_own_load(part):
         PAIR,
         loads="100 N",
         ask=[rl.Joint("1 mm^2"), rl.Friction(0.3), rl.WholeCurve()],
+        **VALUES,
     )
     assert rl.assess(question).partial_slip.force[-1] == pytest.approx(30.0)
 
@@ -119,7 +121,7 @@ def test_the_joint_slides_under_its_own_load(part):
 def test_what_is_left_out_of_a_joint_is_told_with_its_size(part):
     _, piece = part
     light, heavy = (
-        rl.assess(rl.Question(piece, PAIR, loads=load, ask=rl.Joint(2e-8)))
+        rl.assess(rl.Question(piece, PAIR, loads=load, ask=rl.Joint(2e-8), **VALUES))
         for load in ("1 mN", "10 N")
     )
     disc = 2 * light.curve.E_star * math.sqrt(2e-8 / math.pi)
@@ -136,7 +138,7 @@ def test_without_a_joint_forces_act_on_the_map_and_the_notes_say_so(part):
     told = "forces act on the map alone"
 
     def notes(body, load):
-        return " ".join(rl.assess(rl.Question(body, PAIR, loads=load, fields=False)).notes)
+        return " ".join(rl.assess(rl.Question(body, PAIR, loads=load, **VALUES)).notes)
 
     assert told in notes(piece, "1 N")
     assert told not in notes(piece, "2 MPa")
@@ -184,7 +186,7 @@ def test_a_repeated_map_tells_of_the_jump_at_its_borders(part):
     tilted = rl.Surface(piece.heights + slope, piece.sizes, is_cut_out=True)
 
     def said(body, **asked):
-        result = rl.assess(rl.Question(body, PAIR, loads="5 MPa", fields=False, **asked))
+        result = rl.assess(rl.Question(body, PAIR, loads="5 MPa", **VALUES, **asked))
         return " ".join(result.warnings), " ".join(result.notes)
 
     assert "jumps by" in said(piece, periodic=True)[1]

@@ -106,7 +106,7 @@ def test_the_interval_of_a_part_keeps_to_it(maps, joint):
 
 
 def test_of_elastic_bodies_the_pressure_may_be_more(maps):
-    part = asked(maps, elastic=True)
+    part = asked(maps, elastic=True, grid_error=False)
     over = part.answers["contact_pressure_over_hardness"]
     assert over.high > over.mean > 1
 

@@ -341,9 +341,10 @@ def test_the_interface_of_a_map_springs_back_with_the_surface_around_it(surface)
     assert k_i.high > missed_high > k_i.values * high
 
 
-def test_a_part_of_several_maps_is_unloaded(surface):
-    rough = rl.SelfAffine(hurst=0.7, length=2e-3, rms_height=1e-6).surface(64, 3)
-    maps = [rough.cropped((0, 32), (i, i + 32)).detrended() for i in (0, 32)]
+@pytest.mark.parametrize("n", [16, 32])
+def test_a_part_of_several_maps_is_unloaded(n):
+    rough = rl.SelfAffine(hurst=0.7, length=n * 62.5e-6, rms_height=1e-6).surface(2 * n, 3)
+    maps = [rough.cropped((0, n), (i, i + n)).detrended() for i in (0, n)]
     asked = {"loads": ["2 MPa", f"{0.8 * H:g} Pa"], "ask": rl.Unloading(), "grid_error": True}
     part = rl.assess(rl.Question(maps, PAIR, fields=False, **asked))
     assert part.headings[-1] == "unloaded"
@@ -379,28 +380,32 @@ def test_the_mean_of_elastic_bodies_stands_beside_that_of_a_part(surface):
     assert elastic_in_words(alone) == ""
 
 
-def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch):
+@pytest.mark.parametrize("n", [128, 256])
+def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch, n):
     """Ratios of other hardnesses to the table's agree within a few per cent of those of all."""
-    rough = rl.SelfAffine(
-        hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=math.tau / 2e-4, q_high=math.tau / 3e-5
-    ).surface(256, 5)
+    side = n / 256  # of five roll-offs [mm]
+    waves = {"q_roll": math.tau / (side * 2e-4), "q_high": math.tau / 3e-5}
+    rough = rl.SelfAffine(hurst=0.8, length=side * 1e-3, rms_height=side * 1e-6, **waves).surface(
+        n, 5
+    )
     question = rl.Question(
         rl.Surface(rough.heights, rough.sizes, "m"), PAIR, loads=["3 MPa", "30 MPa"], fields=False
     )
     on_all = rl.assess(question)
-    monkeypatch.setattr(cases, "HALVED_FROM", 256**2)
+    monkeypatch.setattr(cases, "HALVED_FROM", n**2)
     solved = []
     original = load_cases.press
     monkeypatch.setattr(
         load_cases, "press", lambda body, **k: solved.append(body.shape) or original(body, **k)
     )
     on_half = rl.assess(question)
-    assert solved == [(256, 256)] * 2 + [(128, 128)] * 3  # itself and elastic; three hardnesses
+    half = n // 2
+    assert solved == [(n, n)] * 2 + [(half, half)] * 3  # itself and elastic; three hardnesses
     for key in ("unloading_stiffness", "contact_area", "thermal_conductance_per_area"):
-        for half, whole in zip(
+        for found, wanted in zip(
             on_half.hardness_scatter[key], on_all.hardness_scatter[key], strict=True
         ):
-            assert half == pytest.approx(whole, rel=0.05), key
+            assert found == pytest.approx(wanted, rel=0.05), key
         assert on_half.answers[key].values.tolist() == on_all.answers[key].values.tolist()
 
 
