@@ -60,6 +60,24 @@ async def opened(folder, **settings):
         await server.close()
 
 
+@pytest.fixture(autouse=True)
+def _sweeps(monkeypatch):
+    """Look often for what is over."""
+    monkeypatch.setattr(sessions, "_SWEEPS", 0.02)
+
+
+class Sweeps:
+    """How often it was looked for what is over."""
+
+    def __init__(self, server):
+        self._sweep, self.count = server.sweep, 0
+        server.sweep = server._sweeping.callback = self
+
+    def __call__(self):
+        self._sweep()
+        self.count += 1
+
+
 def run(scenario, folder, **settings):
     async def main():
         async with opened(folder, **settings) as (lab, server):
@@ -142,15 +160,16 @@ def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, mo
 
 
 def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(tmp_path, monkeypatch):
-    monkeypatch.setattr(sessions, "_RELOADS", 0.2)
-
     async def scenario(lab, server):
+        sweeps = Sweeps(server)
         async with lab.page() as page:
             await page.ask("explore.full")
             await becomes(lambda: server.slow.requests)
         async with lab.page(before=page.token) as again:
             assert again.said["resumed"] is True
-            await asyncio.sleep(0.4)
+            monkeypatch.setattr(sessions, "_RELOADS", 0.0)
+            before = sweeps.count
+            await becomes(lambda: sweeps.count > before)
             assert server.slow.withdrawn == []
         await becomes(lambda: (page.token, None) in server.slow.withdrawn)
         await becomes(lambda: not server.sessions)
@@ -242,11 +261,10 @@ def test_sessions_that_wait_are_bounded_and_give_way_to_pages(tmp_path, monkeypa
 def test_pages_are_closed_and_sessions_end_when_the_time_of_their_login_is_over(
     tmp_path, monkeypatch
 ):
-    monkeypatch.setattr("roughline.lab.server.access.DAYS", 1 / 86_400)
-
     async def scenario(lab, server):
         async with lab.page() as page:
             await upload(lab, page.token, b"1 2", "a.txt")
+            monkeypatch.setattr(server.logins, "lasts", lambda name: False)
             assert await page.heard() is None
             assert page.socket.close_code == 1008
             assert not server.sessions

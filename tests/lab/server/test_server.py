@@ -12,6 +12,7 @@ from tornado.httpclient import HTTPClientError
 
 from lab.server.serving import (
     alive,
+    becomes,
     held,
     run,
     upload,
@@ -228,7 +229,9 @@ def test_a_page_that_does_not_read_is_not_sent_more_and_more(lab):
             ).encode()
             writer.write(bytes((0x81, 0x80 | 126, *divmod(len(said), 256), 0, 0, 0, 0)) + said)
             await asyncio.sleep(0.02)
-        await asyncio.sleep(0.5)
+        async with lab.page() as other:  # which waits until those are answered
+            await other.ask("explore.coarse", state=SMALL)
+            await other.answer()
         grown = psutil.Process(lab.process.pid).memory_info().rss - before
         writer.transport.abort()
         assert grown < 40e6
@@ -240,7 +243,7 @@ def test_a_killed_process_is_one_sentence_and_the_next_question_is_answered(lab)
     async def scenario():
         async with lab.page() as page:
             await page.ask("explore.curve", state={"n": "256"})
-            await asyncio.sleep(0.2)
+            assert json.loads(await page.heard())["done"] == 1  # of many loads
             for child in alive(lab):
                 child.kill()
             assert (await page.answer())[1].startswith("the process that computed this ended")
@@ -277,9 +280,8 @@ def test_fifty_pages_opened_and_closed_leave_no_memory_and_no_files(lab):
             before = held(lab)
             for seed in range(first, 5 * first + 10):
                 await visit(seed)
-        await asyncio.sleep(0.5)
-        assert held(lab)[0] - before[0] < 15e6
-        assert held(lab)[1] - before[1] < 60e6
-        assert not list(lab.folder.iterdir())
+        await becomes(lambda: held(lab)[0] - before[0] < 15e6)
+        await becomes(lambda: held(lab)[1] - before[1] < 60e6)
+        await becomes(lambda: not list(lab.folder.iterdir()))
 
     run(scenario)

@@ -2,12 +2,12 @@
 
 import asyncio
 import gc
+import json
 import os
 import signal
 import socket
 import subprocess
 import sys
-import time
 
 import psutil
 import pytest
@@ -25,6 +25,7 @@ from lab.server.serving import (
     upload,
     wait_until,
 )
+from reference import patience
 from roughline.lab.server.handlers import application
 from roughline.lab.server.process import noted_interrupts
 from roughline.lab.server.sessions import Server
@@ -45,16 +46,14 @@ def stopped_with_pages_open(lab, stop):
     async def scenario():
         async with lab.page() as page:
             await upload(lab, page.token, b"1 2\n", "a.txt")
-            await page.ask("explore.full", state={"n": "512"})
-            await asyncio.sleep(0.1)
+            await page.ask("explore.curve", state={"n": "512"})
+            assert json.loads(await page.heard())["done"] == 1  # of many loads
             children = psutil.Process(lab.process.pid).children(recursive=True)
-            asked = time.monotonic()
             lab.process.send_signal(stop)
             while await page.heard() is not None:
                 pass
-        lab.process.wait(10)
-        assert time.monotonic() - asked < 5
-        wait_until(lambda: not any(child.is_running() for child in children), 5)
+        lab.process.wait(patience())
+        wait_until(lambda: not any(child.is_running() for child in children))
 
     run(scenario)
     assert lab.process.returncode == 0
@@ -75,7 +74,7 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next_which_stops_by_ctrl_
     with running_lab(temporary=tmp_path, closes=False) as lab:
         children = psutil.Process(lab.process.pid).children(recursive=True)
         left = lab.folder
-    wait_until(lambda: not any(alive_still(child) for child in children), 10)
+    wait_until(lambda: not any(alive_still(child) for child in children))
     assert left.is_dir()
     others = tmp_path / "roughline-lab-mine"
     others.mkdir()
@@ -157,10 +156,10 @@ def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
             wait_until(lambda: list(tmp_path.glob("roughline-lab-*")))
         os.killpg(process.pid, signal.SIGINT)
         try:
-            said = process.communicate(timeout=20)[0]
+            said = process.communicate(timeout=patience())[0]
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGABRT)  # it says where it waits
-            pytest.fail(process.communicate(timeout=20)[0])
+            pytest.fail(process.communicate(timeout=patience())[0])
     assert "KeyboardInterrupt" not in said
     assert "Task" not in said
     assert not list(tmp_path.glob("roughline-lab-*"))
@@ -191,11 +190,18 @@ def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
         headers = {"Origin": address, "Cookie": cookie}
         page = await websocket_connect(HTTPRequest(f"ws://127.0.0.1:{port}/link", headers=headers))
         await page.read_message()
-        await asyncio.sleep(0.7)
+        handle, pings = page.protocol._handle_message, []
+
+        def noted(opcode, data):
+            pings.extend([data] * (opcode == 0x9))
+            return handle(opcode, data)
+
+        page.protocol._handle_message = noted
+        await becomes(lambda: len(pings) == 2)
         (session,) = lab.sessions.values()
         session.files.new("a.txt", 1).path.write_text("1")
         page.protocol._handle_message = lambda opcode, data: None  # it answers no ping any more
-        await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()), 15)
+        await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()))
         page.close()
         server.stop()
         await lab.close()
