@@ -37,14 +37,15 @@ FILES = {
 }
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", FILES)
-def test_python_and_the_command_line_give_the_same_numbers(topographies, invoke, name):
-    """Whatever the file: values, both ends and remarks, or one and the same refusal."""
+REFUSED = ("di-1.di", "di_corrupted.di")  # it does not bear the load; it is damaged
+
+
+def both(topographies, invoke, name, points):
+    """What the command line says of a file, and the same question as Python asks it."""
     reading, flags = FILES[name]
-    code, out, errors = invoke(
+    told = invoke(
         *("press", topographies / name, "--materials", "steel,copper", "--load", "1 mN"),
-        *("--load", "10 kPa", "--resample", "96", "--frequency", "5 MHz", "--json", *flags),
+        *("--load", "10 kPa", "--resample", points, "--frequency", "5 MHz", "--json", *flags),
     )
     question = rl.Question(
         topographies / name,
@@ -52,14 +53,29 @@ def test_python_and_the_command_line_give_the_same_numbers(topographies, invoke,
         loads=["1 mN", "10 kPa"],
         ask=rl.Ultrasound("5 MHz"),
         reading=rl.Reading(**reading),
-        preparation=rl.Preparation(points=96),
+        preparation=rl.Preparation(points=points),
         fields=False,
     )
-    if code == 2:
-        with speaking(FLAGS), pytest.raises(rl.InputError) as refused:
-            rl.assess(question)
-        assert errors == f"roughline: {refused.value}\n"
-        return
+    return told, question
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_python_and_the_command_line_give_the_same_refusal(topographies, invoke, name):
+    (code, _, errors), question = both(topographies, invoke, name, 96)
+    assert code == 2
+    with speaking(FLAGS), pytest.raises(rl.InputError) as refused:
+        rl.assess(question)
+    assert errors == f"roughline: {refused.value}\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "points"),
+    [("al3d-1.al3d", 24), *((name, 96) for name in FILES if name not in REFUSED)],
+)
+def test_python_and_the_command_line_give_the_same_numbers(topographies, invoke, name, points):
+    """Whatever the file: values, both ends and remarks."""
+    (code, out, errors), question = both(topographies, invoke, name, points)
+    assert code == 0, errors
     with speaking(FLAGS):
         told, result = json.loads(out), rl.assess(question)
     assert [each["key"] for each in told["answers"].values()] == list(result.answers)

@@ -306,7 +306,6 @@ def test_exponents_are_drawn_over_the_fractal_dimension_beside_the_paper_s_formu
         rl.plot.exponents({})
 
 
-@pytest.mark.slow
 def test_a_comparison_is_both_models_and_their_difference():
     compared = rl.compare(SPECTRUM, n=32, surfaces=2)
     axes = rl.plot.comparison(compared)

@@ -10,7 +10,8 @@ import pytest
 
 import roughline as rl
 
-pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not there")
+WANTED = "CalculiX (ccx) is not installed; Debian: apt-get install calculix-ccx"
+pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason=WANTED)
 
 SIDE, YOUNG = 1e-3, 1e11  # of two cubes of one element each [m], [Pa]
 LOADS = ["0.3 MPa", "3 MPa", "30 MPa"]

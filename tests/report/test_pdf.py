@@ -118,7 +118,6 @@ def test_tables_of_any_width_fit_the_sheet_and_no_number_is_broken(tmp_path, loa
     assert shown == loads
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("asked", [[rl.Joint("2 cm^2")], [rl.Unloading(), rl.Friction(0.3)]])
 def test_a_report_can_be_printed(rough, tmp_path, only_drawn, asked):
     only_drawn()
@@ -136,7 +135,6 @@ def test_a_report_can_be_printed(rough, tmp_path, only_drawn, asked):
     assert figure.get_figheight() * 72 <= 600
 
 
-@pytest.mark.slow
 def test_a_report_on_several_maps_can_be_printed(tmp_path, only_drawn, monkeypatch):
     only_drawn()
     monkeypatch.setattr(part_report, "write_contact_report", lambda _, folder, __: [folder])

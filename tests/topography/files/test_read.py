@@ -378,7 +378,6 @@ def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):
         rl.read(path)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "trend", "copies"),
     [
