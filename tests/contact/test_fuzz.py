@@ -79,7 +79,6 @@ def read_or_refuse(path, missing="harmonic"):
     return False
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # what the readers and numpy say of nonsense
 @pytest.mark.parametrize("name", FILES)
 def test_damaged_files(topographies, tmp_path, capfd, caplog, name):
@@ -121,7 +120,6 @@ def test_our_own_files_damaged(tmp_path):
         read_or_refuse(path)
 
 
-@pytest.mark.slow
 def test_archives_that_unpack_to_too_much(tmp_path):
     for suffix, inside in ((".x3p", "main.xml"), (".xlsx", "xl/workbook.xml"), (".npz", "a.npy")):
         path = tmp_path / f"bomb{suffix}"
@@ -145,7 +143,6 @@ WORDS = (
 )
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 def test_senseless_commands(tmp_path, monkeypatch):
     """Random commands: exit codes 0, 1 or 2, and no traceback."""

@@ -1,5 +1,7 @@
 """The mean pressure at which the last channel closes, and down to which load it stays so."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -65,22 +67,24 @@ def test_grooves_close_where_a_wave_is_in_full_contact(n):
     assert found.value <= np.pi * 0.01 * 1.0001
 
 
-@pytest.mark.slow
-def test_its_interval_holds_that_of_grids_four_times_finer():
+KINDS = list(product((0.5, 0.8), (None, 2 * np.pi * 16), (False, True)))
+"""Hurst exponent, shortest wave, and whether the surface yields."""
+
+
+@pytest.mark.parametrize(
+    ("n", "surfaces"), [(32, range(2)), (64, range(len(KINDS) * cases(4, share=2)))]
+)
+def test_its_interval_holds_that_of_grids_four_times_finer(n, surfaces):
     """Their gaps are open under its lower end and sealed under its upper one."""
     held = []
-    for seed in range(5000, 5000 + cases(4, share=2)):
-        for hurst in (0.5, 0.8):
-            for q_high in (None, 2 * np.pi * 16):
-                for hardness in (False, True):
-                    spectrum = rl.SelfAffine(
-                        hurst=hurst, rms_height=0.01, q_roll=8 * np.pi, q_high=q_high
-                    )
-                    coarse, fine = spectrum.surface(64, seed), spectrum.surface(256, seed)
-                    given = {"E_star": 1.0}
-                    given |= {"hardness": 0.4 * fine.rms_slope} if hardness else {}
-                    low, high = rl.sealing_pressure(coarse, **given).interval
-                    held.append(is_open(fine, low, **given) and not is_open(fine, high, **given))
+    for number in surfaces:
+        seed, (hurst, q_high, yields) = 5000 + number // len(KINDS), KINDS[number % len(KINDS)]
+        spectrum = rl.SelfAffine(hurst=hurst, rms_height=0.01, q_roll=8 * np.pi, q_high=q_high)
+        coarse, fine = spectrum.surface(n, seed), spectrum.surface(4 * n, seed)
+        given = {"E_star": 1.0}
+        given |= {"hardness": 0.4 * fine.rms_slope} if yields else {}
+        low, high = rl.sealing_pressure(coarse, **given).interval
+        held.append(is_open(fine, low, **given) and not is_open(fine, high, **given))
     assert np.mean(held) >= 0.9
 
 
@@ -186,16 +190,16 @@ def test_what_cannot_be_taken_off_is_refused(pressed):
         rl.reopening(line)
 
 
-@pytest.mark.slow
-def test_the_interval_of_the_load_left_holds_that_of_the_larger_surface():
+@pytest.mark.parametrize(("n", "seeds"), [(32, [2]), (64, range(cases(24, share=6)))])
+def test_the_interval_of_the_load_left_holds_that_of_the_larger_surface(n, seeds):
     """Maps that are cut from a surface four times as large, and lose their tilt."""
     held = []
-    for seed in range(cases(24, share=6)):
+    for seed in seeds:
         spectrum = rl.SelfAffine(
             hurst=(0.5, 0.8)[seed % 2], rms_height=0.01, q_roll=16 * np.pi, q_high=64 * np.pi
         )
-        part, is_yielding = spectrum.surface(128, seed), seed // 2 % 2
-        one = part.cropped((0, 64), (0, 64)).detrended()
+        part, is_yielding = spectrum.surface(2 * n, seed), seed // 2 % 2
+        one = part.cropped((0, n), (0, n)).detrended()
         pressure = (0.1 if is_yielding else 0.15) * part.rms_slope
         given = {"E_star": 1.0, "periodic": True}
         given |= {"hardness": 0.4 * part.rms_slope} if is_yielding else {}
