@@ -2,15 +2,15 @@
 
 import json
 import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 import roughline as rl
 import small_campaign
+from dask_processes import cluster_here
 from roughline import campaign
+from studies.__main__ import main
 from studies.reduced_data import finished, read_groups, write_groups
 
 KEPT = ("stiffness", "area_fraction", "status")
@@ -28,11 +28,9 @@ def plan(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def store(plan, tmp_path_factory):
+def store(plan, two_workers, tmp_path_factory):
     path = tmp_path_factory.mktemp("store") / "few.zarr"
-    plan_path = path.with_name("plan.toml")
-    plan_path.write_text(small_campaign.FEW, encoding="utf-8")
-    assert small_campaign.run(plan_path, path, "--workers", 2)[0] == 0
+    campaign.run(plan, path, scheduler=two_workers)
     return path
 
 
@@ -54,16 +52,13 @@ def test_data_are_those_of_the_store(plan, store, data):
     assert "area_fraction" not in read["lines"]
 
 
-@pytest.mark.slow
 def test_a_second_run_on_a_part_of_the_realisations_gives_the_same_bytes(
     plan, store, data, tmp_path
 ):
     """Other workers, other realisations in the store; the part that both have is the same."""
-    part = small_campaign.FEW.replace("realisations = 4", "realisations = 3")
-    path = tmp_path / "part.toml"
-    path.write_text(part, encoding="utf-8")
-    assert small_campaign.run(path, tmp_path / "part.zarr", "--workers", 1)[0] == 0
-    few = campaign.read_plan(path)
+    few = plan_of(tmp_path, small_campaign.FEW.replace("realisations = 4", "realisations = 3"))
+    with cluster_here(n_workers=1, threads_per_worker=1) as cluster:
+        campaign.run(few, tmp_path / "part.zarr", scheduler=cluster.scheduler_address)
     files = []
     for name, source in (("again", tmp_path / "part.zarr"), ("whole", store)):
         files.append(tmp_path / f"{name}.nc")
@@ -133,10 +128,11 @@ def test_data_that_are_damaged_or_missing_are_refused(plan, data):
         read_groups(data, plan)
 
 
-def test_a_reduction_says_what_is_wrong_in_one_line(tmp_path):
-    command = [sys.executable, "-m", "studies", "reduce", "area", str(tmp_path / "none.zarr")]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr.startswith("error: ")
-    assert "does not exist" in done.stderr
-    assert done.stderr.count("\n") == 1
+def test_a_reduction_says_what_is_wrong_in_one_line(tmp_path, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["reduce", "area", str(tmp_path / "none.zarr")])
+    assert ended.value.code == 2
+    said = capsys.readouterr().err
+    assert said.startswith("error: ")
+    assert "does not exist" in said
+    assert said.count("\n") == 1

@@ -100,15 +100,23 @@ def test_first_loading_is_the_same_at_once_or_in_steps():
     assert leaks[1] == pytest.approx(leaks[0], rel=1e-4)
 
 
-@pytest.mark.slow
-def test_a_run_goes_on_where_it_was_cut_off_whatever_the_processes(tmp_path):
+@pytest.mark.parametrize("processes", [1, 2])
+def test_a_run_goes_on_where_it_was_cut_off_whatever_the_processes(
+    tmp_path, monkeypatch, processes
+):
+    if processes == 1:  # in which bodies may be made up
+
+        def made_up(case, number):
+            return {"waves": case.waves, "permeance_x": [case.hardness / 3, number / 3]}
+
+        monkeypatch.setattr("studies.sealing.run.measured", made_up)
     bodies = [(replace(SMALL, hardness=hardness), i) for i in (0, 1) for hardness in (FULL, WEAK)]
     whole, cut = tmp_path / "out" / "whole.jsonl", tmp_path / "cut.jsonl"
     run(bodies, whole)
     lines = whole.read_text("utf-8").splitlines(keepends=True)
     assert list(Data.of(lines).bodies) == bodies
     cut.write_text(lines[0] + lines[1][:200], encoding="utf-8")
-    run(bodies, cut, processes=2)
+    run(bodies, cut, processes)
     assert cut.read_bytes() == whole.read_bytes()
 
 

@@ -102,12 +102,12 @@ class Toy:
 
 
 @pytest.fixture(scope="module")
-def toy(tmp_path_factory):
+def toy(two_workers, tmp_path_factory):
     folder = tmp_path_factory.mktemp("studies") / "toy"
     folder.mkdir()
     found = Toy(folder)
     store = folder / "toy.zarr"
-    campaign.run(found.reduced.plan, store)
+    campaign.run(found.reduced.plan, store, scheduler=two_workers)
     found.reduced.reduce(store)
     return found
 
