@@ -1,8 +1,11 @@
-"""A Dask scheduler and workers as processes of their own, on loopback."""
+"""Dask schedulers and workers on loopback: as processes of their own, or all in this process."""
 
+import logging
 import subprocess
 import sys
 import time
+
+from distributed import LocalCluster
 
 from reference import patience
 
@@ -31,4 +34,16 @@ def start_worker(address, *arguments, **options):
     command = [sys.executable, "-m", "dask", "worker", address, "--no-dashboard", "--no-nanny"]
     return subprocess.Popen(
         [*command, *arguments], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **options
+    )
+
+
+def cluster_here(**size):
+    """Return a cluster in this process, for what does not ask where cases are computed."""
+    return LocalCluster(
+        **size,
+        processes=False,
+        protocol="tcp",
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+        silence_logs=logging.CRITICAL,
     )

@@ -95,15 +95,15 @@ def run(plan, store, *arguments, **options):
     return finish(start(plan, store, *arguments, **options))
 
 
-def with_first_results(monkeypatch, act):
+def with_first_results(monkeypatch, act, ensemble=None):
     """Act once, as soon as a command in this process has written the first results of a campaign.
 
-    The command goes on afterwards, so that nothing depends on how long it takes.
+    Or those of an ensemble. The command goes on afterwards: nothing depends on how long it takes.
     """
     to_come = [act]
 
     def progress(name, done, failed, total):
-        if done and to_come:
+        if done and to_come and ensemble in (None, name):
             to_come.pop()()
 
     monkeypatch.setattr(

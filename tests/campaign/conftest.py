@@ -1,12 +1,9 @@
 """Finished campaigns, and Dask clusters of which some may be disturbed."""
 
-import logging
-
 import dask
 import pytest
-from distributed import LocalCluster
 
-from dask_processes import start_scheduler, start_worker
+from dask_processes import cluster_here, start_scheduler, start_worker
 from roughline import campaign
 from roughline.computing import fft
 from small_campaign import FEW, PLAN, tree
@@ -129,14 +126,3 @@ def as_many_threads():
     before = fft.threads()
     yield
     fft.set_threads(before)
-
-
-def cluster_here(**size):
-    return LocalCluster(
-        **size,
-        processes=False,
-        protocol="tcp",
-        host="127.0.0.1",
-        dashboard_address="127.0.0.1:0",
-        silence_logs=logging.CRITICAL,
-    )

@@ -6,7 +6,6 @@ between two of their batches; larger ones run in a process of their own.
 
 import contextlib
 import os
-import resource
 import shutil
 import signal
 import subprocess
@@ -25,6 +24,7 @@ from roughline import campaign
 from roughline.campaign.cluster import interrupts_held_back
 from roughline.campaign.cost import chunk_shape
 from roughline.errors import ClusterError
+from short_files import short_files, shorten_files
 from small_campaign import finish, hear_interrupts, run, start, tree, with_first_results
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
@@ -70,8 +70,19 @@ def workers_of(process):
 
 
 def is_worker(child, process):
-    command = " ".join(child.cmdline())
-    return "spawn_main" in command or ("forkserver" in command and child.ppid() != process)
+    try:
+        command = " ".join(child.cmdline())
+        return "spawn_main" in command or ("forkserver" in command and child.ppid() != process)
+    except psutil.Error:  # it has just ended
+        return False
+
+
+def kill_a_worker(process):
+    deadline = time.monotonic() + patience()
+    while not (found := workers_of(process)):
+        assert time.monotonic() < deadline, "no worker"
+        time.sleep(0.02)
+    found[0].kill()
 
 
 @pytest.fixture
@@ -125,7 +136,7 @@ def test_workers_killed_and_another_campaign_on_the_same_store(
         code, _, err = invoke("campaign", "run", plan, "--store", store)
         assert code == 2
         assert "is in use by another campaign: wait for it to end" in err
-        workers_of(process)[0].kill()
+        kill_a_worker(process)
 
     workers = () if size == "many" else ("--workers", 1)
     code, out, err = disturbed(store, disturb, *workers, at=(2, 5))
@@ -325,34 +336,18 @@ def test_files_that_may_not_grow(
     """The same where no disk can be mounted: the system refuses to write on."""
     store = tmp_path / "store"
     if where == "here":
-        with short_files():
+        with short_files(1500):
             code, _, err = invoke(
                 *("campaign", "run", few_plan_file, "--store", store, "--scheduler", two_workers)
             )
     else:
-        code, _, err = run(few_plan_file, store, "--workers", 1, preexec_fn=shorten_files)
+        code, _, err = run(
+            few_plan_file, store, "--workers", 1, preexec_fn=partial(shorten_files, 1500)
+        )
     assert code == 2
     assert "cannot write to" in err
     assert "what is done is kept" in err
     resumed(few_plan_file, few_undisturbed, two_workers, store)
-
-
-def shorten_files():
-    """Refuse to write on in files of this process, instead of ending it."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (1500, resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
-
-
-@contextlib.contextmanager
-def short_files():
-    """Write short files only, within a context."""
-    heard, limit = signal.getsignal(signal.SIGXFSZ), resource.getrlimit(resource.RLIMIT_FSIZE)
-    shorten_files()
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limit)
-        signal.signal(signal.SIGXFSZ, heard)
 
 
 def test_a_script_without_a_guard(few_plan_file, tmp_path):

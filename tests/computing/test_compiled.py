@@ -9,27 +9,33 @@ import pytest
 
 from roughline.computing import compiled
 
-PROGRAM = """
-import time, roughline as rl
+ONE_LOOP = """
+import numpy as np
+from roughline.halfspace.operators.grid_nodes import GridNodes
+GridNodes.of(np.arange(3), (2, 2))
+"""
+PRESS = """
+import roughline as rl
 rl.press(rl.Surface([[0.0, 1.0], [0.5, 0.2]], (1, 1)), E_star=1.0, forces=[0.1])
+"""
+COUNT = """
 from roughline.halfspace.operators.grid_nodes import _list_rows
 stats = _list_rows.stats
 print(sum(stats.cache_hits.values()), sum(stats.cache_misses.values()))
 """
 
 
-def hits_and_misses(cache: Path) -> list[int]:
+def hits_and_misses(program: str, cache: Path) -> list[int]:
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(cache)}
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM], env=environment, capture_output=True, text=True, check=True
-    )
+    call = [sys.executable, "-c", program + COUNT]
+    done = subprocess.run(call, env=environment, capture_output=True, text=True, check=True)
     return [int(word) for word in done.stdout.split()]
 
 
-@pytest.mark.slow
-def test_a_second_process_does_not_compile_again(tmp_path):
-    assert hits_and_misses(tmp_path)[1] > 0
-    hits, misses = hits_and_misses(tmp_path)
+@pytest.mark.parametrize("program", [ONE_LOOP, PRESS], ids=["one loop", "press"])
+def test_a_second_process_does_not_compile_again(program, tmp_path):
+    assert hits_and_misses(program, tmp_path)[1] > 0
+    hits, misses = hits_and_misses(program, tmp_path)
     assert hits > 0
     assert misses == 0
 

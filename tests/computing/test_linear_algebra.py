@@ -5,6 +5,7 @@ from threading import Barrier, Thread
 import scipy.linalg  # noqa: F401  loads the library
 from threadpoolctl import threadpool_info
 
+from reference import patience
 from roughline.computing.linear_algebra import on_one_thread
 
 
@@ -19,13 +20,13 @@ def test_the_first_that_ends_leaves_the_last_on_one_thread():
 
     def first():
         with on_one_thread():
-            both_at_work.wait(10)
-        one_has_ended.wait(10)
+            both_at_work.wait(patience())
+        one_has_ended.wait(patience())
 
     def last():
         with on_one_thread():
-            both_at_work.wait(10)
-            one_has_ended.wait(10)
+            both_at_work.wait(patience())
+            one_has_ended.wait(patience())
             seen.append(threads())
 
     before = threads()
@@ -33,7 +34,7 @@ def test_the_first_that_ends_leaves_the_last_on_one_thread():
     for each in at_work:
         each.start()
     for each in at_work:
-        each.join(20)
+        each.join(patience())
     assert seen == [{1}]
     assert threads() == before
 
