@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from reference import patience
 from roughline.computing import fft, memory
 from roughline.computing.cores import available_cores
 from roughline.contact.curve import Curve
@@ -226,7 +227,7 @@ def stiffness_of(seed: int) -> float:
 def test_forked_processes_have_threads_of_their_own():
     here = [stiffness_of(seed) for seed in range(2)]  # starts this process's threads
     with multiprocessing.get_context("fork").Pool(2) as pool:
-        assert pool.map_async(stiffness_of, range(2)).get(timeout=60) == here
+        assert pool.map_async(stiffness_of, range(2)).get(timeout=patience()) == here
 
 
 def test_precisions_agree_to_their_tolerance():

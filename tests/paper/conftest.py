@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from dask_processes import cluster_here
 from roughline import campaign
+from roughline.computing import fft
 from roughline.paper.gallery import Gallery
 from roughline.paper.page import write_page
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED, paper_plan
@@ -34,19 +36,39 @@ def small_gallery(small_plan):
     return replace(Gallery.of(small_plan, (2.0, 3.0)), n_line=128)
 
 
-@pytest.fixture(scope="session")
-def finished(small_plan, small_gallery, tmp_path_factory):
+@pytest.fixture(scope="package")
+def two_workers():
+    """Address of a cluster in this process."""
+    before = fft.threads()
+    with cluster_here(n_workers=2, threads_per_worker=1) as cluster:
+        yield cluster.scheduler_address
+    fft.set_threads(before)
+
+
+@pytest.fixture(scope="package")
+def finished(small_plan, small_gallery, two_workers, tmp_path_factory):
     path = tmp_path_factory.mktemp("finished") / "store"
-    campaign.run(small_plan, path)
+    campaign.run(small_plan, path, scheduler=two_workers)
     small_gallery.draw(path)
     return path
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def results(finished):
     return results_of_store(campaign.Store(finished), name="in small", command="none")
 
 
-@pytest.fixture(scope="session")
-def report(results, tmp_path_factory):
-    return write_page(results, tmp_path_factory.mktemp("report"))
+@pytest.fixture(scope="package")
+def reports():
+    """Reports that are written already, by the figures that are drawn in them."""
+    return {}
+
+
+@pytest.fixture(params=["one figure", "all figures"])
+def report(request, results, reports, only_drawn, tmp_path_factory):
+    """Return the page of the study in small; figures that are not drawn are blank."""
+    if request.param == "one figure":
+        only_drawn("figure_3")
+    if request.param not in reports:
+        reports[request.param] = write_page(results, tmp_path_factory.mktemp("report"))
+    return reports[request.param]

@@ -47,11 +47,12 @@ LINE = {"model": "reduced", "boundary": "none", "n": 4096}
 
 
 @pytest.fixture(scope="module")
-def own_store(tmp_path_factory):
+def own_store(two_workers, tmp_path_factory):
     """A finished store of a plan of one's own."""
     folder = tmp_path_factory.mktemp("own")
     (folder / "own.toml").write_text(OWN)
-    campaign.run(campaign.read_plan(folder / "own.toml"), folder / "own.zarr")
+    plan = campaign.read_plan(folder / "own.toml")
+    campaign.run(plan, folder / "own.zarr", scheduler=two_workers)
     return folder / "own.zarr"
 
 
@@ -111,7 +112,6 @@ def test_windows_reach_as_far_as_the_loads():
     assert Windows().within(np.array([1.0, 2.0]), np.array([1e-3, 10.0])) == Windows()
 
 
-@pytest.mark.slow
 def test_any_plan_of_both_models_becomes_the_report(own_store, tmp_path, invoke, only_drawn):
     only_drawn()
     plan = own_store.with_suffix(".toml")
@@ -157,7 +157,6 @@ def test_the_command_that_repeats_a_study_is_told():
     assert of_store.command == "roughline paper --store=mine.zarr"
 
 
-@pytest.mark.slow
 def test_a_store_that_has_more_than_the_plan_gives_the_plan_s_part(own_store):
     plan = campaign.read_plan(own_store.with_suffix(".toml"))
     part = replace(
@@ -179,7 +178,6 @@ def test_a_store_that_has_more_than_the_plan_gives_the_plan_s_part(own_store):
     assert some.full.stiffness.sel(fractal_dimension=2.25).equals(wanted)
 
 
-@pytest.mark.slow
 def test_a_store_that_is_not_finished_is_refused(own_store, invoke, tmp_path, monkeypatch):
     dataset = campaign.Store.dataset
 

@@ -62,14 +62,23 @@ def test_the_data_behind_the_figures_are_there(report, results):
 
 
 def test_equal_results_give_equal_reports(report, results, tmp_path):
+    """The pictures in the page, too: they are the same bytes as the files of the figures."""
     again = write_page(results, tmp_path)
     for name in ("report.html", "figures/figure_3.pdf", "figures/figure_1.png", "data/full.csv"):
         assert (tmp_path / name).read_bytes() == (report.parent / name).read_bytes()
     assert again.name == "report.html"
 
 
-def test_the_published_page_has_grids_and_times(results, only_drawn, tmp_path):
-    only_drawn("grid_convergence", "models_compared")  # by grids and lines that others have not
+@pytest.mark.parametrize(
+    "drawn",
+    [
+        pytest.param((), id="blank"),
+        # by grids and lines that others have not
+        pytest.param(("grid_convergence", "models_compared"), id="drawn"),
+    ],
+)
+def test_the_published_page_has_grids_and_times(results, only_drawn, tmp_path, drawn):
+    only_drawn(*drawn)
     more = replace(
         results,
         gallery=None,

@@ -12,10 +12,11 @@ from pathlib import Path
 import pytest
 
 import roughline as rl
+from reference import patience
 from roughline import campaign
 from roughline.paper import plan as plans
 from roughline.paper.gallery import gallery_in
-from small_campaign import hear_interrupts, tree
+from small_campaign import hear_interrupts, tree, with_first_results
 
 
 def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, small_gallery, tmp_path):
@@ -46,30 +47,57 @@ def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, small_gallery,
     assert tree(finished) == before
 
 
-def test_an_interrupt_keeps_what_is_done(tmp_path, invoke, only_drawn, monkeypatch):
+@pytest.fixture(params=["here", "there"])
+def interrupted(request, invoke, two_workers, monkeypatch):
+    """Interrupt a study at its first surfaces; how it ended, and what its command is given."""
+
+    def here(out):
+        """Of some small bodies, in this process."""
+        own = ("--out", out, "--scheduler", two_workers)
+        monkeypatch.setattr(plans, "paper_plan", tiny)
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        with_first_results(monkeypatch, lambda: signal.raise_signal(signal.SIGINT), "surfaces")
+        code, _, errors = invoke("paper", *own)
+        signal.signal(signal.SIGINT, before)
+        return code, errors, own
+
+    def there(out):
+        """In a process of its own, anywhere in a batch."""
+        process = subprocess.Popen(
+            [sys.executable, "-c", IN_SMALL, "paper", "--out", str(out)],
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            preexec_fn=hear_interrupts,
+        )
+        deadline = time.monotonic() + patience()
+        while not any(surfaces_in(out)) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        os.killpg(process.pid, signal.SIGINT)
+        _, errors = process.communicate(timeout=patience())
+        monkeypatch.setattr(plans, "paper_plan", in_small)
+        return process.returncode, errors, ("--out", out)
+
+    return {"here": here, "there": there}[request.param]
+
+
+def surfaces_in(out):
+    """Marks of surfaces that are done."""
+    return (out / "results.zarr" / plans.ENSEMBLE_FULL / "case_status" / "c").rglob("*")
+
+
+def test_an_interrupt_keeps_what_is_done(interrupted, tmp_path, invoke, only_drawn):
     """Ctrl-C in the middle: exit code 130, no traceback, and the next call ends the work."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", IN_SMALL, "paper", "--out", str(tmp_path / "out")],
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=hear_interrupts,
-    )
-    store = tmp_path / "out" / "results.zarr" / plans.ENSEMBLE_FULL / "case_status" / "c"
-    deadline = time.monotonic() + 60
-    while not any(store.rglob("*")) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
-    assert process.returncode == 130
+    out = tmp_path / "out"
+    code, errors, own = interrupted(out)
+    assert code == 130
     assert "what is done is kept" in errors
     assert "Traceback" not in errors
-    assert sum(1 for path in store.rglob("*") if path.is_file()) >= 1
+    assert any(path.is_file() for path in surfaces_in(out))
     only_drawn()
-    monkeypatch.setattr(plans, "paper_plan", in_small)
-    code, _, errors = invoke("paper", "--out", tmp_path / "out")
+    code, _, errors = invoke("paper", *own)
     assert code == 0, errors
-    assert (tmp_path / "out" / "report.html").exists()
+    assert (out / "report.html").exists()
 
 
 IN_SMALL = f"""
@@ -85,12 +113,21 @@ paper_plan = plans.paper_plan
 
 def in_small(scale, seed):
     """The paper's plan on grids so small that it takes some seconds."""
-    plan = paper_plan(scale, seed)
     sizes = {"lines": (2**13, 10), "lines-of-surfaces": (2**13, 10), "surfaces": (64, 8)}
+    return cut(paper_plan(scale, seed), sizes, step=2)
+
+
+def tiny(scale, seed):
+    """The paper's plan on grids so small that it takes less than a second."""
+    sizes = {"lines": (2**8, 4), "lines-of-surfaces": (2**8, 4), "surfaces": (16, 4)}
+    return cut(paper_plan(scale, seed), sizes, step=5)
+
+
+def cut(plan, sizes, step):
     ensembles = tuple(
         replace(
             each,
-            fractal_dimensions=each.fractal_dimensions[::2],
+            fractal_dimensions=each.fractal_dimensions[::step],
             n=sizes[each.name][0],
             realisations=sizes[each.name][1],
             cutoff_ratio=None,
