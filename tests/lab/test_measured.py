@@ -11,6 +11,7 @@ import sys
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
+from types import SimpleNamespace
 from zipfile import ZipFile
 
 import numpy as np
@@ -66,8 +67,8 @@ def heights_of(header, arrays):
 class Page:
     """A session with its files, which asks as a page does."""
 
-    def __init__(self, folder):
-        self.folder = folder
+    def __init__(self, folder, examples):
+        self.folder, self._examples = folder, examples
         self.files, self.names = {}, {}
         self.steps = []
 
@@ -78,6 +79,11 @@ class Page:
         shutil.copyfile(file, path)
         self.files[key], self.names[str(path)] = str(path), name or file.name
         return {"file": key}
+
+    def example(self, key, folder):
+        """Put the file of an example into a folder; it is written once, which takes a while."""
+        folder.mkdir(exist_ok=True)
+        shutil.copyfile(path_of(key, self._examples), folder / EXAMPLES[key].file)
 
     @property
     def session(self):
@@ -90,6 +96,8 @@ class Page:
         }
 
     def outcome(self, task, state, **others):
+        if (key := state.get("example")) in EXAMPLES:
+            self.example(key, self.folder / "results")
         arguments = {"state": state, "session": self.session, "crowded": False, **others}
         return outcome_of(
             TASKS[f"measured.{task}"],
@@ -120,15 +128,27 @@ class Page:
         return sentence, at
 
 
+@pytest.fixture(scope="module")
+def examples(tmp_path_factory):
+    """Where the files of examples lie that were written."""
+    return tmp_path_factory.mktemp("examples")
+
+
 @pytest.fixture
-def page(tmp_path):
-    return Page(tmp_path)
+def page(tmp_path, examples):
+    return Page(tmp_path, examples)
+
+
+@pytest.fixture
+def few_loads(monkeypatch):
+    """Let a whole curve have few loads, each of which takes as long as the others."""
+    monkeypatch.setattr("roughline.assessment.loads._CURVE_LOADS", 3)
 
 
 @pytest.fixture(scope="module")
-def measured_page(tmp_path_factory, topographies):
+def measured_page(tmp_path_factory, topographies, examples):
     """A page that has brought every measured file."""
-    page = Page(tmp_path_factory.mktemp("measured"))
+    page = Page(tmp_path_factory.mktemp("measured"), examples)
     page.keys = {file.name: page.bring(file) for file in topographies.iterdir()}
     return page
 
@@ -204,8 +224,13 @@ def test_answers_are_those_of_the_library(page, key):
 LEAKS = {"fluid": "helium", "inlet": "6 bar", "seal": "20 mm .. 24 mm"}
 
 
-def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page):
+@pytest.mark.parametrize("body", ["of few points", "ground"])
+def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page, rough, request, body):
     said = {"example": "ground", **PAIR, **SMALL, "loads": "50 MPa"}
+    if body == "of few points":
+        request.getfixturevalue("few_loads")
+        said = {**page.bring(rough), **PAIR, "loads": "50 MPa", "grid_error": "no"}
+        said["crop"] = "0 um, 500 um, 0 um, 500 um"
     header, arrays = page.ask("answer", {**said, **LEAKS})
     answers = {row[0]: row[1] for row in header["tables"]["measured-answers"][1]}
     assert "mbar l/s" in answers["leak rate q_pV"]
@@ -232,7 +257,7 @@ def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page):
     assert "flux" not in arrays
 
 
-def test_an_assessment_is_solved_once(page, only_drawn, monkeypatch):
+def test_an_assessment_is_solved_once(page, few_loads, only_drawn, monkeypatch):
     only_drawn()
     said = {"example": "film", **PAIR, **SMALL}
     first, _ = page.ask("answer", said)
@@ -246,8 +271,10 @@ def test_an_assessment_is_solved_once(page, only_drawn, monkeypatch):
     assert page.ask("report", said)[0]["files"]
 
 
-def test_both_models_are_compared_as_by_the_command(page):
-    said = {"example": "film"}
+@pytest.mark.parametrize("body", ["of few points", "film"])
+def test_both_models_are_compared_as_by_the_command(page, rough, body):
+    said = {"example": "film"} if body == "film" else page.bring(rough)
+    page.ask("look", said)
     source = source_of(said, page.session)
     expected = compare_models(source.path)
     header, _ = page.ask("compare", said)
@@ -310,19 +337,27 @@ def test_what_a_file_leaves_open_is_asked(measured_page):
     assert "parsnip" in error
 
 
-def test_a_file_of_which_most_is_missing_is_shown_and_can_be_allowed(measured_page):
-    said = measured_page.keys["sur-3.sur"]
-    header, arrays = measured_page.ask("look", said)
+@pytest.mark.parametrize("file", ["of few points", "sur-3.sur"])
+def test_a_file_of_which_most_is_missing_is_shown_and_can_be_allowed(page, rough, request, file):
+    if file == "of few points":
+        heights = rl.read(rough).heights.copy()
+        heights[:, :57] = np.nan
+        np.save(rough.with_suffix(".npy"), heights)
+        said = {**page.bring(rough.with_suffix(".npy")), "unit": "m", "size": "1 mm"}
+        missing, share = 57 * 64, 57 / 64
+    else:
+        page = request.getfixturevalue("measured_page")
+        said, missing, share = page.keys[file], 233009, 0.8889
+    header, arrays = page.ask("look", said)
     assert "allow more (most missing)" in header["lists"]["obstacles"][0]
-    assert np.isnan(arrays["height"]).mean() == pytest.approx(0.8889, abs=1e-4)
-    header, _ = measured_page.ask("look", {**said, "most_missing": "95 %"})
-    assert any(
-        "233009 missing points (88.89%) filled" in each for each in header["lists"]["remarks"]
-    )
+    assert np.isnan(arrays["height"]).mean() == pytest.approx(share, abs=1e-4)
+    header, _ = page.ask("look", {**said, "most_missing": "95 %"})
+    filled = f"{missing} missing points ({share:.2%}) filled"
+    assert any(filled in each for each in header["lists"]["remarks"])
 
 
-def test_an_array_needs_unit_and_size(page, tmp_path):
-    heights = rl.SelfAffine(hurst=0.8, length=1e3, rms_height=1.0).surface(64, 1).heights
+def test_an_array_needs_unit_and_size(page, few_loads, tmp_path):
+    heights = rl.SelfAffine(hurst=0.8, length=1e3, rms_height=1.0).surface(32, 1).heights
     np.save(tmp_path / "map.npy", heights)
     said = page.bring(tmp_path / "map.npy", "my <b>map</b>.npy")
     header, arrays = page.ask("look", said)
@@ -464,8 +499,13 @@ def test_bodies_and_loads_are_said_as_soon_as_they_can_be_read(page):
     assert page.refusal("bodies", said, sides=["a"])[1] == ""
 
 
-def test_no_file_that_is_taken_away_tells_where_the_upload_lay(page, tmp_path, rough):
-    said = {**page.bring(rough, "Müller <1>.nc"), **PAIR}
+@pytest.mark.parametrize("drawn", ["the curve alone", "all figures"])
+def test_no_file_that_is_taken_away_tells_where_the_upload_lay(
+    page, few_loads, tmp_path, rough, only_drawn, drawn
+):
+    if drawn == "the curve alone":
+        only_drawn("curve")
+    said = {**page.bring(rough, "Müller <1>.nc"), **PAIR, "resample": "32"}
     header, _ = page.ask("report", said)
     results = page.folder / "results"
     assert {"report.html", "report.pdf", "curve.nc"} <= header["files"].keys()
@@ -480,7 +520,9 @@ def test_no_file_that_is_taken_away_tells_where_the_upload_lay(page, tmp_path, r
         assert curve.attrs["body_file"] == "Müller <1>.nc"
 
 
-def test_the_command_repeats_the_answers(page, invoke, only_drawn, tmp_path, monkeypatch):
+def test_the_command_repeats_the_answers(
+    page, few_loads, invoke, only_drawn, tmp_path, monkeypatch
+):
     only_drawn()
     said = {
         **{"example": "ground", **PAIR, **SMALL, "outliers": "remove", "trend": "curvature"},
@@ -489,7 +531,7 @@ def test_the_command_repeats_the_answers(page, invoke, only_drawn, tmp_path, mon
     }
     header, _ = page.ask("answer", said)
     page.ask("code", said, which="command")
-    path_of("ground", tmp_path)
+    page.example("ground", tmp_path)
     monkeypatch.chdir(tmp_path)
     command = shlex.split(documents.as_command(said, ["ground-steel.x3p"]))
     code, out, errors = invoke(*command[1:], "--all")
@@ -500,10 +542,10 @@ def test_the_command_repeats_the_answers(page, invoke, only_drawn, tmp_path, mon
     assert "Contact of ground-steel.x3p" in page_html
 
 
-def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
+def test_the_lines_of_python_repeat_the_answers(page, few_loads, tmp_path, monkeypatch):
     said = {"example": "film", **PAIR, **SMALL, "crop": "0 um, 2 um, 0 um, 2 um"}
     header, _ = page.ask("code", said, which="python")
-    path_of("film", tmp_path)
+    page.example("film", tmp_path)
     monkeypatch.chdir(tmp_path)
     found = {}
     exec(header["text"], found)
@@ -532,16 +574,43 @@ WITHOUT_LOADS = {
 BY_MODULUS = {"bodies": "modulus", "E": "110 GPa", "loads": "2 MPa", "unit": "um", "size": "1 mm"}
 
 
-def run(text, which, folder):
+def run(text, which, folder, programs=Path(sys.executable).parent):
     """Run code as who takes it along does, in a folder with the files; return what it printed."""
     file = folder / f"again.{which}"
     file.write_text(text, encoding="utf-8")
     program = [sys.executable if which == "python" else "bash", str(file)]
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    path = os.pathsep.join(map(str, [programs, Path(sys.executable).parent, os.environ["PATH"]]))
     environment = {**os.environ, "PATH": path, "PYTHONIOENCODING": "utf-8", "COLUMNS": "250"}
     return subprocess.run(
         program, cwd=folder, env=environment, capture_output=True, check=False, encoding="utf-8"
     )
+
+
+@pytest.fixture
+def run_here(few_loads, invoke, only_drawn, tmp_path_factory, monkeypatch, capsys):
+    """Run code in this process, a command with the words that a shell gives it."""
+    programs = tmp_path_factory.mktemp("programs")
+    (programs / "roughline").write_text("#!/bin/sh\nprintf '%s\\0' \"$@\"\n")
+    (programs / "roughline").chmod(0o700)
+    only_drawn()
+    monkeypatch.setenv("COLUMNS", "250")
+
+    def run_in(text, which, folder):
+        monkeypatch.chdir(folder)
+        if which == "python":
+            exec(text, {})
+            return SimpleNamespace(returncode=0, stdout=capsys.readouterr().out, stderr="")
+        words = run(text, which, folder, programs).stdout.split("\0")[:-1]
+        code, out, errors = invoke(*words)
+        return SimpleNamespace(returncode=code, stdout=out, stderr=errors)
+
+    return run_in
+
+
+@pytest.fixture(params=["here", "in processes"])
+def run_code(request):
+    """Run code in this process, or in processes of its own."""
+    return run if request.param == "in processes" else request.getfixturevalue("run_here")
 
 
 def printed(out, result):
@@ -578,7 +647,7 @@ def is_told(figure, out):
         ("d=e é.npy", BY_MODULUS),
     ],
 )
-def test_code_runs_as_it_is_and_gives_the_same(page, tmp_path, name, said):
+def test_code_runs_as_it_is_and_gives_the_same(page, run_code, tmp_path, name, said):
     spectrum = rl.SelfAffine(hurst=0.7, length=400, rms_height=1, q_roll=0.06)
     heights = spectrum.surface(32, 3).heights.copy()
     heights[np.random.default_rng(1).random(heights.shape) < 0.02] = np.nan
@@ -589,7 +658,7 @@ def test_code_runs_as_it_is_and_gives_the_same(page, tmp_path, name, said):
     answered, _ = page.ask("answer", said)
     result = assessed({"state": said, "session": page.session}, lambda done, total: None)
     done = {
-        which: run(page.ask("code", said, which=which)[0]["text"], which, folder)
+        which: run_code(page.ask("code", said, which=which)[0]["text"], which, folder)
         for which in ("python", "command")
     }
     assert all(each.returncode == 0 for each in done.values()), done
@@ -604,24 +673,24 @@ def test_code_runs_as_it_is_and_gives_the_same(page, tmp_path, name, said):
         assert is_told(figure, out)
 
 
-def test_code_of_an_example_brings_its_file(page, tmp_path):
+def test_code_of_an_example_brings_its_file(page, run_code, tmp_path):
     said = {"example": "shaft", **PAIR}
     answered, _ = page.ask("answer", said)
     for which in ("python", "command"):
         folder = tmp_path / which
         folder.mkdir()
-        done = run(page.ask("code", said, which=which)[0]["text"], which, folder)
+        done = run_code(page.ask("code", said, which=which)[0]["text"], which, folder)
         assert done.returncode == 0, done.stderr
         assert (folder / EXAMPLES["shaft"].file).exists()
     assert is_told(answered["figures"]["answers"][0], done.stdout)
 
 
-def test_code_of_several_maps_of_which_one_is_refused_runs(page, part, tmp_path):
+def test_code_of_several_maps_of_which_one_is_refused_runs(page, part, run_code, tmp_path):
     keys, _ = part
     said = {"file": ",".join(keys.values()), **PAIR, "grid_error": "no"}
     figures = page.ask("answer", said)[0]["figures"]["part"]
     for which in ("python", "command"):
-        done = run(page.ask("code", said, which=which)[0]["text"], which, tmp_path)
+        done = run_code(page.ask("code", said, which=which)[0]["text"], which, tmp_path)
         assert done.returncode == (0 if which == "python" else 1), done.stderr  # as it says itself
         assert "broken.x3p is damaged" in " ".join((done.stdout + done.stderr).split())
     assert all(is_told(each, done.stdout) for each in figures)
@@ -642,7 +711,9 @@ def test_a_folded_step_names_theories_as_its_boxes_do(page):
 COATED = {"first": "gold 20 µm on nickel 40 µm on copper", "second": "steel", "loads": "2 MPa"}
 
 
-def test_a_coated_body_is_typed_into_the_control_of_its_material(page, tmp_path, monkeypatch):
+def test_a_coated_body_is_typed_into_the_control_of_its_material(
+    page, few_loads, tmp_path, monkeypatch
+):
     said = {"example": "ground", **SMALL, **COATED, "elastic": "yes"}
     header, _ = page.ask("bodies", said, sides=[1e-3, 1e-3])
     assert header["refused"] == {}
@@ -660,7 +731,7 @@ def test_a_coated_body_is_typed_into_the_control_of_its_material(page, tmp_path,
         "old 20 µm on nickel 40 µm on copper, against steel under"
         in answered["words"]["answers-lead"]
     )
-    path_of("ground", tmp_path)
+    page.example("ground", tmp_path)
     monkeypatch.chdir(tmp_path)
     header, _ = page.ask("code", said, which="python")
     assert "materials=('gold 20 µm on nickel 40 µm on copper', 'steel')" in header["text"]
@@ -758,8 +829,9 @@ def test_the_page_says_at_which_pressure_what_yields(page):
     assert ["yield", "left out"] in header["tables"]["measured-bodies"][1]
 
 
-def test_a_joint_is_answered_for_with_its_area(page):
+def test_a_joint_is_answered_for_with_its_area(page, few_loads):
     said = {"example": "film", **PAIR, **SMALL, "loads": "1 kN", "joint_area": "1 cm^2"}
+    page.ask("look", said)
     expected = rl.assess(question_of(said, source_of(said, page.session)))
     assert expected.question.joint == pytest.approx(1e-4)
     header, _ = page.ask("answer", said)
@@ -800,7 +872,9 @@ def test_maps_of_a_part_are_checked_one_by_one(page, part):
     assert RANDOM not in str(header)
 
 
-def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, part, monkeypatch):
+def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(
+    page, part, few_loads, monkeypatch
+):
     keys, paths = part
     said = {"file": ",".join(keys.values()), **PAIR, "loads": "2 MPa; 20 MPa", "grid_error": "no"}
     header, arrays = page.ask("answer", said, map=2)
@@ -842,7 +916,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
     )
 
 
-def test_the_report_of_a_part_comes_with_all_of_its_maps(page, part, monkeypatch):
+def test_the_report_of_a_part_comes_with_all_of_its_maps(page, part, few_loads, monkeypatch):
     keys, _ = part
 
     def written(part, folder, command):
