@@ -7,8 +7,8 @@ from lab_in_browser import Pages, RunningLab
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory):
-    """Return a lab on a free port; at its end it must have stopped by Ctrl-C without a trace."""
-    running = RunningLab(tmp_path_factory.mktemp("lab") / "log")
+    """Return a lab that takes small files; at its end it must stop by Ctrl-C without a trace."""
+    running = RunningLab(tmp_path_factory.mktemp("lab") / "log", "--max-upload", "5")
     yield running
     code, said = running.close()
     assert code == 0
@@ -23,12 +23,25 @@ def pages(browser, lab):
     opened.close()
 
 
-@pytest.fixture
-def page(pages):
-    """Open a page of its own, as one opens the lab."""
-    page = pages.open()
-    yield page
-    page.context.close()
+@pytest.fixture(scope="module")
+def tab(pages):
+    """Return what opens an address as in a new tab, in one that is used again: it is soon there.
+
+    Before a file comes that is late, by its pattern, something may be done to the page.
+    """
+    page = pages.blank()
+    page.add_init_script("sessionStorage.clear()")
+    size = page.viewport_size
+
+    def opened(query, late=None):
+        page.unroute_all()
+        page.set_viewport_size(size)
+        if late:
+            page.route(late[0], lambda route: (late[1](page), route.continue_()))
+        page.goto(pages.address + query)
+        return page
+
+    return opened
 
 
 @pytest.fixture(autouse=True)

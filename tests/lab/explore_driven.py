@@ -1,23 +1,22 @@
 """The view Explore as a test drives it: what is drawn, what is said, what is set."""
 
-import json
-import time
 from urllib.parse import parse_qsl, urlsplit
 
 SMALL = "?view=explore&v=1&D_f=2.4&seed=3&n=64&F=0.2&cutoff=0.0625"
 
+RARE = 300  # between two changes of the address [ms]
 
-def drawn(page, plot="contact", seconds=60, **wanted):
+_DRAWN = """([plot, wanted]) => {
+    const text = document.querySelector(`#plot-explore-${plot}`)?.dataset.shown;
+    if (!text) return false;
+    const {numbers, ...others} = JSON.parse(text), said = {...others, ...numbers};
+    return Object.entries(wanted).every(([key, value]) => said[key] === value) && said;
+}"""
+
+
+def drawn(page, plot="contact", **wanted):
     """Wait until the picture of a plot is of these numbers (or `points`, `what`) at rest."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        text = page.locator(f"#plot-explore-{plot}").get_attribute("data-shown")
-        said = json.loads(text) if text else {}
-        said |= said.get("numbers", {})
-        if all(said.get(key) == value for key, value in wanted.items()) and said:
-            return said
-        page.wait_for_timeout(20)
-    raise TimeoutError(f"{wanted} is not drawn: {text}")
+    return page.wait_for_function(_DRAWN, arg=[plot, wanted]).json_value()
 
 
 def settled(page, **wanted):
@@ -77,8 +76,8 @@ def typed(page, key, text):
 
 
 def address(page):
-    """Return the parameters of the address, which the page writes rarely."""
-    page.wait_for_timeout(400)
+    """Return the parameters of the address, when the page has written what is set."""
+    page.evaluate("(rare) => new Promise((done) => setTimeout(done, rare))", RARE)  # timers queue
     return dict(parse_qsl(urlsplit(page.evaluate("() => location.href")).query))
 
 

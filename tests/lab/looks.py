@@ -3,6 +3,8 @@
 import time
 from pathlib import Path
 
+from reference import patience
+
 _QUESTIONS = (Path(__file__).parent / "looks.js").read_text(encoding="utf-8")
 _AA = 4.5  # least contrast of texts
 
@@ -22,7 +24,7 @@ def faint(page):
 def cut_off(page, view, width, height=1100):
     """Make the window so large; return what is then cut off, when all has followed."""
     page.set_viewport_size({"width": width, "height": height})
-    end = time.monotonic() + 10
+    end = time.monotonic() + patience()
     while True:
         found = asked(page, "cut", view)
         beyond = asked(page, "width") - width

@@ -5,6 +5,8 @@ import threading
 from contextlib import suppress
 from urllib.parse import urlsplit
 
+from reference import patience
+
 
 class Relay:
     """Hands bytes on to a lab.
@@ -16,7 +18,7 @@ class Relay:
     """
 
     def __init__(self, address):
-        self._open, self._is_down = set(), False
+        self._open, self._tasks, self._is_down = set(), set(), False
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._thread.start()
@@ -51,18 +53,25 @@ class Relay:
         self._loop.close()
 
     def _call(self, doing):
-        return asyncio.run_coroutine_threadsafe(doing, self._loop).result(10)
+        return asyncio.run_coroutine_threadsafe(doing, self._loop).result(patience())
 
     async def _cut(self):
         for writer in self._open:
             writer.transport.abort()
-        await asyncio.sleep(0.05)
+        await asyncio.gather(*self._tasks)
 
     async def _relay(self, reader, writer):
+        task = asyncio.current_task()
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
         if self._is_down:
             writer.transport.abort()
             return
         there, back = await asyncio.open_connection("127.0.0.1", self._port)
+        if self._is_down:  # since it was asked for
+            writer.transport.abort()
+            back.transport.abort()
+            return
         self._open |= {writer, back}
         await asyncio.gather(self._pass(reader, back), self._pass(there, writer))
         self._open -= {writer, back}
