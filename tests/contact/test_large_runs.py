@@ -86,12 +86,19 @@ LAYERS = {
 }
 
 
-@pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("kind", LAYERS)
-def test_what_layers_take_in_addition_is_known_before(kind, periodic):
+LARGE = dict.fromkeys(LAYERS, (512, (1e-3, 0.1, 1.0))) | {"plate": (192, (0.1,))}
+
+
+@pytest.mark.parametrize(
+    ("kind", "periodic", "n", "shares"),
+    [
+        ("thin", False, 256, (1e-3,)),
+        *((kind, periodic, *large) for kind, large in LARGE.items() for periodic in (False, True)),
+    ],
+)
+def test_what_layers_take_in_addition_is_known_before(kind, periodic, n, shares):
     """By all arrays that are held at once, under light loads and heavy ones."""
-    half_space, slow = replace(LAYERS[kind], periodic=periodic), kind == "plate"
-    n, shares = (192, [0.1]) if slow else (512, [1e-3, 0.1, 1.0])
+    half_space = replace(LAYERS[kind], periodic=periodic)
     surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=12.0).surface(n, 7)
     most = rl.press(surface, half_space=half_space, n_loads=2, throw=False).force[-1]
     beside = bytes_of_layers(half_space, surface.shape, surface.spacing)
