@@ -63,6 +63,7 @@ def test_the_effect_of_filling_is_that_on_the_loads_that_were_asked_for(holed):
             reading=reading,
             ask=ask,
             grid_error=False,
+            elastic=True,
         )
         changes += [note for note in result.notes if "filled by nearest instead" in note]
     assert changes[0] == changes[1]

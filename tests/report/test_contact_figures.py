@@ -24,6 +24,7 @@ from roughline.report.fields_of_load import (
 )
 from roughline.units import engineering
 
+PAIR = ("steel", "copper")
 FLOW = ("critical-junction", "bruggeman")  # theories of the flow
 
 
@@ -34,10 +35,17 @@ def small():
     return replace(surface, unit="m")
 
 
-def test_one_area_is_told_everywhere(rough):
-    pressed = rl.assess(
-        rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], ask=rl.WholeCurve())
+@pytest.fixture(scope="module")
+def pressed():
+    """What a report on a surface of 64 x 64 points shows."""
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    loads = ["1 N", "10 N"]
+    return rl.assess(
+        rl.Question(replace(surface, unit="m"), PAIR, loads=loads, ask=rl.WholeCurve())
     )
+
+
+def test_one_area_is_told_everywhere(pressed):
     axes = Figure().subplots()
     draw_last_contact(axes, pressed.body, pressed)
     area = pressed.answers["contact_area_fraction"]
@@ -84,10 +92,7 @@ def test_theories_are_drawn_in_the_units_of_the_curve():
     assert theory.get_ydata() / curve.get_ydata() == pytest.approx(ratio, rel=1e-9)
 
 
-def test_gap_pressure_and_patches_are_those_of_the_load_that_is_shown(rough):
-    pressed = rl.assess(
-        rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], ask=rl.WholeCurve())
-    )
+def test_gap_pressure_and_patches_are_those_of_the_load_that_is_shown(pressed):
     fields = pressed.fields
     _, rows = fields_table(fields)
     told = dict(rows)
@@ -107,7 +112,7 @@ def test_gap_pressure_and_patches_are_those_of_the_load_that_is_shown(rough):
 
 def test_the_report_has_them_and_a_line_scan_has_none(rough, only_drawn, tmp_path):
     only_drawn()
-    pressed = rl.assess(rl.Question(rough, ("steel", "copper"), loads="10 N", fields=True))
+    pressed = rl.assess(rl.Question(rough, PAIR, loads="10 N", fields=True))
     files = write_contact_report(pressed, tmp_path / "map", "")
     assert {"distributions.png", "distributions.pdf"} <= {each.name for each in files}
     page = (tmp_path / "map" / "report.html").read_text(encoding="utf-8")
@@ -118,7 +123,7 @@ def test_the_report_has_them_and_a_line_scan_has_none(rough, only_drawn, tmp_pat
 
 def test_the_flow_is_that_of_the_load_that_is_shown(small, only_drawn, tmp_path):
     only_drawn()
-    asked = rl.Question(small, ("steel", "copper"), loads=["0.3 N", "3 N"])
+    asked = rl.Question(small, PAIR, loads=["0.3 N", "3 N"])
     pressed = rl.assess(replace(asked, ask=[rl.Fluid("water")]))
     along_x, along_y = pressed.flows
     assert (along_x.along, along_y.along) == ("x", "y")
@@ -143,7 +148,7 @@ def test_the_flow_that_is_shown_is_the_one_that_is_answered(small, only_drawn, t
     """A map that was cut out leaks as a part of a larger surface, in the answer and the picture."""
     only_drawn()
     cut_out = replace(small, is_cut_out=True)
-    asked = rl.Question(cut_out, ("steel", "copper"), loads=["3 N", "0.3 N"])
+    asked = rl.Question(cut_out, PAIR, loads=["3 N", "0.3 N"])
     pressed = rl.assess(replace(asked, ask=rl.Fluid("water")))
     assert pressed.fields_of_gap is not pressed.fields
     largest = pressed.asked[pressed.largest]
