@@ -2,8 +2,7 @@
 
 import math
 import re
-import signal
-from urllib.parse import urlencode, urlsplit
+from urllib.parse import urlencode
 
 import numpy as np
 import pytest
@@ -11,6 +10,7 @@ from matplotlib import image as pictures
 
 import roughline as rl
 from lab.explore_driven import SMALL, address, drawn, image, sentence, settled, strip, table, typed
+from lab.relay import Relay
 from lab_in_browser import NO_LINE, Pages, RunningLab
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
@@ -48,15 +48,16 @@ def box_of(page, selector):
     return place.bounding_box()
 
 
-def test_it_opens_on_a_surface_of_512_points_solved(pages):
-    page = pages.open()
-    settled(page, points=512, D_f=2.2, F=0.1)
-    surface = spectrum(2.2, 1 / 256).surface(512, 7)
+@pytest.mark.parametrize(("query", "points"), [("", 512), ("?view=explore&v=1&n=64", 64)])
+def test_it_opens_on_a_surface_that_is_solved(pages, query, points):
+    page = pages.open(query)
+    drawn(page, points=points, D_f=2.2, F=0.1)
+    said = re.compile(rf"^{points}², \d+ convolutions, residual \S+ certified, .* s$")
+    page.locator("#explore [data-status]").filter(has_text=said).wait_for()
+    surface = spectrum(2.2, 2 / points).surface(points, 7)
     pressed = rl.press(surface, E_star=E_STAR, forces=[0.1 * SCALE], fields=True)
     assert strip(page)["stiffness_3d"][0] == figure(float(pressed.stiffness_bar[0]))
     assert sum(image(page, "contact")) == pressed.fields[0].contact.sum()
-    status = page.locator("#explore [data-status]").inner_text()
-    assert re.fullmatch(r"512², \d+ convolutions, residual \S+ certified, .* s", status)
     page.context.close()
 
 
@@ -138,7 +139,7 @@ REMEMBER_STATUS = """() => {
 
 def test_a_dragged_slider_is_followed_coarsely_and_sharpens_at_rest(fresh):
     fresh.check('#explore [data-key="n"][value="256"]')
-    settled(fresh, points=256)
+    drawn(fresh, points=256)
     box = box_of(fresh, "#explore-D_f")
     middle = box["y"] + box["height"] / 2
     fresh.evaluate(REMEMBER_STATUS)  # the sharp answer may follow before one could look
@@ -151,7 +152,7 @@ def test_a_dragged_slider_is_followed_coarsely_and_sharpens_at_rest(fresh):
         drawn(fresh, "stiffness", what="line", D_f=value)
         fresh.wait_for_function("said.splice(0).some((text) => text.includes('coarse'))")
     fresh.mouse.up()
-    settled(fresh, points=256, D_f=value)
+    drawn(fresh, points=256, D_f=value)
     assert "coarse" not in fresh.inner_text("#explore [data-status]")
     assert address(fresh)["D_f"] == f"{value:g}"
 
@@ -196,9 +197,10 @@ def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(small, pages):
     page = small
     page.goto(f"{pages.address}?view=explore&v=1&colour=red&L=5+mm&n=64")
     sentence(page, "").filter(has_text="set the controls by hand").wait_for()
-    settled(page, points=512, D_f=2.2)
+    drawn(page, D_f=2.2)
     assert sentence(page, "").is_visible()
     assert page.input_value("#explore-L-text") == "1 mm"
+    assert page.is_checked('#explore [data-key="n"][value="512"]')
     page.check('#explore [data-key="n"][value="64"]')
     settled(page, points=64)
     assert not sentence(page, "").is_visible()
@@ -298,15 +300,14 @@ def test_code_is_shown_and_a_file_arrives(fresh, tmp_path):
     coming.value.save_as(tmp_path / "contact.png")
     assert coming.value.suggested_filename == "contact.png"
     assert pictures.imread(tmp_path / "contact.png").size
-    a_press_and_a_save_do_not_stop_each_other(fresh)
 
 
-def a_press_and_a_save_do_not_stop_each_other(fresh):
+def test_a_press_and_a_save_do_not_stop_each_other(fresh):
     fresh.check('#explore [data-key="n"][value="512"]')
     fresh.select_option("#saved", "surface.nc")
     with fresh.expect_download():
         fresh.click("#save")
-    settled(fresh, points=512)
+    drawn(fresh, points=512)
 
 
 MOVE_AND_SAVE = """() => {
@@ -351,23 +352,25 @@ def test_a_long_press_can_be_cancelled(fresh):
     settled(fresh, points=64)
 
 
-def test_a_lost_server_is_said_and_a_new_one_is_found(browser, tmp_path):
-    first = RunningLab(tmp_path / "first")
-    pages = Pages(browser, first.address)
+def test_a_lost_server_is_said_and_a_new_one_is_found(browser, lab, tmp_path):
+    relay = Relay(lab.address)
+    pages = Pages(browser, relay.address)
     page = pages.open(SMALL)
     settled(page, points=64)
-    first.process.send_signal(signal.SIGKILL)
+    relay.drop()
     page.locator("#connection").filter(has_text="does not answer").wait_for()
-    first.close()
-    second = RunningLab(tmp_path / "second", "--port", str(urlsplit(first.address).port))
+    second = RunningLab(tmp_path / "second")
+    relay.lead_to(second.address)
+    relay.restore()
     try:
-        page.context.request.get(second.address)  # it is opened, with the token of its own
+        page.context.request.get(relay.through(second.address))  # it is opened, with its own token
         page.wait_for_selector("#connection", state="hidden")
         page.focus("#explore-D_f")
         page.keyboard.press("ArrowRight")
         settled(page, points=64, D_f=2.42)
         assert [each for each in pages.complaints if not re.search(NO_LINE, each)] == []
-        pages.close()
     finally:
+        pages.close()
+        relay.close()
         ended = second.close()
     assert ended == (0, "")

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from lab.explore_driven import SMALL, image, settled
+from lab.explore_driven import SMALL, image, settled, typed
 
 FRAME = """(name) => {
     const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
@@ -14,6 +14,12 @@ FRAME = """(name) => {
     return {left: left + bbox.left, top: top + bbox.top, width: bbox.width, height: bbox.height,
             ranges: [x.start, x.end, y.start, y.end]};
 }"""
+STILL = f"""(name) => {{
+    const now = ({FRAME})(name), text = JSON.stringify(now);
+    const {{still = 0, at}} = window.rest ?? {{}};
+    window.rest = {{still: text === at ? still + 1 : 0, at: text}};
+    return window.rest.still >= 3 && now;
+}}"""
 SOURCE = """(name) => {
     const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
     return Object.fromEntries(Object.entries(made.get_model_by_name(name).data)
@@ -23,12 +29,23 @@ MAPS = ["explore-topography", "explore-contact"]
 
 
 def still(page, name):
-    """Return the frame of a plot when it does not change any more."""
-    before = None
-    while (now := page.evaluate(FRAME, name)) != before:
-        before = now
-        page.wait_for_timeout(150)
-    return now
+    """Return the frame of a plot when it has been the same in some pictures of the screen."""
+    page.evaluate("() => { window.rest = null; }")
+    return page.wait_for_function(STILL, arg=name).json_value()
+
+
+@pytest.fixture(scope="module")
+def small(pages):
+    """Return one page, for tests that set what they need."""
+    return pages.open(SMALL)
+
+
+def showing(page, shown, F):
+    """Let a page show something of a load."""
+    page.select_option('[data-key="shown"]', shown)
+    typed(page, "F", F)
+    settled(page, points=64, F=float(F))
+    return page
 
 
 @pytest.mark.parametrize(("width", "least"), [(1600, 280), (1200, 280), (390, 240)])
@@ -45,9 +62,8 @@ def test_maps_fill_their_frames_which_are_alike(pages, width, least):
     page.context.close()
 
 
-def test_a_point_tells_its_place_height_pressure_and_gap(pages):
-    page = pages.open(SMALL + "&shown=pressure&F=1")
-    settled(page, points=64, F=1)
+def test_a_point_tells_its_place_height_pressure_and_gap(small):
+    page = showing(small, "pressure", "1")
     pressure = image(page, "contact")
     strongest = max(range(len(pressure)), key=lambda i: pressure[i])
     row, column = divmod(strongest, 64)
@@ -64,7 +80,6 @@ def test_a_point_tells_its_place_height_pressure_and_gap(pages):
         assert "in contact" in told
     page.mouse.move(5, 5)
     assert not page.is_visible("#explore-contact .point")
-    page.context.close()
 
 
 def draw(page, name, start, end, button="[data-profile=explore-profile]"):
@@ -94,9 +109,8 @@ def assert_fits(page, axis, values):
     assert (low, high) == pytest.approx((min(values) - room, max(values) + room))
 
 
-def test_a_line_across_a_map_shows_the_profile_of_both_bodies(pages):
-    page = pages.open(SMALL + "&F=1")
-    settled(page, points=64, F=1)
+def test_a_line_across_a_map_shows_the_profile_of_both_bodies(small):
+    page = showing(small, "area", "1")
     draw(page, "explore-topography", (0.1, 0.5), (0.9, 0.5))
     page.wait_for_selector("#explore-profile:not([hidden])")
     surface, body = (page.evaluate(SOURCE, f"profile {which}") for which in ("surface", "body"))
@@ -109,20 +123,16 @@ def test_a_line_across_a_map_shows_the_profile_of_both_bodies(pages):
         assert line["y"] == pytest.approx([0.5, 0.5], abs=0.02)
     for axis, values in (("x", surface["x"]), ("y", surface["y"] + body["y"])):
         assert_fits(page, axis, values)
-    page.fill("#explore-F-text", "0.1")  # which the profile follows
-    page.press("#explore-F-text", "Enter")
-    settled(page, points=64, F=0.1)
+    showing(page, "area", "0.1")  # which the profile follows
     lifted = page.evaluate(SOURCE, "profile body")
     assert sum(lifted["y"]) > sum(body["y"])
     assert_fits(page, "y", surface["y"] + lifted["y"])
     page.click("[data-profile=explore-profile]")
     assert not page.is_visible("#explore-profile")
-    page.context.close()
 
 
-def test_the_scale_of_a_map_has_its_name_and_unit(pages):
-    page = pages.open(SMALL + "&shown=gap")
-    settled(page, points=64)
+def test_the_scale_of_a_map_has_its_name_and_unit(small):
+    page = showing(small, "gap", "0.2")
     assert page.inner_text("#explore-topography .scale > span") == "height / h"
     assert page.inner_text("#explore-contact .scale > span") == "gap / h"
     assert page.locator("#explore-contact .scale i span").count() >= 2
@@ -130,7 +140,6 @@ def test_the_scale_of_a_map_has_its_name_and_unit(pages):
     assert page.inner_text("#explore-contact .scale") == ""
     tops = [page.locator(f"#plot-{name}").bounding_box()["y"] for name in MAPS]
     assert tops[0] == pytest.approx(tops[1], abs=1)  # also beside a map without a scale
-    page.context.close()
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
