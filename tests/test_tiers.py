@@ -9,7 +9,7 @@ import pytest
 
 import tiers
 from reference import DURATIONS
-from tiers import LONGEST, PROCESSES, SHORT, durations, part, part_in, short
+from tiers import LONGEST, PROCESSES, SHORT, durations, part, part_in, shared_by_files, short
 
 MOST = 240.0  # that `make test` may take by the durations, start and the rest of the end apart [s]
 known = pytest.mark.skipif(not DURATIONS.is_file(), reason=f"no {DURATIONS.name}")
@@ -49,7 +49,8 @@ def test_make_test_is_short_by_the_file():
     """Of two processes one may have the longest test at its end."""
     taken = durations()
     chosen = short(taken, taken)
-    assert sum(taken[node] for node in chosen) / PROCESSES <= MOST
+    shared = sum(shared_by_files().values())
+    assert (shared + sum(taken[node] for node in chosen)) / PROCESSES <= MOST
     too_long = {node: taken[node] for node in chosen if taken[node] > LONGEST}
     assert too_long == {}, "give these functions a smaller case"
 
@@ -87,6 +88,11 @@ def suite(tmp_path):
         "def test_heavy(n): pass\n"
         "def test_first(shared): pass\n"
         "def test_second(shared): pass\n"
+        "@pytest.fixture(scope='module', params=[1, 2])\n"
+        "def varied(request):\n    import time; time.sleep(0.3)\n"
+        "@pytest.fixture(scope='module')\n"
+        "def resting(varied): pass\n"
+        "def test_varied(resting): pass\n"
         "def test_page(): pytest.skip('no Chromium: install it')\n"
     )
     file = tmp_path / "tests" / "durations.json"
@@ -125,29 +131,25 @@ def test_what_is_left_out_is_told_in_a_line_each(suite):
     told = suite("--tier", "short", known=KNOWN)
     assert "test_heavy[2]" in told
     assert "test_heavy[1]" not in told
-    assert "2 tests ran that are not in durations.json: `make durations` adds them" in told
-    assert "left out: 1 of 6 tests, which are long; `make full` runs all" in told
+    assert "4 tests ran that are not in durations.json: `make durations` adds them" in told
+    assert "left out: 1 of 8 tests, which are long; `make full` runs all" in told
     assert "left out: 1 tests: no Chromium: install it" in told
 
 
 def test_without_the_file_all_run_and_it_is_told(suite):
     told = suite("--tier", "short")
-    assert "5 passed, 1 skipped" in told
+    assert "7 passed, 1 skipped" in told
     assert "durations.json is missing, so that all tests ran: `make durations` writes it" in told
 
 
-def test_what_is_shared_counts_for_each_that_shares_it(suite):
+def test_what_is_shared_counts_once_for_a_file_and_what_is_varied_for_each(suite):
     suite("--record")
-    known = json.loads(suite.file.read_text())["tests"]["test_it.py"]
-    assert sorted(known) == [
-        "test_first",
-        "test_heavy[1]",
-        "test_heavy[2]",
-        "test_quick",
-        "test_second",
-    ]
-    assert min(known["test_first"], known["test_second"]) >= 0.3
-    assert known["test_quick"] < 0.3
+    written = json.loads(suite.file.read_text())
+    known = written["tests"]["test_it.py"]
+    assert "test_page" not in known
+    assert 0.3 <= written["shared"]["test_it.py"] < 0.6
+    assert max(known["test_first"], known["test_second"], known["test_quick"]) < 0.3
+    assert min(known["test_varied[1]"], known["test_varied[2]"]) >= 0.3
 
 
 def test_a_run_of_some_tests_keeps_what_is_known_of_others_and_forgets_those_that_are_gone(
@@ -159,8 +161,9 @@ def test_a_run_of_some_tests_keeps_what_is_known_of_others_and_forgets_those_tha
     monkeypatch.setattr(tiers, "DURATIONS", file)
     monkeypatch.setattr(tiers, "slowness", lambda: 2.0)
     monkeypatch.setattr(tiers, "seconds_here", lambda: 1.0)
-    tiers.write({"a.py::new": 4.0}, ["a.py::kept", "a.py::new"])
+    tiers.write({"a.py::new": 4.0}, {"a.py": 3.0}, ["a.py::kept", "a.py::new"])
     assert json.loads(file.read_text()) == {
         "reference": 0.5,
+        "shared": {"a.py": 1.5},
         "tests": {"a.py": {"kept": 2.0, "new": 2.0}, "b.py": {"other": 3.0}},
     }

@@ -22,13 +22,22 @@ PROCESSES = 2  # of `make test`
 
 
 def durations():
-    """Return what each test takes alone, by its node; nothing without a file. [s]"""
-    if not DURATIONS.is_file():
-        return {}
-    files = json.loads(DURATIONS.read_text("utf-8"))["tests"]
+    """Return what each test takes without what it shares, by its node; empty without a file."""
+    files = _file().get("tests", {})
     return {
-        f"{file}::{test}": taken for file, tests in files.items() for test, taken in tests.items()
+        f"{file}::{test}": seconds
+        for file, tests in files.items()
+        for test, seconds in tests.items()
     }
+
+
+def shared_by_files():
+    """Return what it takes to make what the tests of a file share, by the file."""
+    return _file().get("shared", {})
+
+
+def _file():
+    return json.loads(DURATIONS.read_text("utf-8")) if DURATIONS.is_file() else {}
 
 
 def short(nodes, taken):
@@ -137,6 +146,8 @@ class Choice:
             "new": len(wanted - set(self._taken)),
         }
         sums = Counter()
+        for file, seconds in shared_by_files().items():
+            sums[group_of(file)] += seconds
         for node in wanted:
             sums[group_of(node)] += self._taken.get(node, 0)
         chosen = [item for item in items if node_of(item) in wanted]
@@ -174,12 +185,17 @@ class Choice:
 
 
 class Record:
-    """What each test takes alone: what several share counts for each of them."""
+    """What each test takes: without what it shares, of which each file has the sum.
+
+    Since every function runs in `make test`, what tests share is made there anyway. What depends on
+    parameters is not: it counts for each test that has them.
+    """
 
     def __init__(self, config):
         self._config = config
-        self._shared, self._now, self._within = {}, 0.0, []
-        self._taken, self._skipped, self._collected = Counter(), set(), []
+        self._made, self._new, self._within = {}, {}, []
+        self._taken, self._shared = Counter(), Counter()
+        self._skipped, self._collected = set(), []
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_finish(self, session):
@@ -197,45 +213,57 @@ class Record:
             if self._within:  # one that another asked for
                 self._within[-1] += whole
             if fixturedef.scope != "function":
-                self._shared[fixturedef] = own
-                self._now += own
+                self._made[fixturedef] = self._new[fixturedef] = own
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_makereport(self, item, call):
         report = yield
         if call.when == "teardown":
-            used = item._fixtureinfo.name2fixturedefs.values()
-            alone = sum(self._shared.get(each[-1], 0.0) for each in used)
-            report.user_properties.append(("shared", alone - self._now))
-            self._now = 0.0
+            used = {name: each[-1] for name, each in item._fixtureinfo.name2fixturedefs.items()}
+            varied = [each for name, each in used.items() if _is_varied(name, used)]
+            report.user_properties += [
+                ("made", sum(self._new.values())),
+                ("varied", sum(self._made.get(each, 0.0) for each in varied)),
+                ("made and varied", sum(self._new.get(each, 0.0) for each in varied)),
+            ]
+            self._new.clear()
         return report
 
     def pytest_runtest_logreport(self, report):
         node = report.nodeid.removeprefix("tests/")
         if report.skipped:
             self._skipped.add(node)
-        shared = [seconds for name, seconds in report.user_properties if name == "shared"]
-        self._taken[node] += report.duration + sum(shared)
+        told = dict(report.user_properties)
+        made, varied = told.get("made", 0.0), told.get("varied", 0.0)
+        self._taken[node] += report.duration - made + varied
+        self._shared[node.partition("::")[0]] += made - told.get("made and varied", 0.0)
 
     def pytest_sessionfinish(self):
         if hasattr(self._config, "workeroutput"):
             self._config.workeroutput["collected"] = self._collected
             return
         ran = set(self._taken) - self._skipped
-        write({node: self._taken[node] for node in ran}, self._collected)
+        write({node: self._taken[node] for node in ran}, self._shared, self._collected)
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node):
         self._collected = getattr(node, "workeroutput", {}).get("collected", self._collected)
 
 
-def write(taken, collected):
+def _is_varied(name, used):
+    """Whether a fixture depends on parameters, itself or by what it rests on."""
+    made = used.get(name)
+    if made is None or made.scope == "function":
+        return False
+    return made.params is not None or any(_is_varied(each, used) for each in made.argnames)
+
+
+def write(taken, shared, collected):
     """Write what tests took, in seconds of the machine that the file was first written on.
 
     What was known stays, but for tests that are gone from the files that were collected.
     """
     factor = 1 / slowness()
-    reference = seconds_here() * factor
     files = {node.partition("::")[0] for node in collected}
     known = {
         node: seconds
@@ -247,5 +275,11 @@ def write(taken, collected):
     for node in sorted(known):
         file, _, test = node.partition("::")
         tests[file][test] = known[node]
-    text = json.dumps({"reference": round(reference, 4), "tests": tests}, indent=0)
-    DURATIONS.write_text(f"{text}\n", "utf-8")
+    made = {file: seconds for file, seconds in shared_by_files().items() if file not in files}
+    made |= {file: round(seconds * factor, 2) for file, seconds in shared.items() if file in files}
+    written = {
+        "reference": round(seconds_here() * factor, 4),
+        "shared": {file: made[file] for file in sorted(made) if made[file]},
+        "tests": tests,
+    }
+    DURATIONS.write_text(f"{json.dumps(written, indent=0)}\n", "utf-8")
