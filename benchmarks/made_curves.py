@@ -6,6 +6,7 @@ and bodies follow a power law of their depth, with highest points that differ.
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import xarray
@@ -58,6 +59,7 @@ def ensemble(count, rng):
     )
 
 
+@cache
 def exponent_at_level():
     """The exponent between means at fixed level in the window, by quadrature.
 

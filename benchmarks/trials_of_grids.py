@@ -42,7 +42,8 @@ QUANTITIES = {"k": "stiffness", "k_u": "unloading_stiffness", "A": "area_fractio
 
 def rows_beside(finer, coarse, forces, loads, **given):
     """Intervals of a map for the error of its grid, and what the finer grid gives."""
-    given |= {"E_star": E_STAR, "forces": forces, "throw": False}
+    given |= {"forces": forces, "throw": False}
+    given |= {} if "half_space" in given else {"E_star": E_STAR}
     truth, curve = rl.press(finer, **given), rl.press(coarse, grid_error=True, **given)
     for symbol, name in QUANTITIES.items():
         error_of = name.replace("_corrected", "") + "_error"

@@ -27,6 +27,7 @@ PIECES = {
 }
 LONGER = {"map": 4, "scan": 8}  # their parents
 Q_LOW = math.tau
+WHOLE = 128  # points along a side of whole surfaces, and of pieces that are scanned
 COUNTED = 128  # waves whose heights are summed on the lattice
 
 
@@ -103,6 +104,53 @@ def piece_rows(kind, option, number):
         yield row(name, 0.0, truth, value, *ends, size=size, window=f"{kind}, H {low} to {high}")
 
 
+def known_piece_rows(kind, option, number):
+    """Tilted pieces of maps by their Hurst exponents, and of scans by their points."""
+    for each in piece_rows(kind, option, number):
+        each["quantity"] = each["quantity"].removeprefix("no ")
+        yield each | {"piece": each["window" if kind == "map" else "size"]}
+
+
+def whole_rows(kind, option, seed):
+    """Periodic surfaces of 128 x 128 points, with fixed or Gaussian amplitudes."""
+    rng = np.random.default_rng([seed, *option.encode()])
+    hurst, roll = rng.uniform(0.1, 0.95), rng.choice([1.0, rng.uniform(*ROLL_OFFS)])
+    cut = WHOLE / 2 * rng.choice([1.0, rng.uniform(*CUTOFFS)])
+    q_high = None if cut == WHOLE / 2 else Q_LOW * cut
+    law = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_roll=Q_LOW * roll, q_high=q_high)
+    fit = rl.fit_self_affine(rl.isotropic_spectrum(law.surface(WHOLE, rng, option)))
+    said = "; ".join(fit.objections)
+    ring = 1 + 1 / (WHOLE / 2 - 1)  # a ring holds all waves up to the next
+    for name, truth, value, (low, high) in (
+        ("H of a surface", hurst, fit.hurst, fit.hurst_interval),
+        ("roll-off", Q_LOW * roll, fit.q_roll, fit.q_roll_interval),
+        ("cutoff", Q_LOW * cut, fit.q_high or fit.q_last, fit.q_high_interval),
+        ("rms height", 1.0, fit.rms_height, fit.rms_interval),
+    ):
+        low, high = low * (1 - 1e-9), high * (ring if name == "cutoff" else 1 + 1e-9)
+        if "off the law" in said:
+            low = high = math.nan
+        yield row(name, 0.0, truth, value, low, high, said)
+
+
+def gaussian_scan_rows(kind, option, seed):
+    """A row of two tilted pieces of 128 x 128 points of a Gaussian surface, and the pieces."""
+    hurst, roll = (float(each) for each in option.split(", roll-off "))
+    law = {"hurst": hurst, "length": LONGER["map"], "C_0": 1.0, "q_roll": Q_LOW * roll}
+    parent = rl.SelfAffine(**law).surface(WHOLE * LONGER["map"], seed, "gaussian")
+    for first in (0, 2 * WHOLE):
+        piece = parent.cropped((first, first + WHOLE), (0, WHOLE))
+        heights = piece.heights[0] + 5 * np.linspace(-1, 1, WHOLE)
+        piece = piece.detrended()
+        given = {"E_star": 1.0, "forces": np.array(FORCE_BARS) * piece.rms_height}
+        truth = rl.press(piece, rtol=1e-3, **given).stiffness
+        scan = rl.Line(heights, 1.0, kind="profile")
+        found = rl.press_scan(scan, gaussian=True, rng=seed, **given)
+        told = FORCE_BARS, truth, found.curve.stiffness, found.low, found.high
+        for each in zip(*told, strict=True):
+            yield row("k of a scan", *each)
+
+
 def rms_of_piece(parent):
     """Rms height of the waves that fit: on the lattice, and in the continuum beyond some waves."""
     q_roll = max(parent.q_roll, Q_LOW)
@@ -161,4 +209,29 @@ PIECE = Study(
     seeds={(kind, f"{n}"): many for kind, sizes in PIECES.items() for n, many in sizes.items()},
     groups=("size", "window"),
     columns=("held", "silent", "half width", "mean error"),
+)
+WHOLES = Study(
+    whole_rows,
+    "Whole surfaces",
+    whole_rows.__doc__,
+    ("surface",),
+    ("fixed", "gaussian"),
+    200,
+    ("option",),
+)
+KNOWN_PIECES = replace(
+    PIECE,
+    rows_of=known_piece_rows,
+    asked=known_piece_rows.__doc__,
+    seeds={("map", "128"): 200, ("scan", "256"): 100, ("scan", "1024"): 100},
+    groups=("piece",),
+)
+GAUSSIAN_SCANS = Study(
+    gaussian_scan_rows,
+    "Scans of Gaussian surfaces",
+    gaussian_scan_rows.__doc__,
+    ("surface",),
+    ("0.8, roll-off 4", "0.8, roll-off 0.25", "0.3, roll-off 4"),
+    12,
+    ("option",),
 )
