@@ -99,18 +99,19 @@ def test_bad_input_is_one_line_and_exit_2(invoke, plan, arguments, message):
     assert "Traceback" not in err
 
 
-def test_the_models_are_compared(invoke, tmp_path):
+@pytest.mark.parametrize("n", [32, 64])
+def test_the_models_are_compared(invoke, tmp_path, n):
     code, out, _ = invoke(
-        *("compare", "--hurst", 0.6, "--length", "1 mm", "--cutoff", "62.5 um", "-n", 64),
+        *("compare", "--hurst", 0.6, "--length", "1 mm", "--cutoff", "62.5 um", "-n", n),
         *("--surfaces", 4, "--force-bar", 0.05, "--force-bar", 0.5, "--out", tmp_path / "out"),
     )
     assert code == 0
-    assert "4 surfaces of 64 x 64 points, D_f = 2.4, q_roll / q_0 = 1" in out
+    assert f"4 surfaces of {n} x {n} points, D_f = 2.4, q_roll / q_0 = 1" in out
     assert "the map says" in out
     assert "agreement within 10% is confirmed" in out
     table = pd.read_csv(tmp_path / "out" / "comparison.csv")
     spectrum = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_high=16 * 2 * np.pi)
-    found = rl.compare(spectrum, n=64, surfaces=4, force_bars=[0.05, 0.5])
+    found = rl.compare(spectrum, n=n, surfaces=4, force_bars=[0.05, 0.5])
     assert table.difference.values == pytest.approx(found.difference, rel=1e-6)
     assert (tmp_path / "out" / "comparison.png").stat().st_size > 1000
 

@@ -273,7 +273,7 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
 
 
 def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
-    rough, invoke, only_drawn, tmp_path
+    rough, few_loads, invoke, only_drawn, tmp_path
 ):
     only_drawn()
     asked = ("press", rough, *PAIR, "--load", "10 N")
@@ -293,7 +293,7 @@ def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
     assert "air may carry several times what the spots do" in page
 
 
-def test_a_report_speaks_to_a_client(holed, invoke, only_drawn, tmp_path):
+def test_a_report_speaks_to_a_client(holed, few_loads, invoke, only_drawn, tmp_path):
     only_drawn()
     file, *options = holed
     code, _, errors = invoke(
@@ -461,7 +461,8 @@ def test_the_same_is_said_of_a_preparation_wherever_it_is_read(rough, invoke, on
 
 
 @pytest.mark.parametrize("along", ["x", "y"])
-def test_a_strip_is_that_of_the_library(rough, invoke, along, tmp_path):
+def test_a_strip_is_that_of_the_library(rough, invoke, only_drawn, along, tmp_path):
+    only_drawn()
     asked = ("--modulus", "1 GPa", "--load", "0.1 N", "--periodic-along", along)
     code, out, errors = invoke("press", rough, *asked, "--json", "--out", tmp_path / "out")
     assert code == 0, errors

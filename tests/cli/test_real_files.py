@@ -117,14 +117,25 @@ def test_info_describes_arrays_and_reduced_lines(tmp_path, invoke):
     assert "Rq, rms height" in out
 
 
-def test_what_was_refused_can_be_allowed(topographies, invoke):
+def test_a_unit_that_a_file_does_not_state_can_be_given(topographies, invoke):
     code, out, _ = invoke("press", topographies / "xy-1.txt", *PRESS, "--unit", "um", "--json")
     assert code == 0
     assert json.loads(out)["body"]["sizes"][0] == pytest.approx(187.19e-6, rel=1e-3)
-    code, out, _ = invoke("info", topographies / "sur-3.sur", "--max-missing", "0.95", "--json")
+
+
+@pytest.mark.parametrize("file", ["of few points", "sur-3.sur"])
+def test_more_missing_points_can_be_allowed(request, tmp_path, invoke, file):
+    if file == "of few points":
+        heights = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3).heights
+        np.save(tmp_path / "few.npy", np.where(np.arange(64) < 57, np.nan, heights))
+        asked, told = (tmp_path / "few.npy", "--unit", "m", "--size", "1 mm"), "3648"
+    else:
+        asked, told = (request.getfixturevalue("topographies") / file,), "233009"
+    code, out, _ = invoke("info", *asked, "--max-missing", "0.95", "--json")
     assert code == 0
-    notes = json.loads(out)["notes"]
-    assert any("233009 missing points (88.89%) filled" in note for note in notes)
+    (note,) = (note for note in json.loads(out)["notes"] if "missing points" in note)
+    share = "89.06" if file == "of few points" else "88.89"
+    assert f"{told} missing points ({share}%) filled" in note
 
 
 @pytest.mark.parametrize("name", ["opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"])
@@ -150,11 +161,17 @@ def test_info_fits_a_screen_and_json(topographies, invoke, only_drawn, tmp_path,
         assert low <= found["self_affine"]["hurst"] <= high
 
 
-def test_a_report_a_client_could_receive(topographies, invoke, tmp_path):
+@pytest.mark.parametrize("points", [88, 160])
+def test_a_report_a_client_could_receive(
+    topographies, invoke, request, only_drawn, tmp_path, points
+):
     folder = tmp_path / "report"
+    if points == 88:
+        request.getfixturevalue("few_loads")
+        only_drawn("curve")
     code, out, errors = invoke(
         *("press", topographies / "opd-1.opd", "--materials", "steel,copper", "--load", "10 mN"),
-        *("--theory", "persson", "--friction", "0.3", "--report", folder, "--resample", "160"),
+        *("--theory", "persson", "--friction", "0.3", "--report", folder, "--resample", points),
     )
     assert code == 0, errors
     page = (folder / "report.html").read_text(encoding="utf-8")
@@ -298,7 +315,9 @@ def test_what_laying_two_bodies_together_crops_and_resamples_is_said(tmp_path, i
     assert "second body: cropped" not in said
 
 
-def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke, only_drawn):
+def test_of_two_rough_bodies_each_is_described_and_filled_twice(
+    tmp_path, few_loads, invoke, only_drawn
+):
     only_drawn()
     spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
     for name, seed, hole in (("whole", 1, False), ("holed", 2, True)):
