@@ -262,14 +262,13 @@ def test_as_python_gives_the_same_numbers(curve):
     np.testing.assert_allclose(numbers, wanted, rtol=1e-9)
 
 
-def test_as_command_gives_the_same_numbers(curve, tmp_path):
-    header, _ = answer(code.code, SMALL, which="command")
-    for line in header["text"].splitlines():
-        command = f"{sys.executable} -m {line}" + " --json" * ("press" in line)
-        done = subprocess.run(
-            command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=True
-        )
-    intervals_are_those_of(SMALL, json.loads(done.stdout), "stiffness", "area_fraction")
+def test_as_command_gives_the_same_numbers(invoke, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    generate, press = answer(code.code, SMALL, which="command")[0]["text"].splitlines()
+    for line in (generate, f"{press} --json"):
+        exit_code, out, errors = invoke(*shlex.split(line)[1:])
+        assert exit_code == 0, errors
+    intervals_are_those_of(SMALL, json.loads(out), "stiffness", "area_fraction")
 
 
 SHOWN = {

@@ -12,7 +12,7 @@ from matplotlib import image
 import roughline as rl
 from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads, saved, saved_is_shown
 from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, pictures
+from roughline.lab.explore import adhesion, code, pictures
 from roughline.lab.explore.reading import state_of, usable_state
 from roughline.lab.explore.state import ExploreState
 
@@ -31,10 +31,13 @@ def pressed():
 
 
 @pytest.fixture(scope="module")
-def pull_off(pressed):
-    """Return depth and force of the largest pull on the way back, in small steps."""
+def pull_off(pressed, cycle):
+    """Return depth and force of the largest pull on the way back, in small steps about it."""
     surface = state_of(STICKS, 64).surface(64)
-    depths = np.arange(pressed.depth[1], -1.5 * HEIGHT, -0.02 * HEIGHT)
+    (about,) = of_cycle(cycle[0])["pull-off"]["x"]
+    steps = [np.arange(about + 0.2, about - 0.2, -0.02), np.arange(about - 0.2, -1.5, -0.1)]
+    first = np.arange(pressed.depth[1] / HEIGHT, about + 0.2, -0.1)
+    depths = HEIGHT * np.concatenate([first, *steps])
     back = rl.press(surface, E_star=E_STAR, law=LAW, depths=depths)
     return back.pull_off_depth, back.pull_off_force
 
@@ -187,7 +190,10 @@ def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
     assert 100 * share == pytest.approx(float(found["area"]["value"][:-1]), rel=0.1)
 
 
-def test_a_saved_table_has_both_ways(tmp_path):
+def test_a_saved_table_has_both_ways(tmp_path, monkeypatch):
+    monkeypatch.setattr(adhesion, "_THERE", 5)  # of many depths, each as long as the others
+    monkeypatch.setattr(adhesion, "_AWAY", 12)
+    monkeypatch.setattr(pictures, "_CURVE_FORCES", np.geomspace(1e-3, 3, 3))
     rows = saved_is_shown(STICKS, tmp_path, "w")
     assert {name for panel, name in rows if panel == "cycle"} >= {"there", "back", "pull-off"}
 

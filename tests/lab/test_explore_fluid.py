@@ -246,16 +246,22 @@ def test_the_saved_map_of_the_pressure_is_blank_where_nothing_touches(tmp_path, 
     assert (colours[~free] != 1).any(axis=-1).all()
 
 
-def test_legends_of_saved_curves_stay_within_their_frames(tmp_path, figures):
-    stick = {**FLOWS, "w": "0.3", "D_f": "2.2", "t": "0.05"}
-    for state in (SMALL, {**FLOWS, "hardness_bar": "0.3"}, stick):
-        saved("curve.png", state, tmp_path)
-        (figure,) = figures
-        for axes in figure.axes:
-            if legend := axes.get_legend():
-                frame, box = axes.get_window_extent(), legend.get_window_extent()
-                assert frame.x0 < box.x0 < box.x1 < frame.x1
-        figures.clear()
+@pytest.mark.parametrize(
+    "state",
+    [
+        SMALL,
+        {**FLOWS, "hardness_bar": "0.3"},
+        {**FLOWS, "w": "0.3", "D_f": "2.2", "t": "0.05"},
+    ],
+    ids=["alone", "yields", "sticks"],
+)
+def test_legends_of_saved_curves_stay_within_their_frames(tmp_path, figures, state):
+    saved("curve.png", state, tmp_path)
+    (figure,) = figures
+    for axes in figure.axes:
+        if legend := axes.get_legend():
+            frame, box = axes.get_window_extent(), legend.get_window_extent()
+            assert frame.x0 < box.x0 < box.x1 < frame.x1
 
 
 def test_a_saved_table_has_the_apertures_of_the_plot(tmp_path):
