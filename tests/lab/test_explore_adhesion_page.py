@@ -151,17 +151,17 @@ def test_both_ways_can_be_cancelled(pages):
     page.context.close()
 
 
-def test_texts_stand_out_and_none_is_cut_off(pages):
-    for theme in ("light", "dark"):
-        page = pages.open(WITH, theme=theme)
-        at_rest(page, points=64)
-        assert faint(page) == []
-        for width, height in ((390, 844), (1200, 800), (1600, 1100)):
-            assert cut_off(page, "explore", width, height) == []
-            assert asked(page, "tiny", "explore") == []
-        assert asked(page, "nameless", "explore") == []
-        assert asked(page, "undescribed", "explore") == []
-        page.context.close()
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_texts_stand_out_and_none_is_cut_off(pages, theme):
+    page = pages.open(WITH, theme=theme)
+    at_rest(page, points=64)
+    assert faint(page) == []
+    for width, height in ((390, 844), (1200, 800), (1600, 1100)):
+        assert cut_off(page, "explore", width, height) == []
+        assert asked(page, "tiny", "explore") == []
+    assert asked(page, "nameless", "explore") == []
+    assert asked(page, "undescribed", "explore") == []
+    page.context.close()
 
 
 def test_a_curve_arrives(fresh):

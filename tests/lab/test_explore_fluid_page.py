@@ -176,14 +176,14 @@ def test_sealed_loads_stand_at_the_foot_and_are_said(fresh):
     assert [row for row in table(fresh, "aperture") if row[1] == "sealed" and row[2] == "3D"]
 
 
-def test_sliders_go_to_both_ends_with_a_fluid(fresh):
-    for key in ("F", "D_f", "roll_off"):
-        for end in ("Home", "End"):
-            fresh.focus(f"#explore-{key}")
-            fresh.keyboard.press(end)
-            settled(fresh, points=64)
-            assert "aperture" in strip(fresh)
-        fresh.locator(f"#explore-{key}").dblclick()
+@pytest.mark.parametrize("key", ["F", "D_f", "roll_off"])
+def test_sliders_go_to_both_ends_with_a_fluid(fresh, key):
+    for end in ("Home", "End"):
+        fresh.focus(f"#explore-{key}")
+        fresh.keyboard.press(end)
+        settled(fresh, points=64)
+        assert "aperture" in strip(fresh)
+    fresh.locator(f"#explore-{key}").dblclick()
     at_rest(fresh, points=64)
 
 
@@ -204,17 +204,17 @@ def test_the_tick_and_its_curve_are_reached_by_keys(small, pages):
     assert asked(small, "undescribed", "explore") == []
 
 
-def test_texts_of_the_flow_stand_out_and_none_is_cut_off(pages):
-    for theme in ("light", "dark"):
-        page = pages.open(FLOWS, theme=theme)
-        at_rest(page, points=64)
-        page.mouse.move(*on_the_map(page, *middle_of(CELL)))
-        page.locator("#explore-contact .point").wait_for()
-        assert faint(page) == []
-        for width, height in ((390, 844), (1200, 800), (1600, 1100)):
-            assert cut_off(page, "explore", width, height) == []
-            assert asked(page, "tiny", "explore") == []
-        page.context.close()
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_texts_of_the_flow_stand_out_and_none_is_cut_off(pages, theme):
+    page = pages.open(FLOWS, theme=theme)
+    at_rest(page, points=64)
+    page.mouse.move(*on_the_map(page, *middle_of(CELL)))
+    page.locator("#explore-contact .point").wait_for()
+    assert faint(page) == []
+    for width, height in ((390, 844), (1200, 800), (1600, 1100)):
+        assert cut_off(page, "explore", width, height) == []
+        assert asked(page, "tiny", "explore") == []
+    page.context.close()
 
 
 def test_a_picture_of_the_flow_arrives(fresh, tmp_path):
