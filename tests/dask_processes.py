@@ -1,13 +1,18 @@
 """Dask schedulers and workers on loopback: as processes of their own, or all in this process."""
 
+import contextlib
+import importlib
 import logging
 import subprocess
 import sys
 import time
 
+import dask
+import pytest
 from distributed import LocalCluster
 
 from reference import patience
+from roughline.campaign import cluster
 
 
 def start_scheduler(folder):
@@ -47,3 +52,19 @@ def cluster_here(**size):
         dashboard_address="127.0.0.1:0",
         silence_logs=logging.CRITICAL,
     )
+
+
+@contextlib.contextmanager
+def unhurried():
+    """Wait for schedulers and workers as long as they take where others compute, too.
+
+    Workers of campaigns in this process are forked from one that has loaded Dask, which saves
+    seconds; those of campaigns in processes of their own are started afresh.
+    """
+    forked = dask.config.set({"distributed.worker.multiprocessing-method": "forkserver"})
+    with pytest.MonkeyPatch.context() as patch, forked:
+        for name in ("_TO_ANSWER", "_PATIENCE"):
+            patch.setattr(cluster, name, patience())
+        runs = importlib.import_module("roughline.campaign.run")
+        patch.setattr(runs, "_LONGEST_WITHOUT_WORKERS", patience())
+        yield

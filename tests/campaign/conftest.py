@@ -1,21 +1,16 @@
 """Finished campaigns, and Dask clusters of which some may be disturbed."""
 
-import dask
 import pytest
 
-from dask_processes import cluster_here, start_scheduler, start_worker
+from dask_processes import cluster_here, start_scheduler, start_worker, unhurried
 from roughline import campaign
 from roughline.computing import fft
 from small_campaign import FEW, PLAN, tree
 
 
 @pytest.fixture(scope="package", autouse=True)
-def forked_workers():
-    """Fork the workers of campaigns in this process from one that has loaded Dask.
-
-    Those of campaigns in processes of their own are started afresh, which takes them seconds.
-    """
-    with dask.config.set({"distributed.worker.multiprocessing-method": "forkserver"}):
+def _unhurried():
+    with unhurried():
         yield
 
 

@@ -159,6 +159,19 @@ def test_the_client_killed(plan, resume, begun, tmp_path, number):
     assert resume(store) < cases_of(plan), "what was done is computed again"
 
 
+@pytest.fixture
+def soon_given_up(monkeypatch):
+    """Try only shortly to find a scheduler again that is gone."""
+    again = Client._reconnect
+
+    async def shortly(client):
+        client._timeout = 0.1
+        await again(client)
+
+    monkeypatch.setattr(Client, "_reconnect", shortly)
+
+
+@pytest.mark.usefixtures("soon_given_up")
 def test_the_scheduler_killed(resume, disturbed, tmp_path, dask_cluster):
     store = tmp_path / "store"
     scheduler, address = dask_cluster
@@ -174,6 +187,7 @@ def test_the_scheduler_killed(resume, disturbed, tmp_path, dask_cluster):
     resume(store)
 
 
+@pytest.mark.usefixtures("soon_given_up")
 @pytest.mark.parametrize("asked", ["wait_for_workers", "run", "ncores", "submit"])
 def test_the_scheduler_killed_while_it_is_asked(
     few_plan_file, tmp_path, dask_cluster, monkeypatch, asked

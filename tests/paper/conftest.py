@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from dask_processes import cluster_here
+from dask_processes import cluster_here, unhurried
 from roughline import campaign
 from roughline.computing import fft
 from roughline.paper.gallery import Gallery
@@ -40,7 +40,7 @@ def small_gallery(small_plan):
 def two_workers():
     """Address of a cluster in this process."""
     before = fft.threads()
-    with cluster_here(n_workers=2, threads_per_worker=1) as cluster:
+    with unhurried(), cluster_here(n_workers=2, threads_per_worker=1) as cluster:
         yield cluster.scheduler_address
     fft.set_threads(before)
 
