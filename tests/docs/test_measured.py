@@ -16,9 +16,11 @@ import roughline as rl
 from random_problems import random_problem
 from roughline.contact.estimates import bytes_at_a_point, expected_area_fraction
 from roughline.contact.loads import Loads
+from studies.averaging.measure import HELD_AT_LEVEL
 
 ROOT = Path(__file__).parents[2]
 TABLES = sorted((ROOT / "docs").glob("*-table.md"))
+COVERAGE = ROOT / "docs" / "coverage-table.md"
 NUMBER = re.compile(r"[\d.]+(?:e[+-]?\d+)?")
 MAKEFILE = (ROOT / "Makefile").read_text("utf-8")
 
@@ -272,6 +274,31 @@ def test_the_page_of_the_flow_quotes_how_often_its_intervals_hold():
     rest = {each: part for each, part in short.items() if each[0] != "uneven roughness"}
     assert [*rest] == [("plateau-honed", "mean_gap")]
     assert f"plateau-honed surfaces ({rest['plateau-honed', 'mean_gap']})" in page
+
+
+def test_promises_are_kept_in_the_table_and_by_the_present_code(monkeypatch):
+    """Of all studies as the table says; kappa of few surfaces is counted again."""
+    sections = re.findall(r"^## (.*)$", COVERAGE.read_text("utf-8"), re.MULTILINE)
+    assert len(sections) == 12
+    for section in sections:
+        for row in rows_of("coverage", section):
+            ends = [float(each) for each in NUMBER.findall(row["promised"])]
+            assert ends[0] <= float(row["held"].rstrip("%")) <= (*ends, 100.0)[1], row
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    found = importlib.import_module("trials_of_laws").KAPPA
+    counted = [row for seed in range(200) for row in found.rows_of("curves", "20", seed)]
+    for row in rows_of("coverage", found.heading):
+        if row["bodies"] == "20":
+            some = [each for each in counted if each["quantity"] == row["quantity"]]
+            held = np.mean([each["low"] <= each["truth"] <= each["high"] for each in some])
+            assert (f"{len(some)}", f"{held:.1%}") == (row["intervals"], row["held"])
+
+
+def test_the_page_of_averages_quotes_how_often_intervals_at_fixed_level_hold():
+    held = {row["bodies"]: number(row["held"]) for row in rows_of("coverage", "Exponents of means")}
+    assert pytest.approx(HELD_AT_LEVEL, abs=0.03) == held["level"]
+    page = " ".join((ROOT / "docs" / "averaging.md").read_text("utf-8").split())
+    assert f"contain a known exponent in {HELD_AT_LEVEL:.0%} of samples of 40 bodies" in page
 
 
 def test_the_page_of_the_grid_quotes_how_often_intervals_of_measures_hold():
