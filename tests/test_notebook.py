@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from reference import patience
 
 CELLS = (
     "import roughline as rl\n"
@@ -124,7 +125,7 @@ def pictures_below(cells):
     notebook = nbformat.v4.new_notebook(cells=[*map(nbformat.v4.new_code_cell, cells)])
     with pytest.MonkeyPatch.context() as environment:
         environment.delenv("MPLBACKEND", raising=False)
-        NotebookClient(notebook, kernel_name="python3", timeout=120).execute()
+        NotebookClient(notebook, kernel_name="python3", timeout=patience()).execute()
     return [
         sum("image/png" in output.get("data", {}) for output in cell.outputs)
         for cell in notebook.cells
