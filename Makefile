@@ -9,7 +9,7 @@ PART ?= 1/1
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage leak-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -69,6 +69,10 @@ grid-error: $(VENV)/installed
 
 coverage: $(VENV)/installed
 	$(BIN)/python benchmarks/measured_coverage.py pieces
+
+# How often intervals hold what is known of many bodies; fails where a promise is not kept; resumable.
+coverage-table: $(VENV)/installed
+	$(BIN)/python benchmarks/promised_coverage.py
 
 contact-area: $(VENV)/installed
 	$(BIN)/python benchmarks/contact_area.py
