@@ -24,12 +24,12 @@ def small(pages):
     return page
 
 
-@pytest.fixture
-def fresh(small, pages):
-    """Return the same page with bodies that stick."""
-    small.goto(pages.address + WITH)
-    at_rest(small, points=64)
-    return small
+@pytest.fixture(scope="module")
+def sticking(pages):
+    """Return another page with bodies that stick, which are long pressed: tests set what counts."""
+    page = pages.open(WITH)
+    at_rest(page, points=64)
+    return page
 
 
 def at_rest(page, **wanted):
@@ -85,55 +85,55 @@ def test_the_tick_shows_both_ways_with_this_load_on_each_and_takes_them_away_aga
     assert "w" not in address(small)
 
 
-def test_a_link_shows_the_same_ways(fresh, pages):
-    other = pages.open("?" + urlencode(address(fresh)))
+def test_a_link_shows_the_same_ways(sticking, pages):
+    other = pages.open("?" + urlencode(address(sticking)))
     at_rest(other, points=64)
     assert other.is_checked("#explore-adds-w")
     assert other.is_visible("#plot-explore-cycle")
-    assert strip(other) == strip(fresh)
-    assert table(other, "cycle") == table(fresh, "cycle")
+    assert strip(other) == strip(sticking)
+    assert table(other, "cycle") == table(sticking, "cycle")
     other.context.close()
 
 
-def test_a_range_that_the_grid_does_not_resolve_is_refused_and_the_rest_lives(fresh):
-    typed(fresh, "h0", "0.1")
-    refused = sentence(fresh, "h0")
+def test_a_range_that_the_grid_does_not_resolve_is_refused_and_the_rest_lives(sticking):
+    typed(sticking, "h0", "0.1")
+    refused = sentence(sticking, "h0")
     refused.filter(has_text="too short for the grid").wait_for()
-    typed(fresh, "F", "0.05")
-    at_rest(fresh, points=64, F=0.05)
-    fresh.wait_for_selector("[data-answer=pull_off]")
+    typed(sticking, "F", "0.05")
+    at_rest(sticking, points=64, F=0.05)
+    sticking.wait_for_selector("[data-answer=pull_off]")
     assert "0.5 is used meanwhile" in refused.inner_text()
-    typed(fresh, "h0", "0.4")
-    at_rest(fresh, points=64, h0=0.4)
+    typed(sticking, "h0", "0.4")
+    at_rest(sticking, points=64, h0=0.4)
     assert refused.inner_text() == ""
 
 
-def test_a_hardness_beside_is_refused_at_its_control(fresh):
-    fresh.check("#explore-adds-hardness_bar")
-    sentence(fresh, "hardness_bar").filter(has_text="stick and yield").wait_for()
-    fresh.uncheck("#explore-adds-hardness_bar")
-    at_rest(fresh, points=64)
-    assert sentence(fresh, "hardness_bar").inner_text() == ""
-    assert "pull_off" in strip(fresh)
+def test_a_hardness_beside_is_refused_at_its_control(sticking):
+    sticking.check("#explore-adds-hardness_bar")
+    sentence(sticking, "hardness_bar").filter(has_text="stick and yield").wait_for()
+    sticking.uncheck("#explore-adds-hardness_bar")
+    at_rest(sticking, points=64)
+    assert sentence(sticking, "hardness_bar").inner_text() == ""
+    assert "pull_off" in strip(sticking)
 
 
-def test_a_zone_of_few_cells_is_warned_of_in_the_strip(fresh):
-    typed(fresh, "h0", "0.35")
-    at_rest(fresh, points=64, h0=0.35)
-    value, below = strip(fresh)["zone"]
+def test_a_zone_of_few_cells_is_warned_of_in_the_strip(sticking):
+    typed(sticking, "h0", "0.35")
+    at_rest(sticking, points=64, h0=0.35)
+    value, below = strip(sticking)["zone"]
     assert value == "2.5 cells *"
     assert "4 are needed" in below
 
 
-def test_the_line_of_the_load_can_be_dragged(fresh):
-    fresh.evaluate(
+def test_the_line_of_the_load_can_be_dragged(sticking):
+    sticking.evaluate(
         """() => {
             const made = Bokeh.documents.find((each) => each.get_model_by_name("cycle cursor"));
             made.get_model_by_name("cycle cursor").location = 0.04;
         }"""
     )
-    at_rest(fresh, points=64, F=0.04)
-    fresh.wait_for_function(
+    at_rest(sticking, points=64, F=0.04)
+    sticking.wait_for_function(
         """() => {
             const made = Bokeh.documents.find((each) => each.get_model_by_name("cycle here"));
             return Math.abs(made.get_model_by_name("cycle here").data.y[0] - 0.04) < 1e-9;
@@ -164,8 +164,8 @@ def test_texts_stand_out_and_none_is_cut_off(pages, theme):
     page.context.close()
 
 
-def test_a_curve_arrives(fresh):
-    fresh.select_option("#saved", "curve.csv")
-    with fresh.expect_download() as coming:
-        fresh.click("#save")
+def test_a_curve_arrives(sticking):
+    sticking.select_option("#saved", "curve.csv")
+    with sticking.expect_download() as coming:
+        sticking.click("#save")
     assert coming.value.suggested_filename == "curve.csv"
