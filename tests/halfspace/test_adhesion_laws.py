@@ -290,6 +290,19 @@ def test_nearly_smooth_bodies_touch_everywhere_without_a_load(law, periodic):
     assert first.area_fraction == 1
 
 
+def test_what_stalls_in_single_precision_is_found_in_double():
+    """On heights so small beside the range of the pull that single precision tells few apart."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-4, q_roll=12, q_high=50)
+    body, sticky = spectrum.surface(16, rng=1), rl.Exponential(work_of_adhesion=0.2, range=0.4)
+    depths = [-0.2, 0.1, 0.3, 0.1, -0.1, -0.3]
+    mixed, double = (
+        rl.press(body, E_star=1.0, law=sticky, depths=depths, precision=precision)
+        for precision in ("mixed", "float64")
+    )
+    assert mixed.force == pytest.approx(double.force, abs=FORCE * np.abs(double.force).max())
+    assert (mixed.area_fraction == double.area_fraction).all()
+
+
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("rms_height", [0.001, 0.1, 1.0])
