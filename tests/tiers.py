@@ -73,6 +73,10 @@ def node_of(item):
     return item.nodeid.removeprefix("tests/")
 
 
+def _group_of(item):
+    return group_of(node_of(item))
+
+
 def part_in(text):
     """Read a part, such as 3/12."""
     number, _, of = text.partition("/")
@@ -148,10 +152,10 @@ class Choice:
         sums = Counter()
         for file, seconds in shared_by_files().items():
             sums[group_of(file)] += seconds
-        for node in wanted:
+        for node in sorted(wanted):  # sums of every process are the same to the last bit
             sums[group_of(node)] += self._taken.get(node, 0)
         chosen = [item for item in items if node_of(item) in wanted]
-        items[:] = sorted(chosen, key=lambda item: -sums[group_of(node_of(item))])
+        items[:] = sorted(chosen, key=lambda item: (-sums[_group_of(item)], _group_of(item)))
 
     def pytest_sessionfinish(self):
         if hasattr(self._config, "workeroutput"):

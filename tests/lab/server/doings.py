@@ -48,9 +48,10 @@ def sleep(arguments, progress):
     """Take some time, and tell of it."""
     if "mark" in arguments:
         Path(arguments["mark"]).touch()
-    for step in range(100):
-        time.sleep(arguments["seconds"] / 100)
-        progress(step + 1, 100)
+    steps = max(100, round(20 * arguments["seconds"]))
+    for step in range(steps):
+        time.sleep(arguments["seconds"] / steps)
+        progress(step + 1, steps)
     return b"slept"
 
 

@@ -329,7 +329,7 @@ def test_the_loss_of_the_process_that_forks_is_survived(lasting):
 
     async def scenario(lane, asker):
         await lane.prepare()
-        before = pids(lane)
+        before = [psutil.Process(pid) for pid in pids(lane)]
         forking = psutil.Process(forkserver._forkserver._forkserver_pid)
         forking.kill()
         await becomes(lambda: not alive_still(forking))
@@ -337,7 +337,7 @@ def test_the_loss_of_the_process_that_forks_is_survived(lasting):
             asker.ask("echo", slot=f"{number}", say="alive")
             assert (await asker.of(f"{number}")).answer.startswith(b"alive")
         await lane.prepare()
-        await becomes(lambda: not any(psutil.pid_exists(pid) for pid in before))
+        await becomes(lambda: not any(map(alive_still, before)))
 
     run(scenario, lasting=lasting)
 
