@@ -125,7 +125,7 @@ def pictures_below(cells):
     notebook = nbformat.v4.new_notebook(cells=[*map(nbformat.v4.new_code_cell, cells)])
     with pytest.MonkeyPatch.context() as environment:
         environment.delenv("MPLBACKEND", raising=False)
-        NotebookClient(notebook, kernel_name="python3", timeout=patience()).execute()
+        NotebookClient(notebook, kernel_name="python3", timeout=round(patience())).execute()
     return [
         sum("image/png" in output.get("data", {}) for output in cell.outputs)
         for cell in notebook.cells

@@ -345,8 +345,9 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
 def test_a_long_press_can_be_cancelled(fresh):
     fresh.check('#explore [data-key="n"][value="1024"]')
     fresh.click("#explore .cancel")
-    assert fresh.inner_text("#explore [data-status]") == "stopped: the coarse answer is shown"
-    assert not fresh.is_visible("#explore progress")
+    stopped = fresh.get_by_text("stopped: the coarse answer is shown", exact=True)
+    fresh.locator("#explore [data-status]").and_(stopped).wait_for()
+    fresh.wait_for_selector("#explore progress", state="hidden")
     drawn(fresh, points=128)
     fresh.check('#explore [data-key="n"][value="64"]')
     settled(fresh, points=64)
