@@ -9,9 +9,8 @@ import pytest
 
 import tiers
 from reference import DURATIONS
-from tiers import LONGEST, PROCESSES, SHORT, durations, part, part_in, shared_by_files, short
+from tiers import SHORT, durations, part, part_in, short
 
-MOST = 240.0  # that `make test` may take by the durations, start and the rest of the end apart [s]
 known = pytest.mark.skipif(not DURATIONS.is_file(), reason=f"no {DURATIONS.name}")
 TAKEN = {"a::f[1]": 0.1, "a::f[2]": 9.0, "a::g[1]": 3.0, "a::g[2]": 2.0, "b::h": 0.2, "b::i": 7.0}
 
@@ -28,31 +27,19 @@ def test_a_test_that_is_not_in_the_file_counts_as_short():
 @known
 @pytest.mark.parametrize("of", [1, 2, 3, 12])
 def test_parts_are_all_of_it_once_and_take_as_long_as_each_other(of):
-    nodes = set(durations())
-    parts = [part(nodes, durations(), number, of) for number in range(1, of + 1)]
-    assert sum(map(len, parts)) == len(nodes)
-    assert set().union(*parts) == nodes
-    sums = [sum(durations()[node] for node in each) for each in parts]
-    longest = max(durations().values())
-    assert max(sums) - min(sums) <= longest + 0.01 * len(nodes)
-    assert parts[0] == part(sorted(nodes), durations(), 1, of)
+    taken = durations()
+    parts = [part(taken, taken, number, of) for number in range(1, of + 1)]
+    assert sum(map(len, parts)) == len(taken)
+    assert set().union(*parts) == set(taken)
+    sums = [sum(taken[node] for node in each) for each in parts]
+    assert max(sums) - min(sums) <= max(taken.values()) + 0.01 * len(taken)
+    assert parts[0] == part(sorted(taken), taken, 1, of)
 
 
 @pytest.mark.parametrize("text", ["0/3", "4/3", "3", "a/b", "1/0", "-1/3"])
 def test_a_part_that_is_none_is_refused_in_a_line(text):
     with pytest.raises(pytest.UsageError, match=rf"--part {re.escape(text)}: give one of some"):
         part_in(text)
-
-
-@known
-def test_make_test_is_short_by_the_file():
-    """Of two processes one may have the longest test at its end."""
-    taken = durations()
-    chosen = short(taken, taken)
-    shared = sum(shared_by_files().values())
-    assert (shared + sum(taken[node] for node in chosen)) / PROCESSES <= MOST
-    too_long = {node: taken[node] for node in chosen if taken[node] > LONGEST}
-    assert too_long == {}, "give these functions a smaller case"
 
 
 @known

@@ -13,12 +13,10 @@ import pytest
 
 from reference import DURATIONS, seconds_here, slowness
 
-SHORT = 0.5  # [s]
-LONGEST = 10.0  # that a representative may take [s]; both on the machine of the durations
+SHORT = 0.5  # [s] on the machine of the durations
 _TOGETHER = ("campaign", "paper")  # folders whose tests share a cluster or a store
 _EACH = 0.01  # that a test takes beside itself [s]
 _SLOW = 1.5  # times as long as there, from which on it is said
-PROCESSES = 2  # of `make test`
 
 
 def durations():
@@ -201,9 +199,9 @@ class Record:
         self._taken, self._shared = Counter(), Counter()
         self._skipped, self._collected = set(), []
 
-    @pytest.hookimpl(trylast=True)
-    def pytest_collection_finish(self, session):
-        self._collected = [node_of(item) for item in session.items]
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_collection_modifyitems(self, items):
+        self._collected = [node_of(item) for item in items]  # those that are not chosen, too
 
     @pytest.hookimpl(wrapper=True)
     def pytest_fixture_setup(self, fixturedef):

@@ -31,7 +31,7 @@ def small_plan():
     return replace(plan, ensembles=ensembles)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def small_gallery(small_plan):
     return replace(Gallery.of(small_plan, (2.0, 3.0)), n_line=128)
 
