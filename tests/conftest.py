@@ -60,6 +60,20 @@ def pytest_unconfigure():
 
 
 @pytest.fixture
+def few_loads(monkeypatch):
+    """Let a whole curve have few loads, each of which takes as long as the others."""
+    monkeypatch.setattr("roughline.assessment.loads._CURVE_LOADS", 3)
+
+
+@pytest.fixture(params=["few loads", "all loads"])
+def loads_of_curve(request):
+    """Let a whole curve have few loads, or all; returns which."""
+    if request.param == "few loads":
+        request.getfixturevalue("few_loads")
+    return request.param
+
+
+@pytest.fixture
 def judged(request):
     """Hold the errors of a test against an exact solution to those that the handbook tells."""
     file = request.path.relative_to(request.config.rootpath).as_posix()

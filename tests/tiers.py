@@ -13,7 +13,7 @@ import pytest
 
 from reference import DURATIONS, seconds_here, slowness
 
-SHORT = 0.5  # [s] on the machine of the durations
+SHORT = 0.1  # [s] on the machine of the durations
 _TOGETHER = ("campaign", "paper")  # folders whose tests share a cluster or a store
 _EACH = 0.01  # that a test takes beside itself [s]
 _SLOW = 1.5  # times as long as there, from which on it is said

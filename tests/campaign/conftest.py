@@ -108,13 +108,6 @@ def cluster_without_workers():
         yield cluster.scheduler_address
 
 
-@pytest.fixture
-def two_threads():
-    """Address of such a cluster with one worker that computes two cases at a time."""
-    with cluster_here(n_workers=1, threads_per_worker=2) as cluster:
-        yield cluster.scheduler_address
-
-
 @pytest.fixture(autouse=True)
 def as_many_threads():
     """Compute with as many threads as before after a campaign in this process."""

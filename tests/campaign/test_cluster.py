@@ -1,5 +1,6 @@
 """Clusters: by address, with schedulers and workers of several kinds, and of this machine."""
 
+import contextlib
 import multiprocessing.util
 import os
 import socket
@@ -13,7 +14,7 @@ import pytest
 from distributed import Client, LocalCluster, Status
 
 import roughline as rl
-from dask_processes import start_scheduler, start_worker
+from dask_processes import cluster_here, start_scheduler, start_worker
 from reference import patience
 from roughline import campaign
 from roughline.campaign import cluster
@@ -25,9 +26,28 @@ def plan(few_plan_file):
     return few_plan_file
 
 
-def test_a_cluster_gives_the_same_bytes(plan, few_undisturbed, two_workers, tmp_path, invoke):
+@pytest.fixture(params=["in this process", "processes"])
+def cluster_of(request, tmp_path):
+    """Start a cluster of some workers with some threads; returns its address."""
+    with contextlib.ExitStack() as stack:
+
+        def started(workers, threads):
+            if request.param == "in this process":
+                here = cluster_here(n_workers=workers, threads_per_worker=threads)
+                return stack.enter_context(here).scheduler_address
+            scheduler, address = start_scheduler(tmp_path)
+            count = ("--nthreads", str(threads))
+            for process in (scheduler, *(start_worker(address, *count) for _ in range(workers))):
+                stack.callback(process.wait)
+                stack.callback(process.kill)
+            return address
+
+        yield started
+
+
+def test_a_cluster_gives_the_same_bytes(plan, few_undisturbed, cluster_of, tmp_path, invoke):
     code, out, err = invoke(
-        *("campaign", "run", plan, "--store", tmp_path / "far", "--scheduler", two_workers)
+        *("campaign", "run", plan, "--store", tmp_path / "far", "--scheduler", cluster_of(2, 1))
     )
     assert code == 0, err
     assert "30 cases computed, 0 failed" in out
@@ -36,10 +56,10 @@ def test_a_cluster_gives_the_same_bytes(plan, few_undisturbed, two_workers, tmp_
 
 
 def test_workers_with_several_threads_give_the_same_bytes(
-    plan, few_undisturbed, two_threads, tmp_path
+    plan, few_undisturbed, cluster_of, tmp_path
 ):
     """Two cases at a time in one process: nothing is shared between them."""
-    campaign.run(campaign.read_plan(plan), tmp_path / "far", scheduler=two_threads)
+    campaign.run(campaign.read_plan(plan), tmp_path / "far", scheduler=cluster_of(1, 2))
     assert tree(tmp_path / "far") == few_undisturbed
 
 
@@ -165,7 +185,8 @@ def test_workers_that_are_gone_for_good_are_replaced():
             time.sleep(0.2)
 
 
-def test_a_cluster_is_closed_when_its_workers_have_started(monkeypatch):
+@pytest.mark.parametrize("restarts", [0, 3])
+def test_a_cluster_is_closed_when_its_workers_have_started(monkeypatch, restarts):
     """One that is closed while it starts sometimes never ends."""
     close, running = LocalCluster.close, []
 
@@ -175,7 +196,8 @@ def test_a_cluster_is_closed_when_its_workers_have_started(monkeypatch):
         return close(self, *arguments)
 
     monkeypatch.setattr(LocalCluster, "close", recording_close)
-    with dask.config.set({"distributed.scheduler.allowed-failures": 0}), cluster.local(1) as one:
+    deaths = dask.config.set({"distributed.scheduler.allowed-failures": restarts})
+    with deaths, cluster.local(1) as one:
         died = one.client.submit(os._exit, 9, pure=False)
         assert type(died.exception()).__name__ == "KilledWorker"
     assert running[0] == 1

@@ -74,7 +74,7 @@ def test_json_has_each_map_and_the_part(scans, invoke):
     assert json.loads(out)["answers"]["R"]["values"] == single["values"]
 
 
-def test_a_report_on_a_part_and_its_joint(scans, few_loads, invoke, only_drawn, tmp_path):
+def test_a_report_on_a_part_and_its_joint(scans, loads_of_curve, invoke, only_drawn, tmp_path):
     only_drawn("answers")
     folder = tmp_path / "report"
     code, _, errors = invoke(

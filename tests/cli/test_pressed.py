@@ -273,7 +273,7 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
 
 
 def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
-    rough, few_loads, invoke, only_drawn, tmp_path
+    rough, loads_of_curve, invoke, only_drawn, tmp_path
 ):
     only_drawn()
     asked = ("press", rough, *PAIR, "--load", "10 N")
@@ -293,7 +293,7 @@ def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
     assert "air may carry several times what the spots do" in page
 
 
-def test_a_report_speaks_to_a_client(holed, few_loads, invoke, only_drawn, tmp_path):
+def test_a_report_speaks_to_a_client(holed, loads_of_curve, invoke, only_drawn, tmp_path):
     only_drawn()
     file, *options = holed
     code, _, errors = invoke(

@@ -316,7 +316,7 @@ def test_what_laying_two_bodies_together_crops_and_resamples_is_said(tmp_path, i
 
 
 def test_of_two_rough_bodies_each_is_described_and_filled_twice(
-    tmp_path, few_loads, invoke, only_drawn
+    tmp_path, loads_of_curve, invoke, only_drawn
 ):
     only_drawn()
     spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)

@@ -86,7 +86,7 @@ def test_unloading_is_printed_in_words_and_drawn(rough, invoke, only_drawn, tmp_
     assert (tmp_path / "curve.png").stat().st_size > 10_000
 
 
-def test_a_report_of_metals_that_yield(holed, few_loads, invoke, only_drawn, tmp_path):
+def test_a_report_of_metals_that_yield(holed, loads_of_curve, invoke, only_drawn, tmp_path):
     only_drawn()
     file, *options = holed
     code, _, errors = invoke(

@@ -11,24 +11,7 @@ from lab.looks import asked, cut_off, faint
 from lab.test_explore_page import E_STAR, HEIGHT, LENGTH, SCALE, box_of, spectrum
 
 FLOWS = SMALL + "&fluid=x&shown=flux"
-PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
 CELL = (40, 22)  # of the map, which is open there
-
-
-@pytest.fixture(scope="module")
-def small(pages):
-    """Return one page on a small grid, for tests that set what they need."""
-    page = pages.open(SMALL)
-    settled(page, points=64)
-    return page
-
-
-@pytest.fixture
-def fresh(small, pages):
-    """Return the same page with a fluid."""
-    small.goto(pages.address + FLOWS)
-    at_rest(small, points=64)
-    return small
 
 
 def at_rest(page, **wanted):
@@ -81,72 +64,131 @@ def told_of(cell):
     return fields.gap[cell] / HEIGHT, flux
 
 
-def test_the_tick_shows_where_the_fluid_goes_and_how_much_and_takes_it_away_again(small):
-    elastic = strip(small)
-    assert not small.is_visible("#tab-aperture")
-    small.check("#explore-adds-fluid")
-    at_rest(small, points=64)
-    drawn(small, "aperture", what="fluid")
+def flow_is_shown(page, elastic):
     flow = rl.flow(pressed().fields[0])
     flux = np.hypot(*flow.flux) * LENGTH / flow.inflow
     flux[flow.gap == 0] = np.nan
-    shown = np.array(image(small, "contact"), dtype=float).reshape(64, 64).T
+    shown = np.array(image(page, "contact"), dtype=float).reshape(64, 64).T
     is_drawn = ~np.isnan(shown) & (shown > -2)
     np.testing.assert_allclose(10 ** shown[is_drawn], flux[is_drawn], rtol=1e-5)
     np.testing.assert_array_equal(np.isnan(shown), flow.gap == 0)
-    assert source(small, "contact rings") == [
+    assert source(page, "contact rings") == [
         [each] for each in map(pytest.approx, middle_of(flow.constriction))
     ]
-    assert small.is_visible("#plot-explore-aperture")
-    said = strip(small)
+    assert page.is_visible("#plot-explore-aperture")
+    said = strip(page)
     assert said.keys() - elastic.keys() == {"aperture", "channel"}
     aperture = flow.hydraulic_aperture / HEIGHT
     assert float(said["aperture"][0].removesuffix(" h")) == pytest.approx(aperture, rel=0.01)
-    assert address(small)["fluid"] == "x"
-    assert address(small)["shown"] == "flux"
-    assert "Bruggeman" in small.inner_text('[data-remarks="aperture"]')
-    small.uncheck("#explore-adds-fluid")
-    settled(small, points=64)
-    small.wait_for_function("() => !document.querySelector('[data-answer=aperture]')")
-    assert strip(small) == elastic
-    assert not small.is_visible("#tab-aperture")
-    assert small.is_visible("#plot-explore-area")
-    assert small.input_value('#explore [data-key="shown"]') == "area"
-    assert "fluid" not in address(small)
-    assert set(image(small, "contact")) == {0, 1}
-    assert source(small, "contact rings") == [[], []]
-    assert small.inner_text('[data-remarks="aperture"]') == ""
+    assert address(page)["fluid"] == "x"
+    assert address(page)["shown"] == "flux"
+    assert "Bruggeman" in page.inner_text('[data-remarks="aperture"]')
 
 
-def test_a_link_shows_the_same_flow(fresh, pages):
-    fresh.select_option('#explore [data-key="shown"]', "gap")
-    other = pages.open("?" + urlencode(address(fresh)))
-    at_rest(other, points=64)
-    assert strip(other) == strip(fresh)
-    assert other.input_value('#explore [data-key="shown"]') == "gap"
-    np.testing.assert_array_equal(image(other, "contact"), image(fresh, "contact"))
-    assert table(other, "aperture") == table(fresh, "aperture")
-    assert other.is_checked("#explore-adds-fluid")
-    other.context.close()
-
-
-def test_the_map_tells_place_gap_and_flux_where_the_mouse_is(fresh):
-    fresh.mouse.move(*on_the_map(fresh, *middle_of(CELL)))
+def map_tells_the_mouse(page):
+    page.mouse.move(*on_the_map(page, *middle_of(CELL)))
     gap, flux = told_of(CELL)
-    place = fresh.locator("#explore-contact .point")
+    place = page.locator("#explore-contact .point")
     told = place.inner_text()
     assert told.startswith("x 0.633 L, y 0.352 L; height ")
     assert f"; gap {gap:#.3g} h; " in told
     assert told.endswith(f"; flux {flux:#.3g} of its mean")
     touching = tuple(np.argwhere(pressed().fields[0].contact)[0])
-    fresh.mouse.move(*on_the_map(fresh, *middle_of(touching)))
+    page.mouse.move(*on_the_map(page, *middle_of(touching)))
     assert "; in contact" in place.inner_text()
-    fresh.mouse.move(*on_the_map(fresh, -0.05, 0.5))
+    page.mouse.move(*on_the_map(page, -0.05, 0.5))
     assert not place.is_visible()
 
 
+def sealed_loads_are_shown(page):
+    assert strip(page)["aperture"][0] == "sealed"
+    assert "sealed" in page.inner_text('[data-caption="shown"]')
+    assert "seals between F̄ = " in page.inner_text('[data-caption="aperture"]')
+    start, end = page.evaluate(
+        """() => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name("aperture here"));
+            const {y_range} = made.get_model_by_name("explore-aperture");
+            return [y_range.start, y_range.end];
+        }"""
+    )
+    _, feet = source(page, "aperture sealed")
+    [force], [here] = source(page, "aperture here")
+    assert force == pytest.approx(9)
+    assert {here, *feet} == {here}
+    assert start < here < start * (end / start) ** 0.1
+    assert min(source(page, "aperture curve")[1]) > here
+    assert [row for row in table(page, "aperture") if row[1] == "sealed" and row[2] == "3D"]
+
+
+def link_shows_the_same(page, pages):
+    other = pages.open("?" + urlencode(address(page)))
+    at_rest(other, points=64)
+    assert strip(other) == strip(page)
+    assert other.input_value('#explore [data-key="shown"]') == "gap"
+    np.testing.assert_array_equal(image(other, "contact"), image(page, "contact"))
+    assert table(other, "aperture") == table(page, "aperture")
+    assert other.is_checked("#explore-adds-fluid")
+    other.context.close()
+
+
+def texts_stand_out(page):
+    assert faint(page) == []
+    for width, height in ((390, 844), (1200, 800), (1600, 1100)):
+        assert cut_off(page, "explore", width, height) == []
+        assert asked(page, "tiny", "explore") == []
+    assert asked(page, "nameless", "explore") == []
+    assert asked(page, "undescribed", "explore") == []
+
+
+def flow_is_gone(page, elastic):
+    page.wait_for_function("() => !document.querySelector('[data-answer=aperture]')")
+    assert strip(page) == elastic
+    assert not page.is_visible("#tab-aperture")
+    assert page.is_visible("#plot-explore-area")
+    assert page.input_value('#explore [data-key="shown"]') == "area"
+    assert "fluid" not in address(page)
+    assert set(image(page, "contact")) == {0, 1}
+    assert source(page, "contact rings") == [[], []]
+    assert page.inner_text('[data-remarks="aperture"]') == ""
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_fluid_is_ticked_looked_at_saved_linked_sealed_and_taken_away(pages, theme):
+    page = pages.open(SMALL, theme=theme)
+    settled(page, points=64)
+    elastic = strip(page)
+    page.focus("#tab-spectrum")
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("() => document.activeElement.id") == "tab-area"  # there is no other
+    assert not page.is_visible("#tab-aperture")
+    page.focus("#explore-adds-fluid")
+    page.keyboard.press("Space")
+    at_rest(page, points=64)
+    page.focus("#tab-spectrum")
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("() => document.activeElement.id") == "tab-aperture"
+    flow_is_shown(page, elastic)
+    map_tells_the_mouse(page)
+    texts_stand_out(page)
+    page.select_option("#saved", "curve.png")
+    with page.expect_download() as coming:
+        page.click("#save")
+    assert coming.value.suggested_filename == "curve.png"
+    page.select_option('#explore [data-key="shown"]', "gap")
+    link_shows_the_same(page, pages)
+    page.select_option('#explore [data-key="shown"]', "flux")
+    typed(page, "F", "9")
+    at_rest(page, points=64, F=9)
+    sealed_loads_are_shown(page)
+    typed(page, "F", "0.2")
+    page.uncheck("#explore-adds-fluid")
+    settled(page, points=64, F=0.2)
+    flow_is_gone(page, elastic)
+    page.context.close()
+
+
 def test_a_finger_is_told_the_same(pages):
-    page = pages.open(FLOWS, **PHONE)
+    page = pages.open(FLOWS, width=390, height=844, has_touch=True, is_mobile=True)
     at_rest(page, points=64)
     page.touchscreen.tap(*on_the_map(page, *middle_of(CELL)))
     gap, _ = told_of(CELL)
@@ -154,71 +196,14 @@ def test_a_finger_is_told_the_same(pages):
     page.context.close()
 
 
-def test_sealed_loads_stand_at_the_foot_and_are_said(fresh):
-    typed(fresh, "F", "9")
-    at_rest(fresh, points=64, F=9)
-    assert strip(fresh)["aperture"][0] == "sealed"
-    assert "sealed" in fresh.inner_text('[data-caption="shown"]')
-    assert "seals between F̄ = " in fresh.inner_text('[data-caption="aperture"]')
-    start, end = fresh.evaluate(
-        """() => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name("aperture here"));
-            const {y_range} = made.get_model_by_name("explore-aperture");
-            return [y_range.start, y_range.end];
-        }"""
-    )
-    _, feet = source(fresh, "aperture sealed")
-    [force], [here] = source(fresh, "aperture here")
-    assert force == pytest.approx(9)
-    assert {here, *feet} == {here}
-    assert start < here < start * (end / start) ** 0.1
-    assert min(source(fresh, "aperture curve")[1]) > here
-    assert [row for row in table(fresh, "aperture") if row[1] == "sealed" and row[2] == "3D"]
-
-
 @pytest.mark.parametrize("key", ["F", "D_f", "roll_off"])
-def test_sliders_go_to_both_ends_with_a_fluid(fresh, key):
-    for end in ("Home", "End"):
-        fresh.focus(f"#explore-{key}")
-        fresh.keyboard.press(end)
-        settled(fresh, points=64)
-        assert "aperture" in strip(fresh)
-    fresh.locator(f"#explore-{key}").dblclick()
-    at_rest(fresh, points=64)
-
-
-def test_the_tick_and_its_curve_are_reached_by_keys(small, pages):
-    small.goto(pages.address + SMALL)
-    settled(small, points=64)
-    small.focus("#tab-spectrum")
-    small.keyboard.press("ArrowRight")
-    assert small.evaluate("() => document.activeElement.id") == "tab-area"  # there is no other
-    small.focus("#explore-adds-fluid")
-    small.keyboard.press("Space")
-    at_rest(small, points=64)
-    small.focus("#tab-spectrum")
-    small.keyboard.press("ArrowRight")
-    assert small.evaluate("() => document.activeElement.id") == "tab-aperture"
-    assert small.is_visible("#plot-explore-aperture")
-    assert asked(small, "nameless", "explore") == []
-    assert asked(small, "undescribed", "explore") == []
-
-
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_texts_of_the_flow_stand_out_and_none_is_cut_off(pages, theme):
-    page = pages.open(FLOWS, theme=theme)
+def test_sliders_go_to_both_ends_with_a_fluid(tab, key):
+    page = tab(FLOWS)
     at_rest(page, points=64)
-    page.mouse.move(*on_the_map(page, *middle_of(CELL)))
-    page.locator("#explore-contact .point").wait_for()
-    assert faint(page) == []
-    for width, height in ((390, 844), (1200, 800), (1600, 1100)):
-        assert cut_off(page, "explore", width, height) == []
-        assert asked(page, "tiny", "explore") == []
-    page.context.close()
-
-
-def test_a_picture_of_the_flow_arrives(fresh, tmp_path):
-    fresh.select_option("#saved", "curve.png")
-    with fresh.expect_download() as coming:
-        fresh.click("#save")
-    assert coming.value.suggested_filename == "curve.png"
+    for end in ("Home", "End"):
+        page.focus(f"#explore-{key}")
+        page.keyboard.press(end)
+        settled(page, points=64)
+        assert "aperture" in strip(page)
+    page.locator(f"#explore-{key}").dblclick()
+    at_rest(page, points=64)

@@ -157,7 +157,38 @@ def test_a_dragged_slider_is_followed_coarsely_and_sharpens_at_rest(fresh):
     assert address(fresh)["D_f"] == f"{value:g}"
 
 
-def test_a_slider_goes_by_keys_and_numbers_are_typed_with_their_units(fresh):
+def shown_is_of_the_library(page):
+    """Return what the strip says, of a surface of 0.3 um that yields."""
+    surface = rl.SelfAffine(
+        fractal_dimension=2.46, length=2e-3, rms_height=3e-7, q_high=2 * math.pi / 1.25e-4
+    ).surface(64, 12)
+    hardness = 0.3 * E_STAR * surface.rms_slope
+    pressed = rl.press(surface, E_star=E_STAR, hardness=hardness, forces=[10.0], fields=True)
+    fields = pressed.fields[0]
+    np.testing.assert_array_equal(
+        image(page, "contact"), (fields.contact.astype(int) + fields.plastic).T.ravel()
+    )
+    said = strip(page)
+    assert said["plastic"][0] == figure(100 * float(pressed.plastic_fraction[0])) + "%"
+    assert said["roughness"][0] == "300 nm"
+    assert said["force"][0] == "10.0 N"
+    assert "at the hardness" in page.inner_text('[data-caption="shown"]')
+    for name in ("stiffness unloading", "stiffness back", "area back"):
+        assert shown_marks(page, name) > 3
+    return said
+
+
+def link_shows_the_same(page, pages):
+    other = pages.open("?" + urlencode(address(page)))
+    settled(other, points=64, seed=12)
+    assert strip(other) == strip(page)
+    np.testing.assert_array_equal(image(other, "contact"), image(page, "contact"))
+    assert "Persson" in other.inner_text('[data-remarks="area"]')
+    return other
+
+
+def test_it_goes_by_keys_and_typed_numbers_yields_is_linked_and_yields_no_more(fresh, pages):
+    elastic = strip(fresh)
     fresh.focus("#explore-D_f")
     for _ in range(3):
         fresh.keyboard.press("ArrowRight")
@@ -166,11 +197,33 @@ def test_a_slider_goes_by_keys_and_numbers_are_typed_with_their_units(fresh):
     for key, text in (("h", "0.3 um"), ("F", "10 N"), ("D_f", "H = 0.8"), ("L", "2 mm")):
         typed(fresh, key, text)
     settled(fresh, points=64, D_f=2.2, h=1.5e-4)
-    said = strip(fresh)
-    assert said["roughness"][0] == "300 nm"
-    assert said["force"][0] == "10.0 N"
     assert fresh.input_value("#explore-h-text") == "0.3 um"
     assert float(fresh.input_value("#explore-D_f")) == pytest.approx(2.2)
+    fresh.check('#explore [data-key="theories"][value="persson"]')
+    fresh.check("#explore-adds-hardness_bar")
+    for key, text in (("D_f", "2.46"), ("seed", "12"), ("hardness_bar", "0.3")):
+        typed(fresh, key, text)
+    settled(fresh, points=64, D_f=2.46, seed=12, hardness_bar=0.3)
+    fresh.locator("#explore-area .names li", has_text="way back").wait_for()
+    said = shown_is_of_the_library(fresh)
+    assert said.keys() - elastic.keys() == {"unloading", "plastic", "indentation"}
+    link_shows_the_same(fresh, pages).context.close()
+    typed(fresh, "hardness_bar", "7")
+    sentence(fresh, "hardness_bar").filter(has_text="from 0.02 to 5").wait_for()
+    fresh.uncheck("#explore-adds-hardness_bar")
+    settled(fresh, points=64)
+    fresh.wait_for_function("() => !document.querySelector('[data-answer=plastic]')")
+    assert strip(fresh).keys() == elastic.keys()
+    assert not fresh.is_visible("#explore-hardness_bar")
+    assert "hardness_bar" not in address(fresh)
+    for name in ("stiffness unloading", "stiffness back", "area back"):
+        assert shown_marks(fresh, name) == 0
+
+
+SET = """() => [...document.querySelectorAll(
+    '#explore [data-text], #explore select, #explore :is([type="radio"], [type="checkbox"])'
+)].map((each) => each.matches("[type=radio], [type=checkbox]") ? each.checked
+    : Number(each.value) || each.value)"""  # 0.5 is shown as 0.500 where it was not typed
 
 
 def test_a_link_shows_the_same(fresh, pages):
@@ -180,16 +233,8 @@ def test_a_link_shows_the_same(fresh, pages):
     fresh.check('#explore [data-key="theories"][value="persson"]')
     fresh.select_option('#explore [data-key="shown"]', "gap")
     settled(fresh, points=64, seed=12, roll_off=0.5)
-    other = pages.open("?" + urlencode(address(fresh)))
-    settled(other, points=64, seed=12)
-    assert strip(other) == strip(fresh)
-    state = """() => [...document.querySelectorAll(
-        '#explore [data-text], #explore select, #explore :is([type="radio"], [type="checkbox"])'
-    )].map((each) => each.matches("[type=radio], [type=checkbox]") ? each.checked
-        : Number(each.value) || each.value)"""  # 0.5 is shown as 0.500 where it was not typed
-    assert other.evaluate(state) == fresh.evaluate(state)
-    np.testing.assert_array_equal(image(other, "contact"), image(fresh, "contact"))
-    assert "Persson" in other.inner_text('[data-remarks="area"]')
+    other = link_shows_the_same(fresh, pages)
+    assert other.evaluate(SET) == fresh.evaluate(SET)
     other.context.close()
 
 
@@ -204,47 +249,6 @@ def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(small, pages):
     page.check('#explore [data-key="n"][value="64"]')
     settled(page, points=64)
     assert not sentence(page, "").is_visible()
-
-
-def test_a_surface_yields_and_does_so_no_more(fresh, pages):
-    elastic = strip(fresh)
-    fresh.check("#explore-adds-hardness_bar")
-    typed(fresh, "hardness_bar", "0.3")
-    settled(fresh, points=64, hardness_bar=0.3)
-    fresh.locator("#explore-area .names li", has_text="way back").wait_for()
-    surface = spectrum().surface(64, 3)
-    pressed = rl.press(
-        surface,
-        E_star=E_STAR,
-        hardness=0.3 * E_STAR * surface.rms_slope,
-        forces=[0.2 * SCALE],
-        fields=True,
-    )
-    fields = pressed.fields[0]
-    np.testing.assert_array_equal(
-        image(fresh, "contact"), (fields.contact.astype(int) + fields.plastic).T.ravel()
-    )
-    said = strip(fresh)
-    assert said["plastic"][0] == figure(100 * float(pressed.plastic_fraction[0])) + "%"
-    assert said.keys() - elastic.keys() == {"unloading", "plastic", "indentation"}
-    assert "at the hardness" in fresh.inner_text('[data-caption="shown"]')
-    for name in ("stiffness unloading", "stiffness back", "area back"):
-        assert shown_marks(fresh, name) > 3
-    other = pages.open("?" + urlencode(address(fresh)))
-    settled(other, points=64, hardness_bar=0.3)
-    assert strip(other) == said
-    assert other.is_checked("#explore-adds-hardness_bar")
-    other.context.close()
-    typed(fresh, "hardness_bar", "7")
-    sentence(fresh, "hardness_bar").filter(has_text="from 0.02 to 5").wait_for()
-    fresh.uncheck("#explore-adds-hardness_bar")
-    settled(fresh, points=64)
-    fresh.wait_for_function("() => !document.querySelector('[data-answer=plastic]')")
-    assert strip(fresh) == elastic
-    assert not fresh.is_visible("#explore-hardness_bar")
-    assert "hardness_bar" not in address(fresh)
-    for name in ("stiffness unloading", "stiffness back", "area back"):
-        assert shown_marks(fresh, name) == 0
 
 
 def shown_marks(page, name):

@@ -139,12 +139,6 @@ def page(tmp_path, examples):
     return Page(tmp_path, examples)
 
 
-@pytest.fixture
-def few_loads(monkeypatch):
-    """Let a whole curve have few loads, each of which takes as long as the others."""
-    monkeypatch.setattr("roughline.assessment.loads._CURVE_LOADS", 3)
-
-
 @pytest.fixture(scope="module")
 def measured_page(tmp_path_factory, topographies, examples):
     """A page that has brought every measured file."""
@@ -257,7 +251,7 @@ def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page, ro
     assert "flux" not in arrays
 
 
-def test_an_assessment_is_solved_once(page, few_loads, only_drawn, monkeypatch):
+def test_an_assessment_is_solved_once(page, loads_of_curve, only_drawn, monkeypatch):
     only_drawn()
     said = {"example": "film", **PAIR, **SMALL}
     first, _ = page.ask("answer", said)
@@ -356,8 +350,9 @@ def test_a_file_of_which_most_is_missing_is_shown_and_can_be_allowed(page, rough
     assert any(filled in each for each in header["lists"]["remarks"])
 
 
-def test_an_array_needs_unit_and_size(page, few_loads, tmp_path):
-    heights = rl.SelfAffine(hurst=0.8, length=1e3, rms_height=1.0).surface(32, 1).heights
+def test_an_array_needs_unit_and_size(page, loads_of_curve, tmp_path):
+    points = 32 if loads_of_curve == "few loads" else 64
+    heights = rl.SelfAffine(hurst=0.8, length=1e3, rms_height=1.0).surface(points, 1).heights
     np.save(tmp_path / "map.npy", heights)
     said = page.bring(tmp_path / "map.npy", "my <b>map</b>.npy")
     header, arrays = page.ask("look", said)
@@ -499,13 +494,13 @@ def test_bodies_and_loads_are_said_as_soon_as_they_can_be_read(page):
     assert page.refusal("bodies", said, sides=["a"])[1] == ""
 
 
-@pytest.mark.parametrize("drawn", ["the curve alone", "all figures"])
 def test_no_file_that_is_taken_away_tells_where_the_upload_lay(
-    page, few_loads, tmp_path, rough, only_drawn, drawn
+    page, loads_of_curve, tmp_path, rough, only_drawn
 ):
-    if drawn == "the curve alone":
+    said = {**page.bring(rough, "Müller <1>.nc"), **PAIR}
+    if loads_of_curve == "few loads":
         only_drawn("curve")
-    said = {**page.bring(rough, "Müller <1>.nc"), **PAIR, "resample": "32"}
+        said["resample"] = "32"
     header, _ = page.ask("report", said)
     results = page.folder / "results"
     assert {"report.html", "report.pdf", "curve.nc"} <= header["files"].keys()
@@ -521,7 +516,7 @@ def test_no_file_that_is_taken_away_tells_where_the_upload_lay(
 
 
 def test_the_command_repeats_the_answers(
-    page, few_loads, invoke, only_drawn, tmp_path, monkeypatch
+    page, loads_of_curve, invoke, only_drawn, tmp_path, monkeypatch
 ):
     only_drawn()
     said = {
@@ -542,7 +537,7 @@ def test_the_command_repeats_the_answers(
     assert "Contact of ground-steel.x3p" in page_html
 
 
-def test_the_lines_of_python_repeat_the_answers(page, few_loads, tmp_path, monkeypatch):
+def test_the_lines_of_python_repeat_the_answers(page, loads_of_curve, tmp_path, monkeypatch):
     said = {"example": "film", **PAIR, **SMALL, "crop": "0 um, 2 um, 0 um, 2 um"}
     header, _ = page.ask("code", said, which="python")
     page.example("film", tmp_path)
@@ -712,7 +707,7 @@ COATED = {"first": "gold 20 µm on nickel 40 µm on copper", "second": "steel", 
 
 
 def test_a_coated_body_is_typed_into_the_control_of_its_material(
-    page, few_loads, tmp_path, monkeypatch
+    page, loads_of_curve, tmp_path, monkeypatch
 ):
     said = {"example": "ground", **SMALL, **COATED, "elastic": "yes"}
     header, _ = page.ask("bodies", said, sides=[1e-3, 1e-3])
@@ -829,7 +824,7 @@ def test_the_page_says_at_which_pressure_what_yields(page):
     assert ["yield", "left out"] in header["tables"]["measured-bodies"][1]
 
 
-def test_a_joint_is_answered_for_with_its_area(page, few_loads):
+def test_a_joint_is_answered_for_with_its_area(page, loads_of_curve):
     said = {"example": "film", **PAIR, **SMALL, "loads": "1 kN", "joint_area": "1 cm^2"}
     page.ask("look", said)
     expected = rl.assess(question_of(said, source_of(said, page.session)))
@@ -873,7 +868,7 @@ def test_maps_of_a_part_are_checked_one_by_one(page, part):
 
 
 def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(
-    page, part, few_loads, monkeypatch
+    page, part, loads_of_curve, monkeypatch
 ):
     keys, paths = part
     said = {"file": ",".join(keys.values()), **PAIR, "loads": "2 MPa; 20 MPa", "grid_error": "no"}
@@ -916,7 +911,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(
     )
 
 
-def test_the_report_of_a_part_comes_with_all_of_its_maps(page, part, few_loads, monkeypatch):
+def test_the_report_of_a_part_comes_with_all_of_its_maps(page, part, loads_of_curve, monkeypatch):
     keys, _ = part
 
     def written(part, folder, command):

@@ -15,6 +15,33 @@ LINE_SCAN = "[data-example] >> nth=2"  # which is soon prepared
 CONNECTED = '#measured-step-bodies .line:has-text(" on ")'  # what the server has answered
 
 
+BODIES = ("of few points", "an example")
+
+
+@pytest.fixture(scope="module")
+def few_points(tmp_path_factory):
+    """A file of 16 x 16 points, which is soon prepared and pressed."""
+    surface = rl.SelfAffine(hurst=0.7, length=2e-4, rms_height=2e-7).surface(16, 3)
+    path = tmp_path_factory.mktemp("few points") / "few.nc"
+    rl.write(replace(surface, unit="m"), path)
+    return path
+
+
+@pytest.fixture
+def prepared(tab, few_points):
+    """Open the view with what is set, and bring a file of few points or an example."""
+
+    def opened(body, query, example):
+        page = tab(f"?view=measured&v=1{query}{'' if body in BODIES[:1] else example}")
+        if body in BODIES[:1]:
+            page.wait_for_selector(CONNECTED)
+            page.set_input_files("#measured [data-file]", few_points)
+        page.wait_for_selector('#measured [data-result="file"]')
+        return page
+
+    return opened
+
+
 @pytest.fixture(scope="module")
 def measured(pages):
     """Return one page of the view."""
@@ -24,14 +51,15 @@ def measured(pages):
 
 
 @pytest.fixture(scope="module")
-def answered(pages):
-    """Return a page with the answers of the first example on few points."""
-    return with_answers(pages, "&v=1&resample=32")
+def answered(pages, few_points):
+    """Return a page with the answers of few points."""
+    page = pages.open("?view=measured")
+    page.wait_for_selector(CONNECTED)
+    page.set_input_files("#measured [data-file]", few_points)
+    return with_answers(page)
 
 
-def with_answers(pages, query):
-    page = pages.open(f"?view=measured{query}")
-    page.click(EXAMPLE)
+def with_answers(page):
     page.fill("#measured-loads-text", "2 MPa")
     page.press("#measured-loads-text", "Tab")
     page.click("[data-press]:not([disabled])")
@@ -55,14 +83,12 @@ def test_nothing_can_be_clicked_before_it_is_listened_to(tab):
     assert seen == [True]
 
 
-def test_a_step_that_is_opened_while_a_file_comes_stays_open(tab, tmp_path):
+def test_a_step_that_is_opened_while_a_file_comes_stays_open(tab, few_points):
     """And all fold when the file is deleted."""
-    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(16, 3)
-    rl.write(replace(surface, unit="m"), tmp_path / "map.nc")
     step = "#measured-step-preparation > summary"
     page = tab("?view=measured", ("**/upload*", lambda page: page.click(step)))
     page.wait_for_selector(CONNECTED)
-    page.set_input_files("#measured [data-file]", tmp_path / "map.nc")
+    page.set_input_files("#measured [data-file]", few_points)
     page.wait_for_selector('[data-table="measured-prepared"] tbody tr', state="attached")
     assert page.locator("#measured .step[open]").count() == 3  # file, preparation, bodies
     page.click("[data-forget-file]")
@@ -87,15 +113,22 @@ def refused(page, words):
     return said
 
 
-@pytest.mark.parametrize("points", ["few", "all"])
-def test_an_example_is_answered_for(answered, pages, points):
-    page = answered if points == "few" else with_answers(pages, "")
+def answers_are_shown(page, plot="contact"):
     assert "copper" in page.input_value("#measured-second-text")
     text = page.inner_text('[data-table="measured-answers"]')
     assert "N/m" in text or "Pa" in text
-    assert page.is_visible("#plot-measured-contact")
-    if points == "all":
-        page.context.close()
+    assert page.is_visible(f"#plot-measured-{plot}")
+
+
+def test_a_file_is_answered_for(answered):
+    answers_are_shown(answered)
+
+
+@pytest.mark.parametrize(("example", "plot"), [(LINE_SCAN, "stiffness"), (EXAMPLE, "contact")])
+def test_an_example_is_answered_for(tab, example, plot):
+    page = tab("?view=measured")
+    page.click(example)
+    answers_are_shown(with_answers(page), plot)
 
 
 STEPS = ("preparation", "bodies", "answers")
@@ -148,8 +181,9 @@ def test_what_is_grave_stands_above_the_figures_and_the_press_shows_its_answer(t
     assert faint(page) == []
 
 
-def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(tab):
-    page = tab("?view=measured&v=1&example=ground&resample=64&loads=50+MPa")
+@pytest.mark.parametrize("body", BODIES)
+def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(prepared, body):
+    page = prepared(body, "&loads=50+MPa", "&example=ground&resample=64")
     assert not page.is_visible("#measured-fluid-text")
     page.click("summary:has-text('a fluid in the gap')")
     for key, text in (("fluid", "helium"), ("inlet", "6 bar"), ("seal", "20 mm .. 24 mm")):
@@ -181,12 +215,10 @@ def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(tab):
     assert "flux" not in page.inner_text("#measured [data-choice=measured-contact]")
 
 
-def test_theories_have_their_names_and_their_dashes_beside_the_curve(tab):
-    page = tab(
-        "?view=measured&v=1&example=film&resample=64&loads=2+MPa&boundary=periodic"
-        "&theories=persson,bush-gibson-thomas"
-    )
-    page.wait_for_selector(CONNECTED)
+@pytest.mark.parametrize("body", BODIES)
+def test_theories_have_their_names_and_their_dashes_beside_the_curve(prepared, body):
+    asked_for = "&loads=2+MPa&boundary=periodic&theories=persson,bush-gibson-thomas"
+    page = prepared(body, asked_for, "&example=film&resample=64")
     page.click("[data-press]:not([disabled])")
     page.locator('[data-table="measured-answers"]').filter(has_text="N/m").wait_for()
     named = page.locator("#measured-area .names li:visible", has_text=re.compile("Persson|Bush"))
@@ -196,11 +228,9 @@ def test_theories_have_their_names_and_their_dashes_beside_the_curve(tab):
     assert page.inner_text("#measured > .error") == ""
 
 
-@pytest.mark.parametrize("points", [32, 64])
-def test_a_coated_material_is_typed_pressed_and_kept_in_the_address(tab, points):
-    link = f"example=ground&resample={points}&loads=2+MPa&second=steel"
-    page = tab(f"?view=measured&v=1&{link}")
-    page.wait_for_selector(CONNECTED)
+@pytest.mark.parametrize("body", BODIES)
+def test_a_coated_material_is_typed_pressed_and_kept_in_the_address(prepared, tab, body):
+    page = prepared(body, "&loads=2+MPa&second=steel", "&example=ground&resample=64")
     page.fill("#measured-first-text", "gold 20 µm on nickel")
     page.press("#measured-first-text", "Tab")
     page.locator('[data-table="measured-bodies"]').filter(
@@ -221,9 +251,9 @@ def test_a_coated_material_is_typed_pressed_and_kept_in_the_address(tab, points)
     assert again.input_value("#measured-first-text").startswith("gold")
 
 
-def test_the_report_opens_under_the_policy(tab):
-    page = tab("?view=measured&v=1&example=ground&resample=32&loads=2+MPa")
-    page.wait_for_selector("#measured [data-result=file]")
+@pytest.mark.parametrize("body", BODIES)
+def test_the_report_opens_under_the_policy(prepared, body):
+    page = prepared(body, "&loads=2+MPa", "&example=ground&resample=32")
     page.click("#measured-step-answers > summary")
     page.click("[data-report]:enabled")  # which presses first, as nothing is shown yet
     links = page.locator("[data-links] a")
@@ -324,8 +354,8 @@ def test_maps_of_a_part_are_brought_checked_pressed_and_left_out(tab, tmp_path):
     maps.nth(3).wait_for(state="detached")
     assert maps.count() == 3
     assert "3 maps" in page.inner_text("[data-words=part-count]")
-    page.click(EXAMPLE)
-    page.locator("[data-words=line-file]", has_text="ground-steel").wait_for()
+    page.click(LINE_SCAN)
+    page.locator("[data-words=line-file]", has_text="shaft").wait_for()
     assert not page.is_visible('[data-result="part"]')
 
 
@@ -367,10 +397,12 @@ def test_everything_has_a_name(answered):
     assert asked(answered, "undescribed", "measured") == []
 
 
-@pytest.mark.parametrize(("width", "theme"), [(390, "light"), (1600, "dark")])
-def test_it_is_seen_at_any_width_and_in_both_themes(pages, width, theme):
-    page = pages.open("?view=measured&v=1&resample=32", width=width, theme=theme)
-    page.click(EXAMPLE)
+@pytest.mark.parametrize(
+    ("width", "theme", "example"), [(390, "light", LINE_SCAN), (1600, "dark", EXAMPLE)]
+)
+def test_it_is_seen_at_any_width_and_in_both_themes(pages, width, theme, example):
+    page = pages.open("?view=measured", width=width, theme=theme)
+    page.click(example)
     page.wait_for_selector('#measured [data-result="file"]')
     page.click("#measured-step-preparation > summary")
     page.wait_for_selector('#measured [data-result="preparation"]')

@@ -19,5 +19,6 @@ def in_notebook(value: Any) -> str | None:
     """Return what a notebook shows of a value, as HTML; None: nothing but its text."""
     if not _loaders:
         return None
-    _loaders.pop()()
+    _loaders[-1]()
+    _loaders.pop()  # not one that raised: it is called again
     return in_notebook(value)

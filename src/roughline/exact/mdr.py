@@ -14,7 +14,7 @@ import numpy as np
 
 from roughline.exact._checks import Real
 
-_POINTS = 200
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(200)
 
 
 def line_profile(slope: Callable[[Real], Real], x: Real) -> Real:
@@ -51,6 +51,5 @@ def force(slope: Callable[[Real], Real], radius: float, E_star: float) -> float:
 
 
 def _quadrature(start: float, end: float) -> tuple[Real, Real]:
-    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
     half = (end - start) / 2
-    return start + half * (nodes + 1), half * weights
+    return start + half * (_NODES + 1), half * _WEIGHTS
