@@ -7,6 +7,8 @@ OUT ?= out/paper
 TEST_PROCESSES ?= 2
 PART ?= 1/1
 PEERS_PYTHON ?= $(BIN)/python
+# What many short processes load is compiled once, whatever the environment says of it.
+unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
 .PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean

@@ -9,7 +9,7 @@ import pytest
 
 import tiers
 from reference import DURATIONS
-from tiers import SHORT, durations, part, part_in, short
+from tiers import durations, part, part_in, short
 
 known = pytest.mark.skipif(not DURATIONS.is_file(), reason=f"no {DURATIONS.name}")
 TAKEN = {"a::f[1]": 0.1, "a::f[2]": 9.0, "a::g[1]": 3.0, "a::g[2]": 2.0, "b::h": 0.2, "b::i": 7.0}
@@ -47,12 +47,6 @@ def test_make_test_has_something_of_every_function():
     taken = durations()
     functions = {node.partition("[")[0] for node in taken}
     assert {node.partition("[")[0] for node in short(taken, taken)} == functions
-
-
-@known
-def test_what_is_short_is_most_of_the_tests():
-    taken = durations()
-    assert sum(seconds <= SHORT for seconds in taken.values()) > 0.8 * len(taken)
 
 
 @pytest.fixture

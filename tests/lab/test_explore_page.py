@@ -163,7 +163,9 @@ def shown_is_of_the_library(page):
         fractal_dimension=2.46, length=2e-3, rms_height=3e-7, q_high=2 * math.pi / 1.25e-4
     ).surface(64, 12)
     hardness = 0.3 * E_STAR * surface.rms_slope
-    pressed = rl.press(surface, E_star=E_STAR, hardness=hardness, forces=[10.0], fields=True)
+    pressed = rl.press(
+        surface, E_star=E_STAR, hardness=hardness, forces=[10.0], periodic=True, fields=True
+    )
     fields = pressed.fields[0]
     np.testing.assert_array_equal(
         image(page, "contact"), (fields.contact.astype(int) + fields.plastic).T.ravel()
@@ -178,13 +180,22 @@ def shown_is_of_the_library(page):
     return said
 
 
+# but for what is typed with a unit: a link has the share that it is
+SET = """() => [...document.querySelectorAll(
+    '#explore [data-text], #explore select, #explore :is([type="radio"], [type="checkbox"])'
+)].filter((each) => !["h", "F"].includes(each.dataset.text)).map(
+    (each) => each.matches("[type=radio], [type=checkbox]") ? each.checked
+        : Number(each.value) || each.value)"""
+
+
 def link_shows_the_same(page, pages):
     other = pages.open("?" + urlencode(address(page)))
     settled(other, points=64, seed=12)
     assert strip(other) == strip(page)
     np.testing.assert_array_equal(image(other, "contact"), image(page, "contact"))
+    assert other.evaluate(SET) == page.evaluate(SET)
     assert "Persson" in other.inner_text('[data-remarks="area"]')
-    return other
+    other.context.close()
 
 
 def test_it_goes_by_keys_and_typed_numbers_yields_is_linked_and_yields_no_more(fresh, pages):
@@ -199,6 +210,7 @@ def test_it_goes_by_keys_and_typed_numbers_yields_is_linked_and_yields_no_more(f
     settled(fresh, points=64, D_f=2.2, h=1.5e-4)
     assert fresh.input_value("#explore-h-text") == "0.3 um"
     assert float(fresh.input_value("#explore-D_f")) == pytest.approx(2.2)
+    fresh.check('#explore [data-key="boundary"][value="periodic"]')
     fresh.check('#explore [data-key="theories"][value="persson"]')
     fresh.check("#explore-adds-hardness_bar")
     for key, text in (("D_f", "2.46"), ("seed", "12"), ("hardness_bar", "0.3")):
@@ -207,35 +219,17 @@ def test_it_goes_by_keys_and_typed_numbers_yields_is_linked_and_yields_no_more(f
     fresh.locator("#explore-area .names li", has_text="way back").wait_for()
     said = shown_is_of_the_library(fresh)
     assert said.keys() - elastic.keys() == {"unloading", "plastic", "indentation"}
-    link_shows_the_same(fresh, pages).context.close()
+    link_shows_the_same(fresh, pages)
     typed(fresh, "hardness_bar", "7")
     sentence(fresh, "hardness_bar").filter(has_text="from 0.02 to 5").wait_for()
     fresh.uncheck("#explore-adds-hardness_bar")
     settled(fresh, points=64)
     fresh.wait_for_function("() => !document.querySelector('[data-answer=plastic]')")
-    assert strip(fresh).keys() == elastic.keys()
+    assert strip(fresh).keys() <= elastic.keys()
     assert not fresh.is_visible("#explore-hardness_bar")
     assert "hardness_bar" not in address(fresh)
     for name in ("stiffness unloading", "stiffness back", "area back"):
         assert shown_marks(fresh, name) == 0
-
-
-SET = """() => [...document.querySelectorAll(
-    '#explore [data-text], #explore select, #explore :is([type="radio"], [type="checkbox"])'
-)].map((each) => each.matches("[type=radio], [type=checkbox]") ? each.checked
-    : Number(each.value) || each.value)"""  # 0.5 is shown as 0.500 where it was not typed
-
-
-def test_a_link_shows_the_same(fresh, pages):
-    for key, text in (("L", "3 um"), ("E", "2 GPa"), ("roll_off", "0.5"), ("seed", "12")):
-        typed(fresh, key, text)
-    fresh.check('#explore [data-key="boundary"][value="periodic"]')
-    fresh.check('#explore [data-key="theories"][value="persson"]')
-    fresh.select_option('#explore [data-key="shown"]', "gap")
-    settled(fresh, points=64, seed=12, roll_off=0.5)
-    other = link_shows_the_same(fresh, pages)
-    assert other.evaluate(SET) == fresh.evaluate(SET)
-    other.context.close()
 
 
 def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(small, pages):
@@ -292,20 +286,6 @@ def test_the_line_of_the_load_can_be_dragged(fresh):
     settled(fresh, points=64, F=float(fresh.input_value('#explore [data-text="F"]')))
 
 
-def test_code_is_shown_and_a_file_arrives(fresh, tmp_path):
-    fresh.click("#explore [data-code=python]")
-    code = fresh.locator("#explore-code pre")
-    code.filter(has_text="rl.press").wait_for()
-    assert "fractal_dimension=2.4" in code.inner_text()
-    fresh.keyboard.press("Escape")
-    fresh.select_option("#saved", "contact.png")
-    with fresh.expect_download() as coming:
-        fresh.click("#save")
-    coming.value.save_as(tmp_path / "contact.png")
-    assert coming.value.suggested_filename == "contact.png"
-    assert pictures.imread(tmp_path / "contact.png").size
-
-
 def test_a_press_and_a_save_do_not_stop_each_other(fresh):
     fresh.check('#explore [data-key="n"][value="512"]')
     fresh.select_option("#saved", "surface.nc")
@@ -344,6 +324,12 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
         code.filter(has_text="rl.press" if which == "python" else "roughline press").wait_for()
         assert all(line in code.inner_text() for line in lines)
         fresh.keyboard.press("Escape")
+    fresh.select_option("#saved", "contact.png")
+    with fresh.expect_download() as coming:
+        fresh.click("#save")
+    assert coming.value.suggested_filename == "contact.png"
+    coming.value.save_as(tmp_path / "contact.png")
+    assert pictures.imread(tmp_path / "contact.png").size
 
 
 def test_a_long_press_can_be_cancelled(fresh):
