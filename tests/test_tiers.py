@@ -9,9 +9,10 @@ import pytest
 
 import tiers
 from reference import DURATIONS
-from tiers import durations, part, part_in, short
+from tiers import durations, part, part_in, shared_by_files, short
 
 known = pytest.mark.skipif(not DURATIONS.is_file(), reason=f"no {DURATIONS.name}")
+PROCESSES, MOST, LONGEST = 2, 240, 10  # of `make test`, [s], of one test [s]
 TAKEN = {"a::f[1]": 0.1, "a::f[2]": 9.0, "a::g[1]": 3.0, "a::g[2]": 2.0, "b::h": 0.2, "b::i": 7.0}
 
 
@@ -22,6 +23,11 @@ def test_what_is_short_runs_and_of_what_is_long_the_shortest():
 def test_a_test_that_is_not_in_the_file_counts_as_short():
     assert short([*TAKEN, "b::new"], TAKEN) == short(TAKEN, TAKEN) | {"b::new"}
     assert short(["a::g[1]", "a::g[3]"], TAKEN) == {"a::g[3]"}
+
+
+def test_a_walk_stands_for_what_takes_long_in_its_file():
+    taken = {"a::test_walk[1]": 5.0, "a::test_walk[2]": 4.0, "a::f": 3.0, "a::g": 0.4, "b::h": 3.0}
+    assert short(taken, taken) == {"a::test_walk[2]", "a::g", "b::h"}
 
 
 @known
@@ -43,10 +49,20 @@ def test_a_part_that_is_none_is_refused_in_a_line(text):
 
 
 @known
-def test_make_test_has_something_of_every_function():
+def test_make_test_has_something_of_every_file():
     taken = durations()
-    functions = {node.partition("[")[0] for node in taken}
-    assert {node.partition("[")[0] for node in short(taken, taken)} == functions
+    files = {node.partition("::")[0] for node in taken}
+    assert {node.partition("::")[0] for node in short(taken, taken)} == files
+
+
+@known
+def test_make_test_is_short_by_the_file():
+    """And none of its tests is long. That it passes is no matter of seconds."""
+    taken = durations()
+    chosen = short(taken, taken)
+    whole = sum(taken[node] for node in chosen) + sum(shared_by_files().values())
+    assert whole / PROCESSES <= MOST
+    assert [node for node in chosen if taken[node] > LONGEST] == []
 
 
 @pytest.fixture

@@ -2,7 +2,9 @@
 
 That stands in ``durations.json`` and nowhere else; ``make durations`` writes it. A test is short if
 it takes at most `SHORT`. Of a test function without such a case the shortest is its representative:
-it counts as short, so that every function runs in `make test`.
+it counts as short, so that every function runs in `make test`. In a file with a walk, a test named
+``test_walk...`` that goes through what the others look at one by one, the walk stands for those
+that take longer than `WALKED`.
 """
 
 import json
@@ -14,6 +16,7 @@ import pytest
 from reference import DURATIONS, seconds_here, slowness
 
 SHORT = 0.1  # [s] on the machine of the durations
+WALKED = 0.5  # [s] there
 _TOGETHER = ("campaign", "paper")  # folders whose tests share a cluster or a store
 _EACH = 0.01  # that a test takes beside itself [s]
 _SLOW = 1.5  # times as long as there, from which on it is said
@@ -43,11 +46,20 @@ def short(nodes, taken):
     cases = defaultdict(list)
     for node in nodes:
         cases[node.partition("[")[0]].append(node)
+    walked = {function.partition("::")[0] for function in cases if _is_walk(function)}
     chosen = set()
-    for some in cases.values():
+    for function, some in cases.items():
         quick = {node for node in some if taken.get(node, 0) <= SHORT}
-        chosen |= quick or {min(some, key=lambda node: (taken[node], node))}
+        least = min(some, key=lambda node: (taken.get(node, 0), node))
+        is_left = function.partition("::")[0] in walked and not _is_walk(function)
+        if not quick and not (is_left and taken[least] > WALKED):
+            quick = {least}
+        chosen |= quick
     return chosen
+
+
+def _is_walk(function):
+    return "::test_walk" in function
 
 
 def part(nodes, taken, number, of):

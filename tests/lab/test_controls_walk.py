@@ -115,7 +115,7 @@ def test_every_slider_of_explore_reaches_both_ends_and_its_default(page_of_explo
         assert set(address(page)) <= {"view", "v", "D_f", "seed", "n", "F"}
 
 
-def test_a_control_that_is_refused_leaves_the_others_alive(page_of_explore, pages):
+def test_walk_over_controls_of_which_some_are_refused(page_of_explore, pages):
     page = page_of_explore
     page.goto(pages.address + OPENED)
     settled(page, points=POINTS)

@@ -9,9 +9,7 @@ STATE = "view=explore&v=1&D_f=2.4&n=64"
 ASKED = r"/(here|login|link|\?token=)\S*\)$|WebSocket|leaves for file:"
 
 
-def test_the_opened_file_leads_in_and_log_out_leads_out_of_all_pages(
-    pages, lab, tmp_path, monkeypatch
-):
+def test_walk_in_by_the_opened_file_and_out_of_all_pages(pages, lab, tmp_path, monkeypatch):
     monkeypatch.setattr(opening.subprocess, "run", lambda *words, **options: None)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     page = pages.blank()

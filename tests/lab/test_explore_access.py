@@ -68,7 +68,7 @@ def test_what_rests_is_spoken(small):
     assert "certified" in spoken
 
 
-def test_everything_is_done_by_keys_alone(small):
+def test_walk_by_keys_alone(small):
     wanted, reached, unseen = tabbed(small, "explore")
     assert reached == wanted
     assert unseen == []

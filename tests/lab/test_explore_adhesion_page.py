@@ -125,8 +125,8 @@ def both_ways_are_gone(page, elastic):
     assert "w" not in address(page)
 
 
-@pytest.mark.parametrize(("theme", "is_saved"), [("light", False), ("dark", True)])
-def test_bodies_that_stick_are_ticked_looked_at_linked_and_taken_away(pages, theme, is_saved):
+@pytest.mark.parametrize(("theme", "all_of_it"), [("light", False), ("dark", True)])
+def test_walk_over_bodies_that_stick(pages, theme, all_of_it):
     page = pages.open(WITHOUT, theme=theme)
     settled(page, points=64)
     elastic = strip(page)
@@ -136,12 +136,12 @@ def test_bodies_that_stick_are_ticked_looked_at_linked_and_taken_away(pages, the
     at_rest(page, points=64)
     both_ways_are_shown(page, elastic)
     texts_stand_out(page)
-    if is_saved:  # what takes as long as all of this
+    if all_of_it:
+        link_shows_the_same(page, pages)
         page.select_option("#saved", "curve.csv")
         with page.expect_download() as coming:
             page.click("#save")
         assert coming.value.suggested_filename == "curve.csv"
-    link_shows_the_same(page, pages)
     page.uncheck("#explore-adds-w")
     settled(page, points=64)
     both_ways_are_gone(page, elastic)

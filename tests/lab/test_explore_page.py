@@ -198,7 +198,7 @@ def link_shows_the_same(page, pages):
     other.context.close()
 
 
-def test_it_goes_by_keys_and_typed_numbers_yields_is_linked_and_yields_no_more(fresh, pages):
+def test_walk_by_keys_typed_numbers_a_hardness_and_a_link(fresh, pages):
     elastic = strip(fresh)
     fresh.focus("#explore-D_f")
     for _ in range(3):

@@ -125,7 +125,7 @@ def shows(page, name, ranges):
 
 @pytest.mark.parametrize("figures", [slice(2), slice(None)], ids=["two", "every"])
 @pytest.mark.parametrize("view", QUERIES)
-def test_the_wheel_scrolls_the_page_over_every_figure_and_zooms_with_a_modifier(
+def test_walk_of_the_wheel_which_scrolls_over_every_figure_and_zooms_with_a_modifier(
     desk, view, figures
 ):
     page = desk(view)
@@ -201,7 +201,9 @@ class Fingers:
 
 @pytest.mark.parametrize("figures", [slice(2), slice(None)], ids=["two", "every"])
 @pytest.mark.parametrize("view", QUERIES)
-def test_one_finger_scrolls_the_page_over_every_figure_and_two_zoom(phone, view, figures):
+def test_walk_of_one_finger_which_scrolls_over_every_figure_and_two_which_zoom(
+    phone, view, figures
+):
     page = phone(view)
     fingers = Fingers(page)
     said = page.evaluate(SAID, view)

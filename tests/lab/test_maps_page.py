@@ -62,7 +62,7 @@ def test_maps_fill_their_frames_which_are_alike(pages, width, least):
     page.context.close()
 
 
-def test_a_point_tells_its_place_height_pressure_and_gap(small):
+def test_walk_over_a_map_which_tells_place_height_pressure_and_gap(small):
     page = showing(small, "pressure", "1")
     pressure = image(page, "contact")
     strongest = max(range(len(pressure)), key=lambda i: pressure[i])

@@ -182,7 +182,7 @@ def test_what_is_grave_stands_above_the_figures_and_the_press_shows_its_answer(t
 
 
 @pytest.mark.parametrize("body", BODIES)
-def test_what_leaks_is_asked_in_a_fold_of_its_own_and_the_map_shows_where(prepared, body):
+def test_walk_to_what_leaks_which_is_asked_in_a_fold_and_shown_on_the_map(prepared, body):
     page = prepared(body, "&loads=50+MPa", "&example=ground&resample=64")
     assert not page.is_visible("#measured-fluid-text")
     page.click("summary:has-text('a fluid in the gap')")
@@ -277,7 +277,7 @@ def test_a_report_presses_first_if_nothing_is_shown_yet(tab, example):
     results_open_under_the_policy(page)
 
 
-def test_reports_and_code_are_of_the_answers_that_are_shown(tab, tmp_path):
+def test_walk_from_answers_to_code_and_a_report_which_are_of_what_is_shown(tab, tmp_path):
     page = tab("?view=measured&v=1&example=shaft&first=steel&second=copper&loads=2+MPa")
     page.click("[data-press]:not([disabled])")
     page.wait_for_selector('[data-table="measured-answers"] tbody tr')
@@ -321,7 +321,7 @@ def test_a_press_can_be_cancelled(tab):
     assert not page.is_visible('[data-table="measured-answers"]')
 
 
-def test_maps_of_a_part_are_brought_checked_pressed_and_left_out(tab, tmp_path):
+def test_walk_over_maps_of_a_part_brought_checked_pressed_and_left_out(tab, tmp_path):
     whole = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6).surface(64, 3)
     paths = []
     for i in range(3):

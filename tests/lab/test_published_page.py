@@ -132,7 +132,7 @@ def draw_window(page, plot, *corners):
     page.mouse.up()
 
 
-def test_curves_follow_the_choices_without_the_server(paper):
+def test_walk_over_choices_which_curves_follow_without_the_server(paper):
     header = paper.locator('[data-table="published-stiffness-3D"] th')
     first = paper.locator('[data-table="published-stiffness-3D"] tbody tr').first.locator("td")
     paper.locator("#published-stiffness-3D summary").click()

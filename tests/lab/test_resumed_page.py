@@ -102,7 +102,7 @@ def pressed(pages, files):
     return page, answers(page)
 
 
-def test_a_line_that_drops_loses_nothing_and_a_press_goes_on(pressed, pages, relay):
+def test_walk_with_a_line_that_drops_and_a_press_that_goes_on(pressed, pages, relay):
     page, before = pressed
     fill(page, loads="")
     page.locator("[data-changed]").wait_for()
@@ -124,7 +124,7 @@ def test_a_line_that_drops_loses_nothing_and_a_press_goes_on(pressed, pages, rel
 
 
 @pytest.mark.parametrize("made", ["answers", "report"])
-def test_a_page_that_is_loaded_again_shows_file_settings_answers_and_report(pressed, made):
+def test_walk_with_a_page_that_is_loaded_again_with_file_settings_answers_and_report(pressed, made):
     page, before = pressed
     page.wait_for_selector('[data-result="answers"]:not(.dimmed)')
     links = page.locator("[data-links] a")
