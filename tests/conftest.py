@@ -1,7 +1,7 @@
 """What several test folders share."""
 
 import sys
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +9,7 @@ import pytest
 import typer
 
 import roughline as rl
+from blank_figures import blank_but
 from lab_in_browser import WANTED, Chromium
 from roughline import cli
 from tiers import pytest_addoption, pytest_configure, pytest_xdist_make_scheduler  # noqa: F401
@@ -142,17 +143,4 @@ def published_results():
 @pytest.fixture
 def only_drawn(monkeypatch):
     """Give what leaves figures blank, but for those of some names: where their page is judged."""
-    from matplotlib.figure import Figure  # load slowly, so only here
-    from PIL import Image
-
-    def blank_but(*names):
-        def save(figure, path, **options):
-            if not isinstance(path, Path) or path.stem in names:
-                return drawn(figure, path, **options)
-            width, height = (round(20 * side) for side in figure.get_size_inches())
-            return Image.new("L", (width, height), 255).save(path, dpi=(20, 20))
-
-        monkeypatch.setattr(Figure, "savefig", save)
-
-    drawn = Figure.savefig
-    return blank_but
+    return partial(blank_but, monkeypatch)

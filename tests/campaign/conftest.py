@@ -49,12 +49,6 @@ def few_finished(few_plan_file, tmp_path_factory):
     return computed(few_plan_file, tmp_path_factory.mktemp("few_finished") / "store.zarr")
 
 
-@pytest.fixture(scope="session")
-def many_finished(many_plan_file, tmp_path_factory):
-    """The store of 207 cases."""
-    return computed(many_plan_file, tmp_path_factory.mktemp("many_finished") / "store.zarr")
-
-
 def computed(plan_file, path):
     plan, told = campaign.read_plan(plan_file), []
     summary = campaign.run(plan, path, progress=lambda *told_now: told.append(told_now))
@@ -66,9 +60,11 @@ def computed(plan_file, path):
 
 
 @pytest.fixture(scope="session")
-def finished(size, request):
+def finished(size, plan_file, request, tmp_path_factory):
     """The small campaign's store."""
-    return request.getfixturevalue(f"{size}_finished")
+    if size == "few":
+        return request.getfixturevalue("few_finished")
+    return computed(plan_file, tmp_path_factory.mktemp("many_finished") / "store.zarr")
 
 
 @pytest.fixture(scope="session")

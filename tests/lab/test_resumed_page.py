@@ -21,7 +21,7 @@ def files(tmp_path_factory):
     """Two files that leave their unit and size open, by their names."""
     folder = tmp_path_factory.mktemp("files")
     for seed, name in enumerate((NAME, OTHER)):
-        surface = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-6).surface(32, seed)
+        surface = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-6).surface(16, seed)
         np.save(folder / name, surface.heights * 1e6)
     return {name: folder / name for name in (NAME, OTHER)}
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from blank_figures import blank_but
 from dask_processes import cluster_here, unhurried
 from roughline import campaign
 from roughline.computing import fft
@@ -58,17 +59,10 @@ def results(finished):
     return results_of_store(campaign.Store(finished), name="in small", command="none")
 
 
-@pytest.fixture(scope="package")
-def reports():
-    """Reports that are written already, by the figures that are drawn in them."""
-    return {}
-
-
-@pytest.fixture(params=["one figure", "all figures"])
-def report(request, results, reports, only_drawn, tmp_path_factory):
+@pytest.fixture(scope="package", params=["one figure", "all figures"])
+def report(request, results, tmp_path_factory):
     """Return the page of the study in small; figures that are not drawn are blank."""
-    if request.param == "one figure":
-        only_drawn("figure_3")
-    if request.param not in reports:
-        reports[request.param] = write_page(results, tmp_path_factory.mktemp("report"))
-    return reports[request.param]
+    with pytest.MonkeyPatch.context() as patch:
+        if request.param == "one figure":
+            blank_but(patch, "figure_3")
+        return write_page(results, tmp_path_factory.mktemp("report"))

@@ -61,8 +61,10 @@ def test_the_data_behind_the_figures_are_there(report, results):
     assert len(pd.read_csv(folder / "claims.csv")) == CLAIMS
 
 
-def test_equal_results_give_equal_reports(report, results, tmp_path):
+def test_equal_results_give_equal_reports(report, results, only_drawn, request, tmp_path):
     """The pictures in the page, too: they are the same bytes as the files of the figures."""
+    if request.node.callspec.params["report"] == "one figure":
+        only_drawn("figure_3")
     again = write_page(results, tmp_path)
     for name in ("report.html", "figures/figure_3.pdf", "figures/figure_1.png", "data/full.csv"):
         assert (tmp_path / name).read_bytes() == (report.parent / name).read_bytes()

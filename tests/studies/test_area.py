@@ -62,9 +62,9 @@ def test_surfaces_of_two_rings_are_what_the_library_gives():
 def test_the_law_of_self_affine_spectra_is_off_for_those_of_two_rings():
     """By more than it is off for any of its own, so that it is told with them."""
     own = common_law(MIDDLE).deviation
-    for one in rings():
-        assert 2 * own < over_law(one).low
-    lowest, highest = (f(over_law(one).value for one in rings()) for f in (min, max))
+    found = [over_law(one) for one in rings()]
+    assert all(2 * own < each.low for each in found)
+    lowest, highest = (f(each.value for each in found) for f in (min, max))
     assert f"lie {lowest:.1%} to {highest:.1%} above this line" in STUDY.summary.answer
     assert "Among self-affine spectra" in STUDY.summary.answer
 

@@ -267,7 +267,8 @@ def test_twenty_pages_are_answered(lab):
     run(scenario)
 
 
-def test_fifty_pages_opened_and_closed_leave_no_memory_and_no_files(lab):
+@pytest.mark.parametrize("pages", [10, 50])
+def test_pages_opened_and_closed_leave_no_memory_and_no_files(lab, pages):
     async def visit(seed):
         async with lab.page() as page:
             await page.ask("explore.full", state={"n": "128", "seed": str(seed)})
@@ -276,9 +277,9 @@ def test_fifty_pages_opened_and_closed_leave_no_memory_and_no_files(lab):
             await page.forget()
 
     async def scenario():
-        for first in (0, 10):
+        for seeds in (range(5), range(5, 5 + pages)):
             before = held(lab)
-            for seed in range(first, 5 * first + 10):
+            for seed in seeds:
                 await visit(seed)
         await becomes(lambda: held(lab)[0] - before[0] < 15e6)
         await becomes(lambda: held(lab)[1] - before[1] < 60e6)
