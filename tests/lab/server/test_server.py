@@ -267,8 +267,8 @@ def test_twenty_pages_are_answered(lab):
     run(scenario)
 
 
-@pytest.mark.parametrize("pages", [10, 50])
-def test_pages_opened_and_closed_leave_no_memory_and_no_files(lab, pages):
+@pytest.mark.parametrize("count", [10, 50])
+def test_pages_opened_and_closed_leave_no_memory_and_no_files(lab, count):
     async def visit(seed):
         async with lab.page() as page:
             await page.ask("explore.full", state={"n": "128", "seed": str(seed)})
@@ -277,7 +277,7 @@ def test_pages_opened_and_closed_leave_no_memory_and_no_files(lab, pages):
             await page.forget()
 
     async def scenario():
-        for seeds in (range(5), range(5, 5 + pages)):
+        for seeds in (range(5), range(5, 5 + count)):
             before = held(lab)
             for seed in seeds:
                 await visit(seed)
