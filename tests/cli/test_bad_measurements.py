@@ -55,17 +55,20 @@ def test_a_fault_of_a_map_is_the_first_remark_above_its_answers(fault, invoke, t
             assert remark in first
 
 
+@pytest.mark.parametrize("points", [32, 64])
 def test_what_is_told_of_an_instrument_against_the_data_is_refused_or_leaves_the_answer(
-    invoke, tmp_path
+    invoke, tmp_path, points
 ):
-    file = saved(MAP, tmp_path)
+    file = saved(MAP[:points, :points], tmp_path)
+    size = ("--unit", "m", "--size", f"{points / 64} mm")
+    pressed = (*size, *PRESSED[len(SIZE) :])
     for wrong in (("--blur", "2 mm"), ("--tip-radius=-2 um",), ("--pixels", "nonsense")):
-        for command in (("info", *SIZE), ("press", *PRESSED), ("compare", *SIZE)):
+        for command in (("info", *size), ("press", *pressed), ("compare", *size)):
             told = refused(invoke, command[0], file, *command[1:], *wrong)
             assert told.startswith(f"roughline: {wrong[0].partition('=')[0]} is ")
     for told in (("--pixels", "points"), ("--pixels", "means"), ("--blur", "100 um")):
-        assert answered(invoke, "press", file, *PRESSED, *told)
-    out = answered(invoke, "info", file, *SIZE, "--blur", "500 um")
+        assert answered(invoke, "press", file, *pressed, *told)
+    out = answered(invoke, "info", file, *size, "--blur", f"{500 * points / 64} um")
     assert "the spectrum's tail is not that of the instrument" in " ".join(out.split())
 
 

@@ -54,33 +54,41 @@ def test_the_help_of_press_begins_with_bodies_and_loads(invoke):
     assert places[-1] < page.index("Materials by name") < page.index("Examples")
 
 
-def test_many_loads_are_estimated_before_and_told_in_one_line(tmp_path, invoke):
+@pytest.mark.parametrize("many", [100, 1000])
+def test_many_loads_are_estimated_before_and_told_in_one_line(tmp_path, invoke, monkeypatch, many):
+    monkeypatch.setattr("roughline.assessment.cost._MANY", many)
+    monkeypatch.setattr("roughline.report.terminal.MOST_SHOWN", many)
+    loads = many + 1
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
     rl.write(replace(spectrum.surface(8, 1), unit="m"), tmp_path / "small.nc")
     code, out, errors = invoke(
-        "press", tmp_path / "small.nc", "--modulus", "1 GPa", "--loads", 1001
+        "press", tmp_path / "small.nc", "--modulus", "1 GPa", "--loads", loads
     )
     assert code == 0, errors
-    told = re.search(r"8 x 8 points, 1001 loads: about (\S+) GB and \S+ ", errors)
+    told = re.search(rf"8 x 8 points, {loads} loads: about (\S+) GB and \S+ ", errors)
     assert 0.2 < float(told[1]) < 0.3  # of the whole process
     lines = [line for line in out.splitlines() if "stiffness" in line]
     assert len(lines) == 1
-    assert lines[0].startswith("1001 loads from ")
+    assert lines[0].startswith(f"{loads} loads from ")
     assert len(out.splitlines()) < 6
 
 
-def test_a_generated_surface_is_pressed(surface_file, invoke, tmp_path):
+@pytest.mark.parametrize(
+    ("loads", "figures"), [(3, ["contact"]), (8, ["curve", "contact"])], ids=["few", "all"]
+)
+def test_a_generated_surface_is_pressed(surface_file, invoke, only_drawn, tmp_path, loads, figures):
+    only_drawn(*figures)
     out_folder = tmp_path / "pressed"
     code, out, _ = invoke(
-        "press", surface_file, "--modulus", "110 GPa", "--loads", 8, "--out", out_folder
+        "press", surface_file, "--modulus", "110 GPa", "--loads", loads, "--out", out_folder
     )
     assert code == 0
     assert "E* = 110 GPa; full model, free half-space" in out
     assert "tilt removed" not in out
-    for name in ("curve.nc", "curve.png", "curve.pdf", "contact.png", "contact.pdf"):
+    for name in ("curve.nc", *(f"{each}.{kind}" for each in figures for kind in ("png", "pdf"))):
         assert (out_folder / name).stat().st_size > 1000
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
-    curve = rl.press(spectrum.surface(32, 7), E_star=110e9, n_loads=8)
+    curve = rl.press(spectrum.surface(32, 7), E_star=110e9, n_loads=loads)
     with xarray.open_dataset(out_folder / "curve.nc", engine="h5netcdf") as data:
         assert data.stiffness.values == pytest.approx(curve.stiffness)
         assert data.stiffness.attrs["units"] == "N/m"
@@ -111,12 +119,14 @@ def test_the_table_is_in_si_units(surface_file, invoke):
     assert f"{curve.area_fraction[0]:.3%}" in row
 
 
-@pytest.mark.parametrize("loads", [3, 20])
-def test_the_first_real_surface(topographies, invoke, only_drawn, tmp_path, loads):
+@pytest.mark.parametrize(
+    ("loads", "more"), [(2, ["--no-grid-error"]), (20, [])], ids=["few loads", "many loads"]
+)
+def test_the_first_real_surface(topographies, invoke, only_drawn, tmp_path, loads, more):
     only_drawn()
     code, out, _ = invoke(
         *("press", topographies / "al3d-1.al3d", "--modulus", "110 GPa"),
-        *("--loads", loads, "--out", tmp_path / "al3d"),
+        *("--loads", loads, *more, "--out", tmp_path / "al3d"),
     )
     assert code == 0
     assert "200 x 296 points, 87.61 µm x 129.7 µm" in out
@@ -272,7 +282,9 @@ def test_a_report_with_loads_that_failed_says_so(
     assert "not solved" in (tmp_path / "r" / "report.html").read_text(encoding="utf-8")
 
 
-def test_figures_of_a_failed_load_show_the_others(surface_file, tmp_path):
+@pytest.mark.parametrize("drawn", [(), ("curve", "contact")], ids=["blank", "drawn"])
+def test_figures_of_a_failed_load_show_the_others(surface_file, only_drawn, tmp_path, drawn):
+    only_drawn(*drawn)
     surface = rl.read(surface_file)
     curve = rl.press(surface, E_star=1e9, n_loads=6, fields=True, max_iterations=12, throw=False)
     assert not curve.converged.all()

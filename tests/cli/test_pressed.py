@@ -9,7 +9,7 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.assessment import case
+from roughline.assessment import case, doubts
 from roughline.assessment import loads as load_cases
 from roughline.report.values import scale_of
 from roughline.units import decimal, engineering
@@ -61,6 +61,7 @@ def test_depths_keep_their_order_too(rough, invoke):
     assert (found["loads"], found["curve"]["depth"]) == (["1 um", "300 nm"], [1e-6, 3e-7])
 
 
+@pytest.mark.parametrize("points", [32, 64])
 def test_filling_alone_makes_no_interval(holed, invoke):
     arguments = ("press", *holed, *PAIR, "--load", "10 N")
     code, out, errors = invoke(*arguments, "--no-grid-error", "--all")
@@ -89,8 +90,9 @@ def test_the_other_filling_is_pressed_under_the_same_loads(holed, invoke, monkey
     assert first == other
 
 
+@pytest.mark.parametrize("points", [32, 64])
 def test_an_interval_holds_the_grids_error_and_the_fillings(holed, invoke):
-    code, out, errors = invoke("press", *holed, *PAIR, "--load", "10 N", "--json")
+    code, out, errors = invoke("press", *holed, *PAIR, "--load", "10 N", "--grid-error", "--json")
     assert code == 0, errors
     found = json.loads(out)
     low, high = (end[0] for end in found["stiffness_interval"])
@@ -115,10 +117,13 @@ def test_no_interval_is_of_width_nothing(tmp_path, invoke):
     assert min(half_widths) >= 0.01
 
 
+@pytest.mark.parametrize("points", [32, 64])
 @pytest.mark.parametrize("arguments", [("--load", "10 N"), ("--loads", "5")])
 def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
-    rough, invoke, monkeypatch, arguments
+    rough, points, invoke, monkeypatch, arguments
 ):
+    for room in (case, doubts):
+        monkeypatch.setattr(room, "COARSENED_FROM", points)
     code, out, errors = invoke("press", rough, *PAIR, *arguments)
     assert code == 0, errors
     assert INTERVAL.search(out)
@@ -184,6 +189,7 @@ def test_the_first_screen_is_what_was_asked_and_a_line_for_each_group(
     assert lines[-1] == f"{further} further answers{loads_left}: --all shows them"
 
 
+@pytest.mark.parametrize("points", [32, 64])
 def test_under_one_load_the_large_figures_are_not_repeated_in_a_table(rough, invoke, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     for load in ("10 N", "1 mN"):  # the grid decides the lighter one
@@ -253,27 +259,32 @@ def test_any_number_of_loads_prints_resistance_and_conductance(
         assert [" ".join(row.split()[:2]) for row in rows] == typed
 
 
+@pytest.mark.parametrize("points", [32, 64])
 def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
+    asked = ("press", *holed, *PAIR, "--grid-error", "--all")
     loads = ("--load", "10 N", "--load", "2 MPa", "--load", "0.1 N")
-    code, out, errors = invoke("press", *holed, *PAIR, *loads, "--all")
+    code, out, errors = invoke(*asked, *loads)
     assert code == 0, errors
     lines = table_lines(out)
     assert max(map(len, lines)) <= 80
     assert len(lines) - 1 <= 2 * 21  # two lines a quantity at most
-    code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--all")
+    code, out, _ = invoke(*asked, *loads[:2])
     assert len(table_lines(out)) == 1 + 21 + 3  # one load: one line a quantity, and names of groups
     assert (
         sum(line.startswith("for comparison, if nothing yielded: ") for line in out.splitlines())
         == 1
     )
-    code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--elastic", "--all")
+    code, out, _ = invoke(*asked, *loads[:2], "--elastic")
     assert len(table_lines(out)) == 1 + 18 + 3
     assert "if nothing yielded" not in out
 
 
+@pytest.mark.parametrize(
+    ("points", "extent"), [(32, "its page"), (64, "all of it")], indirect=["extent"]
+)
 def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
-    rough, loads_of_curve, invoke, only_drawn, tmp_path
+    rough, extent, invoke, only_drawn, tmp_path
 ):
     only_drawn()
     asked = ("press", rough, *PAIR, "--load", "10 N")
@@ -293,12 +304,16 @@ def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
     assert "air may carry several times what the spots do" in page
 
 
-def test_a_report_speaks_to_a_client(holed, loads_of_curve, invoke, only_drawn, tmp_path):
+@pytest.mark.parametrize(
+    ("points", "extent"), [(32, "its page"), (64, "all of it")], indirect=["extent"]
+)
+def test_a_report_speaks_to_a_client(holed, points, extent, invoke, only_drawn, tmp_path):
     only_drawn()
     file, *options = holed
+    second = "1 N" if points == 64 else "5 N"  # more than ten points in contact
     code, _, errors = invoke(
-        *("press", file, *options, *PAIR, "--load", "10 N", "--load", "1 N"),
-        *("--load", "1 mN", "--report", tmp_path / "report"),
+        *("press", file, *options, *PAIR, "--load", "10 N", "--load", second),
+        *("--load", "1 mN", "--grid-error", "--report", tmp_path / "report"),
     )
     assert code == 0, errors
     page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
@@ -307,7 +322,7 @@ def test_a_report_speaks_to_a_client(holed, loads_of_curve, invoke, only_drawn, 
     assert str(tmp_path) not in page
     assert "roughline press holed.npy --unit m" in page
     assert "periodic=True" not in page
-    headings = "".join(f"<th class=.number.>{each}</th>" for each in ("10 N", "1 N", r"1 mN \*"))
+    headings = "".join(f"<th class=.number.>{each}</th>" for each in ("10 N", second, r"1 mN \*"))
     assert re.search(headings, page)
     lead = re.search('<p class="lead">(.*?)<h2>', page, re.DOTALL)[1]
     names = re.findall("<td>([^<]*)</td><td class=.number", page)
@@ -445,11 +460,16 @@ def test_a_preparation_that_cannot_be_is_refused_in_a_line(rough, invoke, argume
         assert errors.count("\n") == 1
 
 
-def test_the_same_is_said_of_a_preparation_wherever_it_is_read(rough, invoke, only_drawn, tmp_path):
+@pytest.mark.parametrize(
+    ("points", "extent"), [(32, "its page"), (64, "all of it")], indirect=["extent"]
+)
+def test_the_same_is_said_of_a_preparation_wherever_it_is_read(
+    rough, points, extent, invoke, only_drawn, tmp_path
+):
     only_drawn()
-    steps = ("--low-pass", "0.95 mm", "--resample", "64")
+    steps = ("--low-pass", "0.95 mm", "--resample", points)
     said = "most of the roughness is gone, and answers are those of what is left"
-    idle = "esampling to 64 x 64 points changes neither rms height nor rms slope"
+    idle = f"esampling to {points} x {points} points changes neither rms height nor rms slope"
     press = ("press", rough, "--materials", "steel,copper", "--load", "1 N", "--no-grid-error")
     code, out, _ = invoke(*press, *steps, "--report", tmp_path / "report")
     assert code == 0
@@ -460,6 +480,7 @@ def test_the_same_is_said_of_a_preparation_wherever_it_is_read(rough, invoke, on
         assert idle in text
 
 
+@pytest.mark.parametrize("points", [32, 64])
 @pytest.mark.parametrize("along", ["x", "y"])
 def test_a_strip_is_that_of_the_library(rough, invoke, only_drawn, along, tmp_path):
     only_drawn()

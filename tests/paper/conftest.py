@@ -1,5 +1,6 @@
 """The paper's study in small, which several tests share."""
 
+from contextlib import contextmanager
 from dataclasses import replace
 
 import pytest
@@ -12,6 +13,7 @@ from roughline.paper.gallery import Gallery
 from roughline.paper.page import write_page
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED, paper_plan
 from roughline.paper.results import results_of_store
+from roughline.statistics import bootstrap
 
 
 @pytest.fixture(scope="session")
@@ -61,8 +63,27 @@ def results(finished):
 
 @pytest.fixture(scope="package", params=["one figure", "all figures"])
 def report(request, results, tmp_path_factory):
-    """Return the page of the study in small; figures that are not drawn are blank."""
+    """Return the page of the study in small; with one figure alone, of few resamples, too."""
     with pytest.MonkeyPatch.context() as patch:
-        if request.param == "one figure":
-            blank_but(patch, "figure_3")
-        return write_page(results, tmp_path_factory.mktemp("report"))
+        out = tmp_path_factory.mktemp("report")
+        if request.param == "all figures":
+            return write_page(results, out)
+        blank_but(patch, "figure_2")
+        with of_few_resamples():
+            return write_page(results, out)
+
+
+@pytest.fixture
+def few_resamples():
+    """Let intervals follow from a tenth of the resamples."""
+    with of_few_resamples():
+        yield
+
+
+@contextmanager
+def of_few_resamples():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bootstrap, "ROUNDS", 199)
+        bootstrap._weights.cache_clear()
+        yield
+    bootstrap._weights.cache_clear()

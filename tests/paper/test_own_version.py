@@ -112,8 +112,13 @@ def test_windows_reach_as_far_as_the_loads():
     assert Windows().within(np.array([1.0, 2.0]), np.array([1e-3, 10.0])) == Windows()
 
 
-def test_any_plan_of_both_models_becomes_the_report(own_store, tmp_path, invoke, only_drawn):
+@pytest.mark.parametrize("resamples", ["few", "all"])
+def test_any_plan_of_both_models_becomes_the_report(
+    own_store, tmp_path, invoke, only_drawn, request, resamples
+):
     only_drawn()
+    if resamples == "few":
+        request.getfixturevalue("few_resamples")
     plan = own_store.with_suffix(".toml")
     code, _, err = invoke(
         *("paper", "--plan", plan, "--out", tmp_path / "report", "--window", "0.02, 0.2")

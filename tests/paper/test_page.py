@@ -17,8 +17,13 @@ DIMENSIONS = (2.0, 2.4, 3.0)  # of the study in small
 CLAIMS = 23  # without computing times
 
 
-def test_a_load_that_fails_is_missing_counted_and_said(results, only_drawn, tmp_path):
+@pytest.mark.parametrize("resamples", ["few", "all"])
+def test_a_load_that_fails_is_missing_counted_and_said(
+    results, only_drawn, request, tmp_path, resamples
+):
     only_drawn()
+    if resamples == "few":
+        request.getfixturevalue("few_resamples")
     full = results.full.copy(deep=True)
     full.stiffness[1, 0, 9] = np.nan
     full.status[1, 0, 9] = rl.Status.STALLED
@@ -63,10 +68,13 @@ def test_the_data_behind_the_figures_are_there(report, results):
 
 def test_equal_results_give_equal_reports(report, results, only_drawn, request, tmp_path):
     """The pictures in the page, too: they are the same bytes as the files of the figures."""
+    drawn = "figure_3"
     if request.node.callspec.params["report"] == "one figure":
-        only_drawn("figure_3")
+        drawn = "figure_2"
+        only_drawn(drawn)
+        request.getfixturevalue("few_resamples")
     again = write_page(results, tmp_path)
-    for name in ("report.html", "figures/figure_3.pdf", "figures/figure_1.png", "data/full.csv"):
+    for name in ("report.html", f"figures/{drawn}.pdf", "figures/figure_1.png", "data/full.csv"):
         assert (tmp_path / name).read_bytes() == (report.parent / name).read_bytes()
     assert again.name == "report.html"
 
@@ -79,8 +87,10 @@ def test_equal_results_give_equal_reports(report, results, only_drawn, request, 
         pytest.param(("grid_convergence", "models_compared"), id="drawn"),
     ],
 )
-def test_the_published_page_has_grids_and_times(results, only_drawn, tmp_path, drawn):
+def test_the_published_page_has_grids_and_times(results, only_drawn, request, tmp_path, drawn):
     only_drawn(*drawn)
+    if not drawn:
+        request.getfixturevalue("few_resamples")
     more = replace(
         results,
         gallery=None,

@@ -52,7 +52,8 @@ def interrupted(request, invoke, two_workers, monkeypatch):
     """Interrupt a study at its first surfaces; how it ended, and what its command is given."""
 
     def here(out):
-        """Of some small bodies, in this process."""
+        """Of some small bodies and few resamples, in this process."""
+        request.getfixturevalue("few_resamples")
         own = ("--out", out, "--scheduler", two_workers)
         monkeypatch.setattr(plans, "paper_plan", tiny)
         before = signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -306,8 +306,9 @@ def test_exponents_are_drawn_over_the_fractal_dimension_beside_the_paper_s_formu
         rl.plot.exponents({})
 
 
-def test_a_comparison_is_both_models_and_their_difference():
-    compared = rl.compare(SPECTRUM, n=32, surfaces=2)
+@pytest.mark.parametrize(("n", "force_bars"), [(16, [0.01, 0.1]), (32, None)])
+def test_a_comparison_is_both_models_and_their_difference(n, force_bars):
+    compared = rl.compare(SPECTRUM, n=n, surfaces=2, force_bars=force_bars)
     axes = rl.plot.comparison(compared)
     assert "full model, mean of 2 surfaces" in texts(axes)
     assert "reduced model, mean of 200 lines" in texts(axes)

@@ -29,9 +29,9 @@ FLOW = ("critical-junction", "bruggeman")  # theories of the flow
 
 
 @pytest.fixture
-def small():
-    """A surface of 32 x 32 points."""
-    surface = rl.SelfAffine(hurst=0.7, length=5e-4, rms_height=1e-6).surface(32, 3)
+def small(points):
+    """A surface of some points a side."""
+    surface = rl.SelfAffine(hurst=0.7, length=5e-4, rms_height=1e-6).surface(points, 3)
     return replace(surface, unit="m")
 
 
@@ -110,9 +110,11 @@ def test_gap_pressure_and_patches_are_those_of_the_load_that_is_shown(pressed):
     ]
 
 
-def test_the_report_has_them_and_a_line_scan_has_none(rough, only_drawn, tmp_path):
+@pytest.mark.parametrize("grid_error", [False, True])
+def test_the_report_has_them_and_a_line_scan_has_none(rough, only_drawn, tmp_path, grid_error):
     only_drawn()
-    pressed = rl.assess(rl.Question(rough, PAIR, loads="10 N", fields=True))
+    question = rl.Question(rough, PAIR, loads="10 N", fields=True, grid_error=grid_error)
+    pressed = rl.assess(question)
     files = write_contact_report(pressed, tmp_path / "map", "")
     assert {"distributions.png", "distributions.pdf"} <= {each.name for each in files}
     page = (tmp_path / "map" / "report.html").read_text(encoding="utf-8")
@@ -121,6 +123,7 @@ def test_the_report_has_them_and_a_line_scan_has_none(rough, only_drawn, tmp_pat
     assert write_fields(without, tmp_path) == ([], [])
 
 
+@pytest.mark.parametrize("points", [16, 32])
 def test_the_flow_is_that_of_the_load_that_is_shown(small, only_drawn, tmp_path):
     only_drawn()
     asked = rl.Question(small, PAIR, loads=["0.3 N", "3 N"])
@@ -144,6 +147,7 @@ def test_the_flow_is_that_of_the_load_that_is_shown(small, only_drawn, tmp_path)
     assert len([axes for axes in flow_figure(of_one).axes if axes.axison]) == 2  # and its scale
 
 
+@pytest.mark.parametrize("points", [16, 32])
 def test_the_flow_that_is_shown_is_the_one_that_is_answered(small, only_drawn, tmp_path):
     """A map that was cut out leaks as a part of a larger surface, in the answer and the picture."""
     only_drawn()
@@ -164,14 +168,15 @@ def test_the_flow_that_is_shown_is_the_one_that_is_answered(small, only_drawn, t
     assert "repeated on all sides" not in section.pictures[0].caption
 
 
-def test_apertures_stand_over_force_with_theories_of_flow_alone():
+@pytest.mark.parametrize("points", [32, 64])
+def test_apertures_stand_over_force_with_theories_of_flow_alone(points):
     """Each theory has dashes of its own; what is sealed is marked at the foot."""
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4, q_high=1e5)
     names = ("persson", "bush-gibson-thomas", "greenwood-williamson", *FLOW)
     asked = [rl.Fluid("water"), rl.Theories(*names)]
     loads = ["20 MPa", "100 MPa", "350 MPa"]
     question = rl.Question(
-        spectrum.surface(64, rng=1), materials="steel,copper", loads=loads, ask=asked
+        spectrum.surface(points, rng=1), materials="steel,copper", loads=loads, ask=asked
     )
     assessment = rl.assess(question)
     figure = overview(assessment)

@@ -14,8 +14,11 @@ from roughline.report.terminal import print_assessment
 PAIR = ("steel", "copper")
 
 
-def test_no_star_is_explained_that_is_not_shown(rough, capsys):
-    pressed = rl.assess(rl.Question(rough, PAIR, loads="10 N", ask=rl.WholeCurve()))
+def test_no_star_is_explained_that_is_not_shown(rough, loads_of_curve, capsys):
+    asked = rl.Question(rough, PAIR, loads="10 N", ask=rl.WholeCurve())
+    if loads_of_curve == "few loads":
+        asked = replace(asked, grid_error=False)
+    pressed = rl.assess(asked)
     assert not pressed.curve.resolved.all()  # lighter loads of a report's figure
     print_assessment(pressed)
     assert "fewer than ten points in contact" not in capsys.readouterr().out
@@ -73,8 +76,10 @@ def formulas_of(pressed):
     return [each.formula for each in pressed.answers.values()]
 
 
-def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rough):
-    pressed = rl.assess(rl.Question(rough, PAIR, loads="1 kN", ask=rl.Joint("2 cm^2")))
+@pytest.mark.parametrize("grid_error", [False, True])
+def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rough, grid_error):
+    asked = rl.Question(rough, PAIR, loads="1 kN", ask=rl.Joint("2 cm^2"), grid_error=grid_error)
+    pressed = rl.assess(asked)
     _, rows = answer_table(pressed)
     names = [row[0] for row in rows]
     stiffnesses = [name for name in names if "stiffness" in name]
@@ -89,9 +94,7 @@ def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rou
     assert k_i > k_load
     assert answers["stiffness_per_area"].values == pytest.approx(k_i / 2e-4)
     assert answers["constriction_resistance"].formula.endswith("(2 k_i)")
-    elastic = rl.assess(
-        rl.Question(rough, PAIR, loads="1 kN", ask=rl.Joint("2 cm^2"), elastic=True)
-    )
+    elastic = rl.assess(replace(asked, elastic=True))
     assert "contact_stiffness" not in elastic.answers  # equal to that on unloading
     assert elastic.answers["interface_stiffness"].name == "interface stiffness"
 

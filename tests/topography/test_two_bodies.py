@@ -61,7 +61,15 @@ def test_two_equal_random_surfaces_are_as_one_of_root_two():
     assert np.mean(pairs, axis=0) == pytest.approx(np.mean(ones, axis=0), rel=0.1)
 
 
-def test_a_line_scan_is_pressed_with_an_interval():
+@pytest.fixture(params=[50, 200])
+def lines(request, monkeypatch):
+    """Let a scan be pressed as some lines, and be compared with as many cuts."""
+    for name in ("_SCAN_LINES", "_CUTS"):
+        monkeypatch.setattr(f"roughline.assessment.line_scan.{name}", request.param)
+    return request.param
+
+
+def test_a_line_scan_is_pressed_with_an_interval(lines):
     heights = rl.SelfAffine(hurst=0.8, rms_height=1e-6, length=1e-3, q_roll=4e4).surface(256, 3)
     scan = rl.Line(heights.heights[10], 1e-3, "m", kind="profile")
     forces = np.geomspace(1e-2, 1, 4)
@@ -73,7 +81,7 @@ def test_a_line_scan_is_pressed_with_an_interval():
     assert (found.curve.force == forces).all()
     assert found.curve.area_fraction is None
     assert "one line only" in found.curve.warnings[0]
-    assert found.curve.settings["lines"] == 200
+    assert found.curve.settings["lines"] == lines
     found.curve.to_dataset()
     with pytest.raises(rl.InputError, match="this is a reduced line"):
         rl.press_scan(rl.Line(scan.heights, 1e-3), E_star=1e9, forces=forces)
@@ -89,6 +97,7 @@ def test_independent_spectra_add():
     assert (first + smooth).C_2d == pytest.approx(first.C_2d)
 
 
+@pytest.mark.usefixtures("lines")
 def test_two_line_scans_are_pressed_as_one_of_root_two():
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-6, length=1e-3, q_roll=4e4)
     heights = spectrum.surface(256, 3).heights

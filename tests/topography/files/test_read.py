@@ -370,11 +370,17 @@ def test_memory_that_ends_while_a_file_is_read_gets_one_line(tmp_path, monkeypat
         rl.read(tmp_path / "map.jpk")
 
 
-def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):
+@pytest.mark.parametrize(
+    ("harmless", "unpacked", "told"), [(2**18, 2**20, "1.049"), (2**26, 2**28, "268")]
+)
+def test_an_archive_that_unpacks_to_too_much_is_refused(
+    tmp_path, monkeypatch, harmless, unpacked, told
+):
+    monkeypatch.setattr("roughline.topography.files.archives._LARGE", harmless)
     path = tmp_path / "bomb.x3p"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("main.xml", b"0" * 2**28)
-    with pytest.raises(rl.InputError, match="would unpack to 268"):
+        archive.writestr("main.xml", b"0" * unpacked)
+    with pytest.raises(rl.InputError, match=f"would unpack to {told}"):
         rl.read(path)
 
 
