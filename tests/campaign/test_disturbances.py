@@ -145,18 +145,27 @@ def test_workers_killed_and_another_campaign_on_the_same_store(
     assert tree(store) == undisturbed
 
 
-@pytest.mark.parametrize("number", ["SIGKILL", "SIGTERM"])
-def test_the_client_killed(plan, resume, begun, tmp_path, number):
-    """At once, or as batch systems do when time is up."""
+@pytest.mark.parametrize("number", ["SIGKILL", "SIGTERM", "ctrl_c"])
+def test_the_client_stopped(plan, resume, begun, tmp_path, number):
+    """At once, as batch systems do when time is up, or by Ctrl-C, which its workers get, too."""
     store = tmp_path / "store"
     process = begun(store)
     workers = workers_of(process.pid)
     assert workers
-    process.send_signal(getattr(signal, number))
-    finish(process)
+    if number == "ctrl_c":
+        os.killpg(process.pid, signal.SIGINT)
+        (tmp_path / "the end").touch()
+    else:
+        process.send_signal(getattr(signal, number))
+    code, _, err = finish(process)
+    if number == "ctrl_c":
+        assert code == 130
+        assert "interrupted; what is done is kept in" in err
+        assert "Traceback" not in err
     _, alive = psutil.wait_procs(workers, timeout=patience())
     assert not alive, "workers outlive their client"
-    assert resume(store) < cases_of(plan), "what was done is computed again"
+    done = resume(store)
+    assert number == "ctrl_c" or done < cases_of(plan), "what was done is computed again"
 
 
 @pytest.fixture
@@ -203,21 +212,6 @@ def test_the_scheduler_killed_while_it_is_asked(
     monkeypatch.setattr(Client, asked, kill_and_ask)
     with pytest.raises(ClusterError, match="the Dask scheduler is gone"):
         campaign.run(campaign.read_plan(few_plan_file), tmp_path / "store", scheduler=address)
-
-
-def test_ctrl_c(resume, begun, tmp_path):
-    store = tmp_path / "store"
-    process = begun(store)
-    workers = workers_of(process.pid)
-    assert workers
-    os.killpg(process.pid, signal.SIGINT)
-    (tmp_path / "the end").touch()
-    code, _, err = finish(process)
-    assert code == 130
-    assert "interrupted; what is done is kept in" in err
-    assert "Traceback" not in err
-    assert not psutil.wait_procs(workers, timeout=patience())[1]
-    resume(store)
 
 
 SCRIPT = """

@@ -42,8 +42,18 @@ def pull_off(pressed, cycle):
     return back.pull_off_depth, back.pull_off_force
 
 
+@pytest.fixture(scope="module", params=["few depths", "all depths"])
+def depths(request):
+    """Let both ways have few depths, or all."""
+    with pytest.MonkeyPatch.context() as patch:
+        if request.param == "few depths":
+            patch.setattr(adhesion, "_THERE", 5)
+            patch.setattr(adhesion, "_AWAY", 10)
+        yield request.param
+
+
 @pytest.fixture(scope="module")
-def cycle():
+def cycle(depths):
     return answer(pictures.further, STICKS, of="w")
 
 
@@ -113,6 +123,7 @@ def test_a_zone_of_fewer_than_four_cells_is_told():
     assert "4 are needed" in found["zone"]["below"]
 
 
+@pytest.mark.usefixtures("depths")
 def test_without_a_pull_off_it_says_that_the_grid_does_not_resolve_it():
     header, _ = answer(pictures.further, {**STICKS, "h0": "0.3"}, of="w")
     assert of_cycle(header)["pull-off"] == {"x": [], "y": []}

@@ -50,15 +50,6 @@ def measured(pages):
     return page
 
 
-@pytest.fixture(scope="module")
-def answered(pages, few_points):
-    """Return a page with the answers of few points."""
-    page = pages.open("?view=measured")
-    page.wait_for_selector(CONNECTED)
-    page.set_input_files("#measured [data-file]", few_points)
-    return with_answers(page)
-
-
 def with_answers(page):
     page.fill("#measured-loads-text", "2 MPa")
     page.press("#measured-loads-text", "Tab")
@@ -118,10 +109,6 @@ def answers_are_shown(page, plot="contact"):
     text = page.inner_text('[data-table="measured-answers"]')
     assert "N/m" in text or "Pa" in text
     assert page.is_visible(f"#plot-measured-{plot}")
-
-
-def test_a_file_is_answered_for(answered):
-    answers_are_shown(answered)
 
 
 @pytest.mark.parametrize(("example", "plot"), [(LINE_SCAN, "stiffness"), (EXAMPLE, "contact")])
@@ -193,6 +180,9 @@ def test_walk_to_what_leaks_which_is_asked_in_a_fold_and_shown_on_the_map(prepar
     answers = page.locator('[data-table="measured-answers"]')
     answers.filter(has_text="leak rate").wait_for()  # with nearly two hundred small contacts
     assert not page.locator("#measured .error:visible").filter(has_text="a").count()
+    answers_are_shown(page)
+    assert asked(page, "nameless", "measured") == []
+    assert asked(page, "undescribed", "measured") == []
     page.select_option("#measured [data-choice=measured-contact]", "flux")
     assert "in contact" in page.inner_text('[data-caption="measured-contact"]')
     shown = page.evaluate(
@@ -394,11 +384,6 @@ def test_a_file_that_is_too_large_is_refused(measured, pages):
         refused(measured, "large")
     measured.click(LINE_SCAN)
     measured.wait_for_selector('#measured [data-result="file"]')
-
-
-def test_everything_has_a_name(answered):
-    assert asked(answered, "nameless", "measured") == []
-    assert asked(answered, "undescribed", "measured") == []
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,13 @@
 
 import asyncio
 import json
+import logging
 import os
 import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import asynccontextmanager, contextmanager, suppress
 from functools import partial
 from http.client import HTTPConnection
@@ -15,9 +17,18 @@ from urllib.parse import urlencode, urlsplit
 
 import psutil
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.netutil import bind_sockets
 from tornado.websocket import websocket_connect
 
 from reference import patience
+from roughline.lab.server.access import is_proxy
+from roughline.lab.server.connections import Connections
+from roughline.lab.server.handlers import application
+from roughline.lab.server.process import start_forking
+from roughline.lab.server.sessions import Server
+from roughline.lab.server.settings import ServerSettings
+from roughline.lab.site import site
+from roughline.lab.tasks import warm_up
 
 
 @contextmanager
@@ -56,6 +67,46 @@ def _allow_files(number):
     import resource
 
     resource.setrlimit(resource.RLIMIT_NOFILE, (number, number))
+
+
+@contextmanager
+def lab_here(temporary, **settings):
+    """Run a lab with settings in a thread; its processes are forked from one for all such labs."""
+    start_forking(warm_up, preloaded="roughline.lab.warm")
+    folder, log = Path(temporary) / "roughline-lab-here", Path(temporary) / "errors.txt"
+    folder.mkdir()
+    settings = ServerSettings(**settings)
+    errors, begun = logging.FileHandler(log), Future()
+    errors.setLevel(logging.ERROR)
+
+    async def serve():
+        stopped, server = asyncio.Event(), Server(site(), settings, folder)
+        among = partial(is_proxy, settings=settings)
+        listening = Connections(application(server), most=100, proxies=among)
+        sockets = bind_sockets(0, settings.host)
+        listening.add_sockets(sockets)
+        key = f"?token={server.key.secret}" if server.key.is_token else ""
+        address = f"http://127.0.0.1:{sockets[0].getsockname()[1]}/{key}"
+        begun.set_result(
+            (address, partial(asyncio.get_running_loop().call_soon_threadsafe, stopped.set))
+        )
+        await stopped.wait()
+        listening.stop()
+        await listening.close_all_connections()
+        await server.close()
+
+    logging.getLogger().addHandler(errors)
+    with ThreadPoolExecutor(1) as thread:
+        served = thread.submit(asyncio.run, serve())
+        address, stop = begun.result(patience())
+        try:
+            yield Lab(address, None, Path(temporary), log, "")
+        finally:
+            stop()
+            served.result(patience())
+            logging.getLogger().removeHandler(errors)
+            errors.close()
+    assert not list(folder.iterdir())
 
 
 class Lab:

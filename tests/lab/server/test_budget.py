@@ -8,7 +8,7 @@ from contextlib import suppress
 import pytest
 
 import roughline as rl
-from lab.server.serving import run, running_lab, upload
+from lab.server.serving import lab_here, run, running_lab, upload
 from roughline.lab.server import budget
 from roughline.lab.server.budget import limits_within, memory_of_one
 from roughline.lab.server.files import Disk, Files
@@ -82,7 +82,8 @@ def test_all_files_of_all_pages_count(tmp_path):
         ServerSettings(max_disk=-1)
 
 
-def test_files_beyond_the_room_of_all_are_refused_before_they_come(tmp_path):
+@pytest.mark.parametrize("where", ["here", "in a process"])
+def test_files_beyond_the_room_of_all_are_refused_before_they_come(tmp_path, where):
     async def scenario():
         async with lab.page() as other:
             await fill(other)
@@ -106,7 +107,11 @@ def test_files_beyond_the_room_of_all_are_refused_before_they_come(tmp_path):
             await page.ask("explore.download", state={"n": "256"}, name="surface.nc")
             assert (await page.answer())[1].startswith("the lab has no room for the files of this")
 
-    with running_lab("--max-disk", "2", "--max-upload", "1.8", temporary=tmp_path) as lab:
+    if where == "here":
+        opened = lab_here(tmp_path, max_disk=2e6, max_upload=1.8e6)
+    else:
+        opened = running_lab("--max-disk", "2", "--max-upload", "1.8", temporary=tmp_path)
+    with opened as lab:
         run(scenario)
 
 
@@ -126,7 +131,8 @@ def small_disk(tmp_path):
         subprocess.run(["umount", "--lazy", str(tmp_path)], check=False)
 
 
-def test_a_full_disk_is_one_sentence_without_names(small_disk):
+@pytest.mark.parametrize("where", ["here", "in a process"])
+def test_a_full_disk_is_one_sentence_without_names(small_disk, where):
     async def scenario():
         async with lab.page() as page:
             await page.ask("explore.download", state={"n": "64"}, name="surface.nc")
@@ -146,5 +152,9 @@ def test_a_full_disk_is_one_sentence_without_names(small_disk):
             (small_disk / "others").unlink()
             assert (await upload(lab, page.token, bytes(100_000), "late.npy")).code == 200
 
-    with running_lab("--max-disk", "1000", temporary=small_disk) as lab:
+    if where == "here":
+        opened = lab_here(small_disk, max_disk=1e9)
+    else:
+        opened = running_lab("--max-disk", "1000", temporary=small_disk)
+    with opened as lab:
         run(scenario)

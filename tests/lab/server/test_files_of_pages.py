@@ -19,6 +19,12 @@ from roughline.lab.server.files import Files
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 
 
+@pytest.fixture(scope="module")
+def lab(any_lab):
+    """A lab in a thread or in a process of its own."""
+    return any_lab
+
+
 def test_uploads_lie_under_random_names_and_are_gone_when_the_page_says_so(lab):
     async def scenario():
         async with lab.page() as page:

@@ -1,25 +1,40 @@
 """A lab that other machines can reach."""
 
+import signal
 import sys
+from contextlib import contextmanager
 
 import pytest
 from tornado.httpclient import HTTPClientError
 
-from lab.server.serving import log_in, run, running_lab, upload
+from lab.server.serving import lab_here, log_in, run, running_lab, upload
+from roughline.lab.server import serve as server
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 PASSWORD = "correct horse"
 SMALL = {"n": "64"}
 
 
-@pytest.fixture(scope="module")
-def closed_lab(tmp_path_factory):
-    """A lab with a password."""
+@contextmanager
+def lab_of_its_own(temporary):
+    """Run a lab with a password in a process of its own."""
+    with running_lab(*options_in(temporary), temporary=temporary) as running:
+        yield running
+
+
+def options_in(folder):
+    """Return the options of a lab with a password, which is written into a folder."""
+    (folder / "password").write_text(f"{PASSWORD}\n")
+    (folder / "password").chmod(0o600)
+    return "--host", "0.0.0.0", "--password-file", str(folder / "password")
+
+
+@pytest.fixture(scope="module", params=["here", "in a process"])
+def closed_lab(request, tmp_path_factory):
+    """A lab with a password, in a thread of this process or in a process of its own."""
     temporary = tmp_path_factory.mktemp("closed")
-    (temporary / "password").write_text(f"{PASSWORD}\n")
-    (temporary / "password").chmod(0o600)
-    options = ("--host", "0.0.0.0", "--password-file", str(temporary / "password"))
-    with running_lab(*options, temporary=temporary) as running:
+    here = lab_here(temporary, host="0.0.0.0", password=PASSWORD)
+    with here if request.param == "here" else lab_of_its_own(temporary) as running:
         yield running
 
 
@@ -92,8 +107,30 @@ def test_wrong_passwords_are_counted(closed_lab):
     run(scenario)
 
 
-def test_an_open_lab_says_what_it_opens(closed_lab):
-    assert "127.0.0.1" in closed_lab.first
-    said = closed_lab.process.stdout.readline()
+@pytest.fixture
+def printed(closed_lab, invoke, monkeypatch):
+    """The first lines that such a lab prints."""
+    if closed_lab.process:
+        return closed_lab.first, closed_lab.process.stdout.readline()
+
+    serve = server.serve
+
+    def serve_shortly(site, settings, ready, interrupted):
+        def stop(address):
+            ready(address)
+            signal.raise_signal(signal.SIGINT)
+
+        serve(site, settings, stop, interrupted)
+
+    monkeypatch.setattr(server, "serve", serve_shortly)
+    options = options_in(closed_lab.temporary)
+    code, said, errors = invoke("lab", "--no-browser", "--port", "0", *options)
+    assert (code, errors) == (0, "")
+    return said.splitlines()[:2]
+
+
+def test_an_open_lab_says_what_it_opens(printed):
+    first, said = printed
+    assert "127.0.0.1" in first
     assert "upload files up to 200 MB" in said
     assert "not encrypted" in said

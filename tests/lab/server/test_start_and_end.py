@@ -63,14 +63,10 @@ def stopped_with_pages_open(lab, stop):
     assert not list(lab.temporary.glob(f"roughline-lab-{lab.process.pid}-*"))
 
 
-def test_it_is_stopped_with_pages_open(tmp_path):
-    with running_lab(temporary=tmp_path) as lab:
-        folder = lab.folder
-        stopped_with_pages_open(lab, signal.SIGTERM)
-        assert not folder.exists()
-
-
-def test_what_a_killed_server_leaves_is_removed_by_the_next_which_stops_by_ctrl_c(tmp_path):
+@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM], ids=["ctrl_c", "SIGTERM"])
+def test_what_a_killed_server_leaves_is_removed_by_the_next_which_stops_with_pages_open(
+    tmp_path, stop
+):
     with running_lab(temporary=tmp_path, closes=False) as lab:
         children = psutil.Process(lab.process.pid).children(recursive=True)
         left = lab.folder
@@ -81,7 +77,7 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next_which_stops_by_ctrl_
     (tmp_path / "roughline-lab-999999-linked").symlink_to(others)
     with running_lab(temporary=tmp_path) as lab:
         assert not left.exists()
-        stopped_with_pages_open(lab, signal.SIGINT)
+        stopped_with_pages_open(lab, stop)
     assert others.is_dir()
 
 
@@ -175,9 +171,12 @@ def test_ctrl_c_while_modules_are_loaded_is_not_lost():
     assert signal.getsignal(signal.SIGINT) is before
 
 
-def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
+@pytest.mark.parametrize("waits", [False, True], ids=["given up at once", "waited for"])
+def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch, waits):
+    """Tornado waits some seconds for its answer when it is told that it is closed."""
     monkeypatch.setattr("roughline.lab.server.handlers._PING", 0.3)
     monkeypatch.setattr("roughline.lab.server.sessions._WAITS", 0.3)
+    monkeypatch.setattr("roughline.lab.server.sessions._SWEEPS", 0.02)
 
     async def scenario():
         lab = Server(site(), ServerSettings(), tmp_path)
@@ -201,6 +200,10 @@ def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
         (session,) = lab.sessions.values()
         session.files.new("a.txt", 1).path.write_text("1")
         page.protocol._handle_message = lambda opcode, data: None  # it answers no ping any more
+        link = session.line.ws_connection
+        if not waits:
+            await becomes(lambda: link._waiting is not None)
+            link._abort()
         await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()))
         page.close()
         server.stop()

@@ -17,6 +17,12 @@ STATE = "view=explore&n=64&theories=a%2Cb"
 NOBODY = {"Cookie": ""}
 
 
+@pytest.fixture(scope="module")
+def lab(any_lab):
+    """A lab in a thread or in a process of its own."""
+    return any_lab
+
+
 async def posted(lab, token, leads_to="/"):
     """Send the form with a token, as who is not logged in."""
     return await lab.fetch(
