@@ -17,7 +17,7 @@ from reference import DURATIONS, seconds_here, slowness
 
 SHORT = 0.1  # [s] on the machine of the durations
 WALKED = 0.5  # [s] there
-_TOGETHER = ("campaign", "paper")  # folders whose tests share a cluster or a store
+_TOGETHER = ("campaign/", "paper/", "lab/server/")  # folders whose tests share a cluster or a store
 _EACH = 0.01  # that a test takes beside itself [s]
 _SLOW = 1.5  # times as long as there, from which on it is said
 
@@ -74,8 +74,8 @@ def part(nodes, taken, number, of):
 
 def group_of(node):
     """Return the name of the tests that stay in one process with this one."""
-    folder, _, rest = node.partition("::")[0].partition("/")
-    return folder if folder in _TOGETHER else f"{folder}/{rest}"
+    file = node.partition("::")[0]
+    return next((folder for folder in _TOGETHER if file.startswith(folder)), file)
 
 
 def node_of(item):

@@ -91,7 +91,10 @@ def test_python_and_the_command_line_give_the_same_numbers(topographies, invoke,
     assert list(result.remarks) == told["notes"]
 
 
-def test_a_file_with_missing_points_is_read_once(holed, monkeypatch):
+@pytest.mark.parametrize(
+    "asked", [{"elastic": True, "grid_error": False, "fields": False}, {}], ids=["little", "all"]
+)
+def test_a_file_with_missing_points_is_read_once(holed, monkeypatch, asked):
     from roughline.assessment import source
 
     file, *_ = holed
@@ -103,9 +106,8 @@ def test_a_file_with_missing_points_is_read_once(holed, monkeypatch):
         return original(*arguments)
 
     monkeypatch.setattr(source, "measurement", measurement)
-    result = rl.assess(
-        rl.Question(file, PAIR, loads="10 N", reading=rl.Reading(unit="m", sizes="1 mm"))
-    )
+    reading = rl.Reading(unit="m", sizes="1 mm")
+    result = rl.assess(rl.Question(file, PAIR, loads="10 N", reading=reading, **asked))
     assert any("filled by nearest instead" in note for note in result.notes)
     assert len(read) == 1
 
@@ -156,6 +158,7 @@ def test_an_assessment_has_the_fields_of_the_largest_load(rough):
     assert rl.assess(rl.Question(rough, E_star=1e9, loads=1e-3, fields=False)).fields is None
 
 
+@pytest.mark.usefixtures("loads_of_curve")
 def test_partial_slip_is_an_answer(rough, invoke):
     question = rl.Question(rough, PAIR, loads="10 N", ask=[rl.Friction(0.3), rl.WholeCurve()])
     slip = rl.assess(question).partial_slip

@@ -109,9 +109,10 @@ def test_places_that_differ_in_roughness_are_named_and_widen_what_is_said_of_the
     assert k.mean[0] / k.low[0] > k.high[0] / k.mean[0]  # the part is softer than its mean place
 
 
+@pytest.mark.parametrize("maps", [3, 5])
 @pytest.mark.parametrize("joint", [True, False])
-def test_waves_longer_than_all_maps_take_down_what_is_said_of_the_part(joint):
-    _, part, _ = part_of("waviness of 4 maps", maps=5, points=64, joint=joint)
+def test_waves_longer_than_all_maps_take_down_what_is_said_of_the_part(joint, maps):
+    _, part, _ = part_of("waviness of 4 maps", maps=maps, points=64, joint=joint)
     said = part.warnings[0]
     assert re.match(r"the maps are (tilted differently|bowed), by an rms height of", said)
     assert "come without an interval" in said
@@ -121,9 +122,10 @@ def test_waves_longer_than_all_maps_take_down_what_is_said_of_the_part(joint):
         assert np.isfinite(part.answers["contact_stiffness"].low).all()
 
 
-def test_bows_tell_of_longer_waves_where_the_tilt_is_the_mountings():
+@pytest.mark.parametrize("maps", [4, 7])
+def test_bows_tell_of_longer_waves_where_the_tilt_is_the_mountings(maps):
     mounted = {"tilt": "mounting"}
-    _, part, _ = part_of("waviness of 4 maps", maps=7, points=64, waves=8, settings=mounted)
+    _, part, _ = part_of("waviness of 4 maps", maps=maps, points=64, waves=8, settings=mounted)
     assert part.warnings[0].startswith("the maps are bowed")
 
 

@@ -13,6 +13,7 @@ from roughline.contact.conduction import conductance
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4)
 SURFACE = SPECTRUM.surface(64, rng=7)
 SMALL = rl.SelfAffine(hurst=0.8, length=5e-4, rms_height=1e-6, q_roll=2.5e4).surface(32, rng=7)
+SMALL_OR_LARGE = pytest.mark.parametrize("body", [SMALL, SURFACE], ids=["small", "large"])
 MAP = replace(SURFACE, is_cut_out=True)
 RTOL = 1e-11
 GOLD = (2.21e-8, 6.93e-8, 1.68e-8), (20e-6, 40e-6)
@@ -127,14 +128,15 @@ def test_a_thick_layer_is_its_material():
     assert moved == pytest.approx(100 * off["contact_stiffness values"], rel=0.05)
 
 
-def test_a_thin_layer_is_its_base_within_its_thickness():
+@pytest.mark.parametrize("n", [64, 128])
+def test_a_thin_layer_is_its_base_within_its_thickness(n):
     """Contacts many cells wide, on layers of 2, 1 and 0.5 cells: half the layer, at most half."""
-    wide = rl.SelfAffine(hurst=1.0, length=1e-3, rms_height=1e-6, q_high=1.3e4).surface(128, rng=3)
+    wide = rl.SelfAffine(hurst=1.0, length=1e-3, rms_height=1e-6, q_high=1.3e4).surface(n, rng=3)
     base = assessed(("steel", "rigid"), "2 kN", wide, elastic=True, grid_error=False)
     k = base.answers["contact_stiffness"].values[0]
     off = []
     for cells in (2, 1, 0.5):
-        text = f"gold {cells * 1e-3 / 128:.12g} m on steel"
+        text = f"gold {cells * 1e-3 / n:.12g} m on steel"
         found = assessed((text, "rigid"), "2 kN", wide, elastic=True, grid_error=False)
         off.append(1 - found.answers["contact_stiffness"].values[0] / k)
     assert 0 < off[2] < 2e-3
@@ -171,8 +173,9 @@ def test_a_layer_that_keeps_its_volume_may_be_repeated_on_a_rigid_base():
     assert max(differences(found, nearly).values()) < 2e-3
 
 
-def test_the_hardness_is_that_of_the_top_layer_and_a_remark_says_so():
-    values = {"grid_error": False, "fields": False}
+@SMALL_OR_LARGE
+def test_the_hardness_is_that_of_the_top_layer_and_a_remark_says_so(body):
+    values = {"grid_error": False, "fields": False, "body": body}
     found = assessed(("steel", "gold 20 um on nickel 40 um on copper"), "1 N", **values)
     assert found.curve.hardness == rl.material("gold").hardness
     said = " / ".join(found.notes)
@@ -231,17 +234,19 @@ def test_the_interval_of_a_current_is_as_wide_as_that_of_the_stiffness():
     assert R.high[0] / R.values[0] == pytest.approx(k.values[0] / k.low[0], rel=1e-9)
 
 
-def test_theories_stay_where_they_hold():
-    asked = rl.Theories("persson", "bush-gibson-thomas", "greenwood-williamson")
-    thick = assessed(("E=3 MPa nu=0.4 300 um on steel", "rigid"), "20 mN", ask=asked)
+@SMALL_OR_LARGE
+def test_theories_stay_where_they_hold(body):
+    theories = rl.Theories("persson", "bush-gibson-thomas", "greenwood-williamson")
+    asked = {"loads": "20 kPa", "body": body, "ask": theories}
+    thick = assessed(("E=3 MPa nu=0.4 300 um on steel", "rigid"), **asked)
     assert [each.name for each in thick.theories] == ["persson"]
     said = " / ".join(thick.left_out)
     assert "no bush-gibson-thomas: its summits are spheres of one material" in said
-    thin = assessed(("E=3 MPa nu=0.4 20 um on steel", "rigid"), "20 mN", ask=asked)
+    thin = assessed(("E=3 MPa nu=0.4 20 um on steel", "rigid"), **asked)
     assert thin.theories == []
     assert "no persson: the layers meet these waves" in " / ".join(thin.left_out)
-    plain = assessed(("steel", "copper"), "20 mN", ask=asked)
-    coated = assessed(("steel 20 um on steel", "copper"), "20 mN", ask=asked)
+    plain = assessed(("steel", "copper"), **asked)
+    coated = assessed(("steel 20 um on steel", "copper"), **asked)
     assert len(plain.theories) == len(coated.theories) == 3
     for one, other in zip(plain.theories, coated.theories, strict=True):
         np.testing.assert_allclose(one.area_fraction, other.area_fraction, rtol=1e-9)
@@ -254,11 +259,12 @@ def test_soft_layers_under_high_pressure_are_warned_of():
     assert not any("softest materials" in each for each in light.warnings)
 
 
-def test_a_layer_that_is_indented_through_is_warned_of():
-    rough = SURFACE.scaled(4.0)
+@SMALL_OR_LARGE
+def test_a_layer_that_is_indented_through_is_warned_of(body):
+    rough = body.scaled(4.0)
     said = "the layer of gold, 8 µm, is indented by up to"
     thin, thick = (
-        assessed((f"gold {h} on nickel", "steel"), "9 N", rough, hardness="10 MPa")
+        assessed((f"gold {h} on nickel", "steel"), "9 MPa", rough, hardness="10 MPa")
         for h in ("8 um", "80 um")
     )
     assert thin.curve.indentation.max() > 8e-6
@@ -267,8 +273,9 @@ def test_a_layer_that_is_indented_through_is_warned_of():
     assert not any("is indented by up to" in each for each in thick.warnings)
 
 
-def test_several_maps_have_a_mean_and_say_what_is_not_known():
-    maps = [replace(SPECTRUM.surface(64, rng=seed), is_cut_out=True) for seed in (1, 2)]
+@pytest.mark.parametrize("n", [32, 64])
+def test_several_maps_have_a_mean_and_say_what_is_not_known(n):
+    maps = [replace(SPECTRUM.surface(n, rng=seed), is_cut_out=True) for seed in (1, 2)]
     found = assessed(("gold 20 um on copper", "steel"), "1 MPa", maps, elastic=True)
     k_i = found.answers["interface_stiffness"]
     assert np.isfinite(k_i.mean).all()
@@ -327,12 +334,15 @@ def test_what_cannot_be_asked_of_layers_gets_one_line(asked, message):
 
 
 @pytest.mark.parametrize(
-    ("surface", "load"), [(SMALL, "25 mN"), (SURFACE, "0.1 N")], ids=["small", "large"]
+    ("surface", "load", "along"),
+    [(SMALL, "25 mN", "x"), (SURFACE, "0.1 N", "both")],
+    ids=["small", "large"],
 )
-def test_thin_layers_have_no_bound_of_a_coarser_grid_where_they_are_sealed(surface, load):
+def test_thin_layers_have_no_bound_of_a_coarser_grid_where_they_are_sealed(surface, load, along):
     """Half as many points would not resolve the layer, so what they leave open is not known."""
     pair = ("E=3 MPa nu=0.4 12 um on steel", "rigid")
-    found = assessed(pair, load, surface, ask=[rl.Fluid("water"), rl.Closure()])
+    ask = [rl.Fluid("water"), rl.Closure(), rl.FlowAlong(along)]
+    found = assessed(pair, load, surface, ask=ask)
     sealing = found.answers["sealing_pressure"]
     assert np.isfinite(sealing.values).all()
     assert sealing.low is None

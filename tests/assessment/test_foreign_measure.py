@@ -45,17 +45,18 @@ def valley():
     rl.rules.remove("valley")
 
 
-@pytest.fixture(scope="module")
-def surface():
+@pytest.fixture(scope="module", params=[64, 128])
+def surface(request):
     """A periodic surface."""
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=5e4, q_high=4e5)
-    return spectrum.surface(128, rng=7)
+    return spectrum.surface(request.param, rng=7)
 
 
 @pytest.fixture(scope="module")
 def piece(surface):
     """A map that was cut out of it."""
-    return surface.cropped((0, 64), (0, 64))
+    half = len(surface.heights) // 2
+    return surface.cropped((0, half), (0, half))
 
 
 def asked(body, **more):
@@ -102,7 +103,8 @@ def test_of_a_map_it_is_taken_where_the_surface_goes_on(valley, piece):
 
 def test_another_filling_widens_it(valley, piece, tmp_path):
     heights = piece.heights.copy()
-    heights[20:24, 30:36] = np.nan
+    points = len(heights)
+    heights[points // 4 : points // 3, points // 3 : points // 2] = np.nan
     np.save(tmp_path / "map.npy", heights)
     reading = rl.Reading(unit="m", sizes=piece.sizes)
     result = asked(tmp_path / "map.npy", elastic=True, grid_error=True, reading=reading)
@@ -118,7 +120,8 @@ def test_no_rule_that_is_not_there_costs_anything(surface):
 
 
 def test_several_maps_have_its_mean_and_scatter(valley, surface):
-    maps = [surface.cropped((x, x + 64), (0, 64)) for x in (0, 64)]
+    half = len(surface.heights) // 2
+    maps = [surface.cropped((x, x + half), (0, half)) for x in (0, half)]
     part = asked(maps, elastic=True, loads=["2 MPa"], grid_error=False, fields=False)
     of_maps = [each.answers["valley"].values for each in part.assessments]
     assert part.answers["valley"].mean == pytest.approx(np.sqrt(of_maps[0] * of_maps[1]), rel=1e-12)

@@ -19,11 +19,12 @@ VALUES = {"grid_error": False, "fields": False}  # and no more
 SPECTRUM = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=math.tau / 12e-6)
 
 
-@pytest.fixture(scope="module")
-def part():
+@pytest.fixture(scope="module", params=[32, 64])
+def part(request):
     """A part of 0.4 mm, and a map of 0.1 mm of it."""
-    surface = SPECTRUM.surface(256, 3)
-    return surface, surface.cropped((0, 64), (0, 64)).detrended()
+    n = request.param
+    surface = SPECTRUM.surface(4 * n, 3)
+    return surface, surface.cropped((0, n), (0, n)).detrended()
 
 
 @pytest.mark.parametrize("materials", [PAIR, YIELDING])
@@ -182,7 +183,7 @@ def test_areas_are_read_as_they_are_written(area):
 
 def test_a_repeated_map_tells_of_the_jump_at_its_borders(part):
     surface, piece = part
-    slope = 0.1 * np.arange(64)[:, np.newaxis] * piece.spacing[0]
+    slope = 0.1 * np.arange(len(piece.heights))[:, np.newaxis] * piece.spacing[0]
     tilted = rl.Surface(piece.heights + slope, piece.sizes, is_cut_out=True)
 
     def said(body, **asked):

@@ -17,11 +17,12 @@ ASKED = {"materials": f"{FIRST}, {SECOND}", "grid_error": False, "fields": False
 SURFACE = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=math.tau / 25e-6)
 
 
-@pytest.fixture(scope="module")
-def maps():
+@pytest.fixture(scope="module", params=[16, 32])
+def maps(request):
     """Four maps of 0.1 mm of one part."""
-    part = SURFACE.surface(128, 3)
-    return [part.cropped((i, i + 32), (0, 32)).detrended() for i in range(0, 128, 32)]
+    n = request.param
+    part = SURFACE.surface(4 * n, 3).scaled({16: 0.1, 32: 1.0}[n])  # so that several points touch
+    return [part.cropped((i, i + n), (0, n)).detrended() for i in range(0, 4 * n, n)]
 
 
 def pressed(bodies, **asked):
@@ -138,7 +139,8 @@ def test_maps_of_another_kind_are_pointed_out(maps, part):
 
 
 def test_maps_of_different_size_share_what_is_per_area(maps):
-    small = maps[0].cropped((0, 24), (0, 24)).detrended()
+    n = 3 * len(maps[0].heights) // 4
+    small = maps[0].cropped((0, n), (0, n)).detrended()
     by_pressure, by_force = (pressed([small, maps[1]], loads=load) for load in ("5 MPa", "1 N"))
     assert "thermal_conductance_per_area" in by_pressure.answers
     assert "contact_stiffness" not in by_pressure.answers
@@ -159,7 +161,8 @@ def test_remarks_stand_once_with_the_maps_that_they_are_of(maps):
     part = pressed([maps[0], wide], loads="1 N")
     (load,) = (text for text in part.notes if "in all" in text)
     assert load.startswith("(numbers of map 1) load 1 N: ")
-    tilted = rl.Surface(maps[0].heights + np.arange(32.0) * 1e-6, (1e-4, 1e-4), is_cut_out=True)
+    slope = 32e-6 * np.linspace(0, 1, len(maps[0].heights), endpoint=False)
+    tilted = rl.Surface(maps[0].heights + slope, (1e-4, 1e-4), is_cut_out=True)
     (tilt,) = (text for text in pressed([maps[1], tilted]).warnings if "surface is tilted" in text)
     assert tilt.startswith("of map 2: ")
 

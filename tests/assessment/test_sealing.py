@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.assessment import cost
 from roughline.fluid import measures
 from roughline.report.contact_tables import symbol_table
 from roughline.report.json_output import of_assessment, to_json
@@ -154,13 +155,15 @@ def test_of_a_map_it_is_that_of_the_map_that_goes_on(surface):
     assert not alone.curve.measured
 
 
-@pytest.mark.parametrize("points", [32, 48])
-def test_the_interval_of_one_map_holds_the_leak_of_the_part(points):
+@pytest.mark.parametrize(
+    ("points", "shares"), [(32, [0.02, 0.14]), (48, [0.02, 0.08, 0.14, 0.18])], ids=["32", "48"]
+)
+def test_the_interval_of_one_map_holds_the_leak_of_the_part(points, shares):
     """Of a whole part, nine maps large, the truth is the flow through its own gap."""
     spectrum = rl.SelfAffine(hurst=0.7, length=3e-4, rms_height=1e-6, q_roll=3e5, q_high=1e6)
     part = spectrum.surface(3 * points, rng=11)
     E_star = rl.contact_modulus(rl.material("steel"), rl.material("steel"))
-    pressures = E_star * part.rms_slope * np.array([0.02, 0.08, 0.14, 0.18])
+    pressures = E_star * part.rms_slope * np.array(shares)
     measures = [rl.hydraulic_aperture("x"), rl.hydraulic_aperture("y"), rl.MEAN_GAP]
     truth = rl.press(
         part, E_star=E_star, forces=pressures * part.area, periodic=True, measures=measures
@@ -178,11 +181,12 @@ def test_the_interval_of_one_map_holds_the_leak_of_the_part(points):
     assert "of a joint 3 times" in result.answers["hydraulic_aperture"].validity
 
 
-@pytest.mark.parametrize("loads", [LOADS[1:], LOADS])
-def test_a_seal_much_longer_than_a_map_without_roll_off_has_no_interval(surface, loads):
+@pytest.mark.parametrize(("loads", "along"), [(LOADS[1:], "x"), (LOADS, "both")])
+def test_a_seal_much_longer_than_a_map_without_roll_off_has_no_interval(surface, loads, along):
     piece = surface.cropped((0, 32), (0, 32))
+    ask = [rl.Fluid("water"), *ASKED[:2], rl.FlowAlong(along)]
     short, long = (
-        asked(piece, [rl.Fluid("water"), *ASKED[:2], rl.Seal(seal)], loads=loads, grid_error=True)
+        asked(piece, [*ask, rl.Seal(seal)], loads=loads, grid_error=True)
         for seal in ("4 mm x 4 mm", "100 mm x 10 mm")
     )
     assert (short.answers["leak_rate"].high > short.answers["leak_rate"].values).all()
@@ -205,10 +209,10 @@ def test_several_maps_have_one_leak(surface):
     assert part.answers["leak_rate"].count.tolist() == [2, 2]
 
 
-@pytest.mark.parametrize("points", [32, 64])
-def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface, points):
-    surface = surface.cropped((0, points), (0, points))
-    result = asked(surface, rl.Closure(), elastic=False, grid_error=True)
+@pytest.mark.parametrize(("points", "along"), [(32, "x"), (64, "both")])
+def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface, points, along):
+    surface, ask = surface.cropped((0, points), (0, points)), [rl.Closure(), rl.FlowAlong(along)]
+    result = asked(surface, ask, elastic=False, grid_error=True)
     seals = result.answers["sealing_pressure"]
     assert (seals.values == seals.values[0]).all()
     found = result.sought.closing.pressure
@@ -216,11 +220,9 @@ def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface, points)
     assert seals.low[0] < found.low
     assert found.high < seals.high[0]
     curve = result.curve
-    assert found.value == pytest.approx(
-        rl.sealing_pressure(
-            surface, E_star=curve.E_star, hardness=curve.hardness, rtol=0.02, interval=False
-        ).value
-    )
+    given = {"E_star": curve.E_star, "hardness": curve.hardness, "along": along}
+    alone = rl.sealing_pressure(surface, rtol=0.02, interval=False, **given)
+    assert found.value == pytest.approx(alone.value)
     least, most = result.hardness_scatter["sealing_pressure"]
     assert least[0] < 1 < most[0]
     assert 0 <= result.answers["reopening"].values[0] < 1
@@ -292,8 +294,10 @@ def test_a_gas_in_the_gap_is_not_said_to_be_missing(surface):
     assert [note for note in asked(surface, WATER).notes if "as in vacuum" in note]
 
 
-def test_a_surface_that_yielded_leaks_less_on_the_way_back(surface):
+@pytest.mark.parametrize("points", [32, 64])
+def test_a_surface_that_yielded_leaks_less_on_the_way_back(surface, points):
     """Its dents keep channels narrow: at each load less leaks than when the load rose."""
+    surface = surface.cropped((0, points), (0, points))
     ask = [*WATER, rl.FlowAlong("x")]
     given = {"elastic": False, "loads": ["60 MPa"]}
     back = asked(surface, [*ask, rl.Unloading()], **given).answers["leak_rate"].values
@@ -302,9 +306,12 @@ def test_a_surface_that_yielded_leaks_less_on_the_way_back(surface):
     assert (back[1:4] < rising.answers["leak_rate"].values).all()
 
 
-def test_what_flows_is_in_the_cost_that_is_told():
+@pytest.mark.parametrize("points", [64, 1024])
+def test_what_flows_is_in_the_cost_that_is_told(monkeypatch, points):
     """Nothing is pressed: Ctrl-C comes as soon as the cost is told."""
-    large = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(1024, rng=1)
+    if points < 1024:
+        monkeypatch.setattr(cost, "_LARGE", 1)  # else it is not told of so few
+    large = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(points, rng=1)
     told = []
 
     def stop(text):

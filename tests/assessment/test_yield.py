@@ -20,17 +20,18 @@ H = rl.material("copper").hardness
 FACTOR = rl.material("copper").hardness_factor
 
 
-@pytest.fixture(scope="module")
-def surface():
-    """A surface of 64 x 64 points that is none of a larger one."""
-    rough = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+@pytest.fixture(scope="module", params=[32, 64])
+def surface(request):
+    """A surface that is none of a larger one."""
+    seed = {32: 1, 64: 3}[request.param]
+    rough = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(request.param, seed)
     return rl.Surface(rough.heights, rough.sizes, "m")
 
 
 @pytest.fixture(scope="module")
 def pressed(surface):
     """Steel on copper under two loads, with all that is varied."""
-    return rl.assess(rl.Question(surface, PAIR, loads=["2 N", "20 N"]))
+    return rl.assess(rl.Question(surface, PAIR, loads=["2 N", "20 N"], grid_error=True))
 
 
 def test_the_softer_body_yields_at_the_hardness_of_the_table(surface, pressed):
@@ -155,7 +156,8 @@ def test_which_hardness_answers(surface, asked, hardness, scatters, told):
 
 
 def test_without_materials_a_hardness_gives_curve_and_intervals(surface):
-    result = rl.assess(rl.Question(surface, E_star="90 GPa", hardness="1 GPa", loads="10 N"))
+    pressed = {"E_star": "90 GPa", "hardness": "1 GPa", "loads": "10 N", "grid_error": True}
+    result = rl.assess(rl.Question(surface, **pressed))
     assert result.answers == {}
     assert result.stiffness_interval[0] < result.curve.stiffness < result.stiffness_interval[1]
     k_u = result.curve.unloading_stiffness
@@ -165,8 +167,9 @@ def test_without_materials_a_hardness_gives_curve_and_intervals(surface):
 def test_loads_that_the_softest_body_does_not_bear_have_no_interval(surface):
     """And the others are moved as ever; 0.8 H is more than H / 1.5."""
     loads = ["20 N", f"{0.8 * H:g} Pa", "2 N"]
-    result = rl.assess(rl.Question(surface, PAIR, loads=loads))
-    alone = rl.assess(rl.Question(surface, PAIR, loads=["2 N", "20 N"]))
+    asked = {"grid_error": True, "fields": False}
+    result = rl.assess(rl.Question(surface, PAIR, loads=loads, **asked))
+    alone = rl.assess(rl.Question(surface, PAIR, loads=["2 N", "20 N"], **asked))
     for key in ("contact_stiffness", "constriction_resistance", "contact_area"):
         found = result.answers[key]
         assert np.isfinite(found.values).all()
@@ -190,7 +193,8 @@ def test_loads_that_no_body_bears_are_refused_where_they_act(surface, asked):
 
 def test_a_history_is_that_of_the_surface_as_each_load_left_it(surface):
     forces = [2.0, 8.0, 4.0, 4.0, 0.0, 8.0, 12.0]
-    result = rl.assess(rl.Question(surface, PAIR, loads=forces, ask=rl.History(), fields=False))
+    asked = {"ask": rl.History(), "grid_error": True, "fields": False}
+    result = rl.assess(rl.Question(surface, PAIR, loads=forces, **asked))
     curve = rl.press(surface, E_star=result.curve.E_star, hardness=H, forces=forces)
     for name in ("force", "depth", "stiffness", "unloading_stiffness"):
         assert getattr(result.curve_as_asked, name).tolist() == getattr(curve, name).tolist()
@@ -307,10 +311,15 @@ def test_interrupted_in_the_variants_the_answers_stay_and_lose_their_intervals(
     )
 
 
-def test_filled_maps_and_two_bodies_yield_too(holed, surface):
-    file, *_ = holed
+@pytest.mark.parametrize("n", [32, 64])
+def test_filled_maps_and_two_bodies_yield_too(tmp_path, n):
+    rough = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(n, 3)
+    heights, file = rough.heights.copy(), tmp_path / "holed.npy"
+    heights[10:13, 20:25] = np.nan
+    np.save(file, heights)
     reading = rl.Reading(unit="m", sizes="1 mm")
-    result = rl.assess(rl.Question(file, PAIR, loads="10 N", against=file, reading=reading))
+    asked = {"against": file, "reading": reading, "grid_error": True, "fields": False}
+    result = rl.assess(rl.Question(file, PAIR, loads="10 N", **asked))
     assert result.curve.hardness == H
     assert result.answers["plastic_fraction"].values > 0
     for key in ("unloading_stiffness", "interface_stiffness"):
@@ -319,15 +328,21 @@ def test_filled_maps_and_two_bodies_yield_too(holed, surface):
     assert any("filled by nearest instead" in note for note in result.notes)
 
 
-def test_the_interface_of_a_map_springs_back_with_the_surface_around_it(surface):
+@pytest.mark.parametrize("n", [32, 64])
+def test_the_interface_of_a_map_springs_back_with_the_surface_around_it(n):
     """Its interval holds the variants of the periodic half-space, which it follows from."""
-    spectrum = rl.SelfAffine(hurst=0.7, length=4e-3, rms_height=1e-6, q_roll=math.tau / 125e-6)
-    piece = spectrum.surface(256, 3).cropped((0, 64), (0, 64)).detrended()
-    result = rl.assess(rl.Question(piece, PAIR, loads="5 MPa"))
+    length, q_roll = n * 62.5e-6, math.tau / 125e-6
+    spectrum = rl.SelfAffine(hurst=0.7, length=length, rms_height=1e-6, q_roll=q_roll)
+    piece = spectrum.surface(4 * n, 3).cropped((0, n), (0, n)).detrended()
+    result = rl.assess(rl.Question(piece, PAIR, loads="5 MPa", grid_error=True))
     k_i = result.answers["interface_stiffness"]
     for value in (H / FACTOR, H, H * FACTOR):
         curve = rl.press(
-            piece, E_star=result.curve.E_star, hardness=value, forces=[5.0], periodic=True
+            piece,
+            E_star=result.curve.E_star,
+            hardness=value,
+            forces=[5e6 * piece.area],
+            periodic=True,
         )
         assert k_i.low < curve.unloading_stiffness < k_i.high
         if value == H:
@@ -414,15 +429,22 @@ def test_the_cost_of_all_variants_is_told_before(surface, monkeypatch):
 
     monkeypatch.setattr(cost, "_LARGE", 1)
     told = []
+
+    def stop(text):  # as Ctrl-C does, before anything is pressed
+        told.append(text)
+        raise KeyboardInterrupt
+
     for asked in ({}, {"hardness": H}, {"elastic": True}):
         question = rl.Question(surface, PAIR, loads="1 N", **asked)
-        rl.assess(question, announce=told.append)
+        with pytest.raises(KeyboardInterrupt):
+            rl.assess(question, announce=stop)
     assert "up to 3 times as long in addition" in told[0]
     assert "up to 1 times as long in addition" in told[1]
     assert "in addition" not in told[2]
 
 
-def test_a_line_scan_has_no_yield_and_says_how_far_it_serves(surface):
+def test_a_line_scan_has_no_yield_and_says_how_far_it_serves():
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
     scan = rl.Line(surface.heights[0], 1e-3, "m", kind="profile")
     result = rl.assess(rl.Question(scan, PAIR, loads="1 N"))
     assert result.curve.hardness is None

@@ -42,8 +42,12 @@ def test_thick_rubber_seals_as_a_half_space_of_it(seed, poisson):
 
 @pytest.mark.parametrize(
     "flanges",
-    [[{"seed": 5, "n": 32, "waves": 2}], [{"seed": seed} for seed in range(1, 9)]],
-    ids=["one of two waves", "eight"],
+    [
+        [{"seed": 5, "n": 16, "waves": 1}],
+        [{"seed": 5, "n": 32, "waves": 2}],
+        [{"seed": seed} for seed in range(1, 9)],
+    ],
+    ids=["one of one wave", "one of two waves", "eight"],
 )
 def test_the_thinner_the_rubber_the_more_it_takes_in_the_mean_of_flanges(flanges):
     """One flange may seal a tenth sooner than on thick rubber, near half a wave.
@@ -108,7 +112,7 @@ def test_grooves_close_where_a_wave_is_in_full_contact(poisson, thickness):
 
 
 @pytest.mark.parametrize(
-    ("seed", "n", "waves"), [(1, 64, 2), (1, 128, 4), (2, 128, 4), (3, 128, 4)]
+    ("seed", "n", "waves"), [(1, 32, 1), (1, 64, 2), (1, 128, 4), (2, 128, 4), (3, 128, 4)]
 )
 def test_a_very_thin_layer_seals_as_springs_do_with_a_rate(seed, n, waves):
     """Springs touch where the flange is above a level, and islands close the last channel.

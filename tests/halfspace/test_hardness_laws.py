@@ -70,7 +70,7 @@ def assert_same(one, other, i, j, hardness):
     assert other.work[j] == pytest.approx(one.work[i], rel=10 * RTOL)
 
 
-@laws(surfaces(), st.booleans(), st.booleans())
+@laws(surfaces(), st.booleans(), st.booleans(), few=3)
 def test_without_a_node_at_the_hardness_all_is_elastic_to_the_last_bit(surface, periodic, by_force):
     loads = surface.rms_slope * surface.area * np.array([0.01, 0.05, 0.2])
     settings = {"E_star": 1.0, "periodic": periodic, "fields": True}

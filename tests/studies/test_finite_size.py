@@ -58,9 +58,11 @@ def test_a_known_law_comes_back_within_its_intervals(hurst, count):
         assert law.load_of(value) <= np.nan_to_num(high, nan=np.inf)
 
 
-@pytest.mark.parametrize("count", [1000, 3000])
-def test_estimates_of_many_surfaces_are_those_of_the_law(count):
-    for hurst in (0.8, 0.5, 0.2):
+@pytest.mark.parametrize(
+    ("count", "hursts"), [(1000, [0.5]), (1000, [0.8, 0.5, 0.2]), (3000, [0.8, 0.5, 0.2])]
+)
+def test_estimates_of_many_surfaces_are_those_of_the_law(count, hursts):
+    for hurst in hursts:
         law = Crossing(hurst)
         found = cross_over(FORCES, law.surfaces(count, np.random.default_rng(1)), hurst)
         assert found.gamma.value == pytest.approx(law.gamma, rel=0.01 * math.sqrt(3000 / count))
@@ -73,9 +75,10 @@ def test_estimates_of_many_surfaces_are_those_of_the_law(count):
             )
 
 
-def test_half_of_the_surfaces_widen_intervals_by_the_square_root_of_two():
+@pytest.mark.parametrize("seeds", [4, 10])
+def test_half_of_the_surfaces_widen_intervals_by_the_square_root_of_two(seeds):
     ratios = []
-    for seed in range(10):
+    for seed in range(seeds):
         sample = Crossing(0.5).surfaces(160, np.random.default_rng(seed))
         whole, half = (local_exponents(FORCES, each) for each in (sample, sample[:80]))
         ratios.append((half.high - half.low) / (whole.high - whole.low))
@@ -164,7 +167,8 @@ def cells(section, column):
 
 def test_the_answer_is_what_the_tables_say():
     """Where the exponent nears 1: every cell lies in the range that is told of its kind."""
-    page, lead = STUDY.page, STUDY.summary.answer
+    page = STUDY.page
+    lead = page.split("\n\n")[1]
     near = cells("Periodic surfaces", "near 1, p λ_r/(E* h)")
     assert len(near) == len(HURSTS) * len(SIZES[BAND])
     told = {}
