@@ -14,12 +14,15 @@ from lab.test_explore import E_STAR, SMALL, answer, loads
 from lab_in_browser import Pages, RunningLab
 from roughline.lab.explore import physics, pictures
 from roughline.lab.explore.reading import state_of
-from roughline.lab.site import site
+from roughline.lab.site import page
 
 
 @pytest.fixture
 def _added(monkeypatch):
     monkeypatch.setattr(physics, "PHYSICS", (*physics.PHYSICS, Softer))
+    page.cache_clear()  # which is made once
+    yield
+    page.cache_clear()
 
 
 @pytest.mark.usefixtures("_added")
@@ -38,10 +41,10 @@ def test_it_is_pressed_and_kept_in_the_address():
 
 @pytest.mark.usefixtures("_added")
 def test_the_page_has_its_tick_its_control_and_its_place_in_the_strip():
-    page = unescape(site().page())
-    assert re.search(r'data-tick="times".*the body is softer', page)
-    assert 'data-text="times"' in page
-    assert '"area", "times"' in page
+    text = unescape(page())
+    assert re.search(r'data-tick="times".*the body is softer', text)
+    assert 'data-text="times"' in text
+    assert '"area", "times"' in text
 
 
 _WITH_IT = """from lab.softer import Softer
