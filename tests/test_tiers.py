@@ -9,10 +9,11 @@ import pytest
 
 import tiers
 from reference import DURATIONS
-from tiers import durations, part, part_in, short
+from tiers import WALKED, durations, part, part_in, shared_by_files, short
 
 known = pytest.mark.skipif(not DURATIONS.is_file(), reason=f"no {DURATIONS.name}")
-LONGEST = 10  # [s] on the machine of the durations
+MOST, LONGEST = 300, 10  # of `make test` and of one test, on the machine of the durations [s]
+PROCESSES = 2
 TAKEN = {"a::f[1]": 0.1, "a::f[2]": 9.0, "a::g[1]": 3.0, "a::g[2]": 2.0, "b::h": 0.2, "b::i": 7.0}
 
 
@@ -49,16 +50,23 @@ def test_a_part_that_is_none_is_refused_in_a_line(text):
 
 
 @known
-def test_make_test_has_something_of_every_file():
+def test_make_test_has_something_of_every_function_but_those_that_a_walk_stands_for():
     taken = durations()
-    files = {node.partition("::")[0] for node in taken}
-    assert {node.partition("::")[0] for node in short(taken, taken)} == files
+    functions = {node.partition("[")[0] for node in taken}
+    left = functions - {node.partition("[")[0] for node in short(taken, taken)}
+    walked = {each.partition("::")[0] for each in functions if "::test_walk" in each}
+    assert {each.partition("::")[0] for each in left} <= walked
+    assert all(taken[node] > WALKED for node in taken if node.partition("[")[0] in left)
 
 
 @known
-def test_no_test_of_make_test_is_long():
+def test_make_test_is_short_by_the_file():
+    """And none of its tests is long."""
     taken = durations()
-    assert [node for node in short(taken, taken) if taken[node] > LONGEST] == []
+    chosen = short(taken, taken)
+    whole = sum(taken[node] for node in chosen) + sum(shared_by_files().values())
+    assert whole / PROCESSES <= MOST
+    assert [node for node in chosen if taken[node] > LONGEST] == []
 
 
 @pytest.fixture

@@ -49,3 +49,13 @@ def tabbed(page, view):
         if not is_seen:
             unseen.append(stop)
     return wanted, reached, unseen
+
+
+def texts_stand_out(page, view):
+    """Check that texts of a view are seen at any width and large enough, and name what is there."""
+    assert faint(page) == []
+    for width, height in ((390, 844), (1200, 800), (1600, 1100)):
+        assert cut_off(page, view, width, height) == []
+        assert asked(page, "tiny", view) == []
+    assert asked(page, "nameless", view) == []
+    assert asked(page, "undescribed", view) == []

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lab.explore_driven import address, drawn, image, sentence, settled, strip, table, typed
-from lab.looks import asked, cut_off, faint
+from lab.looks import texts_stand_out
 from lab.test_explore_adhesion import LAW, STICKS
 from lab.test_explore_fluid_page import source
 from roughline import press
@@ -53,15 +53,6 @@ def both_ways_are_shown(page, elastic):
     surface = state_of(STICKS, 64).surface(64)
     there = press(surface, E_star=110e9, law=LAW, forces=[0.08 * 110], fields=True)
     assert wider > there.fields[0].contact.sum()
-
-
-def texts_stand_out(page):
-    assert faint(page) == []
-    for width, height in ((390, 844), (1200, 800), (1600, 1100)):
-        assert cut_off(page, "explore", width, height) == []
-        assert asked(page, "tiny", "explore") == []
-    assert asked(page, "nameless", "explore") == []
-    assert asked(page, "undescribed", "explore") == []
 
 
 def link_shows_the_same(page, pages):
@@ -135,7 +126,7 @@ def test_walk_over_bodies_that_stick(pages, theme, all_of_it):
     page.check("#explore-adds-w")
     at_rest(page, points=64)
     both_ways_are_shown(page, elastic)
-    texts_stand_out(page)
+    texts_stand_out(page, "explore")
     if all_of_it:
         link_shows_the_same(page, pages)
         page.select_option("#saved", "curve.csv")

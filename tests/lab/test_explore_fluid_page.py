@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from lab.explore_driven import SMALL, address, drawn, image, settled, strip, table, typed
-from lab.looks import asked, cut_off, faint
+from lab.looks import texts_stand_out
 from lab.test_explore_page import E_STAR, HEIGHT, LENGTH, SCALE, box_of, spectrum
 
 FLOWS = SMALL + "&fluid=x&shown=flux"
@@ -131,15 +131,6 @@ def link_shows_the_same(page, pages):
     other.context.close()
 
 
-def texts_stand_out(page):
-    assert faint(page) == []
-    for width, height in ((390, 844), (1200, 800), (1600, 1100)):
-        assert cut_off(page, "explore", width, height) == []
-        assert asked(page, "tiny", "explore") == []
-    assert asked(page, "nameless", "explore") == []
-    assert asked(page, "undescribed", "explore") == []
-
-
 def flow_is_gone(page, elastic):
     page.wait_for_function("() => !document.querySelector('[data-answer=aperture]')")
     assert strip(page) == elastic
@@ -169,7 +160,7 @@ def test_walk_over_a_fluid(pages, theme, all_of_it):
     assert page.evaluate("() => document.activeElement.id") == "tab-aperture"
     flow_is_shown(page, elastic)
     map_tells_the_mouse(page)
-    texts_stand_out(page)
+    texts_stand_out(page, "explore")
     if all_of_it:
         page.select_option("#saved", "curve.png")
         with page.expect_download() as coming:
