@@ -83,7 +83,12 @@ def share_of(body, law, matrix):
     own = matrix[0, 0]
     if body.periodic:
         own += 2 * max(body.sizes) / (2 * np.pi * body.E_star) / body.heights.size
-    steps = [np.abs(np.gradient(body.heights, axis=axis)).ravel() for axis in (0, 1)]
+    beyond = {"mode": "wrap"} if body.periodic else {"mode": "reflect", "reflect_type": "odd"}
+    heights = np.pad(body.heights, 1, **beyond)
+    steps = [
+        np.abs(heights[2:, 1:-1] - heights[:-2, 1:-1]).ravel() / 2,
+        np.abs(heights[1:-1, 2:] - heights[1:-1, :-2]).ravel() / 2,
+    ]
     pull = law.work_of_adhesion / law.range
     ramp = np.minimum(np.maximum(sum(steps) / 2, 4 * pull * own), law.range)
     return lambda gap: np.clip((law.range + ramp - gap) / (2 * ramp), 0, 1)

@@ -132,13 +132,13 @@ def _results(
 def _problem(scaled: ScaledSurface, law: ContactLaw, method: Method) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
     grid = Grid(scaled.half_space, scaled.surface.shape, scaled.spacing)
-    separation = scaled.separation()
+    separation, law = scaled.separation(), law.scaled(scaled.pressure, scaled.height)
     return Problem(
         grid,
         separation,
         scaled.surface.rms_height / scaled.height,
         method.resolution(grid),
-        law.scaled(scaled.pressure, scaled.height).between(separation, grid.inverse.diagonal),
+        law.between(separation, grid.inverse.diagonal, scaled.half_space.repeats),
     )
 
 

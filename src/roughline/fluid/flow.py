@@ -159,8 +159,8 @@ class Flow:
         length, width = self.sizes if self.along == "x" else self.sizes[::-1]
         along, across = self._lost
         steep = (np.diff(gap, axis=0) * gap.shape[0] / length) ** 2
-        aside = (np.diff(gap, axis=1) * gap.shape[1] / width) ** 2
-        inside, beside = along[1:-1], across[:, 1:-1]
+        aside = (np.diff(gap, axis=1, prepend=gap[:, -1:]) * gap.shape[1] / width) ** 2
+        inside, beside = along[1:-1], across[:, :-1]  # nothing flows around where sides are closed
         total = (inside * steep).sum() + (beside * aside).sum()
         return float(np.sqrt(total / (inside.sum() + beside.sum())))
 

@@ -117,7 +117,9 @@ class Adhesive(ContactLaw):
         """Return the law on another grid."""
         return replace(self, share=take(self.share) if isinstance(self.share, np.ndarray) else 0.0)
 
-    def between(self, separation: Real, compliance: float) -> ContactLaw:
+    def between(
+        self, separation: Real, compliance: float, repeats: tuple[bool, bool]
+    ) -> ContactLaw:
         """Return the law itself, or, where the pull moves less than rounding, one without it."""
         moved = self.largest_pull * compliance * separation.size
         return Unilateral() if moved < np.finfo(float).eps * separation.max() else self

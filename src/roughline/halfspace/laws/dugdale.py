@@ -79,9 +79,11 @@ class Dugdale(Adhesive):
         assert isinstance(taken, Dugdale)
         return replace(taken, ramp=take(self.ramp) if isinstance(self.ramp, np.ndarray) else 0.0)
 
-    def between(self, separation: Real, compliance: float) -> ContactLaw:
+    def between(
+        self, separation: Real, compliance: float, repeats: tuple[bool, bool]
+    ) -> ContactLaw:
         """Return the law for bodies: their ramps are those of the slopes and of the grid."""
-        law = super().between(separation, compliance)
+        law = super().between(separation, compliance, repeats)
         if not isinstance(law, Dugdale):
             return law
         least = _WIDTH * self.largest_pull * compliance
@@ -92,9 +94,8 @@ class Dugdale(Adhesive):
                 f"least {enough:.3g} times as much, with the same work, or a finer grid",
                 "range",
             )
-        sides = [axis for axis in (0, 1) if separation.shape[axis] > 1]
-        steepness = sum(np.abs(np.gradient(separation, axis=axis)) for axis in sides) / 2
-        return replace(self, ramp=np.clip(steepness + np.zeros_like(separation), least, self.range))
+        steps = (_step(separation, axis, repeats[axis]) for axis in (0, 1))
+        return replace(self, ramp=np.clip(sum(steps) / 2, least, self.range))
 
     @property
     def reach(self) -> float:
@@ -114,3 +115,13 @@ class Dugdale(Adhesive):
         gap = np.maximum(gap, 0.0)
         open_ = np.minimum(gap, self.range - self.ramp) / self.range
         return 1 - open_ - (1 - self.share_at(gap) ** 2) * self.ramp / self.range
+
+
+def _step(separation: Real, axis: int, repeats: bool) -> Real:
+    """Return what the separation changes by from cell to cell along an axis. [length]"""
+    if separation.shape[axis] == 1:
+        return np.zeros_like(separation)
+    if repeats:
+        around = np.roll(separation, -1, axis) - np.roll(separation, 1, axis)
+        return np.abs(around) / 2
+    return np.abs(np.gradient(separation, axis=axis))

@@ -79,7 +79,9 @@ class ContactLaw(ABC):
     def scaled(self, pressure: float, length: float) -> ContactLaw:
         """Return the law in other units of pressures and gaps, given in the old ones."""
 
-    def between(self, separation: Real, compliance: float) -> ContactLaw:
+    def between(
+        self, separation: Real, compliance: float, repeats: tuple[bool, bool]
+    ) -> ContactLaw:
         """Return the law for the bodies at hand, in its units.
 
         Parameters
@@ -88,6 +90,8 @@ class ContactLaw(ABC):
             Distance of the untouched bodies at first touch. [length]
         compliance : float
             Displacement of a node by the pressure on it alone, over that. [length / pressure]
+        repeats : tuple of bool
+            Whether bodies go on as they begin, along x and along y.
         """
         return self
 
