@@ -25,6 +25,38 @@ def test_harmonic_filling_is_exact_for_a_harmonic_surface_and_nearest_is_near():
     assert Missing(most=0.5).filled(line, "a line") == pytest.approx(np.arange(9.0))
 
 
+def with_corner_missing(heights, share=0.28):
+    mask = np.zeros(heights.shape, bool)
+    mask[tuple(slice(0, round(share * n)) for n in heights.shape)] = True
+    return np.ma.MaskedArray(heights, mask)
+
+
+@pytest.mark.parametrize("method", ["harmonic", "nearest"])
+@pytest.mark.parametrize("axes", [1, 2])
+def test_what_is_filled_leans_with_the_rest(axes, method):
+    rough = np.random.default_rng(3).normal(size=(40, 30)[:axes])
+    x = np.indices(rough.shape)
+    plane = 7.0 + 0.9 * x[0] - 0.4 * x[-1]
+    level, leaning = (
+        Missing(method, 0.5).filled(with_corner_missing(each), "a map")
+        for each in (rough, rough + plane)
+    )
+    np.testing.assert_allclose(leaning - plane, level, atol=1e-10)
+    bowl = plane + 0.05 * (x[0] - 3) ** 2 + 0.02 * x[0] * x[-1]
+    level, bent = (
+        Missing(method, 0.5, "curvature").filled(with_corner_missing(each), "a map")
+        for each in (rough, rough + bowl)
+    )
+    np.testing.assert_allclose(bent - bowl, level, atol=1e-10)
+
+
+def test_one_known_row_tells_no_slope_across_it():
+    heights = np.ma.MaskedArray(np.tile(np.arange(5.0), (6, 1)), True)
+    heights.mask[2] = False
+    filled = Missing(most=0.9).filled(heights, "a map")
+    np.testing.assert_allclose(filled, heights.data, atol=1e-12)
+
+
 def test_too_many_missing_points_are_refused_with_numbers():
     _, masked = masked_wave(share=0.3)
     with pytest.raises(

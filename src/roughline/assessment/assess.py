@@ -81,6 +81,7 @@ def assess_body(
         hardness_scatter=scatter,
         larger=taken(solution.larger, asked),
         measured=solution.measured,
+        on_filled=solution.on_filled,
         fields_of_gap=fields_of_gap(case, curves),
         sought=solution.sought,
         theories=theories,

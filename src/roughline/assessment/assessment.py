@@ -14,7 +14,7 @@ from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.question import Question
 from roughline.assessment.slip import PartialSlip
 from roughline.assessment.source import Topography
-from roughline.computing.arrays import Indices
+from roughline.computing.arrays import Indices, Real
 from roughline.computing.summary import summary
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
@@ -64,6 +64,9 @@ class Assessment:
     measured : mapping of str to Measured
         What answers need from the fields of every load, over the loads of the curve; of the map
         pressed periodically where answers are about the surface that it was cut out of.
+    on_filled : ndarray, shape (loads,), or None
+        Share of the force that stands on points that were missing and filled, over the loads of the
+        curve; None where none was filled, or where it is not known which. [1]
     fields_of_gap : Fields or None
         Of one load, in the contact that `measured` is of; None if they were not asked for, or the
         load was not solved.
@@ -94,6 +97,7 @@ class Assessment:
     hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
     larger: LargerSurface | None = None
     measured: Mapping[str, Measured] = field(default_factory=dict)
+    on_filled: Real | None = None
     fields_of_gap: Fields | None = None
     sought: Sought = field(default_factory=Sought)
     theories: Sequence[TheoryCurve] = ()

@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from roughline.assessment.assumptions import broken
+from roughline.assessment.filled import filled_points
 from roughline.assessment.kinds import has_spectrum, is_map, nominal_area
 from roughline.assessment.larger_surface import roll_offs_along_a_side
 from roughline.assessment.loads import Hardness, LoadCase, hardness_of
 from roughline.assessment.question import Question
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.tiles import Beyond
+from roughline.computing.arrays import Mask
 from roughline.contact.measures import Measure
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.rules import rules
@@ -72,6 +74,14 @@ class Case:
     def filled(self) -> Sequence[Topography]:
         """The topographies, if points of one were missing; none otherwise."""
         return self.parts if any(each.is_filled for each in self.parts) else ()
+
+    @cached_property
+    def filled_points(self) -> Mask | None:
+        """Points of the pressed surface that were filled; None where none was, or not known."""
+        if not self.filled or not isinstance(self.body, Surface):
+            return None
+        points = filled_points(self.parts)
+        return None if points is None or not points.any() else points
 
     @property
     def map(self) -> Surface | None:

@@ -31,6 +31,8 @@ from roughline.units import decimal
 _STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
 _STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
 _PRESSED = _STEEP / 2  # mean contact pressure over E*, as on such slopes; on layers it is not
+_ON_FILLED = 0.05  # share of the force on filled points from which on a warning says so
+_MOSTLY_ON_FILLED = 0.5  # from which on answers are of heights that nobody measured
 _WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
 _COUNTS = 1.2  # upper over lower end of what counts as a cause
 
@@ -50,6 +52,7 @@ def warnings_of(
         *remarks(of_each(bodies, suspicions), is_grave=True),
         *remarks(of_each(bodies, grave_effects), is_grave=True),
         *_broken_assumptions(result, spectrum),
+        *_of_filled_points(result),
         *remarks(_of_full_contact(result), is_grave=True),
         *remarks(_of_wide_interval(result), INTERVALS),
         *remarks([of_line] if is_grave else [], is_grave=True),
@@ -103,6 +106,22 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
         return ""
     verb = "comes" if len(names) == 1 else "come"
     return f"{listed(names)} {verb} without an interval"
+
+
+def _of_filled_points(result: Assessment) -> list[Remark]:
+    """Say how much of the force stands on points that nobody measured."""
+    if result.on_filled is None:
+        return []
+    shares = result.on_filled[result.asked]
+    most = int(np.argmax(np.nan_to_num(shares)))
+    if not shares[most] > _ON_FILLED:
+        return []
+    text = (
+        f"{shares[most]:.0%} of the force of load {result.headings[most]} stands on points that "
+        "were missing and filled, which nobody measured: measure them, or crop to where points are "
+        f"known ({called('crop')})"
+    )
+    return [Remark(text, INTERVALS, is_grave=bool(shares[most] > _MOSTLY_ON_FILLED))]
 
 
 def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[Remark]:

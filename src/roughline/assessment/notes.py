@@ -249,7 +249,8 @@ def _filled_spikes_and_effects(body: Body) -> list[str]:
     if body.settings.get("outliers_kept"):
         notes.append(
             f"{body.settings['outliers_kept']} spikes kept; the highest point decides the depth of "
-            "first touch, so check whether they are real, or remove them"
+            "first touch, so check whether they are real, or remove them "
+            f"({called('remove_outliers', True)})"
         )
     if body.settings.get("outliers_removed"):
         notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")

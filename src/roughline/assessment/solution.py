@@ -9,6 +9,7 @@ import numpy as np
 
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
+from roughline.assessment.filled import ON_FILLED, relative_error
 from roughline.assessment.larger_measure import LargerMeasure
 from roughline.assessment.larger_surface import LargerSurface, larger_surface, which_surface
 from roughline.assessment.line_scan import press_scan
@@ -39,6 +40,7 @@ class Solution:
     measured: Mapping[str, Measured] = field(default_factory=dict)
     place: str = ""  # the surface that these are of; empty for the map alone
     sought: Sought = field(default_factory=Sought)
+    on_filled: Real | None = None  # share of the force that stands on filled points, if known [1]
     note: str = ""  # what another way to fill missing points changes, if that was tried
 
 
@@ -56,7 +58,9 @@ def solution_of(case: Case, curves: Curves) -> Solution:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
     sought = curves.sought.get(Way.AS_ASKED, Sought())
-    return Solution(curve, intervals, larger, measured, place, sought, note)
+    filled = curve.measured.get(ON_FILLED)
+    on_filled = None if filled is None else filled.values
+    return Solution(curve, intervals, larger, measured, place, sought, on_filled, note)
 
 
 def solution_of_scan(case: Case, body: Line) -> Solution:
@@ -113,10 +117,11 @@ def measured_of(
     curve, other = curves.get(name), curves.get(filled_otherwise(name))
     if curve is None:
         return {}
+    taken = {each.name: curve.measured[each.name] for each in case.measures}
     if not are_known:
-        return {key: replace(each, low=None, high=None) for key, each in curve.measured.items()}
-    moved = curve.measured if other is None else other.measured
-    return {key: _beside(each, moved[key].values) for key, each in curve.measured.items()}
+        return {key: replace(each, low=None, high=None) for key, each in taken.items()}
+    moved, unsure = curve.measured if other is None else other.measured, _unsure(curves)
+    return {key: _beside(each, moved[key].values, unsure) for key, each in taken.items()}
 
 
 def fields_of_gap(case: Case, curves: Curves) -> Fields | None:
@@ -130,11 +135,21 @@ def _measured_on(case: Case, name: str) -> str:
     return periodic(name) if case.is_repeated_for_interface else name
 
 
-def _beside(measured: Measured, other: Real) -> Measured:
-    """A measure with both ends so much wider as another choice moves its values, independently."""
+def _unsure(curves: Curves) -> Real | float:
+    """By how much all values may differ, as force stands on points that nobody measured. [1]"""
+    filled = curves.as_asked.measured.get(ON_FILLED)
+    return 0.0 if filled is None else relative_error(filled.values)
+
+
+def _beside(measured: Measured, other: Real, unsure: Real | float) -> Measured:
+    """A measure with both ends so much wider as another choice moves its values, independently.
+
+    Relative to the values, they are unsure by more.
+    """
     if measured.low is None or measured.high is None:
         return measured
-    values, moved = measured.values, change(measured.values, other)
+    values = measured.values
+    moved = np.hypot(change(values, other), unsure * values)
     least = np.minimum(measured.low, other)
     low = np.maximum(values - np.hypot(values - measured.low, moved), np.minimum(least, 0.0))
     return replace(measured, low=low, high=values + np.hypot(measured.high - values, moved))
@@ -156,7 +171,9 @@ def _with_filling(
         )
     elif case.filled and curves.stopped != name:
         note = _why_filling_changes_nothing(case.filled)
-    return None if broken("grid", body) else intervals_of(curve, other), note
+    if broken("grid", body):
+        return None, note
+    return intervals_of(curve, other, _unsure(curves)), note
 
 
 def _most_changed(before: Real | None, after: Real | None, asked: Indices) -> str:

@@ -100,7 +100,8 @@ def measured_body(
     In place, the heights of the content are used up, which saves memory.
     """
     trend: Trend = "none" if preparation and preparation.trend else "tilt"
-    filling = Missing(reading.missing, reading.most_missing)
+    removed = preparation.trend if preparation and preparation.trend else trend
+    filling = Missing(reading.missing, reading.most_missing, removed)
     if reading.tilt == MOUNTING:
         content = replace(content, settings={**content.settings, TILT: MOUNTING})
     content = replace(content, settings={**content.settings, **reading.of_instrument})

@@ -11,11 +11,14 @@ from roughline.engineering.intervals import Ends, Intervals
 _UNSURE = 5.0  # upper over lower end above which a stiffness near full contact may be infinite
 
 
-def intervals_of(curve: Curve, other: Curve | None = None) -> Intervals | None:
+def intervals_of(
+    curve: Curve, other: Curve | None = None, unsure: Real | float = 0.0
+) -> Intervals | None:
     """Intervals of a curve, of its grid's errors and of how far another one is from it.
 
-    The other is that of another choice, such as another way to fill missing points. Without the
-    grid's errors there are none: those of that choice alone would be too narrow.
+    The other is that of another choice, such as another way to fill missing points; `unsure` is a
+    further error, relative to the values. Without the grid's errors there are none: those of that
+    choice alone would be too narrow.
     """
     value, error = curve.area_fraction_corrected, curve.area_fraction_error
     most, stiffness_error = curve.area_fraction_most, curve.stiffness_error
@@ -25,9 +28,9 @@ def intervals_of(curve: Curve, other: Curve | None = None) -> Intervals | None:
     if unloading is None or unloading_error is None:
         return None
     other = other or curve
-    area_change = change(value, other.area_fraction_corrected)
-    loading_change = change(curve.stiffness, other.stiffness)
-    unloading_change = change(unloading, other.unloading_stiffness)
+    area_change = np.hypot(change(value, other.area_fraction_corrected), unsure * value)
+    loading_change = np.hypot(change(curve.stiffness, other.stiffness), unsure * curve.stiffness)
+    unloading_change = np.hypot(change(unloading, other.unloading_stiffness), unsure * unloading)
     low, high = interval(value, np.hypot(error, area_change))
     loading = interval(curve.stiffness, np.hypot(stiffness_error, loading_change))
     springing = interval(unloading, np.hypot(unloading_error, unloading_change))

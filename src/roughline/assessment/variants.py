@@ -17,6 +17,7 @@ import numpy as np
 
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
+from roughline.assessment.filled import force_on
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import pressed_body
@@ -153,6 +154,8 @@ def variants_of(case: Case) -> list[Variant]:
     loads, body = case.loads, case.body
     if not case.is_repeated_for_interface:
         loads = replace(loads, measures=case.measures)
+    if case.filled_points is not None:
+        loads = replace(loads, measures=[*loads.measures, force_on(case.filled_points)])
     if case.question.fields:  # of the largest load asked for, or of one at three quarters of them
         loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
     shape = body.shape if isinstance(body, Surface) else (1, body.heights.size)

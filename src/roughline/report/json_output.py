@@ -66,6 +66,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
             name: {"unit": each.quantity.unit_in("m"), **_of_measured(each, assessment)}
             for name, each in assessment.measured.items()
         },
+        **({} if assessment.on_filled is None else {"force_on_filled": assessment.on_filled}),
         "answers_of": "joint" if question.joint is not None else "body",
         "answers": _of_answers(assessment),
         "theories": {

@@ -12,6 +12,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.words import called
+from roughline.topography.trend import Trend, trend_of_known
 
 Filling = Literal["harmonic", "nearest"]
 
@@ -21,11 +22,18 @@ _COLUMNS, _ROWS = 48, 16  # of a coarse map, at most
 
 @dataclass(frozen=True)
 class Missing:
-    """How missing points are filled, and how many are too many."""
+    """How missing points are filled, and how many are too many.
+
+    Departures from the trend of the known points are filled, as neither method goes on with a slope
+    where points are missing at a border.
+    """
 
     # the solution of Laplace's equation between the known heights, or the nearest known height
     method: Filling = "harmonic"
     most: float = 0.1  # largest share of missing points [1]
+    removed: Trend = (
+        "tilt"  # the trend that is removed from the body; filled about a plane at least
+    )
 
     def __post_init__(self) -> None:
         one_of("missing", self.method, ("harmonic", "nearest"))
@@ -71,10 +79,14 @@ class Missing:
         too_many = self.too_many(mask, name)
         if too_many is not None:
             raise too_many
+        trend = trend_of_known(heights, "curvature" if self.removed == "curvature" else "tilt")
+        rough = heights - trend
         if heights.ndim == 1:
             points = np.arange(mask.size)
-            return np.interp(points, points[~mask], np.ma.getdata(heights)[~mask])
-        return _nearest(heights, mask) if self.method == "nearest" else _harmonic(heights)
+            filled = np.interp(points, points[~mask], np.ma.getdata(rough)[~mask])
+        else:
+            filled = _nearest(rough, mask) if self.method == "nearest" else _harmonic(rough)
+        return np.where(mask, filled + trend, np.ma.getdata(heights))
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -15,6 +15,7 @@ Trend = Literal["none", "mean", "tilt", "curvature"]
 _DEGREES = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}  # of the polynomial of each
 
 _BLOCK = 2**16  # heights changed together
+_SINGULAR = 1e-10  # of the largest moment of the known points, below which they tell no coefficient
 _ROUNDING = 1e-13  # of the largest height, below which what is left is of rounding alone
 
 
@@ -51,6 +52,32 @@ def remove_trend(heights: Real, trend: Trend) -> None:
         heights[block] -= bases[0][block] @ along
     if max(float(heights.max()), -float(heights.min())) <= _ROUNDING * largest:
         heights[...] = 0.0
+
+
+def trend_of_known(heights: np.ma.MaskedArray[Any, Any], trend: Trend) -> Real:
+    """Return the least-squares polynomial through masked heights, at all points.
+
+    Where the known points do not tell all of its coefficients, as on one row, the others are zero.
+    """
+    degree, known = _DEGREES[trend], ~np.ma.getmaskarray(heights)
+    middle = float(heights.mean())
+    moments, shares = known.astype(np.float64), np.where(known, np.ma.getdata(heights) - middle, 0)
+    bases = [polynomials(n, min(degree, n - 1)) for n in heights.shape]
+    for basis in bases:
+        products = np.einsum("ni,nj->nij", basis, basis).reshape(len(basis), -1)
+        moments = np.tensordot(moments, products, axes=(0, 0))
+        shares = np.tensordot(shares, basis, axes=(0, 0))
+    counts = shares.shape
+    pairs = moments.reshape([n for count in counts for n in (count, count)])
+    first, second = range(0, 2 * len(counts), 2), range(1, 2 * len(counts), 2)
+    normal = pairs.transpose([*first, *second]).reshape(shares.size, shares.size)
+    kept = np.flatnonzero(np.indices(counts).sum(axis=0).ravel() <= degree)
+    along = np.zeros(shares.size)
+    along[kept], *_ = np.linalg.lstsq(normal[np.ix_(kept, kept)], shares.ravel()[kept], _SINGULAR)
+    found = along.reshape(counts)
+    for basis in bases:
+        found = np.tensordot(found, basis, axes=(0, 1))
+    return found + middle
 
 
 def slopes_of_plane(heights: Real, spacings: Sequence[float]) -> tuple[float, ...]:

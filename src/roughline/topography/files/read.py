@@ -65,7 +65,7 @@ def read(
         else in the file, and in metres if not; texts have units of their own, "1 mm, 0.5 mm".
     missing : {"harmonic", "nearest"}, optional
         How missing points are filled: by the smoothest surface through their neighbours, or by
-        the nearest known height.
+        the nearest known height; both of what the known points depart from their own trend.
     most_missing : float, optional
         Share of missing points above which the file is refused.
     trend : {"tilt", "none", "mean", "curvature"}, optional
@@ -96,8 +96,8 @@ def read(
     >>> print(surface.shape, surface.unit)
     (32, 32) m
     """
-    filling = Missing(missing, most_missing)
     refuse_unknown_trend(trend)
+    filling = Missing(missing, most_missing, trend)
     content = measurement(path, channel)
     if crop is not None:
         content, sizes = content.piece(crop, unit, sizes), None
