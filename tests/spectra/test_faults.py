@@ -55,6 +55,15 @@ def test_a_row_that_is_off_is_told_with_its_place(by):
         assert f"{side} those beside it" in said
 
 
+@pytest.mark.parametrize("by", [40.0, -400.0])
+def test_a_spike_is_no_row_and_hides_none(by):
+    spike = np.zeros_like(HEIGHTS)
+    spike[30, 40] = by * HEIGHTS.std()
+    assert said_of(HEIGHTS + spike) == []
+    (said,) = said_of(with_step_of_rows(20, by=1.0) + spike)
+    assert said.startswith("at x = 312 µm a whole row stands")
+
+
 def test_a_step_is_told_and_a_groove_or_a_ramp_is_none():
     (said,) = said_of(with_step_of_rows(*range(40, 64), by=1.0))
     assert said.startswith("at x = 625 µm all heights beyond stand")

@@ -21,6 +21,7 @@ from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.spectra.gaussian_heights import of_heights
 from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.preparation import outliers
 from roughline.topography.settings import MOUNTING, TILT
 from roughline.units import in_words
 
@@ -47,6 +48,7 @@ _CHANCE_OF_WAVES = 0.02  # of tilt and bow: what few coefficients show is easily
 _LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
 _ON_LINES = 0.1  # share of heights that stand in steps that matters
 _ON_A_LEVEL = 0.003  # share of heights on one level, beyond the lowest, that matters
+_FILLED = 0.1  # share of filled points: beyond, intervals of light loads hold too few surfaces
 _JUMPS = 0.02  # of the rms height, by which rows jump that matters
 _NO_ROLL_OFF = 2.0  # gravity of a roll-off that is not seen
 _LEVELLED = 1.01  # gravity of a tilt that is not known
@@ -113,7 +115,14 @@ def _of_steps(body: Body) -> Departure | None:
 
 
 def _of_faults(body: Body) -> Iterator[Departure]:
-    """Say where heights are the instrument's, not the surface's, so that no answer holds."""
+    """Say where heights are not the surface's, so that no answer holds."""
+    shares = [body.settings.get(f"{of}missing_share", 0.0) for of in ("", "first_", "second_")]
+    if (share := max(map(float, shares))) > _FILLED:
+        text = (
+            f"{share:.0%} of the points are missing and were filled, so that summits may be "
+            f"missing as well: measure again, or crop to where points are known ({called('crop')})"
+        )
+        yield Departure("measured", text, share / _FILLED)
     if not body.is_cut_out or not body.rms_height:
         return
     if (share := _share_on_a_level(body.heights)) > _ON_A_LEVEL:
@@ -123,7 +132,7 @@ def _of_faults(body: Body) -> Iterator[Departure]:
             "number: measure with a larger range, or mark missing points"
         )
         yield Departure("measured", text, share / _ON_A_LEVEL)
-    rows = _jump(body.heights) if isinstance(body, Surface) else None
+    rows = _jump(body) if isinstance(body, Surface) else None
     if isinstance(body, Surface) and rows and abs(rows.height) > _JUMPS * body.rms_height:
         gravity = abs(rows.height) / _JUMPS / body.rms_height
         yield Departure("measured", _of_rows(rows, body), gravity)
@@ -209,8 +218,17 @@ class _Jump:
     is_single: bool  # whether it is one row alone, between others that continue each other
 
 
-def _jump(heights: Real) -> _Jump | None:
-    """Return the highest jump between rows of a map that is not by chance.
+def _jump(surface: Surface) -> _Jump | None:
+    """Return the highest jump between rows of a map that is not by chance, nor one of spikes."""
+    found = _highest_jump(surface.heights)
+    if found is None:
+        return None
+    spikes = outliers(surface)  # which takes longer than rows do
+    return _highest_jump(np.ma.MaskedArray(surface.heights, spikes)) if spikes.any() else found
+
+
+def _highest_jump(heights: Real) -> _Jump | None:
+    """Return the highest jump between rows.
 
     Grooves, ridges and edges between tool marks are none: slopes on one side of them go on.
     """
@@ -218,7 +236,7 @@ def _jump(heights: Real) -> _Jump | None:
         each
         for axis in range(2)
         if heights.shape[axis] >= _LEAST
-        for each in _jumps(heights.mean(axis=1 - axis), axis)
+        for each in _jumps(np.asarray(heights.mean(axis=1 - axis)), axis)
         if abs(each.height) > _SCATTERS * each.scatter
     ]
     return max(found, key=lambda each: abs(each.height), default=None)
