@@ -26,6 +26,7 @@ from roughline.errors import InputError, StoreError
 from roughline.errors.checks import refuse
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
 from roughline.topography.body import Surface, with_heights
 from roughline.units import in_words
@@ -196,6 +197,11 @@ class Curve:
     def hardness(self) -> float | None:
         """Largest pressure that a point of the surface bears; None if it is elastic. [pressure]"""
         return self.law.hardness if isinstance(self.law, Yielding) else None
+
+    @property
+    def assumption(self) -> str:
+        """What the bodies are taken to be: by their law, without which they only push."""
+        return (self.law or Unilateral()).assumption
 
     @property
     def force_bar(self) -> Real:

@@ -48,6 +48,7 @@ class JKR:
     """
 
     work_of_adhesion: float
+    assumption: ClassVar[str] = "linear elastic, and pull each other where they touch alone"
     memory: ClassVar[Literal["path"]] = "path"
 
     def __post_init__(self) -> None:

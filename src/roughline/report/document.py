@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughline._version import __version__
+from roughline.assessment.notes import listed
 from roughline.assessment.part import PartAssessment
 from roughline.report.answers import (
     UNRESOLVED,
@@ -24,33 +25,23 @@ from roughline.report.answers import (
 from roughline.report.contact_tables import formula_table, solid_in_words, symbol_table
 from roughline.report.page import Section, Table, render, sentence
 from roughline.report.pdf import write_pdf
+from roughline.topography.body import Line
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
 
 _ABREAST, _ABREAST_OF_PART = 3, 2  # loads that fit beside each other; those of a part have scatter
 
-_ASSUMPTIONS = (
-    "Both bodies are half-spaces, linear elastic up to the hardness of the softer body, if that is "
-    "known, and perfectly plastic there; small slopes, no friction in the normal problem, no "
-    "adhesion, static loads.",
+_OF_HEIGHTS = (
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
-    "them the real contact area; stiffness and conductance depend on them less.",
-    "Intervals, where given, hold the uncertainty due to the grid, to filled points and to the "
-    "scatter of the hardness, or to a line scan; those of k_i, h_c and |r| of a map hold what one "
-    "map does not show of the larger surface as well. They do not hold the scatter of other "
-    "material data, nor, for all other answers, the scatter between places on the part.",
+    "them the real contact area; stiffness and conductance depend on them less."
 )
-_ASSUMPTIONS_OF_JOINT = (
-    *_ASSUMPTIONS[:2],
+_OF_JOINT = (
     "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and "
     "has the roughness of the map. The map is pressed at that pressure in a periodic half-space, "
     "and quantities per area are multiplied by the joint's area. Answers are those of the "
     "interface; waviness longer than the map, bending, and the constriction of the bodies to the "
-    "joint's outline are left out.",
-    "Intervals, where given, hold the uncertainty due to the grid, to filled points, to the "
-    "scatter of the hardness, and to what one map does not show of the surface around it. They do "
-    "not hold the scatter of other material data, nor that of places which are not alike.",
+    "joint's outline are left out."
 )
 _ASSUMPTION_OF_LAYERS = (
     "Layers are bonded to each other and to their base, which is as deep as one wishes. The "
@@ -163,9 +154,42 @@ def _groups(result: Assessment | PartAssessment) -> list[Section]:
 
 
 def _assumptions(assessment: Assessment) -> list[str]:
-    """Assumptions of the answers, and of theories beside them."""
-    of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
-    joint = assessment.question.joint is not None
+    """Assumptions of the answers, by what was pressed, and of theories beside them."""
     pair = assessment.question.pair
-    of_layers = [_ASSUMPTION_OF_LAYERS] if pair is not None and pair.coated else []
-    return [*(_ASSUMPTIONS_OF_JOINT if joint else _ASSUMPTIONS), *of_layers, *of_theories]
+    return [
+        f"Both bodies are half-spaces, {assessment.curve.assumption}; small slopes, no friction in "
+        "the normal problem, static loads.",
+        _OF_HEIGHTS,
+        *([] if assessment.question.joint is None else [_OF_JOINT]),
+        *_of_intervals(assessment),
+        *([_ASSUMPTION_OF_LAYERS] if pair is not None and pair.coated else []),
+        *(f"{theory.name}: {theory.validity}." for theory in assessment.theories),
+    ]
+
+
+def _of_intervals(assessment: Assessment) -> list[str]:
+    """Say what the intervals hold, and what they do not; nothing where there are none."""
+    if assessment.intervals is None:
+        return []
+    is_scan, is_of_joint = isinstance(assessment.body, Line), assessment.question.joint is not None
+    causes = [
+        "a single line scan" if is_scan else "the grid",
+        *(["filled points"] if any(each.is_filled for each in assessment.topographies) else []),
+        *(["the scatter of the hardness"] if assessment.hardness_scatter else []),
+    ]
+    held = f"what {listed(causes)} {'leaves' if len(causes) == 1 else 'leave'} open"
+    beyond = "one map does not show of the surface around it"
+    if is_of_joint:
+        held += f", and what {beyond}"
+    else:
+        ours = [each for each in assessment.answers.values() if each.rule.is_of_interface]
+        if ours:
+            held += (
+                f"; those of {listed([each.symbol for each in ours])} hold what {beyond} as well"
+            )
+    other = "other material data" if assessment.hardness_scatter else "material data"
+    places = "of places which are not alike" if is_of_joint else "between places on the part"
+    return [
+        f"Intervals, where given, hold {held}. They do not hold the scatter of {other}, nor that "
+        f"{places}."
+    ]

@@ -98,9 +98,17 @@ def _meaning_of_joint(pressed: Pressed, *, bodies_matter: bool) -> str:
     )
 
 
-_WITHOUT_FRICTION = (
-    "without friction or adhesion; where metals yield, points at the hardness bear no more"
-)
+def _of_contact(pressed: Pressed) -> Mapping[str, str]:
+    """What the contact is taken to be, and what k is called of a joint."""
+    validity = f"without friction; bodies are {pressed.curve.assumption}"
+    if pressed.joint is None:
+        return {"validity": validity}
+    return {
+        "name": "interface stiffness on further loading",
+        "symbol": "k_load",  # k is a free body's
+        "formula": _of_map("dF/dd on further loading"),
+        "validity": f"of the interface alone; {validity}",
+    }
 
 
 CONTACT_STIFFNESS = _rule(
@@ -109,14 +117,9 @@ CONTACT_STIFFNESS = _rule(
     symbol="k",
     unit="N/m",
     formula="dF/dd at frozen contact on further loading, exact",
-    validity=_WITHOUT_FRICTION,
+    validity="without friction; what bodies are taken to be, their law says",
     value=_contact_stiffness,
-    differing=_of_joint(
-        name="interface stiffness on further loading",
-        symbol="k_load",  # k is a free body's
-        formula=_of_map("dF/dd on further loading"),
-        validity=f"of the interface alone; {_WITHOUT_FRICTION}",
-    ),
+    differing=_of_contact,
     under=_under_unloading,
     leads=lambda pressed: pressed.joint is None,
     is_extensive=True,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -66,6 +67,9 @@ class Dugdale(Adhesive):
     """
 
     ramp: Real | float = 0.0
+    assumption: ClassVar[str] = (
+        "linear elastic, and pull each other evenly across gaps up to the range"
+    )
 
     def scaled(self, pressure: float, length: float) -> Dugdale:
         """Return the law in other units."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -42,6 +43,10 @@ class Exponential(Adhesive):
     .. [2] M. H. Müser et al., "Meeting the Contact-Mechanics Challenge", Tribol. Lett. 65, 118
        (2017).
     """
+
+    assumption: ClassVar[str] = (
+        "linear elastic, and pull each other across gaps, e times less with each range"
+    )
 
     @property
     def reach(self) -> float:

@@ -50,12 +50,15 @@ class ContactLaw(ABC):
     follows_gaps : bool
         Whether bounds depend on gaps, so that a law and its contact are led to each other by what
         :meth:`then` returns.
+    assumption : str
+        What the law takes bodies to be, as pages say it, such as "linear elastic, without adhesion".
     misfit : float
         Of a law that follows gaps, and that follows a contact: by how much the gaps of that differ
         at most from those that go with the bounds which it obeyed. [length]
     """
 
     misfit: float = 0.0
+    assumption: ClassVar[str] = "of a law of their own"
     memory: ClassVar[Literal["none", "dents", "path"]] = "none"
     only_pushes: ClassVar[bool] = True
     follows_gaps: ClassVar[bool] = False

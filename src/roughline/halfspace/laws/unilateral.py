@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from roughline.halfspace.laws.law import ContactLaw
 @dataclass(frozen=True)
 class Unilateral(ContactLaw):
     """Bodies that neither stick to each other nor overlap: p >= 0, gap >= 0 and p gap = 0."""
+
+    assumption: ClassVar[str] = "linear elastic, without adhesion"
 
     @property
     def settings(self) -> dict[str, str | float]:

@@ -48,6 +48,10 @@ class Yielding(ContactLaw):
     hardness: float
     has_yielded: bool = False
     is_elastic: bool = False
+    assumption: ClassVar[str] = (
+        "linear elastic up to the hardness of the softer one, where points bear no more and stay "
+        "indented, without adhesion"
+    )
     memory: ClassVar[Literal["none", "dents", "path"]] = "dents"
 
     def __post_init__(self) -> None:
