@@ -51,7 +51,7 @@ class ContactLaw(ABC):
         Whether bounds depend on gaps, so that a law and its contact are led to each other by what
         :meth:`then` returns.
     assumption : str
-        What the law takes bodies to be, as pages say it, such as "linear elastic, without adhesion".
+        What it takes bodies to be, as pages say it, such as "linear elastic, without adhesion".
     misfit : float
         Of a law that follows gaps, and that follows a contact: by how much the gaps of that differ
         at most from those that go with the bounds which it obeyed. [length]
