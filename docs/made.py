@@ -19,6 +19,7 @@ from roughline.cli import app
 from roughline.cli.help import PanelsFirst
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering import formulas, leak
+from roughline.engineering.described import formulas_of
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
@@ -185,9 +186,11 @@ def page_of_commands() -> str:
 
 def page_of_materials() -> str:
     """The table of materials with its sources."""
+    chemical = formulas_of("materials.csv")
     rows = [
         (
             each.name,
+            chemical[each.name],
             *(_value(value) for value in (each.E / 1e9, each.nu)),
             _value(None if each.hardness is None else each.hardness / 1e9),
             *(_value(value) for value in (each.resistivity, each.conductivity, each.density)),
@@ -196,10 +199,12 @@ def page_of_materials() -> str:
         for each in sorted(materials().values(), key=lambda each: each.name)
     ]
     header = (
-        *("name", "E [GPa]", "ν", "hardness [GPa]", "resistivity [Ω m]"),
+        *("name", "formula", "E [GPa]", "ν", "hardness [GPa]", "resistivity [Ω m]"),
         *("conductivity [W/(m K)]", "density [kg/m³]", "source"),
     )
     own = (
+        'Names are read in any case; of formulas the capitals count: `"TiN"` is titanium nitride, '
+        '`"tin"` the metal, and `"TIN"` is refused, as it may be both.\n\n'
         'Other values are given as `--materials "E=210 GPa nu=0.31 hardness=12 GPa, steel"`, or as '
         "`rl.Material(...)`. [A new line of this table](../tutorials/extend.md#add-a-material) "
         "changes the package.\n"
@@ -209,9 +214,11 @@ def page_of_materials() -> str:
 
 def page_of_fluids() -> str:
     """The table of fluids with its sources."""
+    chemical = formulas_of("fluids.csv")
     rows = [
         (
             each.name,
+            chemical[each.name],
             _value(each.viscosity * 1e3),
             *(_value(value) for value in _of_gas(each)),
             each.source,
@@ -219,7 +226,7 @@ def page_of_fluids() -> str:
         for each in sorted(fluids().values(), key=lambda each: each.name)
     ]
     header = (
-        *("name", "viscosity [mPa s]", "molar mass [g/mol]", "conductivity [W/(m K)]"),
+        *("name", "formula", "viscosity [mPa s]", "molar mass [g/mol]", "conductivity [W/(m K)]"),
         *("mean free path at 1 bar [nm]", "source"),
     )
     own = (

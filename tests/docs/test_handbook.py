@@ -63,7 +63,7 @@ def test_every_fluid_is_listed_with_its_source():
     for each in fluids().values():
         (row,) = (line for line in page.splitlines() if line.startswith(f"| {each.name} |"))
         assert each.source in row
-    assert "| helium | 0.0196 | 4.003 |" in page
+    assert "| helium | He | 0.0196 | 4.003 |" in page
 
 
 def test_every_quantity_is_listed_with_its_meaning():

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import csv
-import difflib
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from importlib import resources
 
+from roughline.engineering.names import name_of
 from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
 from roughline.units import in_si, refuse_decimal_comma
@@ -16,25 +16,23 @@ _SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
 
 
 def described(
-    description: str, what: str, known: Collection[str], units: Mapping[str, str], example: str
+    description: str, what: str, formulas: Mapping[str, str], units: Mapping[str, str], example: str
 ) -> tuple[str, dict[str, float]]:
     """Return the name in a text such as "steel hardness=2 GPa", and its values in SI units.
 
-    `units` are those of the values that such a thing has, empty of a plain number. The name is
-    empty where values alone are given. An unknown name, an unknown or a senseless value raise an
-    InputError or a UnitError.
+    `formulas` are the chemical ones by the names that are known. `units` are those of the values
+    that such a thing has, empty of a plain number. The name is empty where values alone are given.
+    An unknown name, an unknown or a senseless value raise an InputError or a UnitError.
     """
     start = re.search(r"\w+\s*=", description)
     typed = (description[: start.start()] if start else description).strip(" ;")
-    name = re.sub(r"[\s_]+", "-", typed.lower())
     given = _settings(description[start.start() :] if start else "", description, what, units)
-    if name and name not in known:
-        near = difflib.get_close_matches(name, known, 1)
-        hint = f'; did you mean "{near[0]}"?' if near else f". Known are {', '.join(known)}."
-        raise InputError(
-            f'no {what} is called {shown(typed)}{hint} Others are given as "{example}"'
-        )
-    return name, given
+    return name_of(typed, what, formulas, example) if typed else "", given
+
+
+def formulas_of(table: str) -> dict[str, str]:
+    """Return the chemical formulas in a table, with spaces between, by what they name."""
+    return {name: row["formula"] for name, row in rows_of(table).items()}
 
 
 def rows_of(table: str) -> dict[str, dict[str, str]]:

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from types import MappingProxyType
 
-from roughline.engineering.described import described, rows_of
+from roughline.engineering.described import described, formulas_of, rows_of
 from roughline.errors import InputError
 from roughline.errors.checks import between, refuse, shown
 from roughline.errors.public import public
@@ -21,6 +21,7 @@ R = 8.31446261815324
 ROOM = 293.15
 """20 °C. [K]"""
 
+_TABLE = "fluids.csv"
 _UNITS = {
     "viscosity": "Pa*s",
     "molar_mass": "kg/mol",
@@ -31,19 +32,7 @@ _UNITS = {
 }
 _EXAMPLE = "viscosity=40 mPa s, or viscosity=18 uPa s molar_mass=29 g/mol of a gas"
 
-_SYNONYMS = {
-    "h2o": "water",
-    "glycol": "ethylene-glycol",
-    "glycerine": "glycerol",
-    "n2": "nitrogen",
-    "o2": "oxygen",
-    "ar": "argon",
-    "he": "helium",
-    "h2": "hydrogen",
-    "ch4": "methane",
-    "natural-gas": "methane",
-    "co2": "carbon-dioxide",
-}
+_SYNONYMS = {"glycol": "ethylene-glycol", "glycerine": "glycerol", "natural-gas": "methane"}
 _AT = re.compile(r"\s+at\s+(-?[\d.]+)\s*(?:°|deg)?\s*([CK])\b", re.IGNORECASE)
 _OF_OILS = 1.3  # factor of their viscosities' uncertainty: grade 10 %, index 80 to 140
 _OF_IRON = 55.85  # molar mass of the wall [g / mol]
@@ -199,7 +188,7 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
     Parameters
     ----------
     description : str, Liquid or Gas
-        Such as "water", "ISO VG 46 at 60 °C", "helium", "viscosity=40 mPa s" or
+        Such as "water", "ISO VG 46 at 60 °C", "helium", "CO2", "viscosity=40 mPa s" or
         "viscosity=18 uPa s molar_mass=29 g/mol". A fluid is returned as it is. Fluids of the table
         are at 20 °C unless a temperature from 0 to 100 °C is given.
 
@@ -223,8 +212,10 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
         return description
     if not isinstance(description, str):
         refuse("fluid", description, 'a name such as "water", a Liquid or a Gas is needed')
-    known = fluids()
-    name, given = described(_known_name(description), "fluid", known, _UNITS, "viscosity=40 mPa s")
+    known, formulas = fluids(), formulas_of(_TABLE)
+    name, given = described(
+        _known_name(description), "fluid", formulas, _UNITS, "viscosity=40 mPa s"
+    )
     if not name and "viscosity" not in given:
         raise InputError(
             f"the fluid {shown(description)} needs a name or a viscosity, such as "
@@ -249,7 +240,7 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
 
 def _at(name: str, temperature: float) -> dict[str, float | str]:
     """What differs at a temperature [K]: by Vogel's law in liquids, by powers of it in gases."""
-    texts = {"name", "source"}
+    texts = {"name", "formula", "source"}
     row = {key: float(value) for key, value in _rows()[name].items() if value and key not in texts}
     if not _COLDEST <= temperature <= _HOTTEST or not {"vogel_B", "viscosity_power"} & row.keys():
         raise InputError(
@@ -294,7 +285,7 @@ def fluids() -> Mapping[str, Liquid | Gas]:
     return MappingProxyType(found)
 
 
-_rows = functools.cache(partial(rows_of, "fluids.csv"))
+_rows = functools.cache(partial(rows_of, _TABLE))
 
 
 def _refuse_senseless(fluid: Liquid | Gas) -> None:

@@ -9,13 +9,14 @@ from dataclasses import fields, replace
 from types import MappingProxyType
 
 from roughline.engineering.coated import Coated, Solid
-from roughline.engineering.described import described, rows_of
+from roughline.engineering.described import described, formulas_of, rows_of
 from roughline.engineering.material import Material
 from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
 from roughline.errors.public import public
 from roughline.units import engineering, in_si
 
+_TABLE = "materials.csv"
 _UNITS = {
     "E": "Pa",
     "nu": "",
@@ -43,9 +44,10 @@ def material(description: str) -> Solid:
     Parameters
     ----------
     description : str
-        Such as "copper", "steel hardness=2 GPa" or "E=70 GPa nu=0.33 density=2700 kg/m^3". Each
-        layer of a coated body is followed by its thickness and by what it lies on: "gold 0.5 µm on
-        nickel 2 µm on copper", "E=5 MPa nu=0.49 2 mm on steel".
+        Such as "copper", "steel hardness=2 GPa" or "E=70 GPa nu=0.33 density=2700 kg/m^3". A
+        chemical formula stands for its name: "Cu" is copper, and "TiN" titanium nitride, where
+        "tin" is the metal. Each layer of a coated body is followed by its thickness and by what it
+        lies on: "gold 0.5 µm on nickel 2 µm on copper", "E=5 MPa nu=0.49 2 mm on steel".
 
     Returns
     -------
@@ -55,8 +57,8 @@ def material(description: str) -> Solid:
     Raises
     ------
     InputError
-        If the name or a property is unknown, a value is missing, or outside its range; if a layer
-        has no thickness, or lies on nothing.
+        If the name or a property is unknown, or a name may be that of two materials; if a value is
+        missing, or outside its range; if a layer has no thickness, or lies on nothing.
     UnitError
         If a value has no unit, or a wrong one.
 
@@ -70,6 +72,8 @@ def material(description: str) -> Solid:
     2000000000.0
     >>> print(rl.material("gold 0.5 um on copper").layers[0][1])
     5e-07
+    >>> print(rl.material("TiN 2 um on steel").name)
+    titanium-nitride 2 µm on steel
     """
     *layers, base = (part.strip(" ;") for part in _ON.split(description))
     if layers and not all((*layers, base)):
@@ -81,8 +85,8 @@ def material(description: str) -> Solid:
 
 def _bulk(text: str) -> Material:
     """A material that is not coated, or one of a coated body."""
-    known = materials()
-    name, given = described(text, "material", known, _UNITS, "E=70 GPa nu=0.33")
+    known, formulas = materials(), formulas_of(_TABLE)
+    name, given = described(text, "material", formulas, _UNITS, "E=70 GPa nu=0.33")
     if not name:
         if not {"E", "nu"} <= given.keys():
             raise InputError(
@@ -135,6 +139,6 @@ def materials() -> Mapping[str, Material]:
             hardness_factor=_TABLE_FACTOR,
             **{key: float(row[key]) if row[key] else None for key in numbers},  # type: ignore[arg-type]
         )
-        for name, row in rows_of("materials.csv").items()
+        for name, row in rows_of(_TABLE).items()
     }
     return MappingProxyType(found)
