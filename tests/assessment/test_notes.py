@@ -132,3 +132,41 @@ def test_a_wide_interval_names_its_largest_cause_first(surface):
     assert k_i.high[0] / k_i.low[0] >= 4
     known = said(surface, loads="20 N", periodic=True, hardness="370 MPa", grid_error=True)
     assert not [text for text in known.warnings if "is left open by" in text]
+
+
+@pytest.mark.parametrize(
+    ("pair", "told"),
+    [
+        (
+            "gold 20 um on copper, steel",
+            [
+                "the hardness of gold is 220 MPa here, of annealed metal, and layers of it have up "
+                "to 2 GPa where they are plated, as hard-gold"
+            ],
+        ),
+        ("gold, steel", []),
+        ("gold hardness=1 GPa 20 um on copper, steel", []),
+        ("hard-gold 20 um on copper hardness=2 GPa, steel hardness=3 GPa", []),
+        ("dlc, steel", ["E of dlc is 259 GPa here, and layers of it have 100 to 760 GPa"]),
+        ("dlc E=200 GPa, steel", []),
+        (
+            "TiN 20 um on steel, copper",
+            ["E of titanium-nitride is 464 GPa here, and layers of it have 250 to 590 GPa"],
+        ),
+    ],
+)
+def test_a_layer_is_told_from_the_bulk_that_the_table_has(pair, told):
+    rough = rl.SelfAffine(hurst=0.8, length=5e-4, rms_height=1e-6, q_roll=2.5e4).surface(16, rng=7)
+    result = said(rough, pair, loads="1 mN", grid_error=False)
+    found = [note for note in result.notes if "layers of it have" in note]
+    assert [
+        note.partition(", which no interval includes: give it with")[0] for note in found
+    ] == told
+    assert all(note.about == "What the intervals include" for note in found)
+
+
+def test_a_hardness_that_is_given_or_not_used_needs_no_word_on_layers():
+    rough = rl.SelfAffine(hurst=0.8, length=5e-4, rms_height=1e-6, q_roll=2.5e4).surface(16, rng=7)
+    for asked in ({"hardness": "1 GPa"}, {"elastic": True}):
+        result = said(rough, "gold 20 um on copper, steel", loads="1 mN", grid_error=False, **asked)
+        assert not [note for note in result.notes if "layers of it have" in note]

@@ -33,6 +33,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
         notes += [] if is_grave else [of_line]
         notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
         notes += of_unknown_hardness(pair)
+        notes += remarks(_of_films(pair), INTERVALS)
         notes += result.left_out
         notes += _of_layers(result, pair)
         if result.curve.area_fraction is None:
@@ -131,6 +132,17 @@ def of_unknown_hardness(pair: MaterialPair) -> list[str]:
     ]
 
 
+def _of_films(pair: MaterialPair) -> list[str]:
+    """Say of which materials layers have another modulus than the table has."""
+    found = dict.fromkeys((*pair.first.materials, *pair.second.materials))
+    return [
+        f"E of {each.name} is {engineering(each.E, 'Pa')} here, and layers of it have "
+        f'{each.layer_E}, which no interval includes: give it with the material, as "E=..."'
+        for each in found
+        if each.layer_E
+    ]
+
+
 def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
     """Say what a hardness is of coated bodies, and what is not known of them."""
     if not pair.coated:
@@ -142,6 +154,13 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
             "bulk: one that was measured through a thin layer is of what lies below as well, which "
             "may yield first"
         )
+        if (top := softer.surface).layer_hardness and top.hardness:
+            text = (
+                f"the hardness of {top.name} is {engineering(top.hardness, 'Pa')} here, of "
+                f"annealed metal, and layers of it have {top.layer_hardness}, which no interval "
+                'includes: give it with the material, as "hardness=..."'
+            )
+            notes.append(Remark(text, INTERVALS))
     if pair.hardness is not None and result.curve.hardness is None:
         notes.append(
             pair.refuses_layers("plasticity index", "it is of summits of one material each")

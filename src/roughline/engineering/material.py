@@ -37,6 +37,10 @@ class Material:
         Factor by which the hardness H is uncertain: it lies between H / factor and H * factor.
         Hardnesses of the table are uncertain, as hardness varies with heat treatment, cold work
         and depth; a given one is taken as exact. [1]
+    layer_E, layer_hardness : str, optional
+        What layers of it have instead, such as "100 to 760 GPa", where the value is of something
+        else: of bulk crystals, of annealed metal, or of one film. Empty where that is not known,
+        or the value is given.
 
     Raises
     ------
@@ -53,6 +57,8 @@ class Material:
     density: float | None = None
     source: str = "given by the user"
     hardness_factor: float = 1.0
+    layer_E: str = ""
+    layer_hardness: str = ""
 
     def __post_init__(self) -> None:
         if not self.E > 0:
@@ -96,7 +102,9 @@ class Material:
         if math.isinf(self.E):
             return self
         source = f"{self.source}; hardness given"
-        return replace(self, hardness=hardness, hardness_factor=1.0, source=source)
+        return replace(
+            self, hardness=hardness, hardness_factor=1.0, layer_hardness="", source=source
+        )
 
     @property
     def shear_modulus(self) -> float:

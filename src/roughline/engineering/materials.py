@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from types import MappingProxyType
 
 from roughline.engineering.coated import Coated, Solid
@@ -26,7 +26,7 @@ _UNITS = {
     "density": "kg/m**3",
 }
 _TABLE_FACTOR = 1.5
-"""Uncertainty of hardnesses of the table, a factor; published ones scatter by two in all."""
+"""Uncertainty of a hardness where the table has none, a factor; published ones scatter by two."""
 
 _ON = re.compile(r"(?<!\S)on(?!\S)", re.IGNORECASE)  # between a layer and what it lies on
 _THICKNESS = re.compile(
@@ -96,8 +96,12 @@ def _bulk(text: str) -> Material:
         return Material(called, **given)  # type: ignore[arg-type]
     changed = ", ".join(given)
     source = f"{known[name].source}; {changed} given" if given else known[name].source
-    factor = 1.0 if "hardness" in given else known[name].hardness_factor
-    return replace(known[name], **given, source=source, hardness_factor=factor)  # type: ignore[arg-type]
+    found = replace(known[name], **given, source=source)  # type: ignore[arg-type]
+    if "E" in given:
+        found = replace(found, layer_E="")
+    if "hardness" in given:
+        found = replace(found, layer_hardness="", hardness_factor=1.0)
+    return found
 
 
 def _layer(text: str) -> tuple[Material, float]:
@@ -130,14 +134,14 @@ def _refuse_depth(base: str) -> None:
 @functools.cache
 def materials() -> Mapping[str, Material]:
     """Return the table of common materials by name."""
-    others = ("name", "source", "hardness_factor")
-    numbers = [item.name for item in fields(Material) if item.name not in others]
     found = {
         name: Material(
             name=name,
+            hardness_factor=float(row["hardness_factor"] or _TABLE_FACTOR),
+            **{key: float(row[key]) if row[key] else None for key in _UNITS},  # type: ignore[arg-type]
+            layer_E=row["layer_E"],
+            layer_hardness=row["layer_hardness"],
             source=row["source"],
-            hardness_factor=_TABLE_FACTOR,
-            **{key: float(row[key]) if row[key] else None for key in numbers},  # type: ignore[arg-type]
         )
         for name, row in rows_of(_TABLE).items()
     }
