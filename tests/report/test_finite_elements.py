@@ -123,7 +123,7 @@ def test_a_plain_table_has_every_column_with_its_interval(pressed, tmp_path):
 def test_calculix_takes_a_table_and_a_line_with_conductance_over_pressure(pressed, tmp_path):
     text = rl.export_table(pressed, f"calculix:{tmp_path / 'joint.inp'}").read_text()
     keywords = read_keywords(text)
-    assert [each[:2] for each in keywords] == [
+    assert [each[:2] for each in keywords[:5]] == [
         ("SURFACE INTERACTION", ["NAME=ROUGH_JOINT"]),
         ("SURFACE BEHAVIOR", ["PRESSURE-OVERCLOSURE=TABULAR"]),
         ("SURFACE INTERACTION", ["NAME=ROUGH_JOINT_WITH_HEAT"]),
@@ -136,6 +136,61 @@ def test_calculix_takes_a_table_and_a_line_with_conductance_over_pressure(presse
     assert (np.diff(table, axis=0) > 0).all()
     assert slope == pytest.approx(pressure[-1] / overclosure[-1], rel=CLOSE)
     assert conductance == pytest.approx(np.stack([heat, pressure], axis=1), rel=CLOSE)
+
+
+def read_comments(text):
+    """The comments of an input deck as one line."""
+    lines = [line for line in text.splitlines() if line.startswith("**")]
+    return " ".join(line.strip("* ") for line in lines)
+
+
+def test_an_exponential_law_for_calculix_is_as_near_as_it_says(surface, tmp_path):
+    loads = [f"{each} MPa" for each in (0.3, 3, 10, 15, 20, 30)]
+    question = rl.Question(surface, PAIR, loads=loads, periodic=True, elastic=True)
+    text = rl.export_table(rl.assess(question), f"calculix:{tmp_path / 'joint.inp'}").read_text()
+    keywords = read_keywords(text)
+    assert [each[:2] for each in keywords[5:]] == [
+        ("SURFACE INTERACTION", ["NAME=ROUGH_JOINT_EXPONENTIAL"]),
+        ("SURFACE BEHAVIOR", ["PRESSURE-OVERCLOSURE=EXPONENTIAL"]),
+        ("GAP CONDUCTANCE", []),
+    ]
+    assert (keywords[7][2] == keywords[4][2]).all()
+    ((clearance, p_0),) = keywords[6][2]
+    pressure, overclosure = keywords[1][2][1:].T
+    ratio = p_0 * 100 ** (overclosure / clearance) / pressure  # a hundredth of p_0 at -clearance
+    told = read_comments(text)
+    lightest, error = re.search(r"loads from (\S+) to 3.0000e\+07 Pa, to (\S+) %", told).groups()
+    met = pressure >= float(lightest) * (1 - 1e-4)
+    assert 3 <= met.sum() < pressure.size
+    assert 100 * abs(ratio[met] - 1).max() == pytest.approx(float(error), rel=0.05)
+    assert float(error) <= 5
+    assert f"its pressure is {ratio[0]:.2g} times that of the table" in told
+    assert ratio[0] > 1.05
+
+
+@pytest.mark.parametrize(
+    ("loads", "why"),
+    [
+        (["1 MPa", "10 MPa"], "it takes 3 loads"),
+        (["0.1 MPa", "1 MPa", "10 MPa"], "its pressure would be off by up to [0-9]+ %, and 5 %"),
+    ],
+)
+def test_no_exponential_law_is_written_where_none_is_near(surface, tmp_path, loads, why):
+    pressed = rl.assess(rl.Question(surface, E_star=1e11, loads=loads, periodic=True))
+    text = rl.export_table(pressed, f"calculix:{tmp_path / 'joint.inp'}").read_text()
+    assert "EXPONENTIAL\n" not in text
+    assert re.search(f"There is no ROUGH_JOINT_EXPONENTIAL, .*: .*{why}", read_comments(text))
+
+
+def test_without_heat_an_exponential_law_is_of_the_pressure_alone(surface, tmp_path):
+    loads = [f"{each} MPa" for each in (10, 15, 20)]
+    pressed = rl.assess(rl.Question(surface, E_star=1e11, loads=loads, periodic=True))
+    text = rl.export_table(pressed, f"calculix:{tmp_path / 'joint.inp'}").read_text()
+    assert [each[0] for each in read_keywords(text)] == [
+        "SURFACE INTERACTION",
+        "SURFACE BEHAVIOR",
+    ] * 2
+    assert "At the lightest load" not in text
 
 
 def test_abaqus_takes_both_conductances_over_pressure(pressed, tmp_path):

@@ -14,7 +14,7 @@ WANTED = "CalculiX (ccx) is not installed; Debian: apt-get install calculix-ccx"
 pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason=WANTED)
 
 SIDE, YOUNG = 1e-3, 1e11  # of two cubes of one element each [m], [Pa]
-LOADS = ["0.3 MPa", "3 MPa", "30 MPa"]
+LOADS = ["0.3 MPa", "3 MPa", "10 MPa", "20 MPa", "30 MPa"]
 CLOSINGS = (0.1e-6, 0.2e-6, 0.4e-6, 0.8e-6, 1.5e-6)  # of their outer faces [m]
 CONVERGED = 1e-3  # relative: CalculiX ends its iterations at residual forces of 0.5 %
 
@@ -35,8 +35,19 @@ def cube(first, height):
     return [f"{first + i}, {x}, {y}, {z}" for i, (x, y, z) in enumerate(places)]
 
 
+MORTARS = ("MORTAR", "LINMORTAR")  # which know statics alone
+
+
 def two_cubes(joint, name, kind):
     """Two cubes that are pressed together, step by step, and heated from above."""
+    is_heated = kind not in MORTARS
+    procedure = "COUPLED TEMPERATURE-DISPLACEMENT,STEADY STATE" if is_heated else "STATIC"
+    heated = """*INITIAL CONDITIONS,TYPE=TEMPERATURE
+ALL, 0
+*BOUNDARY
+BOTTOM, 11, 11, 0
+TOP, 11, 11, 1
+"""
     deck = f"""*NODE,NSET=ALL
 {chr(10).join(cube(1, 0.0) + cube(11, SIDE))}
 *ELEMENT,TYPE=C3D8,ELSET=LOW
@@ -63,24 +74,20 @@ def two_cubes(joint, name, kind):
 {joint.strip()}
 *CONTACT PAIR,INTERACTION={name},TYPE={kind}
 SLAVE,MASTER
-*INITIAL CONDITIONS,TYPE=TEMPERATURE
-ALL, 0
-*BOUNDARY
+{heated if is_heated else ""}*BOUNDARY
 ALL, 1, 2
 BOTTOM, 3, 3
-BOTTOM, 11, 11, 0
-TOP, 11, 11, 1
 """
     for closing in CLOSINGS:
         deck += f"""*STEP,NLGEOM
-*COUPLED TEMPERATURE-DISPLACEMENT,STEADY STATE
+*{procedure}
 1, 1
 *BOUNDARY
 TOP, 3, 3, {-closing}
 *NODE PRINT,NSET=ALL
-U, NT
+{"U, NT" if is_heated else "U"}
 *NODE PRINT,NSET=BOTTOM,TOTALS=ONLY
-RF, RFL
+{"RF, RFL" if is_heated else "RF"}
 *END STEP
 """
     return deck
@@ -100,11 +107,15 @@ def solved(folder, deck):
         elif line.strip():
             words = re.sub(r"(\d)([+-]\d{3})\b", r"\1e\2", line).split()  # Fortran leaves out the e
             rows[-1].append([float(each) for each in words])
-    closing, cold, force, heat = (np.array(found[each]) for each in found)
+    closing, force = (np.array(found[each]) for each in ("displacements", "total force"))
     low, high = slice(4, 8), slice(8, 12)  # the nodes of either face
     overclosure = closing[:, low, 3].mean(1) - closing[:, high, 3].mean(1)
+    pressure = force[:, 0, 2] / SIDE**2
+    if not found["total heat"]:
+        return overclosure, pressure, None
+    cold, heat = (np.array(found[each]) for each in ("temperatures", "total heat"))
     drop = cold[:, high, 1].mean(1) - cold[:, low, 1].mean(1)
-    return overclosure, force[:, 0, 2] / SIDE**2, np.abs(heat[:, 0, 0]) / SIDE**2 / drop
+    return overclosure, pressure, np.abs(heat[:, 0, 0]) / SIDE**2 / drop
 
 
 def table_of(pressed, folder):
@@ -115,12 +126,34 @@ def table_of(pressed, folder):
     return columns, rl.export_table(pressed, f"calculix:{folder / 'joint.inp'}").read_text()
 
 
-def test_the_pressure_over_the_overclosure_is_that_of_the_table(pressed, tmp_path):
+def pressures_of(columns, overclosure):
+    return np.interp(overclosure, columns["overclosure [m]"], columns["pressure [Pa]"])
+
+
+def conductances_of(columns, pressure):
+    heat = columns["thermal_conductance [W/(m^2 K)]"]
+    return np.interp(pressure, columns["pressure [Pa]"], heat)
+
+
+@pytest.mark.parametrize("kind", ["NODE TO SURFACE", *MORTARS])
+def test_the_pressure_over_the_overclosure_is_that_of_the_table(pressed, tmp_path, kind):
     columns, joint = table_of(pressed, tmp_path)
-    overclosure, pressure, _ = solved(tmp_path, two_cubes(joint, "ROUGH_JOINT", "NODE TO SURFACE"))
-    wanted = np.interp(overclosure, columns["overclosure [m]"], columns["pressure [Pa]"])
-    assert pressure == pytest.approx(wanted, rel=CONVERGED)
+    overclosure, pressure, _ = solved(tmp_path, two_cubes(joint, "ROUGH_JOINT", kind))
+    assert pressure == pytest.approx(pressures_of(columns, overclosure), rel=CONVERGED)
     assert overclosure + 2 * SIDE * pressure / YOUNG == pytest.approx(CLOSINGS, rel=CONVERGED)
+
+
+@pytest.mark.parametrize("kind", ["NODE TO SURFACE", *MORTARS])
+def test_beyond_the_table_mortars_prolong_it_and_nodes_keep_its_end(
+    pressed, tmp_path, kind, monkeypatch
+):
+    columns, joint = table_of(pressed, tmp_path)
+    monkeypatch.setattr(f"{__name__}.CLOSINGS", (1e-6, 2e-6, 3e-6))
+    overclosure, pressure, _ = solved(tmp_path, two_cubes(joint, "ROUGH_JOINT", kind))
+    d, p = columns["overclosure [m]"][-2:], columns["pressure [Pa]"][-2:]
+    assert overclosure[-1] > 1.2 * d[1]
+    beyond = (p[1] - p[0]) / (d[1] - d[0]) * (overclosure[-1] - d[1]) if kind in MORTARS else 0.0
+    assert pressure[-1] == pytest.approx(p[1] + beyond, rel=CONVERGED)
 
 
 def test_the_conductance_over_the_pressure_is_that_of_the_table(pressed, tmp_path):
@@ -128,7 +161,27 @@ def test_the_conductance_over_the_pressure_is_that_of_the_table(pressed, tmp_pat
     _, pressure, conductance = solved(
         tmp_path, two_cubes(joint, "ROUGH_JOINT_WITH_HEAT", "SURFACE TO SURFACE")
     )
-    heat = columns["thermal_conductance [W/(m^2 K)]"]
-    wanted = np.interp(pressure, columns["pressure [Pa]"], heat)
-    assert conductance == pytest.approx(wanted, rel=CONVERGED)
+    assert conductance == pytest.approx(conductances_of(columns, pressure), rel=CONVERGED)
     assert (np.diff(conductance) > 0).all()
+
+
+@pytest.mark.parametrize("kind", ["NODE TO SURFACE", "SURFACE TO SURFACE"])
+def test_an_exponential_law_gives_pressure_and_heat_in_both_penalty_types(pressed, tmp_path, kind):
+    columns, joint = table_of(pressed, tmp_path)
+    line = re.search(r"EXPONENTIAL\n(\S+), (\S+)\n", joint)
+    clearance, p_0 = map(float, line.groups())
+    deck = two_cubes(joint, "ROUGH_JOINT_EXPONENTIAL", kind)
+    overclosure, pressure, conductance = solved(tmp_path, deck)
+    law = p_0 * 100 ** (overclosure / clearance)
+    assert pressure == pytest.approx(law, rel=CONVERGED)
+    assert conductance == pytest.approx(conductances_of(columns, pressure), rel=CONVERGED)
+
+
+def test_what_the_types_make_of_the_other_interactions_is_what_the_file_says(pressed, tmp_path):
+    columns, joint = table_of(pressed, tmp_path)
+    by_nodes = two_cubes(joint, "ROUGH_JOINT_WITH_HEAT", "NODE TO SURFACE")
+    last = columns["thermal_conductance [W/(m^2 K)]"][-1]
+    assert solved(tmp_path, by_nodes)[2] == pytest.approx(last, rel=CONVERGED)
+    of_surfaces = two_cubes(joint, "ROUGH_JOINT", "SURFACE TO SURFACE")
+    assert not solved(tmp_path, of_surfaces)[1].any()
+    assert (solved(tmp_path, two_cubes(joint, "ROUGH_JOINT", "NODE TO SURFACE"))[2] < 1).all()

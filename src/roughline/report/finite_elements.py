@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 _BROAD = 96  # letters of a line of comments
 _LEAST_STEP = 1e-10  # of overclosures that CalculiX tells apart, in the unit of its model
 _WRITTEN = 1e-8  # of the largest overclosure: nearer ones may be written alike
+_NEAR = 0.05  # of the pressure, within which an exponential law stands for the table
+_FEWEST = 3  # loads that an exponential law has to meet, as any two are met
 _PROGRAM_OF = {".csv": "csv", ".i": "moose"}  # by the file's ending; .inp is that of two
 _STIFFNESS, _UNLOADING = "stiffness [Pa/m]", "unloading_stiffness [Pa/m]"
 _HEAT = "thermal_conductance [W/(m^2 K)]"
@@ -61,6 +63,45 @@ class _JointTable:
             if self.overclosure[i] - self.overclosure[rising[-1]] > least:
                 rising.append(i)
         return self.overclosure[rising], self.pressure[rising]
+
+
+@dataclass(frozen=True)
+class _ExponentialLaw:
+    """A pressure p = p_0 exp(d / length) over the overclosure d, as CalculiX knows it."""
+
+    p_0: float  # at overclosure zero [Pa]
+    length: float  # [m]
+    error: float  # largest one of the pressure at the loads that it is of, relative
+    lightest: float  # of these loads; they end with the largest of the table [Pa]
+    excess: float  # its pressure over that of the table at the lightest load of all
+
+    @classmethod
+    def of(cls, table: _JointTable) -> _ExponentialLaw | None:
+        """The law by least squares for as many of the largest loads as it is near to.
+
+        It is that of the three largest where it is near to none of these; None for fewer loads.
+        """
+        overclosure, pressure = (each[1:] for each in table.of_overclosure(_LEAST_STEP))
+        found = None
+        for first in range(pressure.size - _FEWEST + 1):
+            slope, start = np.polyfit(overclosure[first:], np.log(pressure[first:]), 1)
+            ratio = np.exp(start + slope * overclosure) / pressure
+            error = float(np.abs(ratio[first:] - 1).max())
+            lightest, excess = float(pressure[first]), float(ratio[0])
+            found = cls(float(np.exp(start)), float(1 / slope), error, lightest, excess)
+            if found.is_near:
+                break
+        return found
+
+    @property
+    def is_near(self) -> bool:
+        """Whether its pressures are those of the table."""
+        return self.error <= _NEAR
+
+    @property
+    def clearance(self) -> float:
+        """Clearance at which the pressure is a hundredth of that at overclosure zero. [m]"""
+        return self.length * float(np.log(100))
 
 
 @public
@@ -274,13 +315,17 @@ def _csv(table: _JointTable, remarks: Sequence[str]) -> list[str]:
 
 
 def _calculix(table: _JointTable, remarks: Sequence[str]) -> list[str]:
-    """Surface interactions for CalculiX: one of the table, and one that lets heat through."""
+    """Surface interactions for CalculiX, as none of its types of contact reads all of a table."""
     overclosure, pressure = table.of_overclosure(_LEAST_STEP)
+    conductance, law = table.of_pressure(_HEAT), _ExponentialLaw.of(table)
+    heat = [] if conductance is None else ["*GAP CONDUCTANCE", *_pairs(conductance)]
     own = [
-        "For CalculiX. Beyond the last line it keeps pressure and conductance constant: press the "
-        "map further than the model will be.",
-        "ROUGH_JOINT is for a contact pair with TYPE=NODE TO SURFACE: in contact from surface to "
-        "surface CalculiX takes the pressure of a table as zero.",
+        "For CalculiX 2.20. Which interaction it reads as it is meant depends on the TYPE of the "
+        "contact pair. Press the map further than the model will be: no type knows what comes "
+        "beyond the last line, and all keep the last conductance there.",
+        "ROUGH_JOINT is for NODE TO SURFACE, which keeps the last pressure beyond the last line, "
+        "and for MORTAR and LINMORTAR, which go on with its last slope. SURFACE TO SURFACE takes "
+        "the pressure of a table as zero. Under a table CalculiX lets no heat through.",
     ]
     if (near := table.overclosure.size - overclosure.size) > 0:
         own.append(
@@ -294,21 +339,52 @@ def _calculix(table: _JointTable, remarks: Sequence[str]) -> list[str]:
         "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TABULAR",
         *_pairs((overclosure, pressure)),
     ]
-    if (conductance := table.of_pressure(_HEAT)) is not None:
+    if heat:
         own.append(
-            "ROUGH_JOINT_WITH_HEAT is for a contact pair with TYPE=SURFACE TO SURFACE: under a "
-            "table of pressures CalculiX lets no heat through. Its pressure is in proportion to "
-            "the overclosure, up to the last load. Where forces are given, pressure and "
-            "conductance are right all the same, and the overclosure is not."
+            "ROUGH_JOINT_WITH_HEAT is for SURFACE TO SURFACE alone: in contact from NODE TO "
+            "SURFACE CalculiX takes its last conductance at every pressure, without a word. Its "
+            "pressure is in proportion to the overclosure, up to the last load. Where forces are "
+            "given, pressure and conductance are right all the same, and the overclosure is not."
         )
         lines += [
             "*SURFACE INTERACTION,NAME=ROUGH_JOINT_WITH_HEAT",
             "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR",
             _number(table.pressure[-1] / table.overclosure[-1]),
-            "*GAP CONDUCTANCE",
-            *_pairs(conductance),
+            *heat,
+        ]
+    own.append(_exponential_in_words(law, table))
+    if law is not None and law.is_near:
+        lines += [
+            "*SURFACE INTERACTION,NAME=ROUGH_JOINT_EXPONENTIAL",
+            "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=EXPONENTIAL",
+            f"{_number(law.clearance)}, {_number(law.p_0)}",
+            *heat,
         ]
     return [*_comments("** ", [*remarks, *own]), *lines]
+
+
+def _exponential_in_words(law: _ExponentialLaw | None, table: _JointTable) -> str:
+    """Say how near an exponential law is to a table, and from which load on; or why it is none."""
+    none = "There is no ROUGH_JOINT_EXPONENTIAL, with heat in either type of penalty contact: "
+    if law is None:
+        return f"{none}it takes {_FEWEST} loads."
+    error = f"{100 * law.error:.2g} %"
+    if not law.is_near:
+        return (
+            f"{none}at the {_FEWEST} largest loads its pressure would be off by up to {error}, "
+            f"and {100 * _NEAR:g} % are allowed. Press loads that lie closer together."
+        )
+    text = (
+        "ROUGH_JOINT_EXPONENTIAL is for NODE TO SURFACE and for SURFACE TO SURFACE, with heat in "
+        "both; MORTAR and LINMORTAR take other pressures from it. Its conductance over the "
+        "pressure is that of the table, and its pressure over the overclosure, at the loads from "
+        f"{law.lightest:.4e} to {table.pressure[-1]:.4e} Pa, to {error}. Beyond, it goes on "
+        f"exponentially. It presses by {law.p_0:.2e} Pa where the highest points touch, and begins "
+        f"{law.clearance:.2e} m before."
+    )
+    if law.lightest > table.pressure[1]:
+        text += f" At the lightest load its pressure is {law.excess:.2g} times that of the table."
+    return text
 
 
 def _abaqus(table: _JointTable, remarks: Sequence[str]) -> list[str]:
