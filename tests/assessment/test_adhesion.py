@@ -112,6 +112,8 @@ def test_a_range_without_cells_enough_gives_no_pull_off_and_says_so(n):
     result = asked(surface, rl.Adhesion(f"50 mJ/m^2 over {reach:.3f} nm"), periodic=True)
     assert "pull_off_force" not in result.answers
     assert any("no pull-off is given" in warning for warning in result.warnings)
+    (said,) = (each for each in result.notes if each.startswith("no pull-off force"))
+    assert "no pull-off pressure: the grid does not resolve the range of the pull" in said
 
 
 @pytest.mark.parametrize("n", [16, 32])

@@ -13,8 +13,10 @@ from roughline.contact.curve import Curve
 from roughline.contact.jkr import JKR
 from roughline.contact.loads import depth_apart, unbearable_pull
 from roughline.contact.press import press
+from roughline.contact.status import Status
 from roughline.engineering.attraction import Separation
 from roughline.topography.body import Surface
+from roughline.units import engineering
 
 _STEPS = 8  # from no load to the largest pull, on to where bodies come apart, and across that
 _NEARLY = 1 - 1e-6  # of the depth of full contact
@@ -50,7 +52,26 @@ def separation_of(case: Case, curve: Curve) -> Separation | None:
         _rows(-under.pull_off_force, under.pull_off_force_error),
         _rows(float(share[1]), None if error is None else float(error[1])),
         float(drawn.work[-1] - drawn.work[1]),
+        _unsolved(under, drawn),
     )
+
+
+def _unsolved(under: Curve, drawn: Curve) -> str:
+    """Say which load on the way was not solved, or why there is no pull-off."""
+    for curve, values, what, unit in (
+        (under, under.force, "force", "N"),
+        (drawn, drawn.depth, "depth", "m"),
+    ):
+        lost = ~curve.converged & (curve.status != Status.PULLED_OFF)
+        if lost.any():
+            first = int(np.argmax(lost))
+            return (
+                f"bodies that are drawn apart were not solved at a {what} of "
+                f"{engineering(values[first], unit)}: {Status(curve.status[first]).reason}"
+            )
+    if not np.isfinite(under.pull_off_force):
+        return "the grid does not resolve the range of the pull: give a larger one, or a finer grid"
+    return ""
 
 
 def _drawn_apart(surface: Surface, under: Curve) -> Curve:

@@ -148,8 +148,7 @@ def _beside(measured: Measured, other: Real, unsure: Real | float) -> Measured:
     """
     if measured.low is None or measured.high is None:
         return measured
-    values = measured.values
-    moved = np.hypot(change(values, other), unsure * values)
+    values, moved = measured.values, change(measured.values, other, unsure)
     least = np.minimum(measured.low, other)
     low = np.maximum(values - np.hypot(values - measured.low, moved), np.minimum(least, 0.0))
     return replace(measured, low=low, high=values + np.hypot(measured.high - values, moved))

@@ -28,9 +28,9 @@ def intervals_of(
     if unloading is None or unloading_error is None:
         return None
     other = other or curve
-    area_change = np.hypot(change(value, other.area_fraction_corrected), unsure * value)
-    loading_change = np.hypot(change(curve.stiffness, other.stiffness), unsure * curve.stiffness)
-    unloading_change = np.hypot(change(unloading, other.unloading_stiffness), unsure * unloading)
+    area_change = change(value, other.area_fraction_corrected, unsure)
+    loading_change = change(curve.stiffness, other.stiffness, unsure)
+    unloading_change = change(unloading, other.unloading_stiffness, unsure)
     low, high = interval(value, np.hypot(error, area_change))
     loading = interval(curve.stiffness, np.hypot(stiffness_error, loading_change))
     springing = interval(unloading, np.hypot(unloading_error, unloading_change))
@@ -93,9 +93,13 @@ def combined(first: Ends, second: Ends) -> Ends:
     return -np.hypot(first[0], second[0]), np.hypot(first[1], second[1])
 
 
-def change(before: Real | None, after: Real | None) -> Real:
-    """By how much each load changes; nothing does in what the model of a line does not predict."""
+def change(before: Real | None, after: Real | None, unsure: Real | float = 0.0) -> Real:
+    """By how much each load changes; nothing does in what the model of a line does not predict.
+
+    A further error `unsure`, relative to the values, is added to it as independent.
+    """
     if before is None or after is None:
         return np.zeros(1)
     with np.errstate(invalid="ignore"):  # infinite in full contact
-        return np.where(after == before, 0.0, np.abs(after - before))
+        moved = np.where(after == before, 0.0, np.abs(after - before))
+        return np.hypot(moved, np.where(unsure == 0, 0.0, unsure * before))

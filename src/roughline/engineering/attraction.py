@@ -118,3 +118,4 @@ class Separation:
     pull_off: Real  # largest pull under a force that falls, in rows [N]
     area_fraction: Real  # that still touches under no load, in rows [1]
     work: float  # that is done from no load on until the bodies are apart [J]
+    unsolved: str = ""  # which load on the way was not solved, or why there is no pull-off

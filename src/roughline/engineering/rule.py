@@ -64,6 +64,10 @@ class Rule:
     lacking : callable, optional
         Says which property of two materials is missing for it, from these and the frequency of the
         wave that is asked for, if one is; an empty text where none is.
+    unknown : callable, optional
+        Says why loads that were solved have no value, which is NaN then; an empty text where all
+        have one. Without such a text, an answer with a value that is no number is left out as a
+        fault of its rule.
     warning, note : callable, optional
         What is to be said with it of what was pressed; an empty text for nothing.
     limits : callable, optional
@@ -131,6 +135,7 @@ class Rule:
     source: str = ""
     differing: Callable[[Pressed], Mapping[str, str]] = lambda _pressed: {}
     lacking: Callable[[MaterialPair, float | None], str] = lambda _pair, _frequency: ""
+    unknown: Callable[[Pressed], str] = lambda _pressed: ""
     warning: Callable[[Pressed], str] = lambda _pressed: ""
     note: Callable[[Pressed], str] = lambda _pressed: ""
     limits: Callable[[Pressed], Limits] = lambda _pressed: (0.0, np.inf)
@@ -320,26 +325,31 @@ class Rules:
     def answers(self, pressed: Pressed) -> tuple[dict[str, Answer], list[str]]:
         """Work out all answers by their keys, and say which are left out, and why."""
         answers: dict[str, Answer] = {}
-        left_out = self.left_out(pressed.pair, pressed.frequency)
+        left_out: dict[str, list[str]] = {}  # names by why
         for rule in self:
             lacks = rule.lacking(pressed.pair, pressed.frequency)
             answer = None if lacks else rule.answer(pressed)
             if answer is None:
                 continue
-            if text := _why_not_used(answer, pressed):
-                left_out.append(f"no {answer.name}: {text}")
-            else:
+            why, share = _why_not_used(answer, pressed)
+            if why:
+                loads = "" if share == 1 else f" under {share:.0%} of the loads"
+                left_out.setdefault(why, []).append(f"no {answer.name}{loads}")
+            if share < 1:
                 answers[rule.key] = answer
-        return answers, left_out
+        lacking = self.left_out(pressed.pair, pressed.frequency)
+        return answers, [*lacking, *(f"{', '.join(of)}: {why}" for why, of in left_out.items())]
 
 
-def _why_not_used(answer: Answer, pressed: Pressed) -> str:
-    """Say why an answer cannot be used; an empty text if it can."""
+def _why_not_used(answer: Answer, pressed: Pressed) -> tuple[str, float]:
+    """Say why an answer cannot be used, and under which share of the loads that were solved."""
     values, solved = answer.values, pressed.known
     if values.shape != solved.shape:
-        return f"its rule gives {values.size} values, and there are {solved.size} loads"
+        return f"its rule gives {values.size} values, and there are {solved.size} loads", 1.0
     unknown = solved & (np.isnan(values) | (np.isinf(values) & (not answer.rule.may_be_infinite)))
-    if unknown.any():
-        value = values[np.flatnonzero(unknown)[0]]
-        return f"its rule gives {value:g} under a load that was solved, which is not finite"
-    return ""
+    if not unknown.any():
+        return "", 0.0
+    if why := answer.rule.unknown(pressed):
+        return why, float(unknown[solved].mean())
+    value = values[np.flatnonzero(unknown)[0]]
+    return f"its rule gives {value:g} under a load that was solved, which is not finite", 1.0

@@ -101,6 +101,20 @@ class Sealing:
         return self.outlet if self.inlet is None else (self.inlet + self.outlet) / 2
 
     @property
+    def excess(self) -> float:
+        """By how much the mean pressure in the gap is above the outside; 0 where it is not. [Pa]
+
+        Along the way the pressure of a liquid falls evenly, and the square of that of a gas.
+        """
+        if self.inlet is None:
+            return 0.0
+        first, last = self.inlet, self.outlet
+        mean = (first + last) / 2
+        if self.gas is not None and first + last > 0:
+            mean = 2 / 3 * (first**2 + first * last + last**2) / (first + last)
+        return max(mean - ATMOSPHERE, 0.0)
+
+    @property
     def free_path(self) -> float:
         """Mean free path of the gas at the mean pressure; zero of a liquid, and in vacuum. [m]"""
         if self.gas is None or not self.mean_pressure > 0:

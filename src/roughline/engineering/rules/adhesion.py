@@ -20,12 +20,20 @@ _AFTER = "after the largest load, slowly, so that nothing swings"
 def _found(of: Callable[[Separation, Pressed], Real], pressed: Pressed) -> Real | None:
     """What was found after the largest load, the same under all loads, in rows."""
     separation = pressed.sought.separation
-    if separation is None or pressed.attraction is None:
+    if pressed.attraction is None:
         return None
+    if separation is None:
+        return np.full(pressed.curve.status.size, np.nan)
     rows = of(separation, pressed)
     if not np.isfinite(rows).all():
-        return None
+        rows = rows[:1]  # the value alone, which may be known without its ends
     return np.where(pressed.curve.converged, rows[:, np.newaxis], np.nan)
+
+
+def _why_unknown(pressed: Pressed) -> str:
+    """Say why it is not known what it takes to draw bodies apart."""
+    separation = pressed.sought.separation
+    return "the largest load was not solved" if separation is None else separation.unsolved
 
 
 def _of_work(separation: Separation, pressed: Pressed) -> Real:
@@ -79,6 +87,7 @@ def _rule(name: str, **others: Any) -> Rule:
         name=name,
         group="adhesion",
         source="Maugis 1992",
+        unknown=_why_unknown,
         differing=partial(_of_range, name),
         **others,
     )

@@ -21,6 +21,7 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
 from roughline.engineering.sealing import Closing, Sealing
+from roughline.errors.words import called
 from roughline.fluid.flow import Along, why_too_steep
 from roughline.fluid.measures import (
     flow_factor,
@@ -37,6 +38,8 @@ _HALF = 0.5  # share of the flow from which on one channel is told
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
 _RARE = 0.1  # free path over the aperture beyond which slip is not all that a thin gas does
+_CARRIES = 0.1  # pressure of the fluid over that of the contact from which on it is said
+_MOLECULES = 3e-9  # ten diameters of a molecule of water; those of oils are larger [m]
 _MBAR_LITRES = 10.0  # in a Pa m³
 
 _THIN, _STILL = "laminar, thin gap", "a thin gap without convection or radiation"
@@ -106,14 +109,50 @@ def _leak(pressed: Pressed) -> Real | None:
     if asked is None or aperture is None or with_slip is None:
         return None
     found = asked.leak(with_slip)
-    if found is None or len(found) == 1:
+    if found is None:
+        return None
+    found = np.where(_lift(pressed) >= 1, np.nan, found)
+    if isinstance(asked.fluid, Gas):
+        widest = np.where(aperture[0] > 0, aperture[0], aperture[-1])
+        gap = np.where(widest > 0, widest, np.inf)  # nothing leaks, however rare the gas
+        kinetic = found * beyond_slip(asked.free_path / gap)  # of even gaps; slip is the least
+        return kinetic if len(found) == 1 else np.stack([kinetic[0], found[1], kinetic[2]])
+    if len(found) == 1:
         return found
-    if not isinstance(asked.fluid, Gas):
-        factor = asked.fluid.viscosity_factor
-        return np.stack([found[0], found[1] / factor, found[2] * factor])
-    widest = np.where(aperture[0] > 0, aperture[0], aperture[-1])
-    gap = np.where(widest > 0, widest, np.inf)  # nothing leaks, however rare the gas
-    return np.stack([found[0], found[1], found[2] * beyond_slip(asked.free_path / gap)])
+    factor = asked.fluid.viscosity_factor
+    return np.stack([found[0], found[1] / factor, found[2] * factor])
+
+
+def _lift(pressed: Pressed) -> Real:
+    """Mean pressure of the fluid above the outside, over that of the contact, (loads,)."""
+    asked = pressed.sealing
+    excess = 0.0 if asked is None else asked.excess
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(excess > 0, excess / pressed.pressure, 0.0)
+
+
+def _lifts(pressed: Pressed) -> str:
+    """Say under which loads the fluid would lift the bodies apart."""
+    asked, lift = pressed.sealing, _lift(pressed)
+    if asked is None or not (lift >= 1).any():
+        return ""
+    return (
+        f"{asked.fluid.name} at {engineering(asked.excess, 'Pa')} above the outside, in the mean "
+        "of the gap, would lift bodies apart that press with no more than that: give a larger "
+        f"load, or smaller pressures ({called('rl.Inlet')})"
+    )
+
+
+def _carries(pressed: Pressed) -> str:
+    """Say where the fluid carries a part of the load."""
+    asked, lift = pressed.sealing, _lift(pressed)
+    if asked is None or not (part := lift[(lift >= _CARRIES) & (lift < 1)]).size:
+        return ""
+    return (
+        f"{asked.fluid.name} at {engineering(asked.excess, 'Pa')} above the outside, in the mean "
+        f"of the gap, carries up to {part.max():.0%} of the load, which no answer includes: the "
+        "bodies press with less, and more leaks"
+    )
 
 
 def _of_liquid(pressed: Pressed) -> Real | None:
@@ -143,6 +182,8 @@ def _through_seal(pressed: Pressed) -> Mapping[str, str]:
     factor = 1.0 if isinstance(asked.fluid, Gas) else asked.fluid.viscosity_factor
     known = "" if factor == 1 else f", viscosity known to a factor of {factor:g}"
     place = _placed(pressed).get("validity", _OF_THE_MAP)
+    if asked.gas is not None:
+        place += "; where it is rare, times what lets more through an even gap (Cercignani 1963)"
     return {
         "validity": f"{asked.fluid.name}{known}, {engineering(asked.inlet, 'Pa')} to "
         f"{engineering(asked.outlet, 'Pa')} absolute, seal {asked.seal.words}; {place}"
@@ -183,6 +224,14 @@ def _sealed(pressed: Pressed) -> str:
     )
 
 
+def _untold(pressed: Pressed) -> str:
+    """Say why a leak has no interval where the contact has."""
+    aperture = _largest(pressed, _APERTURES)
+    if aperture is None or len(aperture) > 1 or pressed.intervals is None or not pressed.place:
+        return ""
+    return f"what leaks has no interval: it is {pressed.place}"
+
+
 def _beyond_reynolds(pressed: Pressed) -> str:
     """Say where the equation of thin gaps, or slip, is no longer good."""
     asked, steep = pressed.sealing, _largest(pressed, _SLOPES)
@@ -203,7 +252,15 @@ def _beyond_reynolds(pressed: Pressed) -> str:
         if rare > _RARE:
             found.append(
                 f"the mean free path of {asked.fluid.name} is {decimal(rare, 2)} of the hydraulic "
-                f"aperture: beyond {_RARE:g}, slip of the first order gives too little, half at 5"
+                f"aperture: beyond {_RARE:g}, leaks are those of kinetic theory for an even gap"
+            )
+    if asked.gas is None and is_open.any():
+        narrow = float(np.nanmin(aperture[0][is_open]))
+        if narrow < _MOLECULES:
+            found.append(
+                f"the hydraulic aperture is {engineering(narrow, 'm')}, and below "
+                f"{engineering(_MOLECULES, 'm')}, ten molecules or so, a liquid does not flow as "
+                "in bulk: it may leak much less, or not at all"
             )
     return "; ".join(found)
 
@@ -253,6 +310,7 @@ SEALING = (
         formula="(W/B) u_h³ (P1 - P2) / (12 eta)",
         is_of_interface=True,
         value=_of_liquid,
+        unknown=_lifts,
         differing=_through_seal,
         leads=always,
     ),
@@ -262,6 +320,7 @@ SEALING = (
         symbol="q_pV",
         unit="mbar l/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta), at 20 °C; u_s with slip",
+        unknown=_lifts,
         is_of_interface=True,
         value=partial(_of_gas, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
         differing=_through_seal,
@@ -276,6 +335,7 @@ SEALING = (
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta R_s T)",
         is_of_interface=True,
         value=partial(_of_gas, mass_of_throughput),
+        unknown=_lifts,
         differing=_through_seal,
         measured_with=_apertures_with_slip,
     ),
@@ -288,7 +348,9 @@ SEALING = (
         is_of_interface=True,
         value=partial(_largest, needed=_APERTURES),
         differing=partial(_with_direction, "hydraulic aperture"),
-        warning=_beyond_reynolds,
+        warning=lambda pressed: "; ".join(
+            filter(None, (_carries(pressed), _untold(pressed), _beyond_reynolds(pressed)))
+        ),
         note=_sealed,
         leads=always,
         measured_with=_APERTURES,
