@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 import numpy as np
@@ -109,3 +110,27 @@ def test_few_points_are_refused_in_a_line():
     scan = rl.Line(np.random.default_rng(1).normal(size=20), SIDE, "m", kind="profile")
     with pytest.raises(rl.InputError, match="20 points; a spectrum needs 64"):
         rl.press_scan(scan, E_star=1.0, forces=[1e-9])
+
+
+def test_one_peak_that_gaussian_scans_do_not_have_is_told_by_what_it_does_to_springs():
+    """Under light loads the peak alone touches, and is softer than summits of the scan."""
+    surface = piece("sharp roll-off", 16, 256, 60.0)
+    heights = surface.heights[7]
+    peak = 6 * heights.std() * np.exp(-(((np.arange(256) - 128) / 2) ** 2) / 2)
+    with_peak = heights + peak
+    loads = np.array([1e-3, 1e-2, 0.1])  # F / (E* h L)
+    scan = rl.Line(with_peak, SIDE, "m", kind="profile")
+    forces = loads * surface.rms_height * SIDE
+    said = rl.press_scan(scan, E_star=1.0, forces=forces).curve.warnings[0]
+    found = re.match(
+        r"heights are not Gaussian: pressed as independent springs, those of the scan are ([\d.]+) "
+        r"times as stiff under load (\d) as Gaussian ones of its spectrum, and chance",
+        said,
+    )
+    under = [loads[int(found[2]) - 1]]
+    peaked, plain = (
+        rl.press(rl.Line(each / each.std(), 1.0), E_star=1.0, forces=under).stiffness[0]
+        for each in (with_peak, heights)
+    )
+    assert float(found[1]) == pytest.approx(peaked / plain, rel=0.1)
+    assert float(found[1]) < 1
