@@ -77,6 +77,7 @@ SECTIONS = {
     "Errors": (
         *("RoughlineError", "InputError", "UnitError", "ConvergenceError", "StoreError"),
         *("ClusterError", "Interrupted", "ContinuumWarning", "PreparationWarning"),
+        "LostCasesWarning",
     ),
 }
 """Public names in the order in which people meet them."""

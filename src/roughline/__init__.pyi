@@ -58,6 +58,7 @@ from roughline.errors import ContinuumWarning as ContinuumWarning
 from roughline.errors import ConvergenceError as ConvergenceError
 from roughline.errors import InputError as InputError
 from roughline.errors import Interrupted as Interrupted
+from roughline.errors import LostCasesWarning as LostCasesWarning
 from roughline.errors import PreparationWarning as PreparationWarning
 from roughline.errors import RoughlineError as RoughlineError
 from roughline.errors import StoreError as StoreError

@@ -24,9 +24,12 @@ def export(
 ) -> list[Path]:
     """Write every ensemble of a store to a folder, and return the files; what is not done is NaN.
 
+    So is what was lost or damaged on disk, and a warning (:class:`roughline.LostCasesWarning`)
+    names it.
+
     "netcdf" is ``NAME.nc``, everything, with units and settings. "csv" is ``NAME.csv``, a row for
     each load of each case, and ``NAME_mean.csv``, a row for each load of each fractal dimension
-    with means, their intervals and the number of realisations.
+    with means, their intervals, and of how many realisations each of them is.
     """
     for wanted in formats:
         if wanted not in ("netcdf", "csv"):
@@ -72,6 +75,7 @@ def mean_table(data: xarray.Dataset) -> pd.DataFrame:
                 f"{name}_low": mean.low,
                 f"{name}_high": mean.high,
                 f"{name}_standard_deviation": mean.scatter,
+                f"{name}_realisations": mean.count,
             }
         columns["realisations_converged"] = (one.status.values == Status.CONVERGED).sum(axis=0)
         columns["realisations_resolved"] = (one.resolved.values == 1).sum(axis=0)

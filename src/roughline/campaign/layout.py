@@ -38,6 +38,11 @@ class Variable:
         """Whether a body has one value, rather than one for each load."""
         return "force_bar" not in self.dims
 
+    @property
+    def attributes(self) -> dict[str, str]:
+        """What the array says about itself."""
+        return {"long_name": self.meaning, "units": "1"}
+
 
 def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variable:
     """Declare that stores keep a quantity of the curve; flags are small integers there."""
@@ -91,7 +96,16 @@ CASE_STATUS = Variable(
 )
 """The mark of each case."""
 
-COORDINATES = (
+CASE_DIGEST = Variable(
+    "case_digest",
+    "i8",
+    -1,
+    "CRC-32 of D_f, realisation and all values of the case, -1 not done",
+    _DIMENSIONS[:2],
+)
+"""What tells of each case whether its values are those that were computed."""
+
+_COORDINATES = (
     Variable("fractal_dimension", "f8", np.nan, "D_f = 3 - H", _DIMENSIONS[:1]),
     Variable(
         "realisation",
@@ -102,6 +116,9 @@ COORDINATES = (
     ),
     Variable("force_bar", "f8", np.nan, QUANTITIES["force_bar"].long_name, _DIMENSIONS[2:]),
 )
+
+COORDINATES = {coordinate.name: coordinate for coordinate in _COORDINATES}
+"""What the arrays are over, by name."""
 
 
 def variables_of(ensemble: Ensemble) -> list[Variable]:

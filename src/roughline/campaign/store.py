@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -11,8 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline._version import __version__
-from roughline.campaign.layout import CASE_STATUS, DONE, FAILED, FORMAT, VARIABLES
-from roughline.errors import StoreError
+from roughline.campaign.digest import lost_cases
+from roughline.campaign.layout import (
+    CASE_DIGEST,
+    CASE_STATUS,
+    COORDINATES,
+    DONE,
+    FAILED,
+    FORMAT,
+    PENDING,
+    VARIABLES,
+)
+from roughline.errors import LostCasesWarning, StoreError
 
 if TYPE_CHECKING:
     import xarray
@@ -42,8 +55,11 @@ class Store:
         return sorted(name for name, group in self._root.groups() if CASE_STATUS.name in group)
 
     def counts(self, name: str) -> tuple[int, int, int]:
-        """Return the numbers of cases that are done, that failed, and of all cases."""
-        status = self._group(name)[CASE_STATUS.name][:]
+        """Return the numbers of cases that are done, that failed, and of all cases.
+
+        Cases that were lost do not count as done.
+        """
+        status = self._read(name).marks
         done, failed = (int(np.count_nonzero(status == value)) for value in (DONE, FAILED))
         return done, failed, status.size
 
@@ -51,18 +67,61 @@ class Store:
         """Return why cases failed, by the names of the cases."""
         return dict(self._group(name).attrs["failures"])
 
+    def lost(self, name: str) -> list[str]:
+        """Name what was done and is not on disk as it was computed; a further run computes it.
+
+        A chunk may be missing, cut off, altered, or in another's place. These are cases, such as
+        "D_f 2.4, realisations 3 to 5", and coordinates.
+        """
+        return self._read(name).lost
+
     def dataset(self, name: str) -> xarray.Dataset:
         """Return an ensemble over (fractal_dimension, realisation, force_bar), sorted.
 
-        Cases that are not done hold NaN, and -1 in status.
+        Cases that are not done hold NaN, and -1 in status. So do cases that were lost, of which it
+        warns (:class:`roughline.LostCasesWarning`).
         """
-        import xarray
+        import xarray  # here because it loads slowly
 
-        self._group(name)
-        data = xarray.open_zarr(self.path, group=name, consolidated=False, chunks=None).load()
-        data.attrs["failures"] = json.dumps(data.attrs["failures"])
-        names = [key for key in (*VARIABLES, CASE_STATUS.name) if key in data]
-        return _in_order(data, names).sortby("fractal_dimension")
+        group, read = self._group(name), self._read(name)
+        if read.lost:
+            warnings.warn(described_loss(name, read.lost), LostCasesWarning, stacklevel=2)
+        values = {**read.values, CASE_STATUS.name: read.marks}
+        variables = {
+            key: (group[key].metadata.dimension_names, values[key], dict(group[key].attrs))
+            for key in (*VARIABLES, CASE_STATUS.name)
+            if key in values
+        }
+        coordinates = {
+            key: (COORDINATES[key].dims, value, COORDINATES[key].attributes)
+            for key, value in sorted(coordinates_of(group, read.marks.shape).items())
+        }
+        attributes = dict(group.attrs)
+        attributes["failures"] = json.dumps(attributes["failures"])
+        data = xarray.Dataset(variables, coordinates, attributes)
+        return data.sortby("fractal_dimension")
+
+    def _read(self, name: str) -> _Read:
+        """Read an ensemble; marks first, because a campaign that goes on writes them last."""
+        group = self._group(name)
+        marks, unreadable = read_filled(group[CASE_STATUS.name])
+        high, wide = marks.shape
+        values = {}
+        for key in (*VARIABLES, CASE_DIGEST.name):
+            if key in group:
+                values[key] = read_filled(group[key])[0][:high, :wide]
+        coordinates = coordinates_of(group, marks.shape)
+        lost = lost_cases(coordinates["fractal_dimension"], marks, values)
+        marks[lost] = PENDING
+        for key, each in values.items():
+            each[marks != DONE] = group[key].fill_value
+        for region in unreadable:
+            lost[region] = True
+        named = _named(lost, coordinates["fractal_dimension"])
+        for key, value in coordinates.items():
+            if not _holds(group, key, value):
+                named.append(f"the coordinate {key}")
+        return _Read(values, marks, named)
 
     def _group(self, name: str) -> Any:
         if name not in self._root:
@@ -70,15 +129,49 @@ class Store:
         return self._root[name]
 
 
-def _in_order(data: xarray.Dataset, names: Sequence[str]) -> xarray.Dataset:
-    """Return variables in an order, with the coordinates by name.
+@dataclass(frozen=True)
+class _Read:
+    """An ensemble as it is on disk."""
 
-    Zarr lists them in another order every time, and files of the same bytes need the same.
-    """
-    import xarray  # here because it loads slowly
+    values: dict[str, NDArray[Any]]  # of cases that are done; fill values elsewhere
+    marks: NDArray[Any]  # of the cases, shape (fractal dimensions, realisations)
+    lost: list[str]  # what was done and is not there
 
-    coordinates = {name: data[name].variable for name in sorted(map(str, data.coords))}
-    return xarray.Dataset({name: data[name].variable for name in names}, coordinates, data.attrs)
+
+def described_loss(name: str, lost: Sequence[str]) -> str:
+    """Say in a line what of an ensemble was lost, and what brings it back."""
+    return (
+        f"{name}: values that were computed are lost or damaged on disk: {'; '.join(lost)}; "
+        "`roughline campaign run` with the same plan computes them again"
+    )
+
+
+def _named(cases: NDArray[np.bool_], dimensions: NDArray[np.float64]) -> list[str]:
+    """Name the cases that are marked in an array, neighbouring realisations together."""
+    names = []
+    for i in np.argsort(dimensions):
+        marked = np.flatnonzero(cases[i])
+        for run in np.split(marked, np.flatnonzero(np.diff(marked) > 1) + 1):
+            if run.size == 1:
+                names.append(f"D_f {dimensions[i]:g}, realisation {run[0]}")
+            elif run.size:
+                names.append(f"D_f {dimensions[i]:g}, realisations {run[0]} to {run[-1]}")
+    return names
+
+
+def coordinates_of(group: Any, cases: tuple[int, int]) -> dict[str, NDArray[Any]]:
+    """Return what the arrays of an ensemble of so many cases are over, as its attributes say."""
+    return {
+        "fractal_dimension": np.array(group.attrs["fractal_dimensions"][: cases[0]]),
+        "realisation": np.arange(cases[1]),
+        "force_bar": np.array(group.attrs["force_bars"]),
+    }
+
+
+def _holds(group: Any, name: str, value: NDArray[Any]) -> bool:
+    """Whether a coordinate is in a group and has these values; or more, if it has just grown."""
+    stored = read_or_none(group[name]) if name in group else None
+    return stored is not None and np.array_equal(stored[: len(value)], value)
 
 
 def opened(path: Path, mode: Literal["r", "r+"]) -> Any:
@@ -121,3 +214,23 @@ def read_or_none(array: Any) -> NDArray[Any] | None:
         return array[:]
     except (OSError, ValueError, RuntimeError):
         return None
+
+
+def read_filled(array: Any) -> tuple[NDArray[Any], list[tuple[slice, ...]]]:
+    """Return the values of an array, and the chunks that cannot be read, which hold fill values."""
+    whole = read_or_none(array)
+    if whole is not None:
+        return whole, []
+    values = np.full(array.shape, array.fill_value, dtype=array.dtype)
+    unreadable = []
+    steps = [range(0, size, chunk) for size, chunk in zip(array.shape, array.chunks, strict=True)]
+    for corner in product(*steps):
+        region = tuple(
+            slice(start, min(start + chunk, size))
+            for start, chunk, size in zip(corner, array.chunks, array.shape, strict=True)
+        )
+        try:
+            values[region] = array[region]
+        except (OSError, ValueError, RuntimeError):
+            unreadable.append(region)
+    return values, unreadable

@@ -1,8 +1,11 @@
 """Writing results: the only writer of data.
 
 Chunks are replaced as a whole and carry checksums. The mark of a case, in ``case_status``, is
-written after all its values, so a case counts only when all of it is on disk. Chunks that were
-damaged later are found and emptied before a campaign goes on, and their cases are computed again.
+written after all its values and their digest, so a case counts only when all of it is on disk. What
+was damaged later is found before a campaign goes on, and its cases are computed again.
+
+What xarray looks at first is a copy of all metadata in one file. It is taken away before arrays are
+made or enlarged, and made again before anything is computed, so it is never that of smaller arrays.
 """
 
 from __future__ import annotations
@@ -21,21 +24,27 @@ from numpy.typing import NDArray
 from roughline._version import __version__
 from roughline.campaign.batch import Batch, BatchResult
 from roughline.campaign.cost import chunk_shape
+from roughline.campaign.digest import digests, lost_cases
 from roughline.campaign.layout import (
+    CASE_DIGEST,
     CASE_STATUS,
     COORDINATES,
     DONE,
     FAILED,
     FORMAT,
     PENDING,
-    VARIABLES,
     Variable,
     codecs,
     variables_of,
 )
 from roughline.campaign.plan import Ensemble, Plan
-from roughline.campaign.store import damaged_or_foreign, opened, read_or_none
-from roughline.contact.status import Status
+from roughline.campaign.store import (
+    coordinates_of,
+    damaged_or_foreign,
+    opened,
+    read_filled,
+    read_or_none,
+)
 from roughline.errors import StoreError
 
 
@@ -48,13 +57,15 @@ class Writer:
         try:
             for ensemble in plan.ensembles:
                 _refuse_other_settings(self._root, ensemble, path)
+            self._root.update_attributes({})  # writes them without the copy of all metadata
             self._groups = {
                 ensemble.name: _prepared_group(self._root, ensemble) for ensemble in plan.ensembles
             }
+            gather_metadata(path)
             # kept open: to open an array takes longer than to write a chunk
             self._arrays = {name: dict(group.arrays()) for name, group in self._groups.items()}
-            for arrays in self._arrays.values():
-                _mend(arrays)
+            for name, arrays in self._arrays.items():
+                _mend(arrays, np.array(self._groups[name].attrs["fractal_dimensions"]))
         except (ValueError, KeyError, TypeError) as error:
             raise damaged_or_foreign(path) from error
 
@@ -77,13 +88,19 @@ class Writer:
         return batches
 
     def put(self, batch: Batch, result: BatchResult) -> None:
-        """Write a batch: values first, reasons of failures next, marks last."""
+        """Write a batch: values and digests first, reasons of failures next, marks last."""
         arrays = self._arrays[batch.ensemble.name]
+        failed = list(result.failures)
         marks = np.full(len(batch.cells), DONE)
-        marks[list(result.failures)] = FAILED
+        marks[failed] = FAILED
+        values = dict(result.results)
+        if values and CASE_DIGEST.name in arrays:
+            found = digests(batch.fractal_dimensions, batch.cells[:, 1], values)
+            found[failed] = CASE_DIGEST.fill
+            values[CASE_DIGEST.name] = found
         try:
-            for name, values in result.results.items():
-                _write_cells(arrays[name], batch.cells, values)
+            for name, each in values.items():
+                _write_cells(arrays[name], batch.cells, each)
             self._write_failures(batch, result.failures)
             _write_cells(arrays[CASE_STATUS.name], batch.cells, marks)
         except OSError as error:
@@ -105,6 +122,7 @@ class Writer:
         after |= {names[i]: why for i, why in failures.items()}
         if after != before:
             group.attrs["failures"] = dict(sorted(after.items()))
+            gather_metadata(self._path)
 
 
 @contextmanager
@@ -124,9 +142,8 @@ def writing(path: Path, plan: Plan) -> Iterator[Writer]:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Lock a store; at the end, gather the metadata of all groups where xarray looks first."""
+    """Lock a store for writing by one process."""
     import filelock
-    import zarr
 
     lock = filelock.FileLock(path.parent / f".{path.name}.lock", timeout=0)
     try:
@@ -140,13 +157,19 @@ def locked(path: Path) -> Iterator[None]:
         raise _unwritable(path, error) from error
     try:
         yield
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
-            zarr.consolidate_metadata(path)
     except OSError as error:
         raise _unwritable(path, error) from error
     finally:
         lock.release()
+
+
+def gather_metadata(path: Path) -> None:
+    """Copy the metadata of all groups to where xarray looks first."""
+    import zarr
+
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
+        zarr.consolidate_metadata(path)
 
 
 def _write_cells(array: Any, cells: NDArray[np.intp], values: NDArray[Any]) -> None:
@@ -209,19 +232,21 @@ def _prepared_group(root: Any, ensemble: Ensemble) -> Any:
     known = before + [value for value in ensemble.fractal_dimensions if value not in before]
     if known != before:
         group.attrs["fractal_dimensions"] = known
+    before_digests = CASE_STATUS.name in group and CASE_DIGEST.name not in group
     stored = group[CASE_STATUS.name].shape[1] if CASE_STATUS.name in group else 0
     realisations = max(ensemble.realisations, stored)
-    shape = (len(known), realisations, len(ensemble.force_bars))
-    chunks = (*chunk_shape(ensemble), len(ensemble.force_bars))
-    for variable in (*variables_of(ensemble), CASE_STATUS):
-        rank = len(variable.dims)
-        _prepared_array(group, variable, shape[:rank], tuple(map(min, chunks, shape[:rank])))
-    values = (np.array(known), np.arange(realisations), np.array(ensemble.force_bars))
-    for coordinate, value in zip(COORDINATES, values, strict=True):
-        array = _prepared_array(group, coordinate, value.shape, value.shape)
+    for name, value in coordinates_of(group, (len(known), realisations)).items():
+        array = _prepared_array(group, COORDINATES[name], value.shape, value.shape)
         stored_value = read_or_none(array)
         if stored_value is None or not np.array_equal(stored_value, value):
             array[:] = value
+    shape = (len(known), realisations, len(ensemble.force_bars))
+    chunks = (*chunk_shape(ensemble), len(ensemble.force_bars))
+    of_cases = (CASE_STATUS,) if before_digests else (CASE_DIGEST, CASE_STATUS)
+    # marks last: who reads meanwhile finds all else as large as they are
+    for variable in (*variables_of(ensemble), *of_cases):
+        rank = len(variable.dims)
+        _prepared_array(group, variable, shape[:rank], tuple(map(min, chunks, shape[:rank])))
     return group
 
 
@@ -237,7 +262,7 @@ def _prepared_array(
             dtype=variable.dtype,
             fill_value=variable.fill,
             dimension_names=variable.dims,
-            attributes={"long_name": variable.meaning, "units": "1"},
+            attributes=variable.attributes,
             **codecs(),
         )
     array = group[variable.name]
@@ -261,42 +286,15 @@ def _short(value: Any) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def _mend(arrays: Mapping[str, Any]) -> None:
-    """Empty chunks that cannot be read, and mark all cases that are not whole as not done."""
-    values = {name: _read_mended(array) for name, array in arrays.items()}
+def _mend(arrays: Mapping[str, Any], dimensions: NDArray[np.float64]) -> None:
+    """Empty chunks that cannot be read, and mark cases that are lost as not done."""
+    values = {}
+    for name, array in arrays.items():
+        values[name], unreadable = read_filled(array)
+        for region in unreadable:
+            array[region] = values[name][region]
     marks = values[CASE_STATUS.name]
-    whole = np.ones(marks.shape, dtype=bool)
-    for name, variable in VARIABLES.items():
-        if name not in arrays:
-            continue
-        if variable.per_body:
-            whole &= np.isfinite(values[name])
-        elif variable.dtype == "f8":
-            solved = values["status"] == Status.CONVERGED
-            # a periodic surface in full contact is infinitely stiff
-            whole &= (np.isnan(values[name]) != solved).all(axis=-1)
-        else:
-            whole &= (values[name] >= 0).all(axis=-1)
-    lost = (marks == DONE) & ~whole
+    lost = lost_cases(dimensions, marks, values)
     if lost.any():
         marks[lost] = PENDING
         arrays[CASE_STATUS.name][:] = marks
-
-
-def _read_mended(array: Any) -> NDArray[Any]:
-    """Return the values of an array; chunks that cannot be read get their fill value again."""
-    values = read_or_none(array)
-    if values is not None:
-        return values
-    steps = [range(0, size, chunk) for size, chunk in zip(array.shape, array.chunks, strict=True)]
-    for corner in product(*steps):
-        region = tuple(slice(a, a + b) for a, b in zip(corner, array.chunks, strict=True))
-        try:
-            array[region]
-        except (OSError, ValueError, RuntimeError):
-            shape = [
-                min(chunk, size - start)
-                for start, chunk, size in zip(corner, array.chunks, array.shape, strict=True)
-            ]
-            array[region] = np.full(shape, array.fill_value, dtype=array.dtype)
-    return array[:]

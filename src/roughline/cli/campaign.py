@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from enum import StrEnum
 from pathlib import Path
@@ -83,14 +84,16 @@ def _run(
 
 @app.command("status")
 def _status(store: _StoreArgument, json: Json = False) -> None:
-    """Print how many cases of a campaign are done, and why cases failed."""
+    """Print how many cases of a campaign are done, why cases failed, and what was lost on disk."""
     from roughline.campaign import Store
 
     results = Store(_store_of(store))
+    lost = _lost(results)
     if json:
-        print_json(_of_status(results))
+        print_json(_of_status(results, lost))
     else:
         _print_status(results)
+    _end_with_lost(lost)
 
 
 @app.command("export")
@@ -103,16 +106,27 @@ def _export(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Write every ensemble to NetCDF and CSV, with tables of means and their intervals."""
+    """Write every ensemble to NetCDF and CSV, with tables of means and their intervals.
+
+    Cases that are not done are empty in the files, and so are those that were lost on disk.
+    """
     from roughline.campaign import Store
     from roughline.campaign.export import export
+    from roughline.errors import LostCasesWarning
     from roughline.report.terminal import print_files
 
-    files = export(Store(_store_of(store)), out, formats or list(_Format))
+    results = Store(_store_of(store))
+    lost, unfinished = _lost(results), _unfinished(results)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", LostCasesWarning)  # told below
+        files = export(results, out, formats or list(_Format))
     if json:
-        print_json({"files": files})
+        print_json({"files": files, "unfinished": unfinished, "lost": lost})
     else:
         print_files(files)
+        for name, (done, cases) in unfinished.items():
+            typer.echo(f"{name}: {done} of {cases} cases are done; the others are empty")
+    _end_with_lost(lost)
 
 
 def _store_of(path: Path) -> Path:
@@ -156,14 +170,35 @@ def _of_summary(summary: Summary, store: Path) -> dict[str, Any]:
     }
 
 
-def _of_status(store: Store) -> dict[str, Any]:
+def _lost(store: Store) -> dict[str, list[str]]:
+    """What was lost on disk of each ensemble of which something was."""
+    return {name: lost for name in store.names if (lost := store.lost(name))}
+
+
+def _unfinished(store: Store) -> dict[str, tuple[int, int]]:
+    """How many cases are done, and how many there are, of ensembles that are not done."""
+    counts = {name: store.counts(name) for name in store.names}
+    return {name: (done, cases) for name, (done, _, cases) in counts.items() if done < cases}
+
+
+def _end_with_lost(lost: dict[str, list[str]]) -> None:
+    """Say what was lost of each ensemble, and end with exit code 1 if anything was."""
+    from roughline.campaign.store import described_loss
+
+    for name, cases in lost.items():
+        typer.echo(described_loss(name, cases), err=True)
+    if lost:
+        raise typer.Exit(1)
+
+
+def _of_status(store: Store, lost: dict[str, list[str]]) -> dict[str, Any]:
     """What is done of a campaign."""
     names = ("done", "failed", "cases")
     return {
         "store": store.path,
         "ensembles": {
             name: dict(zip(names, store.counts(name), strict=True))
-            | {"failures": store.failures(name)}
+            | {"failures": store.failures(name), "lost": lost.get(name, [])}
             for name in store.names
         },
     }

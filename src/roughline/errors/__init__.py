@@ -61,6 +61,10 @@ class PreparationWarning(UserWarning):
     """A step of a preparation changed nothing, or took most of the rms height."""
 
 
+class LostCasesWarning(UserWarning):
+    """Values that a campaign has computed are lost or damaged on disk, and are left out."""
+
+
 class ConvergenceError(RoughlineError):
     """A load was not solved to the tolerance.
 

@@ -14,7 +14,7 @@ from roughline._version import __version__
 from roughline.campaign.layout import codecs
 from roughline.campaign.plan import Plan
 from roughline.campaign.store import Store, damaged_or_foreign, opened, read_or_none
-from roughline.campaign.writer import locked
+from roughline.campaign.writer import gather_metadata, locked
 from roughline.contact.press import press
 from roughline.errors import StoreError
 from roughline.paper.plan import ENSEMBLE_FULL
@@ -93,6 +93,7 @@ class Gallery:
                     **codecs(),
                 )
             root.attrs[_DONE] = True
+            gather_metadata(path)
 
     def _is_whole_in(self, root: Any, path: Path) -> bool:
         """Whether all of these bodies are in a store and can be read.
