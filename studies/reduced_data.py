@@ -60,13 +60,8 @@ def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
     A store may hold more than the plan asks for; the rest is left out. An ensemble that is not
     there, has other settings, or is not done is refused.
     """
-    try:
-        data = store.dataset(ensemble.name)
-    except (OSError, ValueError, KeyError, RuntimeError) as error:
-        raise StoreError(
-            f"{store.path}: the ensemble {ensemble.name!r} cannot be read ({error}); run the "
-            "campaign again, it computes the damaged part again"
-        ) from error
+    store.refuse_lost(ensemble.name)
+    data = store.dataset(ensemble.name)
     refuse_other_settings(data.attrs, ensemble, str(store.path))
     there = set(data.fractal_dimension.values.tolist())
     wanted = [each for each in ensemble.fractal_dimensions if each in there]

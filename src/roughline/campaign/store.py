@@ -75,6 +75,17 @@ class Store:
         """
         return self._read(name).lost
 
+    def refuse_lost(self, name: str) -> None:
+        """Refuse an ensemble of which something was lost, for readers that need all of it.
+
+        Raises
+        ------
+        StoreError
+            With what was lost.
+        """
+        if lost := self.lost(name):
+            raise StoreError(f"{self.path}: {described_loss(name, lost)}")
+
     def dataset(self, name: str) -> xarray.Dataset:
         """Return an ensemble over (fractal_dimension, realisation, force_bar), sorted.
 

@@ -91,6 +91,8 @@ def results_of_store(
     as the loads reach. A store without both surfaces and lines is refused, and so is one in which
     cases are not done.
     """
+    for each in store.names if plan is None else [each.name for each in plan.ensembles]:
+        store.refuse_lost(each)
     if plan is None:
         every = {each: store.dataset(each) for each in store.names}
     else:
