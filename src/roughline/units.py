@@ -43,6 +43,8 @@ _EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
     "hardness": "2 GPa",
+    "inlet": "6 bar",
+    "outlet": "1 bar",
     "Pa": "110 GPa",
     "m": "0.5 mm",
     "m^2": "2 cm^2",

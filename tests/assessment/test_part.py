@@ -154,13 +154,14 @@ def test_maps_of_different_size_share_what_is_per_area(maps):
 def test_remarks_stand_once_with_the_maps_that_they_are_of(maps):
     part = pressed([maps[0], maps[1].scaled(0.5)], loads="1 N", periodic=True)
     (jump,) = (text for text in part.remarks if "jumps by" in text)
-    assert jump.startswith("(numbers of map 1) ")
+    assert jump.endswith(" (so for map 1; the numbers of the other maps differ)")
     (load,) = (text for text in part.notes if "in all" in text)
     assert load.startswith("load 1 N: ")  # the same for all
     wide = rl.Surface(maps[3].heights, (1e-4, 2e-4), is_cut_out=True)
     part = pressed([maps[0], wide], loads="1 N")
     (load,) = (text for text in part.notes if "in all" in text)
-    assert load.startswith("(numbers of map 1) load 1 N: ")
+    assert load.startswith("load 1 N: ")
+    assert load.endswith(" (so for map 1; the numbers of the other maps differ)")
     slope = 32e-6 * np.linspace(0, 1, len(maps[0].heights), endpoint=False)
     tilted = rl.Surface(maps[0].heights + slope, (1e-4, 1e-4), is_cut_out=True)
     (tilt,) = (text for text in pressed([maps[1], tilted]).warnings if "surface is tilted" in text)

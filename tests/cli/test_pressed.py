@@ -498,12 +498,31 @@ def test_a_strip_is_that_of_the_library(rough, invoke, only_drawn, along, tmp_pa
     assert f"periodic along {along}" in out
 
 
+FURTHER = (
+    *("--friction", "0.3", "--frequency", "5 MHz", "--joint-area", "1 cm^2", "--sealing-pressure"),
+)
+"""Asks for answers."""
+
+
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
         (
             (*PAIR, "--load", "1 N", "--periodic-along", "x"),
-            "repeated along x alone: give a contact modulus (--modulus) in place of --materials",
+            "alone; for its curve, give a contact modulus (--modulus) in place of --materials",
+        ),
+        (  # each says all that has to go, so that none leads to the next
+            (*PAIR, "--load", "1 N", "--periodic-along", "x", "--fluid", "water"),
+            "(--modulus) in place of --materials and leave --fluid out",
+        ),
+        (
+            ("--modulus", "1 GPa", "--load", "1 N", "--periodic-along", "x", "--fluid", "water"),
+            "along x alone; for its curve, leave --fluid out",
+        ),
+        (
+            (*("--modulus", "1 GPa", "--load", "1 N", "--periodic-along", "x"), *FURTHER),
+            "for its curve, leave --friction and --frequency and --joint-area and "
+            "--sealing-pressure out",
         ),
         (
             ("--modulus", "1 GPa", "--load", "1 N", "--periodic-along", "z"),
@@ -516,3 +535,56 @@ def test_strips_without_answers_are_refused_in_one_line(rough, invoke, asked, me
     assert (code, out) == (2, "")
     assert message in errors
     assert errors.count("\n") == 1
+
+
+def test_a_modulus_alone_says_why_there_is_no_pull_off(rough, invoke):
+    asked = ("--modulus", "1 GPa", "--load", "0.1 N", "--adhesion", "50 mJ/m^2")
+    code, out, errors = invoke("press", rough, *asked)
+    assert code == 0, errors
+    assert (
+        "note: what it takes to draw the bodies apart is one of the answers, which need two "
+        "materials (--materials)" in out
+    )
+    _, out, _ = invoke("press", rough, *asked, "--periodic-along", "x")
+    assert "note: what it takes to draw a body apart that is repeated along one side" in out
+
+
+FLOWS = (*PAIR, "--load", "1 N", "--fluid", "helium", "--seal", "1 mm x 1 mm")
+
+
+@pytest.mark.parametrize("pressure", ["6 bar", "6 bar abs", "6bara", "6 bar(a)", "600 kPa (abs.)"])
+def test_pressures_of_a_fluid_are_repeated_as_absolute_ones(rough, invoke, pressure):
+    code, out, errors = invoke("press", rough, *FLOWS, "--inlet", pressure)
+    assert code == 0, errors
+    assert "note: helium enters at 600 kPa and leaves at 101.3 kPa, both absolute pressures" in out
+
+
+@pytest.mark.parametrize("pressure", ["6 barg", "6 bar(g)", "6 bar gauge", "90 psig"])
+@pytest.mark.parametrize("option", ["--inlet", "--outlet"])
+def test_a_gauge_pressure_is_refused_with_what_to_add(rough, invoke, option, pressure):
+    code, _, errors = invoke("press", rough, *FLOWS, option, pressure)
+    assert code == 2
+    needed = "an absolute pressure is needed: add that of the air, 1.013 bar"
+    assert errors == f'roughline: {option} is "{pressure}"; {needed}\n'
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        (("--unit", "um"), "states its unit, m; leave --unit um out"),
+        (("--fluid", "helium at 150 C"), 'temperature is "150 °C", where the table does not know'),
+        (("--fluid", "helium temperature=400 K"), 'temperature is "400 K", where the table'),
+    ],
+)
+def test_values_are_repeated_as_they_were_typed(rough, invoke, asked, message):
+    code, _, errors = invoke("press", rough, *PAIR, "--load", "1 N", *asked)
+    assert code == 2
+    assert message in errors
+
+
+def test_a_flat_body_is_refused_in_the_words_of_the_command(invoke, tmp_path):
+    np.save(tmp_path / "flat.npy", np.zeros((8, 8)))
+    asked = ("--unit", "um", "--size", "1 mm", "--modulus", "1 GPa")
+    code, _, errors = invoke("press", tmp_path / "flat.npy", *asked)
+    assert code == 2
+    assert "a flat punch has no range of loads to choose from; give --depth or --load" in errors

@@ -35,6 +35,27 @@ PAGE = Path(__file__).parents[2] / "docs" / "not_offered.md"
         (("press", "x", "--trend", "up"), '--trend is "up"; allowed are "none", "mean", "tilt"'),
         (("press", "x", "--modulus", ""), '--modulus is ""; give a value, or leave --modulus out'),
         (("press", "x", "--out="), '--out is ""; give a value, or leave --out out'),
+        (
+            ("press", "x", "--modulus", "1 GPa", "--modulus=2 GPa"),
+            '--modulus is given twice, as "1 GPa" and "2 GPa"; give it once',
+        ),
+        (
+            ("press", "x", "--grid-error", "--no-grid-error"),
+            "--grid-error and --no-grid-error are both given: give one of them",
+        ),
+        (("press", "--elastic", "x", "--elastic"), "--elastic is given twice; give it once"),
+        (
+            ("campaign", "run", "x", "--store", "--store", "--store", "y"),
+            '--store is given twice, as "--store" and "y"; give it once',
+        ),
+        (
+            ("press", "x", "--periodic", "--load", "1 N", "--load", "2 N", "--periodic-along", "x"),
+            "--periodic and --periodic-along are both given: give one of them",
+        ),
+        (
+            ("press", "x", "--modulus", "1 GPa", "--crop", "1 um"),
+            '--crop is "1 um"; give from and to along each side, such as "0 um, 50 um, 0 um',
+        ),
         (("paper", "--scale", "huge"), '--scale is "huge"; allowed are "quick", "full"'),
         (("generate",), "--out is needed, file to write"),
         (("generate", "--seed", "-1"), '--seed is "-1"; at least 0 is needed'),

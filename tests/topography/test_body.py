@@ -127,14 +127,14 @@ def test_what_is_no_map_or_says_things_twice_is_refused():
 
     given = Topography(wave(), (20.0, 30.0), unit="um")
     for arguments, message in (
-        ((given, (1.0, 1.0)), "has its own sizes; leave sizes out"),
+        ((given, (1.0, 1.0)), "has its own sizes; leave sizes= out"),
         ((UniformLineScan(wave()[0], 1.0),), "the topography is a line scan"),
         ((wave(),), r"no sizes are given; give the sides of the surface, \(Lx, Ly\)"),
         ((Topography(np.ma.masked_greater(wave(), 0.9), (1.0, 1.0)),), "heights are masked"),
     ):
         with pytest.raises(rl.InputError, match=message):
             rl.Surface(*arguments)
-    with pytest.raises(rl.InputError, match="states its unit, um; leave unit out"):
+    with pytest.raises(rl.InputError, match='states its unit, um; leave unit="m" out'):
         rl.Surface(given, unit="m")
 
 

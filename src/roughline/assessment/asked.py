@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+import re
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -18,6 +19,12 @@ from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.public import public
 from roughline.errors.words import speaking
+
+_MARKED = re.compile(
+    r"(?P<pressure>.*(?:Pa|bar|psi|atm))\s*\(?(?P<mark>gauge|g|absolute|abs|a)\.?\)?\s*",
+    re.IGNORECASE,
+)
+"""A pressure that says whether it is above that of the air, such as "6 barg", or "7 bar abs"."""
 
 _MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4
 _Class = TypeVar("_Class", bound=type)
@@ -35,7 +42,11 @@ def _absolute(name: str) -> Callable[[Any], float]:
     """A reader of an absolute pressure; that of vacuum is zero. [Pa]"""
 
     def read(given: Any) -> float:
-        pressure = as_si(given, "Pa", name)
+        marked = _MARKED.fullmatch(given) if isinstance(given, str) else None
+        if marked and marked["mark"].lower().startswith("g"):
+            needed = "an absolute pressure is needed: add that of the air, 1.013 bar"
+            refuse(name, given, needed)
+        pressure = as_si(marked["pressure"] if marked else given, "Pa", name)
         if not 0 <= pressure < math.inf:
             refuse(name, given, "an absolute pressure is needed, which is zero in vacuum")
         return pressure

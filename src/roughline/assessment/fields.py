@@ -165,7 +165,11 @@ def _crop(text: str) -> tuple[float, ...]:
     """Read from and to along each side. [m]"""
     from roughline.units import lengths
 
-    return tuple(lengths(text, "crop"))
+    ends = tuple(lengths(text, "crop"))
+    if len(ends) not in (2, 4) or not all(map(math.isfinite, ends)):
+        needed = 'give from and to along each side, such as "0 um, 50 um, 0 um, 40 um"'
+        refuse("crop", text, f"{needed}, or of a line scan two")
+    return ends
 
 
 _of_bodies = partial(Field, group=BODIES)

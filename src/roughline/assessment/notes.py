@@ -28,7 +28,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
     question, body, pair = result.question, result.body, result.question.pair
     of_line, is_grave = how_far_a_line_serves(question, body)
     borders, are_grave = borders_of_repeated(question, body)
-    notes = _of_yield(result)
+    notes = [*_of_yield(result), _without_pull_off(question)]
     if pair is not None:
         notes += [] if is_grave else [of_line]
         notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
@@ -42,8 +42,32 @@ def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
     notes += remarks(of_each(bodies, _filled_spikes_and_effects), DATA)
     notes += [Remark(of_filling, INTERVALS)]
     notes += [*remarks(meaning_of_loads(question, body), DATA), "" if are_grave else borders]
+    notes += remarks([_pressures(question)], DATA)
     notes += remarks(_cropping_and_resampling(body), DATA)
     return remarks(filter(None, notes))
+
+
+def _pressures(question: Question) -> str:
+    """Repeat the pressures of a fluid, and that they are absolute."""
+    asked = question.sealing
+    if asked is None or asked.inlet is None:
+        return ""
+    return (
+        f"{asked.fluid.name} enters at {engineering(asked.inlet, 'Pa')} and leaves at "
+        f"{engineering(asked.outlet, 'Pa')}, both absolute pressures"
+    )
+
+
+def _without_pull_off(question: Question) -> str:
+    """Say why bodies that stick have no pull-off where they have no answers."""
+    if question.attraction is None or question.pair is not None:
+        return ""
+    if isinstance(question.periodic, str):
+        return "what it takes to draw a body apart that is repeated along one side is not known"
+    return (
+        "what it takes to draw the bodies apart is one of the answers, which need two materials "
+        f"({called('materials')})"
+    )
 
 
 def _of_yield(result: Assessment) -> list[str]:

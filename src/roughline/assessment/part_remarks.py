@@ -206,9 +206,9 @@ def _once(said: Mapping[str, Sequence[str]]) -> list[Remark]:
     for of_maps in remarks.values():
         first, *others = of_maps
         of = "" if len(of_maps) == len(said) else f"of {', '.join(of_maps)}: "
-        if others and len(set(of_maps.values())) > 1:
-            of += f"(numbers of {first}) "
-        found.append(Remark(of_maps[first]).reworded(f"{of}{of_maps[first]}"))
+        differ = others and len(set(of_maps.values())) > 1
+        whose = f" (so for {first}; the numbers of the other maps differ)" if differ else ""
+        found.append(Remark(of_maps[first]).reworded(f"{of}{of_maps[first]}{whose}"))
     return found
 
 

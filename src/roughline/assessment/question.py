@@ -197,6 +197,7 @@ class Question:
             )
         if self.n_loads is None and not self.loads and not self.depths:
             object.__setattr__(self, "n_loads", DEFAULT_LOADS)
+        self._check_strip()
         self._check_joint()
         self._check_loads()
         self._check_materials()
@@ -498,6 +499,29 @@ class Question:
                 f"and what lies beyond is not known; leave {joint} out"
             )
 
+    def _check_strip(self) -> None:
+        """Refuse answers of a body that is repeated along one side alone, all of them at once."""
+        if not isinstance(self.periodic, str):
+            return
+        asked = {
+            **{"Friction": self.friction, "Ultrasound": self.frequency_in_hertz},
+            **{"Joint": self.joint, "Fluid": self.sealing, "Closure": self.finds_closing or None},
+        }
+        names = [called(f"rl.{name}") for name, value in asked.items() if value is not None]
+        if self.materials is None and not names:
+            return
+        materials, take = called("materials"), []
+        if self.materials is not None:
+            take.append(f"give a contact modulus ({called('E_star')}) in place of {materials}")
+        if names:
+            take.append(f"leave {' and '.join(names)} out")
+        raise InputError(
+            "answers are known of bodies that are free or repeated both ways, not of one that is "
+            f"repeated along {self.periodic} alone; for its curve, {' and '.join(take)}",
+            None,
+            *("periodic", "materials"),
+        )
+
     def _check_joint(self) -> None:
         """Refuse a joint that is asked for what only a body has."""
         if self.joint is None:
@@ -544,14 +568,6 @@ class Question:
         if (self.E_star is None) == (self.materials is None):
             raise InputError(
                 f"give either a contact modulus ({called('E_star')}) or two materials ({materials})"
-            )
-        if isinstance(self.periodic, str) and self.materials is not None:
-            raise InputError(
-                "answers are known of bodies that are free or repeated both ways, not of one that "
-                f"is repeated along {self.periodic} alone: give a contact modulus "
-                f"({called('E_star')}) in place of {materials}, and take its curve",
-                None,
-                *("periodic", "materials"),
             )
 
     def _check_layers(self) -> None:

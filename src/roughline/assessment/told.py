@@ -10,6 +10,8 @@ from roughline.assessment.fields import FIELDS, Field
 from roughline.assessment.given import Parsed
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
+from roughline.errors import InputError
+from roughline.errors.words import called
 from roughline.topography.preparation import Preparation
 
 Told = Mapping[str, Any]
@@ -19,6 +21,15 @@ Told = Mapping[str, Any]
 def told_of(kind: str, told: Told) -> dict[str, Any]:
     """Return what is told of one class, as its arguments."""
     given = [each for each in FIELDS if each.of == kind and told.get(each.name) is not None]
+    told_by: dict[str, Field] = {}
+    for each in given:
+        other = told_by.setdefault(each.argument, each)
+        if other is not each and told[other.name]:
+            raise InputError(
+                f"{called(other.name)} and {called(each.name)} are both given: give one of them",
+                None,
+                *(other.name, each.name),
+            )
     return {each.argument: told[each.name] for each in given}
 
 

@@ -19,7 +19,7 @@ from roughline.cli.help import PanelsFirst
 from roughline.cli.lab import lab
 from roughline.cli.paper import paper
 from roughline.cli.topography import generate, info
-from roughline.cli.usage import NOT_OFFERED, in_one_line, refuse_empty
+from roughline.cli.usage import NOT_OFFERED, in_one_line, refuse_empty, refuse_repeated
 from roughline.errors import ConvergenceError, RoughlineError
 from roughline.errors.words import speaking
 
@@ -64,8 +64,10 @@ def main() -> None:
     """Run the command line; errors are one line, exit code 2 for input and 1 for numerics."""
     try:
         refuse_empty(sys.argv[1:])
+        command = typer.main.get_command(app)
+        refuse_repeated(command, sys.argv[1:])
         with speaking(FLAGS):
-            sys.exit(app(standalone_mode=False) or 0)
+            sys.exit(command(standalone_mode=False) or 0)
     except TyperException as error:
         if type(error).__name__ == "NoArgsIsHelpError":
             typer.echo(error.format_message(), err=True)

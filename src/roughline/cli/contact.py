@@ -119,7 +119,12 @@ def press_command(
     if threads is not None:
         set_threads(threads)
     asks = report or told.get("frequency") or told.get("friction") is not None
-    if told.get("materials") is None and asks:
+    if told.get("periodic_along") and report is not None:
+        raise InputError(
+            "a report is one of answers, which are not known of a body repeated along one side "
+            "alone (--periodic-along): write its curve with --out"
+        )
+    if told.get("materials") is None and asks and not told.get("periodic_along"):
         raise InputError("a report, reflection and partial slip need two --materials")
     if report is not None and not told.get("loads"):
         raise InputError('a report needs a --load, such as "10 N"')

@@ -19,6 +19,7 @@ _OTHERS = {
     "q_high": "--cutoff",
     "n": "--points",
     "rng": "--seed",
+    "forces": "--load",
     "force_bars": "--force-bar",
     "table": "--export-table",
     "range": "the range of --adhesion",

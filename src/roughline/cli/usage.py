@@ -56,6 +56,44 @@ def refuse_empty(arguments: list[str]) -> None:
             raise InputError(f'{named} is ""; give a value, or leave {named} out')
 
 
+def refuse_repeated(command: Any, arguments: list[str]) -> None:
+    """Refuse an option that is given twice and takes one value, of which the parser keeps the last.
+
+    Raises
+    ------
+    InputError
+        With both values.
+    """
+    values: dict[str, str] = {}
+    words = iter(arguments)
+    for word in words:
+        if word == "--":
+            return
+        if word in getattr(command, "commands", {}):
+            command = command.commands[word]
+            continue
+        option, sign, value = word.partition("=")
+        parameter = next((each for each in command.params if option in _spellings(each)), None)
+        if not option.startswith("-") or parameter is None:
+            continue
+        takes_none = getattr(parameter, "is_flag", False)
+        value = value if sign else option if takes_none else next(words, "")
+        if parameter.multiple:
+            continue
+        if parameter.name in values:
+            first = values[parameter.name]
+            if takes_none and first != value:
+                raise InputError(f"{first} and {value} are both given: give one of them")
+            both = "" if takes_none else f", as {shown(first)} and {shown(value)}"
+            raise InputError(f"{option} is given twice{both}; give it once")
+        values[parameter.name] = value
+
+
+def _spellings(parameter: Any) -> list[str]:
+    """The names of an option, and those of its opposite."""
+    return [*parameter.opts, *parameter.secondary_opts]
+
+
 def in_one_line(mistake: Any) -> str:
     """Say what is wrong with a command; the parser's mistakes are known by what they carry."""
     context = getattr(mistake, "ctx", None)

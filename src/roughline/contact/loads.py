@@ -15,6 +15,7 @@ from roughline.contact.full_contact import in_full_contact
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.errors.checks import shown
+from roughline.errors.words import called, named
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.law import ContactLaw, refuse_pulls
@@ -254,17 +255,21 @@ def _spaced_loads(given: GivenLoads, lowest: float, highest: float) -> Loads:
 def _counted(given: GivenLoads) -> int:
     """Return the number of loads that are to be spaced."""
     if given.depths is not None or given.forces is not None:
-        raise InputError("n_loads given together with depths or forces; give one of the three")
+        raise InputError(
+            f"{named('n_loads')} given together with depths or forces; give one of the three"
+        )
     n_loads = checked_count("n_loads", given.n_loads, 2)
-    refuse_beyond_memory(_BYTES_PER_LOAD * n_loads, f"n_loads = {n_loads}", "give fewer loads")
+    refuse_beyond_memory(
+        _BYTES_PER_LOAD * n_loads, f"{named('n_loads')} = {n_loads}", "give fewer loads"
+    )
     return n_loads
 
 
 def _refuse_constant(body: Body | Profile, given: GivenLoads) -> None:
     if body.rms_height == 0:
         raise InputError(
-            f"all heights are {body.heights.flat[0]:g}: a flat punch has no range of loads from "
-            f"which to choose n_loads = {given.n_loads}; give depths or forces"
+            f"all heights are {body.heights.flat[0]:g}: a flat punch has no range of loads to "
+            f"choose from; give {called('depths')} or {called('forces')}"
         )
 
 

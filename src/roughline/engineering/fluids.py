@@ -33,6 +33,7 @@ _UNITS = {
 _EXAMPLE = "viscosity=40 mPa s, or viscosity=18 uPa s molar_mass=29 g/mol of a gas"
 
 _SYNONYMS = {"glycol": "ethylene-glycol", "glycerine": "glycerol", "natural-gas": "methane"}
+_TEMPERATURE = re.compile(r"temperature\s*=\s*(.+?)(?=\s+\w+\s*=|$)")
 _AT = re.compile(r"\s+at\s+(-?[\d.]+)\s*(?:°|deg)?\s*([CK])\b", re.IGNORECASE)
 _OF_OILS = 1.3  # factor of their viscosities' uncertainty: grade 10 %, index 80 to 140
 _OF_IRON = 55.85  # molar mass of the wall [g / mol]
@@ -213,9 +214,8 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
     if not isinstance(description, str):
         refuse("fluid", description, 'a name such as "water", a Liquid or a Gas is needed')
     known, formulas = fluids(), formulas_of(_TABLE)
-    name, given = described(
-        _known_name(description), "fluid", formulas, _UNITS, "viscosity=40 mPa s"
-    )
+    text = _known_name(description)
+    name, given = described(text, "fluid", formulas, _UNITS, "viscosity=40 mPa s")
     if not name and "viscosity" not in given:
         raise InputError(
             f"the fluid {shown(description)} needs a name or a viscosity, such as "
@@ -224,7 +224,7 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
     start = asdict(known[name]) if name else {}
     if name and "temperature" in given:
         start.pop("conductivity", None)  # it is that at 20 °C
-        start |= {} if "viscosity" in given else _at(name, given["temperature"])
+        start |= {} if "viscosity" in given else _at(name, given["temperature"], text)
     source = f"{start['source']}; {', '.join(given)} given" if name and given else ""
     if "viscosity" in given:
         start.pop("viscosity_factor", None)
@@ -238,13 +238,18 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
     return Liquid(**values)
 
 
-def _at(name: str, temperature: float) -> dict[str, float | str]:
-    """What differs at a temperature [K]: by Vogel's law in liquids, by powers of it in gases."""
+def _at(name: str, temperature: float, text: str) -> dict[str, float | str]:
+    """What differs at a temperature [K]: by Vogel's law in liquids, by powers of it in gases.
+
+    A message repeats the temperature as it stands in the text.
+    """
     texts = {"name", "formula", "source"}
     row = {key: float(value) for key, value in _rows()[name].items() if value and key not in texts}
     if not _COLDEST <= temperature <= _HOTTEST or not {"vogel_B", "viscosity_power"} & row.keys():
+        typed = _TEMPERATURE.search(text)
+        came = shown(typed[1]) if typed else f"{temperature:g} K"
         raise InputError(
-            f"is {temperature:g} K, where the table does not know {name}; give its viscosity "
+            f"is {came}, where the table does not know {name}; give its viscosity "
             'there, such as "viscosity=40 mPa s"',
             "temperature",
         )

@@ -13,6 +13,7 @@ from roughline.computing.notebook import in_notebook
 from roughline.errors import InputError
 from roughline.errors.checks import is_whole, one_of, refuse, rising_pair
 from roughline.errors.public import public
+from roughline.errors.words import called
 from roughline.topography.borders import borders_of, whole_or_piece
 from roughline.topography.crop import settings_of_piece
 from roughline.topography.heights import (
@@ -401,12 +402,15 @@ def _of_topography(
     if topography.dim != 2:
         raise InputError("the topography is a line scan; a Surface needs a map: make a Line of it")
     if sizes is not None:
-        raise InputError("the topography has its own sizes; leave sizes out")
+        raise InputError(f"the topography has its own sizes; leave {called('sizes')} out")
     origin = PERIODIC if topography.is_periodic else PIECE
     factor, heights = 1.0, topography.heights()
     if topography.unit:
         if unit:
-            raise InputError(f"the topography states its unit, {topography.unit}; leave unit out")
+            raise InputError(
+                f"the topography states its unit, {topography.unit}; "
+                f"leave {called('unit', unit)} out"
+            )
         factor, unit = metres_per(topography.unit), "m"
         settings = {"file_unit": topography.unit, **settings}
     x, y = (factor * float(size) for size in topography.physical_sizes)

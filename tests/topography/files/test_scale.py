@@ -36,7 +36,7 @@ def test_a_file_without_unit_is_refused_until_one_is_given(tmp_path):
     with pytest.raises(rl.UnitError, match='unit is "parsnip"'):
         rl.read(path, unit="parsnip")
     rl.write(found, path)
-    with pytest.raises(rl.UnitError, match="states its unit, m; leave unit = nm out"):
+    with pytest.raises(rl.UnitError, match='states its unit, m; leave unit="nm" out'):
         rl.read(path, unit="nm")
 
 

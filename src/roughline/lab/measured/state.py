@@ -34,7 +34,8 @@ _SHOWN = dict(pair for field in c.BY_CONTROL.values() for pair in field.choices.
 """What the page calls the values of choices."""
 
 CONTROLS = Words(
-    names_by(lambda field: field.word or field.label or field.control.replace("_", " ")),
+    names_by(lambda field: field.word or field.label or field.control.replace("_", " "))
+    | {"forces": "loads"},
     lambda text: f'"{_SHOWN.get(text, text)}"',
 )
 """What the page calls arguments of the library: its controls."""

@@ -168,7 +168,8 @@ class _Scale:
         """Metres in the unit of the file."""
         if self.of.unit and self.unit:
             raise UnitError(
-                f"{self.of.file} states its unit, {self.of.unit}; leave unit = {self.unit} out"
+                f"{self.of.file} states its unit, {self.of.unit}; "
+                f"leave {called('unit', self.unit)} out"
             )
         unit = self.of.unit or self.unit
         if not unit:
