@@ -90,3 +90,13 @@ if "ROUGHLINE_HANDBOOKS" in os.environ:  # the address of all versions' handbook
         "navbar_end": ["version-switcher", "theme-switcher", "navbar-icon-links"],
         "check_switcher": False,  # the file is written when the handbook is published
     }
+
+
+def setup(app):
+    """Let links lead to pages that are made, where the repository has what they are made of."""
+    app.connect("source-read", _link_made_pages)
+
+
+def _link_made_pages(app, page, source):
+    if not page.startswith("made/"):
+        source[0] = made.with_made_pages(page, source[0])

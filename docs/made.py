@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import posixpath
 import re
 import shutil
 from collections.abc import Iterable, Sequence
@@ -81,6 +82,24 @@ SECTIONS = {
     ),
 }
 """Public names in the order in which people meet them."""
+
+SOURCES = {
+    "made/materials.md": "../src/roughline/engineering/materials.csv",
+    "made/fluids.md": "../src/roughline/engineering/fluids.csv",
+    "made/quantities.md": "../src/roughline/contact/quantities.py",
+    "made/answers.md": "../src/roughline/engineering/rules",
+    "made/commands.md": "../src/roughline/cli",
+    "made/names.rst": "../src/roughline/__init__.pyi",
+    "made/validation.md": "validation.json",
+    "made/gallery/index.rst": "gallery",
+}
+"""Pages that are made, and what they are made of, from this folder; examples have their files.
+
+Links lead to what is in the repository, where pages are read as they are; in the handbook, they
+lead to the pages that are made.
+"""
+
+_LINK = re.compile(r"(?<=\]\()[^)\s:#]+(?=\))")
 
 GALLERY = (
     "first_contact",
@@ -373,3 +392,16 @@ def _of_gas(fluid: rl.Liquid | rl.Gas) -> tuple[float | None, ...]:
 
 def _value(value: float | None) -> str:
     return "" if value is None else decimal(value, 4)
+
+
+def with_made_pages(page: str, text: str) -> str:
+    """Return the text of a page, named from this folder, with links to pages that are made."""
+    made = {source: name for name, source in SOURCES.items()}
+    made |= {f"gallery/{name}.py": f"made/gallery/{name}.rst" for name in GALLERY}
+    folder = posixpath.dirname(page)
+
+    def link(found: re.Match[str]) -> str:
+        source = posixpath.normpath(posixpath.join(folder, found[0]))
+        return posixpath.relpath(made[source], folder or ".") if source in made else found[0]
+
+    return _LINK.sub(link, text)
