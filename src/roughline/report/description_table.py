@@ -82,6 +82,8 @@ def _rows_of_file(description: Description) -> list[tuple[str, str]]:
         rows.append(("channels", ", ".join(content.channels)))
     points = content.heights.shape if body is None else body.heights.shape
     stated = content.unit or "none stated"
+    if content.unit_of_sides:
+        stated = f"{content.unit_of_sides}, and none of heights stated"
     if not content.unit and description.unit:
         stated += f"; {description.unit} is given"
     rows += [("points", _times(points)), ("unit in the file", stated), *_rows_of_sizes(description)]
@@ -102,12 +104,13 @@ def _rows_of_sizes(description: Description) -> list[tuple[str, str]]:
     elif content.sizes is None:
         return [(names[0], "none stated")]
     else:
-        metres = metres_per(content.unit) if content.unit else 1.0
+        unit = content.unit or content.unit_of_sides
+        metres = metres_per(unit) if unit else 1.0
         sizes = tuple(metres * size for size in content.sizes)
         spacings = tuple(
             size / points for size, points in zip(sizes, content.heights.shape, strict=True)
         )
-    if body is None and not content.unit:
+    if body is None and not (content.unit or content.unit_of_sides):
         return [
             (name, f"{' x '.join(f'{length:.4g}' for length in lengths)}, unit not stated")
             for name, lengths in zip(names, (sizes, spacings), strict=True)

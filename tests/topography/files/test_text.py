@@ -147,11 +147,10 @@ def test_sizes_and_units_above_a_matrix_are_read(tmp_path, head, separator, deci
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("# Width: 1 mm\n# Height: 1 mm\n" + written(ROWS), "in mm and no unit of its heights"),
         ("x-pixels = 9\ny-pixels = 14\n" + written(ROWS), 'says "y-pixels = 14" and has 12 rows'),
         ("Points: 60\n" + written(np.stack([X, SCAN], 1)), 'says "Points: 60" and has 50 rows'),
         ("Length,20 um\nx um,z um\n" + written(np.stack([X, SCAN], 1), ","), "ends at 10 um"),
-        ("x [mm];z\n" + written(np.stack([X, SCAN], 1), ";"), "units of some columns alone"),
+        ("x;z [mm]\n" + written(np.stack([X, SCAN], 1), ";"), "units of some columns alone"),
         ("a,b,c,d\n" + written(ROWS[:, :4], ","), "has titles above its columns (a, b, c, d)"),
     ],
 )
@@ -216,6 +215,33 @@ def test_titles_say_which_column_is_which_and_in_which_unit(tmp_path):
         assert found.unit == unit
         assert found.heights == pytest.approx(factor * HEIGHTS)
         assert found.sizes == pytest.approx(SIDES)
+
+
+@pytest.mark.parametrize(
+    ("head", "in_full", "rows", "separator"),
+    [
+        ("# Width: 1 mm\n# Height: 2 mm\n", "# Value units: um\n", ROWS, " "),
+        ("x [mm];y [mm];z\n", "# Value units: um\n", points(), ";"),
+        ("x [mm];z\n", "# Value units: um\n", np.stack([X, SCAN], 1), ";"),
+        ("x [mm];z\n", "# Value units: um\n", np.stack([X**1.5, SCAN], 1), ";"),  # uneven
+    ],
+)
+@pytest.mark.parametrize("crop", [None, "half"])
+def test_a_unit_of_heights_that_is_left_open_is_the_callers(
+    tmp_path, head, in_full, rows, separator, crop
+):
+    """The same body as of a file that states it; sizes keep the unit that they have."""
+    for name, text in (("open.txt", head), ("full.txt", in_full + head)):
+        (tmp_path / name).write_text(text + written(rows, separator))
+    whole = rl.read(tmp_path / "full.txt")
+    sides = whole.sizes if isinstance(whole, rl.Surface) else (whole.length,)
+    ends = None if crop is None else [end for side in sides for end in (0.0, side / 2)]
+    stated = rl.read(tmp_path / "full.txt", crop=ends)
+    given = rl.read(tmp_path / "open.txt", "um", crop=ends)
+    assert given.heights == pytest.approx(stated.heights, rel=1e-12, abs=1e-20)
+    assert given.spacing == pytest.approx(stated.spacing)
+    with pytest.raises(rl.UnitError, match="states its sizes in mm and no unit of its heights"):
+        rl.read(tmp_path / "open.txt")
 
 
 @pytest.mark.parametrize(

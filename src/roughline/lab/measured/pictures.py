@@ -48,7 +48,8 @@ def of_file(found: Description) -> tuple[Panels, Maps]:
         told = f"{np.count_nonzero(spikes)} spikes"
     sides = content.sizes or tuple(map(float, heights.shape))
     otherwise = "unit not stated" if content.sizes else "points"
-    along = _scale(max(sides), metres if content.sizes else None, otherwise)
+    aside = metres_per(content.unit_of_sides) if content.unit_of_sides else metres
+    along = _scale(max(sides), aside if content.sizes else None, otherwise)
     up = _scale(_largest(np.abs(heights)), metres, "unit not stated")
     panels = _spectrum(found)
     if heights.ndim == 2:

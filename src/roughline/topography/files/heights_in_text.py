@@ -90,7 +90,8 @@ def _of_points(
     """A line scan or a map from a list of points."""
     rows = table.rows
     order = named or dict(zip(_AXES if rows.shape[1] == 3 else ("x", "z"), range(3), strict=False))
-    unit, factor = _units_of_columns(table, titles, order, name)
+    of_positions, unit, factor = _units_of_columns(table, titles, order, name)
+    stated = {"unit": unit, "unit_of_sides": None if unit else of_positions}
     columns = {axis: rows[:, i] for axis, i in order.items()}
     if not all(np.isfinite(columns[axis]).all() for axis in columns if axis != "z"):
         raise InputError(f"{name} lists points without a position: delete them")
@@ -99,11 +100,11 @@ def _of_points(
         x, y = along, None
     if y is not None:
         heights, sides = _map_of(x, y, z, name)
-        return _measured(name, kind="surface", heights=heights, sizes=sides, unit=unit)
+        return _measured(name, kind="surface", heights=heights, sizes=sides, **stated)
     heights, positions, length = _line_of(x, z, name)
-    _refuse_shorter_scan(table, unit, length, name)
+    _refuse_shorter_scan(table, of_positions, length, name)
     return _measured(
-        name, kind="profile", heights=heights, sizes=(length,), unit=unit, positions=positions
+        name, kind="profile", heights=heights, sizes=(length,), positions=positions, **stated
     )
 
 
@@ -167,8 +168,11 @@ def _refuse_unnamed_list(table: Table, titles: list[list[str]], name: str) -> No
 
 def _units_of_columns(
     table: Table, titles: list[list[str]], order: dict[str, int], name: str
-) -> tuple[str | None, float]:
-    """The unit of positions, and that of heights over it; no unit if none is stated."""
+) -> tuple[str | None, str | None, float]:
+    """The units of positions and of all lengths, and that of heights over it; None if not stated.
+
+    Where that of the heights is not stated, whoever reads the file may give it.
+    """
     units: dict[str, str] = {}
     for line in table.head:
         stated = _KEY_AND_VALUE.match(line)
@@ -183,14 +187,16 @@ def _units_of_columns(
         found = {axis: _unit_in(cells[i]) for axis, i in order.items()}
         units.update({axis: unit for axis, unit in found.items() if unit})
     if not units:
-        return None, 1.0
-    if not {"x", "z"} <= set(units) or _metres(units.get("y", units["x"])) != _metres(units["x"]):
+        return None, None, 1.0
+    if "x" not in units or _metres(units.get("y", units["x"])) != _metres(units["x"]):
         said = ", ".join(f"{axis} in {unit}" for axis, unit in units.items())
         raise InputError(
             f"{name} states units of some columns alone ({said}), or different ones of x and y: "
             "name one unit for the positions and one for the heights above the list, or none"
         )
-    return units["x"], _metres(units["z"]) / _metres(units["x"])
+    if "z" not in units:
+        return units["x"], None, 1.0
+    return units["x"], units["x"], _metres(units["z"]) / _metres(units["x"])
 
 
 def _unit_in(title: str) -> str | None:

@@ -144,15 +144,10 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
     unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
     stated = channel.physical_sizes is not None
     unit_of_sides = channel.info.get("raw_metadata", {}).get("xunit") if stated else None
-    if unit_of_sides and not unit:
-        raise InputError(
-            f"{file} states its sizes in {unit_of_sides} and no unit of its heights: write one "
-            'above them, such as "Value units: um"'
-        )
     topography = reader.topography(
         channel_index=channel.index,
         # the reader requires a unit and sizes; where the file states none, any will do
-        **({} if unit else {"unit": "m"}),
+        **({} if unit else {"unit": unit_of_sides or "m"}),
         **({} if stated else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}),
     )
     uneven = topography.dim == 1 and not topography.is_uniform
@@ -160,6 +155,7 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
         file=file,
         heights=topography.heights(),
         unit=unit or None,
+        unit_of_sides=None if unit else unit_of_sides,
         sizes=tuple(map(float, topography.physical_sizes)) if stated else None,
         kind="surface" if topography.dim == 2 else "profile",
         channel=channel.name,

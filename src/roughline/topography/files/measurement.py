@@ -33,7 +33,7 @@ class Measurement:
 
     file: str  # its name, for messages
     heights: Any  # shape (nx, ny) or (n,); unknown ones are masked or not finite [unit of the file]
-    unit: str | None  # of all lengths; None if the file states none
+    unit: str | None  # of all lengths, or of heights; None if the file states none
     sizes: tuple[float, ...] | None  # of the sides, if the file states them [unit of the file]
     kind: Literal["surface", "profile", "reduced"]
     by_roughline: bool = False  # if it wrote the file; heights are kept as they were written
@@ -43,6 +43,7 @@ class Measurement:
     settings: Settings = field(default_factory=dict)  # where the heights come from
     is_cut_out: bool | None = None  # as of a body, where the file states it
     removed_trend: Trend | None = None  # likewise
+    unit_of_sides: str | None = None  # of sizes and positions, where that of heights is not stated
     is_piece: bool = False  # whether it is a piece of what the file holds
 
     @property
@@ -65,14 +66,14 @@ class Measurement:
                 for side, each, n in zip(scale.sides, kept, self.heights.shape, strict=True)
             ]
         else:
-            kept = points_between(crop, scale.metres * (self.positions - self.positions[0]))
+            kept = points_between(crop, scale.metres_aside * (self.positions - self.positions[0]))
             positions = self.positions[kept]
-            lengths = [scale.metres * (positions[-1] - positions[0])]
+            lengths = [scale.metres_aside * (positions[-1] - positions[0])]
         is_whole = self.heights[kept].size == self.heights.size
         return replace(
             self,
             heights=self.heights[kept].copy(order="K"),  # so that the whole can go
-            sizes=tuple(length / scale.metres for length in lengths),
+            sizes=tuple(length / scale.metres_aside for length in lengths),
             positions=positions,
             settings=settings_of_piece(self.settings, kept, self.heights.shape),
             is_cut_out=self.is_cut_out if is_whole else True,
@@ -119,7 +120,9 @@ class Measurement:
             if scale.metres != 1:
                 heights *= scale.metres
         if self.positions is not None:
-            heights, settings["resampled"] = _on_even_points(self.positions * scale.metres, heights)
+            heights, settings["resampled"] = _on_even_points(
+                self.positions * scale.metres_aside, heights
+            )
         if removed != "none":
             before = rms_deviation(heights)
             spacings = [side / n for side, n in zip(sides, heights.shape, strict=True)]
@@ -165,7 +168,7 @@ class _Scale:
 
     @cached_property
     def metres(self) -> float:
-        """Metres in the unit of the file."""
+        """Metres in the unit of the file's heights."""
         if self.of.unit and self.unit:
             raise UnitError(
                 f"{self.of.file} states its unit, {self.of.unit}; "
@@ -177,10 +180,15 @@ class _Scale:
         return metres_per(unit)
 
     @property
+    def metres_aside(self) -> float:
+        """Metres in the unit of the file's sizes and positions."""
+        return metres_per(self.of.unit_of_sides) if self.of.unit_of_sides else self.metres
+
+    @property
     def sides(self) -> tuple[float, ...]:
         """Sides of the map, or length of the line. [m]"""
         if self.of.sizes is not None:
-            return tuple(self.metres * float(size) for size in self.of.sizes)
+            return tuple(self.metres_aside * float(size) for size in self.of.sizes)
         given = self.sizes
         if given is None:
             raise self._sizes_needed()
@@ -209,6 +217,11 @@ class _Scale:
         return " x ".join(map(str, points)), "1 mm, 0.5 mm" if len(points) == 2 else "1 mm"
 
     def _unit_needed(self) -> UnitError:
+        if self.of.unit_of_sides:
+            return UnitError(
+                f"{self.of.file} states its sizes in {self.of.unit_of_sides} and no unit of its "
+                f"heights; give that, such as {called('unit', 'um')}"
+            )
         return UnitError(
             f"{self.of.file} states no unit; give the unit of its lengths, such as "
             f"{called('unit', 'um')}"
