@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from roughline.campaign.batch import evaluate_case
-from roughline.campaign.layout import variables_of
+from roughline.campaign.layout import CASE_DIGEST, CASE_STATUS, variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
@@ -141,8 +141,8 @@ def _bytes_on_disk(ensemble: Ensemble, cases: int) -> int:
     loads = len(ensemble.force_bars)
     high, wide = chunk_shape(ensemble)
     chunks = math.ceil(cases / (high * wide))
-    per_chunk = _BLOCK  # the marks
-    for variable in variables_of(ensemble):
+    per_chunk = 0
+    for variable in (*variables_of(ensemble), CASE_DIGEST, CASE_STATUS):
         values = high * wide * (1 if variable.per_body else loads)
         per_chunk += _BLOCK * math.ceil(values * np.dtype(variable.dtype).itemsize / _BLOCK)
     return chunks * per_chunk + _BLOCK * _FILES_OF_METADATA
