@@ -75,6 +75,21 @@ def test_a_gas_expands_and_slips(surface, kept):
     assert "leak_rate" not in answers
 
 
+def test_the_least_of_a_rare_gas_is_what_slips(surface):
+    """Kinetic theory is that of even gaps: what it adds is in the value and the upper end."""
+    body = rl.Surface(surface.heights, surface.sizes, "m")
+    vacuum = [rl.Inlet("1 bar"), rl.Outlet("0 bar"), rl.Seal("100 mm x 2 mm"), rl.FlowAlong("x")]
+    found = asked(body, [rl.Fluid("helium"), *vacuum], grid_error=True, loads=["60 MPa"])
+    gas, u = rl.Fluid("helium").fluid, found.measured["slip_aperture_x"]
+    slipping = 10 * 50 * u.rows**3 * 1e10 / (24 * gas.viscosity)
+    leak = found.answers["leak_throughput"]
+    more = beyond_slip(gas.mean_free_path(5e4) / found.answers["hydraulic_aperture"].values)
+    assert (more > 1.1).all()
+    assert leak.low == pytest.approx(slipping[1], rel=1e-9)
+    assert leak.values == pytest.approx(more * slipping[0], rel=1e-9)
+    assert leak.high == pytest.approx(more * slipping[2], rel=1e-9)
+
+
 def test_the_flow_factor_is_that_of_patir_and_cheng(surface, kept):
     answers = asked(surface, [rl.Fluid("water"), rl.FlowAlong("x")]).answers
     factor = (answers["hydraulic_aperture"].values / answers["mean_gap"].values) ** 3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, replace
 
@@ -164,10 +165,12 @@ def in_plane_strain(half_space, reach, y, dy):
     return of_top + float((half * weights * beside).sum()) / math.pi
 
 
-@pytest.mark.parametrize("base", [1e3, 1e-3])
-@pytest.mark.parametrize("periods_thick", [0.3, 1.0, 10.0])
+@pytest.mark.parametrize(
+    ("base", "periods_thick"),
+    [*itertools.product([1e3, 1e-3], [0.3, 1.0, 10.0]), (1e-5, 100.0), (3e-5, 1000.0)],
+)
 def test_the_mean_along_the_period_is_plane_strain(base, periods_thick):
-    """Moduli 1 : 1000 both ways, without images: this judges the datum itself."""
+    """Moduli 1 : 1000 both ways and more, without images: this judges the datum itself."""
     shape, spacing = (3, 4), (1.0, 0.8)
     half_space = rl.Layered(1.0, 0.3, periods_thick * 3, base, 0.2, periodic="x")
     table = kernel(half_space, shape, spacing)
@@ -175,6 +178,15 @@ def test_the_mean_along_the_period_is_plane_strain(base, periods_thick):
     reach = datum(half_space, 3.2)
     wanted = [in_plane_strain(half_space, reach, j * 0.8, 0.8) for j in range(4)]
     np.testing.assert_allclose(mean, wanted, rtol=0, atol=1e-8 * np.abs(wanted).max())
+
+
+def test_layers_that_spread_a_load_too_far_are_refused_in_one_line():
+    half_space = rl.Layered(1.0, 0.3, 1e6, 1e-12, 0.3, periodic="x")
+    with pytest.raises(
+        rl.InputError, match="spread a load over .* periods of the strip"
+    ) as refused:
+        kernel(half_space, (3, 4), (1.0, 0.8))
+    assert "\n" not in str(refused.value)
 
 
 # Lines

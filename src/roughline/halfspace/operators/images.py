@@ -29,12 +29,17 @@ from scipy import special
 
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real
+from roughline.errors import InputError
+from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace
 
 _NEAREST = 2  # images on either side that are summed as they are
 _LAGS = 8  # distances along the period at which the others are summed
 _FIRST = 32  # image with which the stretches begin; half as many of each are summed
-_STRETCHES = 24  # at most
+_STRETCHES = 32  # at most, which are enough for layers that spread a load as far as is allowed
+_FARTHEST = (
+    1e8  # periods over which layers may spread a load: errors of the sum grow, to 1e-6 at 1e9
+)
 _TOLERANCE = 3e-11  # of the images beyond the last stretch, over the largest displacement
 
 
@@ -55,7 +60,18 @@ def fill_with_images(
         Width of the surface across, from which displacements count. [length]
     table : ndarray, shape (period // 2 + 1, columns)
         Overwritten, by the distances along the period and across, in cells. [length / pressure]
+
+    Raises
+    ------
+    InputError
+        If layers spread a load over so many periods that the sum is not known.
     """
+    if (periods := half_space.spread / (period * spacing[0])) > _FARTHEST:
+        raise InputError(
+            f"the layers spread a load over {periods:.2g} periods of the strip, and the sum over "
+            f"its images is known up to {_FARTHEST:.0e}: give thinner or softer layers, or a surface "
+            f"that repeats along both axes ({called('periodic', True)})"
+        )
     images = _Images(half_space, period, spacing, table.shape[1])
     beyond = images.beyond_nearest(width + half_space.spread)
 
