@@ -13,6 +13,7 @@ from roughline.fluid import measures
 from roughline.report.contact_tables import symbol_table
 from roughline.report.json_output import of_assessment, to_json
 from roughline.report.terminal import print_assessment
+from roughline.units import engineering
 
 LOADS = ["20 MPa", "60 MPa"]
 ASKED = [rl.Inlet("6 bar"), rl.Outlet("1 bar"), rl.Seal("100 mm x 2 mm")]
@@ -351,6 +352,13 @@ def test_every_symbol_of_its_formulas_is_on_the_page(surface, ask):
             letters = re.findall(r"[A-Za-z]+(?:_[a-z]+)?\d?", result.answers[key].formula)
             words = {"at", "C", "of", "the", "open", "gap", "temperature", "jump", "length"}
             assert {*letters} - words - {"with", "slip"} <= told
+
+
+def test_the_temperature_jump_is_that_at_the_mean_pressure(surface):
+    _, rows = symbol_table(asked(surface, HELIUM))
+    (row,) = (row for row in rows if row[0] == "M")
+    wanted = rl.Fluid("helium").fluid.temperature_jump(3.5e5)
+    assert engineering(wanted, "m") in row
 
 
 def test_a_gas_in_the_gap_is_not_said_to_be_missing(surface):

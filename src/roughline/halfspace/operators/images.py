@@ -37,9 +37,7 @@ _NEAREST = 2  # images on either side that are summed as they are
 _LAGS = 8  # distances along the period at which the others are summed
 _FIRST = 32  # image with which the stretches begin; half as many of each are summed
 _STRETCHES = 32  # at most, which are enough for layers that spread a load as far as is allowed
-_FARTHEST = (
-    1e8  # periods over which layers may spread a load: errors of the sum grow, to 1e-6 at 1e9
-)
+_FARTHEST = 1e8  # periods over which layers may spread a load: sums are good to 1e-11 up to there
 _TOLERANCE = 3e-11  # of the images beyond the last stretch, over the largest displacement
 
 
@@ -69,8 +67,8 @@ def fill_with_images(
     if (periods := half_space.spread / (period * spacing[0])) > _FARTHEST:
         raise InputError(
             f"the layers spread a load over {periods:.2g} periods of the strip, and the sum over "
-            f"its images is known up to {_FARTHEST:.0e}: give thinner or softer layers, or a surface "
-            f"that repeats along both axes ({called('periodic', True)})"
+            f"its images is known up to {_FARTHEST:.0e}: give thinner or softer layers, or a "
+            f"surface that repeats along both axes ({called('periodic', True)})"
         )
     images = _Images(half_space, period, spacing, table.shape[1])
     beyond = images.beyond_nearest(width + half_space.spread)
