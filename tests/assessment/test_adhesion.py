@@ -98,9 +98,22 @@ def test_a_range_that_was_not_given_is_in_the_name_and_resolved(n):
     reach = result.curve.settings["range"] * 1e9
     assert answer.name == f"pull-off force at a range of {reach:.4g} nm"
     assert result.curve.settings["pulling_zone_cells"] == pytest.approx(9)
-    assert any("shorter ones give other answers" in note for note in result.notes)
+    assert any("a finer grid would take a shorter one" in note for note in result.notes)
+    assert answer.low is None
     given = asked(rough(n), rl.Adhesion(RANGE), periodic=True)
     assert given.answers["pull_off_force"].name == "pull-off force"
+
+
+@pytest.mark.parametrize("n", [16, 32])
+def test_a_pull_off_that_the_range_alone_sets_is_told(n):
+    flat = rl.Surface(1e-3 * rough(n).heights, rough(n).sizes, "m")
+    for body, told in ((flat, True), (rough(n), False)):
+        result = asked(body, rl.Adhesion(RANGE), periodic=True)
+        said = [each for each in result.warnings if "set by the range alone" in each]
+        assert bool(said) == told
+    pull = WORK / float(asked(flat, rl.Adhesion(RANGE), periodic=True).curve.settings["range"])
+    result = asked(flat, rl.Adhesion(RANGE), periodic=True)
+    assert result.answers["pull_off_pressure"].values == pytest.approx(pull, rel=0.01)
 
 
 @pytest.mark.parametrize("n", [16, 32])

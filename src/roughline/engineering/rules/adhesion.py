@@ -12,21 +12,27 @@ from roughline.computing.arrays import Real
 from roughline.engineering.attraction import Separation
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
+from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.units import decimal, engineering
 
+_ALL = 0.99  # of the largest pull over the nominal area, from which on it is all of it
 _AFTER = "after the largest load, slowly, so that nothing swings"
 
 
 def _found(of: Callable[[Separation, Pressed], Real], pressed: Pressed) -> Real | None:
-    """What was found after the largest load, the same under all loads, in rows."""
+    """What was found after the largest load, the same under all loads, in rows.
+
+    There is no interval where the grid chose the range: it holds the error of that grid at that
+    range, and another grid chooses another.
+    """
     separation = pressed.sought.separation
     if pressed.attraction is None:
         return None
     if separation is None:
         return np.full(pressed.curve.status.size, np.nan)
     rows = of(separation, pressed)
-    if not np.isfinite(rows).all():
-        rows = rows[:1]  # the value alone, which may be known without its ends
+    if pressed.attraction.range is None or not np.isfinite(rows).all():
+        rows = rows[:1]
     return np.where(pressed.curve.converged, rows[:, np.newaxis], np.nan)
 
 
@@ -77,8 +83,25 @@ def _branch(pressed: Pressed) -> str:
         )
         if pressed.rms_height:
             text += f" or {decimal(reach / pressed.rms_height, 2)} rms heights"
-        text += ": shorter ones give other answers, and half of it needs four times as fine a grid"
+        text += (
+            ": what draws the bodies apart is of this range, without an interval, and a finer grid "
+            "would take a shorter one; half of it needs a grid four times as fine"
+        )
     return text
+
+
+def _set_by_the_range(pressed: Pressed) -> str:
+    """Say where the pull-off is the largest pull over all of the area, whatever the roughness."""
+    law, separation = pressed.curve.law, pressed.sought.separation
+    if separation is None or not isinstance(law, Adhesive):
+        return ""
+    share = separation.pull_off[0] / (law.largest_pull * pressed.area)
+    if not share >= _ALL:
+        return ""
+    return (
+        f"the pull-off is {share:.0%} of w over the range, on all of the area: it is set by the "
+        "range alone, whatever the roughness; give the range of the bodies at hand"
+    )
 
 
 def _rule(name: str, **others: Any) -> Rule:
@@ -101,6 +124,7 @@ ADHESION = (
         unit="N",
         formula="largest pull under a load that is taken off and turned into a pull",
         value=partial(_found, lambda separation, pressed: separation.pull_off * pressed.scale),
+        warning=_set_by_the_range,
         note=_branch,
         leads=always,
         is_extensive=True,
