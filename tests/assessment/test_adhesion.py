@@ -1,6 +1,7 @@
 """Questions of bodies that stick: what it takes to draw them apart, and what the rest is of."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -8,8 +9,11 @@ import pytest
 from scipy.optimize import brentq
 
 import roughline as rl
+from roughline.assessment import separation
 from roughline.engineering.attraction import Attraction, attractions
+from roughline.engineering.rules.adhesion import ADHESION
 from roughline.exact.adhesion import MaugisSphere
+from roughline.units import in_si
 
 E_STAR, RADIUS, WORK = 6.58e6, 20e-6, 0.05  # a silicone rubber on a stiff lens [Pa], [m], [J/m²]
 RUBBER = ("E=5 MPa nu=0.49", "rigid")
@@ -241,3 +245,36 @@ def test_the_command_line_asks_for_it(invoke, only_drawn, tmp_path, n):
     assert content["answers"]["F_po"]["values"][0] > 0
     assert content["curve"]["pulling_fraction"][0] > 0
     assert (tmp_path / "report" / "report.pdf").exists()
+
+
+def with_few_steps(monkeypatch, which, steps):
+    """Let what it takes to draw bodies apart end early, by depths or by forces."""
+    whole = separation.press
+
+    def press(*args, **given):
+        few = which in given and len(given[which]) != 11  # what is looked for first is solved
+        return whole(*args, **given, **({"max_iterations": steps} if few else {}))
+
+    monkeypatch.setattr(separation, "press", press)
+
+
+def test_work_that_is_not_solved_is_told_with_its_limits(monkeypatch):
+    known = asked(rough(16), rl.Adhesion(RANGE), periodic=True)
+    with_few_steps(monkeypatch, "depths", 21)
+    result = asked(rough(16), rl.Adhesion(RANGE), periodic=True)
+    assert "work_of_separation" not in result.answers
+    assert value(result, "pull_off_force") == value(known, "pull_off_force")
+    (said,) = (each for each in result.notes if each.startswith("no work of separation"))
+    assert "were not solved at a depth of" in said
+    least, most = (in_si(each, "J", "work") for each in re.findall(r"[\d.]+ [a-z]?J", said))
+    assert least < known.sought.separation.work < most
+
+
+def test_no_answer_about_bodies_that_stick_vanishes_in_silence(monkeypatch):
+    asked_for = {each.key: each.name for each in ADHESION}
+    with_few_steps(monkeypatch, "forces", 10)
+    result = asked(rough(16), rl.Adhesion(RANGE), periodic=True)
+    said = " ".join(result.notes)
+    for key, name in asked_for.items():
+        assert key in result.answers or f"no {name}" in said
+    assert "the load that is taken off was not solved" in said

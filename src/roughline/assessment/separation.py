@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from itertools import pairwise
 
@@ -43,38 +44,50 @@ def separation_of(case: Case, curve: Curve) -> Separation | None:
         grid_error=is_judged,
         throw=False,
     )
+    if not under.converged[:2].all():  # no contact bears the last
+        reason = Status(under.status[~under.converged][0]).reason
+        unknown = np.array([np.nan])
+        unsolved = f"the load that is taken off was not solved: {reason}"
+        return Separation(under, unknown, unknown, math.nan, unsolved)
     share, error = under.area_fraction_corrected, under.area_fraction_error
     assert share is not None
-    drawn = _drawn_apart(surface, under)
+    drawn, depths = _drawn_apart(surface, under)
     assert drawn.work is not None
     return Separation(
         drawn,
         _rows(-under.pull_off_force, under.pull_off_force_error),
         _rows(float(share[1]), None if error is None else float(error[1])),
         float(drawn.work[-1] - drawn.work[1]),
-        _unsolved(under, drawn),
+        _unsolved(under, drawn, depths),
     )
 
 
-def _unsolved(under: Curve, drawn: Curve) -> str:
-    """Say which load on the way was not solved, or why there is no pull-off."""
-    for curve, values, what, unit in (
-        (under, under.force, "force", "N"),
-        (drawn, drawn.depth, "depth", "m"),
-    ):
-        lost = ~curve.converged & (curve.status != Status.PULLED_OFF)
-        if lost.any():
-            first = int(np.argmax(lost))
-            return (
-                f"bodies that are drawn apart were not solved at a {what} of "
-                f"{engineering(values[first], unit)}: {Status(curve.status[first]).reason}"
-            )
+def _unsolved(under: Curve, drawn: Curve, depths: Real) -> str:
+    """Say which load on the way was not solved, and what it takes at most, or why nothing is known.
+
+    Past the largest pull bodies pull less, and at the last of the depths they are apart.
+    """
+    lost = np.flatnonzero(~drawn.converged)
+    if lost.size:
+        first = int(lost[0])
+        text = (
+            "bodies that are drawn apart were not solved at a depth of "
+            f"{engineering(depths[first], 'm')}: {Status(drawn.status[first]).reason}"
+        )
+        work, pull = drawn.work, -under.pull_off_force
+        if work is None or first < 2 or not np.isfinite(pull):
+            return text
+        least = float(work[first - 1] - work[1])
+        most = least + pull * float(depths[first - 1] - depths[-1])
+        return f"{text}; until then they take {engineering(least, 'J')}, and at most " + (
+            f"{engineering(most, 'J')} until they are apart"
+        )
     if not np.isfinite(under.pull_off_force):
         return "the grid does not resolve the range of the pull: give a larger one, or a finer grid"
     return ""
 
 
-def _drawn_apart(surface: Surface, under: Curve) -> Curve:
+def _drawn_apart(surface: Surface, under: Curve) -> tuple[Curve, Real]:
     """Draw bodies apart at falling depths, through those of no load and of the pull-off.
 
     Where they come apart is looked for first, as it bounds the work that they take.
@@ -94,7 +107,8 @@ def _drawn_apart(surface: Surface, under: Curve) -> Curve:
     last = max(0, int(np.flatnonzero(looked.force < 0).max(initial=0)) - 2)
     ends = [unloaded, off, *beyond[last : last + 2].tolist()]
     steps = [np.linspace(start, end, _STEPS + 1) for start, end in pairwise(ends)]
-    return pressed(depths=[loaded, *np.unique(np.concatenate(steps))[::-1]])
+    depths = np.array([loaded, *np.unique(np.concatenate(steps))[::-1]])
+    return pressed(depths=depths), depths
 
 
 def _rows(value: float, error: float | None) -> Real:
