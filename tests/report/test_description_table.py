@@ -5,9 +5,13 @@ import math
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.assessment.description import describe_measurement
+from roughline.report.description_table import description_table
+from roughline.topography.files.measurement import Measurement
 
 
 def test_a_roll_off_is_written_as_the_length_of_its_wave(tmp_path, invoke):
@@ -18,3 +22,23 @@ def test_a_roll_off_is_written_as_the_length_of_its_wave(tmp_path, invoke):
     _, out, _ = invoke("info", tmp_path / "map.nc", "--json")
     q_roll = json.loads(out)["self_affine"]["q_roll"]
     assert float(written) == pytest.approx(1e6 * math.tau / q_roll, rel=5e-3)
+
+
+def test_all_channels_of_a_file_are_listed(tmp_path):
+    file = tmp_path / "map.di"
+    heights = np.random.default_rng(3).normal(size=(8, 8))
+    content = Measurement(
+        file.name,
+        heights,
+        "um",
+        (1.0, 1.0),
+        "surface",
+        channel="Height",
+        channels=("0 Height", "1 ZSensor"),
+    )
+    rows = dict(description_table(describe_measurement(file, content, rl.Reading())))
+    assert rows["channels"] == "0 Height, 1 ZSensor"
+    alone = replace(content, channels=("0 Height",))
+    assert "channels" not in dict(
+        description_table(describe_measurement(file, alone, rl.Reading()))
+    )
