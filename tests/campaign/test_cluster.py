@@ -86,9 +86,15 @@ def test_a_scheduler_that_does_not_answer(plan, tmp_path, address, monkeypatch):
     assert not list(tmp_path.iterdir())  # no store, and nothing else
 
 
-@pytest.mark.parametrize("says", [b"", b"HTTP/1.1 400 Bad Request\r\n\r\n"])
-def test_a_server_that_is_no_scheduler(plan, tmp_path, monkeypatch, says):
-    """One that is silent, and one that says what Dask takes for the size of a message."""
+def test_a_server_that_is_silent(plan, tmp_path, monkeypatch):
+    assert_is_no_scheduler(plan, tmp_path, monkeypatch, b"")
+
+
+def test_a_server_that_says_what_dask_takes_for_the_size_of_a_message(plan, tmp_path, monkeypatch):
+    assert_is_no_scheduler(plan, tmp_path, monkeypatch, b"HTTP/1.1 400 Bad Request\r\n\r\n")
+
+
+def assert_is_no_scheduler(plan, tmp_path, monkeypatch, says):
     monkeypatch.setattr(cluster, "_TO_ANSWER", 0.5)
     ended = threading.Event()
 

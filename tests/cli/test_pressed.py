@@ -152,16 +152,17 @@ def test_few_points_have_no_interval_unasked(tmp_path, invoke):
     assert INTERVAL.search("\n".join(table_lines(out)))
 
 
-@pytest.mark.parametrize(
-    ("loads", "shown"),
-    [
-        (["--load", "10 N", "--load", "2 N"], ["10 N", "2 N"]),
-        (["--loads", "12"], None),
-    ],
-)
-def test_the_first_screen_is_what_was_asked_and_a_line_for_each_group(
-    rough, invoke, monkeypatch, loads, shown
-):
+def test_the_first_screen_is_what_was_asked_and_a_line_for_each_group(rough, invoke, monkeypatch):
+    loads = ["--load", "10 N", "--load", "2 N"]
+    assert_first_screen(rough, invoke, monkeypatch, loads, ["10 N", "2 N"])
+
+
+@pytest.mark.parametrize("points", [32, 64])
+def test_the_first_screen_of_a_whole_curve_has_its_ends(rough, invoke, monkeypatch):
+    assert_first_screen(rough, invoke, monkeypatch, ["--loads", "12"], None)
+
+
+def assert_first_screen(rough, invoke, monkeypatch, loads, shown):
     monkeypatch.setenv("COLUMNS", "200")  # no line is broken
     asked = ("press", rough, *PAIR, *loads, "--no-grid-error")
     code, out, errors = invoke(*asked)

@@ -7,6 +7,7 @@ import pytest
 
 import roughline as rl
 from random_cases import cases
+from roughline.fluid.one_map import is_judged
 from roughline.fluid.sealing_pressure import OPEN
 
 
@@ -215,3 +216,10 @@ def test_the_interval_of_the_load_left_holds_that_of_the_larger_surface(n, seeds
         )
         held.append(found.interval[0] <= truth.value <= found.interval[1])
     assert np.mean(held) >= 0.9
+
+
+def test_a_layer_that_half_the_points_do_not_resolve_is_not_halved():
+    surface = rl.Surface(np.zeros((64, 64)), (64.0, 64.0))
+    for thickness, resolved in ((1.0, True), (0.8, False)):
+        layer = rl.Layered(1.0, 0.3, thickness, 2.0, 0.3, periodic=True)
+        assert is_judged(surface, layer) == resolved

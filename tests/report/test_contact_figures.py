@@ -168,6 +168,21 @@ def test_the_flow_that_is_shown_is_the_one_that_is_answered(small, only_drawn, t
     assert "repeated on all sides" not in section.pictures[0].caption
 
 
+def test_intervals_of_apertures_are_drawn_about_them():
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4, q_high=1e5)
+    asked = {"loads": ["20 MPa", "60 MPa"], "ask": [rl.Fluid("water"), rl.FlowAlong("x")]}
+    body = spectrum.surface(32, rng=1)
+    given = {"periodic": True, "elastic": True, "grid_error": True, "fields": False}
+    found = rl.assess(rl.Question(body, materials="steel,copper", **asked, **given))
+    rows = found.measured["hydraulic_aperture_x"].rows
+    (axes,) = [each for each in overview(found).axes if "aperture" in each.get_ylabel()]
+    (band,) = axes.collections
+    drawn = band.get_paths()[0].vertices[:, 1]
+    unit = float(axes.get_lines()[0].get_ydata()[0]) / rows[0, 0]
+    assert drawn.min() == pytest.approx(unit * rows[1].min())
+    assert drawn.max() == pytest.approx(unit * rows[2].max())
+
+
 @pytest.mark.parametrize("points", [32, 64])
 def test_apertures_stand_over_force_with_theories_of_flow_alone(points):
     """Each theory has dashes of its own; what is sealed is marked at the foot."""

@@ -191,6 +191,16 @@ def test_random_roughness_has_no_spikes(hurst):
         assert not outliers(rl.Line(surface.heights[7], 1.0, kind="profile")).any()
 
 
+@pytest.mark.parametrize("points", [8, 40])
+def test_a_line_is_resampled_to_so_many_points(points):
+    x = (np.arange(20) + 0.5) / 20
+    line = rl.Line(np.sin(2 * np.pi * x), 1.0, kind="profile")
+    found = Preparation(points=points).applied(line)
+    assert (found.heights.size, found.length) == (points, 1.0)
+    there = np.sin(2 * np.pi * (np.arange(points) + 0.5) / points)
+    assert np.abs(found.heights - there).max() < 0.1
+
+
 @pytest.mark.parametrize("dimensions", [1, 2])
 @pytest.mark.parametrize("factor", [0.37, 0.99, 1.5, 4])
 def test_the_memory_of_a_preparation_is_known_before_the_work(monkeypatch, dimensions, factor):

@@ -270,22 +270,29 @@ def _tiff(image: np.ndarray, **tags: int) -> bytes:
         ("map.sdf", _sdf, "damaged"),
         ("scans.zip", _scans_of_a_nanomeasuring_machine, "lists 30000000 scans and has 1 parts"),
         ("sets.ezd", _datasets_of_easyscan, "lists 30000000 datasets"),
-        ("map.zon", _zon, "would unpack to"),
         (
             "map.jpk",
             partial(_tiff, np.zeros((8, 8), "u2"), ImageWidth=DECLARED, ImageLength=DECLARED),
             "declares 20000 x 20000",
-        ),
-        (
-            "packed.lext",
-            partial(_tiff, np.zeros((9000, 9000), "u1"), ImageWidth=80, ImageLength=80),
-            "would unpack to",
         ),
     ],
 )
 def test_what_a_header_declares_is_refused_before_a_reader_believes_it(
     tmp_path, name, content, message
 ):
+    assert_refused_unread(tmp_path, name, content, message)
+
+
+def test_what_is_packed_twice_is_counted_before_it_is_unpacked(tmp_path):
+    assert_refused_unread(tmp_path, "map.zon", _zon, "would unpack to")
+
+
+def test_an_image_that_is_larger_than_it_says_is_counted_before_it_is_unpacked(tmp_path):
+    image = partial(_tiff, np.zeros((9000, 9000), "u1"), ImageWidth=80, ImageLength=80)
+    assert_refused_unread(tmp_path, "packed.lext", image, "would unpack to")
+
+
+def assert_refused_unread(tmp_path, name, content, message):
     (tmp_path / name).write_bytes(content())
     tracemalloc.start()
     with pytest.raises(rl.InputError, match=f"{name} .*{message}") as caught:
