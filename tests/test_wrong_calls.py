@@ -644,7 +644,6 @@ WRONG = {
         rl.plot.curve(curve, "loads")
         rl.plot.curve(curve, 3)
         rl.plot.curve(curve, ["force"])
-        rl.plot.curve(curve, y=None)
         rl.plot.curve(curve, axes="here")
         rl.plot.area(surface)
         rl.plot.area(None)

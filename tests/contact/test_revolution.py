@@ -190,6 +190,14 @@ def test_a_cycle_encloses_what_it_dissipates_and_ends_apart():
         assert curve.dissipated_work[-1] > 0
 
 
+def test_a_cycle_goes_on_beyond_the_pull_off_where_a_tip_is_drawn_in_whole():
+    """Where all of it touches it is a flat punch, pressed until it bears twice the pull-off."""
+    r = np.linspace(0, 0.02, 101)
+    curve = press(rl.Profile(r, -(r**2) / 2), n_loads=40)
+    assert curve.force.max() == pytest.approx(-2 * curve.pull_off_force)
+    assert curve.force[-1] == 0
+
+
 def test_a_wavy_tip_jumps_from_ridge_to_ridge():
     """Where the line of it rises but not by more than the springs at the edge are pulled."""
     r = np.linspace(0, 0.8, 1501)

@@ -128,3 +128,30 @@ def test_a_cycle_of_bodies_that_stick_ends_apart(half_space):
     assert apart < curve.pull_off_depth < 0
     if half_space is HARD[3]:
         assert curve.pull_off_depth < 10 * -0.03
+
+
+@pytest.mark.parametrize("periodic", [False, True, "x"])
+@pytest.mark.parametrize("work", [2.5e-4, 2.5e-5])
+def test_a_cycle_of_bodies_that_stick_goes_on_well_beyond_the_pull_off(periodic, work):
+    """It begins and ends out of reach, and few of its loads are spent there."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=4e-3, q_roll=25.0, q_high=50.0)
+    body = spectrum.surface(32, rng=3)
+    law = rl.Dugdale(work, math.sqrt(work) / 1.5)
+    curve = rl.press(body, E_star=1.0, law=law, periodic=periodic, n_loads=24)
+    assert curve.depth.size == 24
+    assert curve.force.max() > 1.5 * -curve.pull_off_force > 0
+    assert curve.force[0] == curve.force[-1] == 0
+    assert (curve.force == 0).mean() < 0.4
+
+
+def test_a_cycle_is_interrupted_before_its_depths_are_known(monkeypatch):
+    """What was tried until then is no curve of the loads that were asked for."""
+
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("roughline.contact.full.solve_path", stopped)
+    body = SPECTRA["rolled off"].surface(N, 3)
+    with pytest.raises(KeyboardInterrupt) as stop:
+        rl.press(body, E_star=1.0, law=rl.Exponential(1e-4, 0.01), n_loads=8)
+    assert not isinstance(stop.value, rl.Interrupted)

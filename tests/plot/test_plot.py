@@ -125,6 +125,33 @@ def test_unloading_is_told_from_loading(surface):
     assert "after a larger load" in texts(axes)
 
 
+def test_a_cycle_of_bodies_that_stick_is_drawn_as_force_over_depth(surface):
+    body = rl.Surface(surface.heights, surface.sizes)
+    depth = float(np.ptp(body.heights))
+    curve = rl.press(
+        body,
+        E_star=1.0,
+        law=rl.Exponential(0.3 * depth, depth),
+        depths=[-depth, 0.5 * depth, 0.0, -depth],
+    )
+    assert curve.force.min() < 0
+    axes = rl.plot.curve(curve)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth $d$", "force $F$")
+    assert "as the bodies go apart" in texts(axes)
+    for drawn in (axes, rl.plot.curve(curve, "force", "stiffness"), rl.plot.area(curve)):
+        assert (drawn.get_xscale(), drawn.get_yscale()) == ("linear", "linear")
+        assert drawn.lines[-1].get_xdata().size == 0  # a word of the legend
+        (way,) = (line for line in drawn.lines if line.get_linestyle() == "-")
+        assert len(way.get_xdata()) == 4
+
+
+def test_loads_that_logarithmic_scales_cannot_show_are_counted(surface):
+    curve = rl.press(surface, E_star=1e11, forces=[1, 10, 0])
+    assert "1 of 3 loads not shown" in texts(rl.plot.curve(curve))
+    assert "1 of 3 loads not shown" in texts(rl.plot.area(curve))
+    assert "not shown" not in texts(rl.plot.curve(curve, "depth", "force"))
+
+
 def test_area_is_the_corrected_one_and_the_band_ends_at_the_cells(curve):
     axes = rl.plot.area(curve)
     assert axes.get_ylabel() == "real contact area $A/A_0$"

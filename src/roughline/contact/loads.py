@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -30,7 +31,9 @@ _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
 _UNBEARABLE = 1.01  # pull over the largest that all of the area can bear
-_LARGEST_CYCLE = 0.5  # of the mean separation, the largest depth of bodies that stick
+OVER_PULL_OFF = 2.0
+"""The largest force of a cycle of bodies that stick, over the pull-off force, at least."""
+_MOST_TRIALS = 12  # largest depths of a cycle of bodies that stick
 _BEYOND = 1.1  # the last depth of a profile that sticks, over that at which it comes off
 _LARGEST_YIELDING = 0.5  # of the force under which all of the area yields
 _BYTES_PER_LOAD = 1000  # of what a load gives
@@ -70,8 +73,8 @@ def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
 def profile_loads(profile: Profile, body: Revolution, given: GivenLoads) -> Loads:
     """Return the loads of a profile; spaced ones run from ten radii in contact to all of them.
 
-    If it sticks, they are depths of a whole cycle: from first touch to where all of it touches, and
-    back until nothing does.
+    If it sticks, they are depths of a whole cycle: from first touch to where all of it touches and
+    the force is so many times the pull-off force, and back until nothing touches.
     """
     if given.n_loads is None:
         loads = _computable_loads(given)
@@ -81,9 +84,11 @@ def profile_loads(profile: Profile, body: Revolution, given: GivenLoads) -> Load
     _refuse_constant(profile, given)
     _, depths, forces = body.table
     if body.work_of_adhesion:
-        without_pull = float(depths[-1] + body.elongation(profile.radii[-1:])[0])
-        deepest = float(depths[-1]) if depths[-1] > 0 else without_pull
-        return _there_and_back(0.0, deepest, _BEYOND * float(depths.min()), _counted(given))
+        missing = OVER_PULL_OFF * -float(forces.min()) - float(forces[-1])
+        # where all of it touches, it is a flat punch
+        beyond = max(missing, 0.0) / (2 * body.E_star * profile.largest_radius)
+        deepest = float(depths[-1]) + beyond
+        return even_cycle(0.0, deepest, _BEYOND * float(depths.min()), _counted(given))
     few = profile.radii[min(RESOLVED_FROM, profile.radii.size - 1)]
     lowest = float(body.at_rest(np.array([few]))[1][0])
     return _spaced_loads(given, lowest, float(forces[-1]))
@@ -117,7 +122,7 @@ def surface_loads(
             loads = _spaced_loads(given, *_range_of_forces(surface, half_space, law))
         else:
             loads = _cycle(surface, half_space, law, given)
-    _refuse_beyond_precision(surface, half_space, loads, rtol, single)
+    refuse_beyond_precision(surface, half_space, loads, rtol, single)
     return loads
 
 
@@ -165,16 +170,26 @@ def _beside_homogeneous(surface: Surface, half_space: HalfSpace) -> float:
 
 
 def _cycle(surface: Surface, half_space: HalfSpace, law: ContactLaw, given: GivenLoads) -> Loads:
-    """Return even depths of bodies that stick, from out of reach to a large one, and back.
+    """Return even depths of bodies that stick: from out of reach to the first tried, and back.
 
-    At the largest one the bodies would overlap by half of their mean separation.
+    How far they go in the end takes solutions: :func:`roughline.contact.cycle.cycle`.
     """
-    deepest = _LARGEST_CYCLE * float(np.mean(surface.heights.max() - surface.heights))
+    deepest = next(deepest_ones(surface, half_space))
     last = depth_apart(surface, half_space, law, deepest)
-    return _there_and_back(-law.reach, deepest, last, _counted(given))
+    return even_cycle(-law.reach, deepest, last, _counted(given))
 
 
-def _there_and_back(first: float, deepest: float, last: float, n_loads: int) -> Loads:
+def deepest_ones(surface: Surface, half_space: HalfSpace) -> Iterator[float]:
+    """Yield the largest depths that a cycle tries, from half of the mean separation on. [length]
+
+    They double. Where full contact is rigid, what they leave to its depth is halved instead.
+    """
+    full = float(np.mean(surface.heights.max() - surface.heights))
+    for power in range(1, _MOST_TRIALS + 1):
+        yield full * (1 - 0.5**power if half_space.mean_is_free else 0.25 * 2.0**power)
+
+
+def even_cycle(first: float, deepest: float, last: float, n_loads: int) -> Loads:
     """Return even depths to a large one, and back."""
     nearer = round(1 + (n_loads - 1) * (deepest - first) / (2 * deepest - first - last))
     nearer = min(max(nearer, 2), n_loads - 1)
@@ -273,7 +288,7 @@ def _refuse_constant(body: Body | Profile, given: GivenLoads) -> None:
         )
 
 
-def _refuse_beyond_precision(
+def refuse_beyond_precision(
     surface: Surface, half_space: HalfSpace, loads: Loads, rtol: float, single: bool
 ) -> None:
     """Refuse loads so large or small that gaps cannot be resolved to the tolerance.

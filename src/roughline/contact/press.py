@@ -22,7 +22,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.estimates import bytes_of_layers, expected_area_fraction, memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
 from roughline.contact.jkr import JKR
-from roughline.contact.loads import GivenLoads, Loads, surface_loads
+from roughline.contact.loads import GivenLoads, Loads, refuse_beyond_precision, surface_loads
 from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
@@ -91,8 +91,11 @@ def press(
         apart.
     n_loads : int, optional
         Number of forces, log-spaced from about ten springs or cells in contact to saturation. Of
-        bodies that stick, depths of a whole cycle: from out of reach to half of the mean
-        separation, or to where all of a profile touches, and back until no contact can be left.
+        bodies that stick, even depths of a whole cycle: from out of reach to where the force is at
+        least about twice the pull-off force, and back until nothing is in contact. Depths are tried
+        for it, of a surface half of the mean separation, once, twice and so on, to `rtol` or 1e-3,
+        and drawn back in 16 steps; on a periodic half-space, depths that leave a half, a quarter
+        and so on of it. All of a profile touches at least.
     periodic : bool, "x" or "y", optional
         Repeat the surface periodically; default: no. Depths then count the approach of the mean
         planes, k is the stiffness of the interface alone and is infinite in full contact. With the
@@ -202,10 +205,14 @@ def press(
     if grid_error:
         refuse_few_points(body)
     # imported here because compiled loops load slowly
+    from roughline.contact.cycle import cycle
     from roughline.contact.full import press_surface
     from roughline.halfspace.search.problem import Method
 
     method = Method(rtol, max_iterations, precision)
+    if n_loads is not None and not law.only_pushes:
+        loads = cycle(body, half_space, law, loads.values.size, method)
+        refuse_beyond_precision(body, half_space, loads, rtol, single)
     pressed = partial(press_surface, half_space=half_space, method=method, measures=measures)
     curve = pressed(body, loads, law, kept=kept, progress=progress)
     if grid_error:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
+from roughline.contact.jkr import JKR
 from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.errors.public import public
@@ -18,7 +19,9 @@ _ELASTIC, _AFTER_A_LARGER = "k", "tab:blue"
 
 
 @public
-def curve(curve: Curve, x: str = "force", y: str = "stiffness", axes: Axes | None = None) -> Axes:
+def curve(
+    curve: Curve, x: str | None = None, y: str | None = None, axes: Axes | None = None
+) -> Axes:
     """Draw one quantity of a curve over another.
 
     Parameters
@@ -27,25 +30,32 @@ def curve(curve: Curve, x: str = "force", y: str = "stiffness", axes: Axes | Non
         Of a surface or a line.
     x, y : str, optional
         Names of quantities over the loads, such as "depth", "force_bar" or "stiffness_bar".
+        Default: the stiffness over the force, and, of bodies that were pulled, the force over the
+        depth.
     axes : Axes, optional
         Where to draw; default: those of a new figure.
 
     Returns
     -------
     Axes
-        The axes that were drawn on, with logarithmic scales. With falling loads, depths are drawn
-        on linear scales, which show loading and unloading. Marks are open where fewer than ten
-        springs or cells touch, so that the grid decides, and blue after a larger load. The number
-        of loads that were not solved is written in the picture.
+        The axes that were drawn on, with logarithmic scales. They are linear where a value is
+        negative, and where depths are drawn of loads that fall, to show loading and unloading.
+        Marks are open where fewer than ten springs or cells touch, so that the grid decides, and
+        blue after a larger load, or, of bodies that stick, as they go apart. The number of loads
+        that were not solved is written in the picture, and of those at zero, which logarithmic
+        scales cannot show.
 
     Raises
     ------
     InputError
         If the curve has no such quantity.
     """
+    is_pulled = bool((curve.force < 0).any())
+    x = x or ("depth" if is_pulled else "force")
+    y = y or ("force" if is_pulled else "stiffness")
     over, values = _values(curve, x), _values(curve, y)
     falls = not bool(rising(curve).all())
-    linear = falls and "depth" in (x, y)
+    linear = (falls and "depth" in (x, y)) or bool((over < 0).any() or (values < 0).any())
     with drawing_on(axes) as drawn:
         x_label, x_factor = _label(curve, x, over)
         y_label, y_factor = _label(curve, y, values)
@@ -69,8 +79,8 @@ def area(curve: Curve, axes: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        The axes that were drawn on; marks as in :func:`curve`. The band reaches from the corrected
-        area up to the area of the cells that touch.
+        The axes that were drawn on; scales and marks as in :func:`curve`. The band reaches
+        from the corrected area up to the area of the cells that touch.
 
     Raises
     ------
@@ -83,7 +93,8 @@ def area(curve: Curve, axes: Axes | None = None) -> Axes:
     label, factor = _label(curve, "force", curve.force)
     with drawing_on(axes) as drawn:
         drawn.plot([], [], "o", color=_ELASTIC, label="corrected for the steps of its outline")
-        draw_loads(drawn, curve.force * factor, corrected, curve)
+        is_pulled = bool((curve.force < 0).any())
+        draw_loads(drawn, curve.force * factor, corrected, curve, linear=is_pulled)
         loaded = rising(curve)
         drawn.fill_between(
             curve.force[loaded] * factor,
@@ -100,7 +111,10 @@ def area(curve: Curve, axes: Axes | None = None) -> Axes:
 
 
 def draw_loads(axes: Axes, x: Real, y: Real, curve: Curve, *, linear: bool = False) -> None:
-    """Draw the loads of a curve in their order; those after a larger one in blue."""
+    """Draw the loads of a curve in their order; those after a larger one in blue.
+
+    How many of them logarithmic scales leave out is told in the legend.
+    """
     loaded, resolved = rising(curve), curve.resolved | (curve.force == 0)
     # on logarithmic scales bodies just apart have no place
     shown = np.isfinite(x * y) if linear else (x > 0) & (y > 0)
@@ -112,11 +126,24 @@ def draw_loads(axes: Axes, x: Real, y: Real, curve: Curve, *, linear: bool = Fal
             draw(x[points], y[points], "o", color=colour, **look)
     if not linear:
         label_decades(axes)
+    if left_out := int((curve.converged & ~shown).sum()):
+        text = f"{left_out} of {shown.size} loads not shown, at zero or infinite"
+        axes.plot([], [], linestyle="", label=text)
+        axes.legend()
 
 
 def rising(curve: Curve) -> Mask:
-    """Which loads are no smaller than one before them; those that were not solved count as such."""
+    """Which loads are no smaller than one before them; of bodies that stick, those on approach.
+
+    Loads that were not solved count as such.
+    """
+    if curve.on_approach is not None and _sticks(curve):
+        return curve.on_approach | ~curve.converged
     return ~(curve.force < np.fmax.accumulate(curve.force))
+
+
+def _sticks(curve: Curve) -> bool:
+    return isinstance(curve.law, JKR) or (curve.law is not None and not curve.law.only_pushes)
 
 
 def _explain(axes: Axes, curve: Curve) -> None:
@@ -126,11 +153,12 @@ def _explain(axes: Axes, curve: Curve) -> None:
         say(axes, "no load was solved")
         return
     marks: list[tuple[str, dict[str, Any]]] = []
-    if (solved & ~curve.resolved & (curve.force > 0)).any():
+    if (solved & ~curve.resolved & (curve.force != 0)).any():
         text = f"fewer than {RESOLVED_FROM} {_cells(curve)} touch"
         marks.append((text, {"marker": "o", "color": _ELASTIC, **OPEN}))
     if (solved & ~rising(curve)).any():
-        marks.append(("after a larger load", {"marker": "o", "color": _AFTER_A_LARGER}))
+        text = "as the bodies go apart" if _sticks(curve) else "after a larger load"
+        marks.append((text, {"marker": "o", "color": _AFTER_A_LARGER}))
     if missing := int((~solved).sum()):
         marks.append((f"{missing} of {solved.size} loads not solved", {}))
     for text, look in marks:
