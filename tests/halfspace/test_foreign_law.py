@@ -102,7 +102,7 @@ class RangedPull(rl.ContactLaw):
         Tension at gaps up to the range. [pressure]
     range : float
         Largest gap that is pulled. [length]
-    reach : ndarray of bool, shape (nx, ny), or None
+    held : ndarray of bool, shape (nx, ny), or None
         Nodes within reach; None if there are none.
     comes_nearer : bool
         Direction of the path.
@@ -110,16 +110,21 @@ class RangedPull(rl.ContactLaw):
 
     pull: float
     range: float | None = None
-    reach: np.ndarray | None = None
+    held: np.ndarray | None = None
     comes_nearer: bool = True
     memory: ClassVar = "path"
     only_pushes: ClassVar = False
 
+    @property
+    def reach(self):
+        """Return the range, beyond which nothing is pulled."""
+        return self.range
+
     def bounds(self, nodes):
         """Return the pull within reach and zero elsewhere, and that nodes bear any pressure."""
-        if self.reach is None:
+        if self.held is None:
             return 0.0, np.inf
-        low = np.where(self.reach.ravel(), -self.pull, 0.0)
+        low = np.where(self.held.ravel(), -self.pull, 0.0)
         return low if nodes is None else low[nodes], np.inf
 
     def refuse(self, control, values, heights, area, mean_is_free):
@@ -135,7 +140,7 @@ class RangedPull(rl.ContactLaw):
 
     def on(self, take):
         """Return the law on another grid."""
-        return self if self.reach is None else replace(self, reach=take(self.reach * 1.0) > 0.5)
+        return self if self.held is None else replace(self, held=take(self.held * 1.0) > 0.5)
 
     def start(self, value, last, largest):
         """Turn where the path turns; nodes within reach are kept."""
@@ -144,9 +149,9 @@ class RangedPull(rl.ContactLaw):
     def then(self, contact):
         """Add nodes that have come within reach, or drop those that have left it."""
         within = contact.gap <= self.range
-        reach = np.zeros_like(within) if self.reach is None else self.reach
-        changed = reach | within if self.comes_nearer else reach & within
-        return None if (changed == reach).all() else replace(self, reach=changed)
+        held = np.zeros_like(within) if self.held is None else self.held
+        changed = held | within if self.comes_nearer else held & within
+        return None if (changed == held).all() else replace(self, held=changed)
 
     def scales(self, pressure, displacement):
         """Compare gaps with the range; bodies that pull may displace each other by nothing."""
@@ -472,6 +477,32 @@ def test_what_is_no_law_is_refused(given, said):
     with pytest.raises(rl.InputError, match=said) as refused:
         rl.press(SURFACE, E_star=1.0, depths=[0.05], **given)
     assert "\n" not in str(refused.value)
+
+
+class Multiplied(UnevenHardness):
+    """A law whose pressures grow with the unit."""
+
+    def scaled(self, pressure, length):
+        """Multiply where the number in other units is divided."""
+        return replace(self, hardness=self.hardness * pressure)
+
+
+class FarReaching(RangedPull):
+    """A law that forgets to bring its length to other units."""
+
+    def scaled(self, pressure, length):
+        """Bring the pull to other units, and not the range."""
+        return replace(super().scaled(pressure, length), range=self.range)
+
+
+def test_a_law_that_is_another_one_in_other_units_is_refused():
+    hard = Multiplied(np.full((14, 10), 0.3))
+    said = r"law has a method Multiplied.scaled\(.*upper bound .*: pressures are to be divided by"
+    with pytest.raises(rl.InputError, match=said) as refused:
+        rl.press(SURFACE, E_star=1.0, law=hard, depths=[0.05])
+    assert "\n" not in str(refused.value)
+    with pytest.raises(rl.InputError, match=r"makes the reach .* is right"):
+        rl.press(SURFACE, E_star=1.0, law=FarReaching(0.1, 0.01), depths=[0.05])
 
 
 def test_a_law_refuses_loads_in_its_own_words():

@@ -132,7 +132,7 @@ def _results(
 def _problem(scaled: ScaledSurface, law: ContactLaw, method: Method) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
     grid = Grid(scaled.half_space, scaled.surface.shape, scaled.spacing)
-    separation, law = scaled.separation(), law.scaled(scaled.pressure, scaled.height)
+    separation, law = scaled.separation(), scaled.law(law)
     return Problem(
         grid,
         separation,
@@ -158,7 +158,7 @@ def _curve(
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
     shares = np.array([result.border_share for result in results])
     scaled = ScaledSurface.of(surface, half_space, loads)
-    law_there = law.scaled(scaled.pressure, scaled.height)
+    law_there = scaled.law(law)
     at_the_border = (
         *_jump_warnings(surface, half_space.repeats),
         *_border_warnings(surface, values["force"], shares),

@@ -10,7 +10,10 @@ from roughline.computing.arrays import Real
 from roughline.contact.loads import Loads
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
+
+_SAME = 1e-6  # part by which what is scaled may differ
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +51,12 @@ class ScaledSurface:
         distances /= self.height
         return distances
 
+    def law(self, law: ContactLaw) -> ContactLaw:
+        """Return a law in units of `pressure` and `height`; refuse one that gives another there."""
+        scaled = law.scaled(self.pressure, self.height)
+        _refuse_other_law(law, scaled, self.pressure, self.height)
+        return scaled
+
     @property
     def force(self) -> float:
         """Unit of forces. [force]"""
@@ -72,10 +81,31 @@ def _refuse_other_half_space(
     with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
         moved = half_space.spectrum(q / length) * (half_space.E_star / length)
     there, computed = scaled.spectrum(q), np.isfinite(moved) & (moved > 0)  # in these units, too
-    if computed.all() and not np.allclose(there, moved, rtol=1e-6, atol=0):
+    if computed.all() and not np.allclose(there, moved, rtol=_SAME, atol=0):
         worst = int(np.abs(there / moved - 1).argmax())
         raise InputError(
             f"{type(half_space).__name__}.in_units({half_space.E_star:g}, {length:g}) displaces a "
             f"wave by {there[worst] / moved[worst]:g} of what it should: pressures are to be "
             "divided by the first number, and all lengths of the body by the second"
         )
+
+
+def _refuse_other_law(law: ContactLaw, scaled: ContactLaw, pressure: float, length: float) -> None:
+    """Refuse a law whose bounds, pull or reach are other ones in these units."""
+    low, high = law.bounds(None)
+    low_there, high_there = scaled.bounds(None)
+    for what, given, there, unit in (
+        ("a lower bound", low, low_there, pressure),
+        ("an upper bound", high, high_there, pressure),
+        ("the largest pull", law.largest_pull, scaled.largest_pull, pressure),
+        ("the reach", law.reach, scaled.reach, length),
+    ):
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            found, right = np.broadcast_arrays(there, np.asarray(given) / unit)
+        if (other := ~np.isclose(found, right, rtol=_SAME, atol=0, equal_nan=True)).any():
+            raise InputError(
+                f"has a method {type(law).__name__}.scaled({pressure:g}, {length:g}) that makes "
+                f"{what} {found[other][0]:g} where {right[other][0]:g} is right: pressures are to "
+                "be divided by the first number, and lengths by the second",
+                "law",
+            )

@@ -106,7 +106,7 @@ class HalfSpace(ABC):
 
     @abstractmethod
     def in_units(self, pressure: float, length: float) -> HalfSpace:
-        """Return the same half-space in other units.
+        """Return the same half-space in other units: moduli and lengths divided by the new ones.
 
         Parameters
         ----------

@@ -80,7 +80,14 @@ class ContactLaw(ABC):
 
     @abstractmethod
     def scaled(self, pressure: float, length: float) -> ContactLaw:
-        """Return the law in other units of pressures and gaps, given in the old ones."""
+        """Return the same law in other units: pressures and lengths divided by the new ones.
+
+        Parameters
+        ----------
+        pressure, length : float
+            The new units of pressures and of gaps, in the old ones. So a hardness H is
+            H / `pressure` there. [pressure] and [length]
+        """
 
     def between(
         self, separation: Real, compliance: float, repeats: tuple[bool, bool]
