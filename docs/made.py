@@ -77,7 +77,7 @@ SECTIONS = {
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (
         *("RoughlineError", "InputError", "UnitError", "ConvergenceError", "StoreError"),
-        *("ClusterError", "Interrupted", "ContinuumWarning", "PreparationWarning"),
+        *("ClusterError", "Interrupted", "ContinuumWarning", "PreparationWarning", "UnitWarning"),
         "LostCasesWarning",
     ),
 }

@@ -242,6 +242,26 @@ WRONG = {
         rl.write(surface, folder)
         rl.write(surface, file=folder / "x.nc")
     """,
+    "laws and half-spaces": """
+        rl.Dugdale(0.05)
+        rl.Dugdale("50 mJ/m^2", 1e-9)
+        rl.Exponential()
+        rl.Exponential(0.05, None)
+        rl.JKR()
+        rl.JKR("50 mJ/m^2")
+        rl.Yielding()
+        rl.Yielding("2 GPa")
+        rl.Homogeneous()
+        rl.Homogeneous("110 GPa")
+        rl.Layered(1.0)
+    """,
+    "fields that were not kept": """
+        of_line.fields[1]
+        curve.fields[9]
+        rl.flow(curve)
+        rl.flow(None)
+        rl.flow(of_line.fields[0])
+    """,
     "materials": """
         rl.material(None)
         rl.material(3)

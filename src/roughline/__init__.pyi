@@ -63,6 +63,7 @@ from roughline.errors import PreparationWarning as PreparationWarning
 from roughline.errors import RoughlineError as RoughlineError
 from roughline.errors import StoreError as StoreError
 from roughline.errors import UnitError as UnitError
+from roughline.errors import UnitWarning as UnitWarning
 from roughline.fluid.flow import Flow as Flow
 from roughline.fluid.flow import flow as flow
 from roughline.fluid.measures import hydraulic_aperture as hydraulic_aperture

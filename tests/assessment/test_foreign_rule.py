@@ -177,3 +177,31 @@ def test_two_answers_have_no_name_in_common(resonance):
         rl.rules.add("resonance")
     with pytest.raises(rl.InputError, match="key"):
         rl.rules.remove("other")
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"value": lambda _pressed: "3 Hz"}, r'value of the rule "resonance" returned "3 Hz"'),
+        ({"value": lambda _pressed: [None]}, r"returned \[None\]; numbers of shape"),
+        (
+            {"value": lambda pressed: np.ones((2, pressed.force.size))},
+            "returned an array of",
+        ),
+        ({"limits": lambda _pressed: (np.inf, 0.0)}, r"limits of the rule .* in this order"),
+        ({"limits": lambda _pressed: 3.0}, "limits of the rule .* returned 3.0"),
+    ],
+)
+def test_a_rule_that_returns_no_numbers_is_told_in_one_line(surface, changed, said):
+    rl.rules.add(replace(RESONANCE, **changed))
+    try:
+        with pytest.raises(rl.InputError, match=said) as refused:
+            asked(surface, loads="3 N", grid_error=False, elastic=True)
+    finally:
+        rl.rules.remove("resonance")
+    assert "\n" not in str(refused.value)
+
+
+def test_a_rule_without_a_function_is_refused():
+    with pytest.raises(rl.InputError, match="value is 3; a function is needed"):
+        replace(RESONANCE, value=3)

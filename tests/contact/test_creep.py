@@ -537,3 +537,11 @@ def test_a_dataset_over_time_has_units(surface, tmp_path):
     assert "area_fraction" in of_line
     assert "3 values" in repr(curve)
     assert curve.warnings == curve.elastic.warnings
+
+
+def test_a_curve_over_time_is_sent_to_where_it_is_drawn():
+    curve = rl.press_creep(ball(), RUBBER, times=TIMES, depth=0.01, E_star=3.0)
+    with pytest.raises(
+        rl.InputError, match=r"is a CreepCurve; .*to_dataset\(\).area_fraction.plot"
+    ):
+        rl.plot.curve(curve)

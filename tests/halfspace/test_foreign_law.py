@@ -505,6 +505,19 @@ def test_a_law_that_is_another_one_in_other_units_is_refused():
         rl.press(SURFACE, E_star=1.0, law=FarReaching(0.1, 0.01), depths=[0.05])
 
 
+class Swapped(UnevenHardness):
+    """A law that tells its bounds in the wrong order."""
+
+    def bounds(self, nodes):
+        """Return the hardness, and zero."""
+        return super().bounds(nodes)[::-1]
+
+
+def test_bounds_in_the_wrong_order_are_refused():
+    with pytest.raises(rl.InputError, match=r"Swapped.bounds .* the lower one comes first"):
+        rl.press(SURFACE, E_star=1.0, law=Swapped(np.ones((14, 10))), depths=[0.05])
+
+
 def test_a_law_refuses_loads_in_its_own_words():
     with pytest.raises(rl.InputError, match="a pulled contact has two depths under a force"):
         rl.press(SURFACE, E_star=1.0, law=RangedPull(0.1, 0.01), forces=[0.1])

@@ -40,6 +40,7 @@ from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.reading import Reading
 from roughline.contact.arguments import given_half_space
 from roughline.contact.elastic_pair import ElasticPair
+from roughline.contact.strain import BEYOND, LARGEST_STRAIN
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.pair import MaterialPair, contact_modulus
@@ -416,11 +417,8 @@ class Question:
         else:
             self._refuse_far_attraction(min(body.sizes))
         for ratio, text in self.strains(body):
-            if ratio > 1:
-                raise InputError(
-                    f"{text}, and half-spaces are linear elastic far below that only: give a "
-                    "smaller one, and check its unit"
-                )
+            if ratio > LARGEST_STRAIN:
+                raise InputError(f"{text}, and {BEYOND}: give a smaller one, and check its unit")
         if self.theories and not has_spectrum(body):
             raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
 

@@ -17,7 +17,7 @@ from roughline.computing.disk import write_dataset
 from roughline.computing.notebook import in_notebook
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
-from roughline.contact.fields import Fields, Indentation
+from roughline.contact.fields import Fields, Indentation, KeptFields
 from roughline.contact.jkr import JKR
 from roughline.contact.measures import Measured
 from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
@@ -177,6 +177,9 @@ class Curve:
     control: Literal["forces", "depths"] = field(default="forces", repr=False)
 
     _repr_html_ = in_notebook
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "fields", KeptFields(self.fields))
 
     def __repr__(self) -> str:
         count, solved = self.status.size, self.converged

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.computing.summary import summary
 from roughline.contact.distribution import Distribution, distribution_of
 from roughline.contact.patches import Patches, patches_of
+from roughline.errors import InputError
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.half_space import Periodic, repeated_axes
@@ -147,3 +148,26 @@ class Indentation:
     def equals(self, other: Indentation) -> bool:
         """Return whether both are the same to the last bit."""
         return np.array_equal(self.nodes, other.nodes) and np.array_equal(self.depth, other.depth)
+
+
+class KeptFields(tuple[Fields | None, ...]):
+    """The fields of the loads, None of those that were not kept; empty where none were."""
+
+    __slots__ = ()
+
+    def __getitem__(self, load: Any) -> Any:
+        """Return the fields of a load, or of a slice of them.
+
+        Raises
+        ------
+        InputError
+            If no fields were kept, or there is no such load.
+        """
+        try:
+            return super().__getitem__(load)
+        except IndexError:
+            kept = f"are of loads 0 to {len(self) - 1}" if self else "were not kept"
+            raise InputError(
+                f"there are no fields of load {load}: they {kept}; press with fields=True, or with "
+                "fields=[...] and the numbers of loads"
+            ) from None

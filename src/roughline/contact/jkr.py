@@ -8,8 +8,10 @@ from typing import ClassVar, Literal
 
 from roughline.errors import InputError
 from roughline.errors.checks import as_number
+from roughline.errors.public import public_making
 
 
+@public_making
 @dataclass(frozen=True)
 class JKR:
     """Bodies of revolution that stick as Johnson, Kendall and Roberts have it [1]_.

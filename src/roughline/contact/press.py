@@ -27,6 +27,7 @@ from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
 from roughline.contact.status import Status
+from roughline.contact.strain import warn_of_strain
 from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.errors.checks import between, flag, one_of, refuse, shown
 from roughline.errors.public import public_names
@@ -148,6 +149,14 @@ def press(
         On Ctrl-C between or in the loads of a surface; a KeyboardInterrupt that carries the curve
         of the loads before.
 
+    Warns
+    -----
+    UnitWarning
+        If the depth is more than ten times the shorter side, or the mean pressure than ten times
+        E*: half-spaces are linear elastic far below that only, and a unit may be wrong. Flat bodies
+        and those with heights in a unit of their own, of more than a tenth of the side, are left
+        alone.
+
     Examples
     --------
     >>> import roughline as rl
@@ -188,8 +197,8 @@ def press(
         sought = grid_error or fields is not False
         homogeneous = _of_reduced(body, half_space, sought, measures)
         if isinstance(body, Line):
-            return press_line(body, homogeneous, given)
-        return _complete(press_profile(body, homogeneous, stickiness, given), throw)
+            return _complete(body, press_line(body, homogeneous, given), throw)
+        return _complete(body, press_profile(body, homogeneous, stickiness, given), throw)
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed, or a Profile of a "
@@ -220,11 +229,12 @@ def press(
             curve = with_grid_error(curve, body, loads, pressed)
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
-    return _complete(curve, throw)
+    return _complete(body, curve, throw)
 
 
-def _complete(curve: Curve, throw: bool) -> Curve:
+def _complete(body: Body | Profile, curve: Curve, throw: bool) -> Curve:
     """Return a curve; with `throw`, refuse one of which a load was not solved."""
+    warn_of_strain(body, curve)
     if throw and not curve.converged.all():
         raise ConvergenceError(_failure_message(curve), curve)
     return curve

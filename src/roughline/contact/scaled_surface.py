@@ -93,6 +93,12 @@ def _refuse_other_half_space(
 def _refuse_other_law(law: ContactLaw, scaled: ContactLaw, pressure: float, length: float) -> None:
     """Refuse a law whose bounds, pull or reach are other ones in these units."""
     low, high = law.bounds(None)
+    if np.any(np.asarray(low) > high) or np.any(np.asarray(low) > 0):
+        raise InputError(
+            f"has a method {type(law).__name__}.bounds that returns a lower bound above the upper "
+            "one, or above zero: the lower one comes first, and is zero or negative",
+            "law",
+        )
     low_there, high_there = scaled.bounds(None)
     for what, given, there, unit in (
         ("a lower bound", low, low_there, pressure),

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass, replace
 
 from roughline.contact.elastic_pair import ElasticBody
-from roughline.errors import InputError
+from roughline.errors import InputError, UnitWarning
 from roughline.errors.public import public
+
+_SOFTEST = 1e3  # Young's modulus that solids have at least, but for the softest gels [Pa]
 
 
 @public
@@ -46,6 +49,11 @@ class Material:
     ------
     InputError
         If a value is outside its range.
+
+    Warns
+    -----
+    UnitWarning
+        If E is below 1 kPa, as it is where GPa or MPa were taken for its unit.
     """
 
     name: str
@@ -63,6 +71,13 @@ class Material:
     def __post_init__(self) -> None:
         if not self.E > 0:
             raise InputError(f"E of {self.name} is {self.E}; a positive modulus is needed")
+        if self.E < _SOFTEST:
+            warnings.warn(
+                f"E of {self.name} is {self.E:g} Pa, softer than the softest gels: check its unit, "
+                'such as E=210e9, or rl.material("E=210 GPa nu=0.3")',
+                UnitWarning,
+                stacklevel=4,
+            )
         if not -1 < self.nu <= 0.5:
             raise InputError(f"nu of {self.name} is {self.nu}; allowed is -1 to 0.5")
         for name in ("hardness", "resistivity", "conductivity", "density"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -16,8 +16,8 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.sealing import Sealing
 from roughline.errors import InputError
-from roughline.errors.checks import one_of, refuse
-from roughline.errors.public import public
+from roughline.errors.checks import one_of, refuse, several, shown
+from roughline.errors.public import are_numbers, public
 
 _Group = Literal["mechanics", "contact", "adhesion", "sealing", "electrical", "thermal", "acoustic"]
 """What an answer is about."""
@@ -152,13 +152,40 @@ class Rule:
     measured_with: Callable[[Sealing], Sequence[Measure]] = lambda _sealing: ()
     measured_of: Callable[[MaterialPair], Sequence[Measure]] = lambda _pair: ()
 
+    def __post_init__(self) -> None:
+        for name, annotation in type(self).__annotations__.items():
+            given = getattr(self, name)
+            if annotation.startswith("Callable") and given is not None and not callable(given):
+                refuse(name, given, "a function is needed, such as lambda pressed: pressed.force")
+
+    def _checked_rows(self, rows: Any) -> Real:
+        """Return values, and both ends of their interval where there are three rows."""
+        values = np.atleast_2d(rows) if are_numbers(rows) else np.empty((0, 0))
+        if values.ndim != 2 or len(values) not in (1, 3):
+            raise InputError(
+                f"value of the rule {shown(self.key)} returned {shown(rows)}; numbers of shape "
+                "(loads,) or, with both ends of the interval, (3, loads) are needed, or None for "
+                "no answer"
+            )
+        return values
+
+    def _checked_limits(self, limits: Any) -> Limits:
+        """Return the least and the largest possible value."""
+        both = several(limits)
+        if len(both) != 2 or not all(map(are_numbers, both)) or np.any(np.greater(*both)):
+            raise InputError(
+                f"limits of the rule {shown(self.key)} returned {shown(limits)}; the least and "
+                "the largest possible value are needed, in this order, such as (0.0, np.inf)"
+            )
+        return both[0], both[1]
+
     def answer(self, pressed: Pressed) -> Answer | None:
         """Work out the answer; None where there is none."""
         rows = self.value(pressed)
         if rows is None:
             return None
-        values, *ends = np.atleast_2d(rows)
-        limits = self.limits(pressed)
+        values, *ends = self._checked_rows(rows)
+        limits = self._checked_limits(self.limits(pressed))
         low, high = within((np.minimum(*ends), np.maximum(*ends)), limits) if ends else (None, None)
         told = ("name", "symbol", "formula", "validity", "source")
         texts = {name: getattr(self, name) for name in told}

@@ -65,6 +65,10 @@ class LostCasesWarning(UserWarning):
     """Values that a campaign has computed are lost or damaged on disk, and are left out."""
 
 
+class UnitWarning(UserWarning):
+    """A number is so small or large that another unit may be meant."""
+
+
 class ConvergenceError(RoughlineError):
     """A load was not solved to the tolerance.
 

@@ -19,7 +19,7 @@ _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "bool": (lambda given: type(given).__name__ in ("bool", "bool_"), "True or False"),
     "str": (lambda given: isinstance(given, str), "a text"),
     "Path": (lambda given: hasattr(given, "__fspath__"), "a path"),
-    "ArrayLike": (lambda given: _are_numbers(given), "an array of numbers"),
+    "ArrayLike": (lambda given: are_numbers(given), "an array of numbers"),
     "None": (lambda given: given is None, "None"),
 }
 """What an annotation allows, and what it is called."""
@@ -112,6 +112,15 @@ def public(door: _Door) -> _Door:
     return door
 
 
+def public_making(door: _Door) -> _Door:
+    """Return a class as :func:`public` does, of which the making alone is held.
+
+    Its methods are called within loops.
+    """
+    setattr(door, "__init__", _held(door.__init__, door.__name__))  # noqa: B010 as types have one
+    return door
+
+
 def public_names(door: _Door) -> _Door:
     """Return a function as :func:`public` does, of which the names of arguments alone are held.
 
@@ -165,6 +174,11 @@ def _refuse_other_kinds(name: str, value: Any, parameter: inspect.Parameter) -> 
 
 def _how_to_make(value: Any, kinds: list[str]) -> str:
     """How a body is made of what came instead."""
+    if "Curve" in kinds and type(value).__name__ == "CreepCurve":
+        return (
+            ": draw one that creeps over the time, as creep.to_dataset().area_fraction.plot(xscale="
+            '"log")'
+        )
     wanted = {member for kind in kinds for member in _MEMBERS.get(kind, (kind,))} & {*_MAKING}
     if not wanted:
         return ""
@@ -183,7 +197,7 @@ def _is_of(value: Any, kind: str) -> bool:
     return not names.isdisjoint(_MEMBERS.get(kind, (kind,)))
 
 
-def _are_numbers(given: Any) -> bool:
+def are_numbers(given: Any) -> bool:
     """Whether NumPy makes an array of real numbers of it."""
     import numpy as np  # here because it loads slowly
 

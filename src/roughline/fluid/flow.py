@@ -12,6 +12,7 @@ import numpy as np
 from roughline.computing.arrays import Integers, Mask, Real
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.computing.summary import summary
+from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.errors import InputError
 from roughline.errors.checks import between, one_of, refuse
@@ -302,6 +303,12 @@ def flow(
     """
     one_of("along", along, (*get_args(Along), "both"))
     one_of("sides", sides or "periodic", get_args(Sides))
+    if gap is None or isinstance(gap, Curve):
+        refuse(
+            "gap",
+            gap,
+            "give the fields of a load, curve.fields[i], which rl.press keeps with fields=True",
+        )
     repeats = gap.repeats if isinstance(gap, Fields) else (True, True)
     sizes = sizes or (gap.sizes if isinstance(gap, Fields) else None)
     gap = _checked_gap(gap)

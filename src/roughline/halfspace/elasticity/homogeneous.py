@@ -9,9 +9,11 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.public import public_making
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
 
 
+@public_making
 @dataclass(frozen=True)
 class Homogeneous(HalfSpace):
     """An elastic half-space of one material.

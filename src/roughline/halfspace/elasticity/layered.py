@@ -13,11 +13,13 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import between, positive, several
+from roughline.errors.public import public_making
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
 
 _THINNEST = 0.5  # thickness of the top layer over the side of a cell, at least
 
 
+@public_making
 @dataclass(frozen=True)
 class Layered(HalfSpace):
     """Elastic layers, bonded to each other and to a base that is elastic or rigid.

@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.public import public_making
 from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.halfspace.laws.law import ContactLaw
 
@@ -18,6 +19,7 @@ from roughline.halfspace.laws.law import ContactLaw
 _WIDTH = 4.0
 
 
+@public_making
 @dataclass(frozen=True, eq=False)
 class Dugdale(Adhesive):
     """Elastic bodies that pull each other with a pressure w / h_0 up to a range h_0 [1]_ [2]_.

@@ -9,11 +9,13 @@ from typing import ClassVar
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.errors.public import public_making
 from roughline.halfspace.laws.adhesive import Adhesive
 
 _LEAST = 1e-7  # share of the largest pull, from which on pulls are told apart
 
 
+@public_making
 @dataclass(frozen=True, eq=False)
 class Exponential(Adhesive):
     """Elastic bodies that pull each other with a pressure (w / rho) exp(-g / rho) [1]_.

@@ -10,12 +10,14 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
+from roughline.errors.public import public_making
 from roughline.halfspace.laws.law import ContactLaw, Solved
 
 # A guess whose pressures exceed the hardness so many times leaves no doubt that nodes yield.
 _BEYOND_DOUBT = 3.0
 
 
+@public_making
 @dataclass(frozen=True)
 class Yielding(ContactLaw):
     """Elastic, perfectly plastic bodies: 0 <= p <= H, with permanent dents where p = H [1]_.

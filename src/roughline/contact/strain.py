@@ -1,0 +1,52 @@
+"""How far a load strains a body, beside what half-spaces are a model of."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughline.errors import UnitWarning
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.topography.body import Body, Surface, sides_of
+from roughline.topography.profile import Profile
+from roughline.units import decimal
+
+if TYPE_CHECKING:
+    from roughline.contact.curve import Curve
+
+LARGEST_STRAIN = 1.0
+"""Depth over the shorter side of a body, or mean pressure over E*, beyond any half-space."""
+
+BEYOND = "half-spaces are linear elastic far below that only"
+
+_SURELY = 10.0  # strain from which a unit is surely wrong, if heights and sides have the same one
+_IN_ONE_UNIT = 0.1  # rms height over the side, up to which both are taken to be in the same unit
+
+
+def warn_of_strain(body: Body | Profile, curve: Curve) -> None:
+    """Warn of loads that strain a body beyond any half-space, as a wrong unit makes them.
+
+    Contacts are alike whatever the unit of heights and depths, as long as they are linear. So
+    nothing is said of flat bodies, and of those as high as they are wide, whose heights have a unit
+    of their own.
+    """
+    if isinstance(body, Profile):
+        side, area = 2 * body.largest_radius, body.area
+    else:
+        side = min(sides_of(body))
+        area = body.area if isinstance(body, Surface) else side**2
+    if not curve.converged.any() or not 0 < body.rms_height <= _IN_ONE_UNIT * side:
+        return
+    found = [(float(np.nanmax(curve.depth)) / side, "depth", "the shorter side of the body")]
+    if isinstance(curve.half_space, Homogeneous):
+        pressure = float(np.nanmax(curve.force)) / area
+        found.append((pressure / curve.E_star, "mean pressure", "the contact modulus"))
+    ratio, what, of = max(found)
+    if ratio > _SURELY:
+        text = (
+            f"the largest {what} is {decimal(ratio, 2)} times {of}, and {BEYOND}: check the units "
+            "of loads, sizes and E_star"
+        )
+        warnings.warn(text, UnitWarning, stacklevel=5)
