@@ -1,6 +1,7 @@
 """What a prompt and a notebook show of the values that people meet."""
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import matplotlib as mpl
@@ -9,6 +10,8 @@ import pytest
 
 import roughline as rl
 from reference import patience
+from roughline.engineering.intervals import Intervals
+from roughline.report.terminal import print_assessment
 
 CELLS = (
     "import roughline as rl\n"
@@ -142,3 +145,68 @@ def test_a_picture_leaves_the_settings_of_matplotlib_as_they_were():
         before = dict(mpl.rcParams)
         rl.plot.topography(SPECTRUM.surface(16, 3), mpl.figure.Figure().subplots())
         assert dict(mpl.rcParams) == before
+
+
+@pytest.fixture(scope="module")
+def assessed():
+    surface = in_si(rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(16, rng=1))
+    return {
+        "of materials": rl.assess(rl.Question(surface, "steel,copper", loads="1 N", elastic=True)),
+        "of a modulus": rl.assess(rl.Question(surface, E_star="100 GPa", loads=["1 N", "2 N"])),
+    }
+
+
+@pytest.mark.parametrize("which", ["of materials", "of a modulus"])
+def test_an_assessment_prints_what_the_terminal_says(assessed, which, capsys):
+    print_assessment(assessed[which])
+    assert str(assessed[which]) == capsys.readouterr().out.rstrip()
+    assert repr(assessed[which]).startswith("Assessment(")
+
+
+def test_a_notebook_shows_the_answers_of_an_assessment(assessed):
+    html = assessed["of materials"]._repr_html_()
+    rows = {row[0]: row[1:] for row in cells(html)}
+    assert rows["normal force F"] == ["1 N"]
+    assert "contact stiffness k" in rows
+    assert 'src="data:image/png;base64,' in html
+    assert "warning: grid error not estimated" in html
+    header, *rows = cells(assessed["of a modulus"]._repr_html_())
+    assert header[:4] == ["load", "depth", "force", "stiffness k"]
+    assert [row[2] for row in rows] == ["1 N", "2 N"]
+
+
+def test_an_assessment_is_a_table_of_pandas(assessed):
+    table = assessed["of materials"].to_dataframe()
+    answers = assessed["of materials"].answers
+    assert table.index.tolist() == ["1 N"]
+    assert list(table.columns) == list(answers)
+    assert table["contact_stiffness"].tolist() == answers["contact_stiffness"].values.tolist()
+    assert table.attrs["units"]["contact_stiffness"] == "N/m"
+    found = assessed["of a modulus"]
+    known = replace(found, intervals=Intervals(*[(np.ones(2), np.full(2, 3.0))] * 2))
+    table = known.to_dataframe()
+    assert table.columns[2:5].tolist() == ["stiffness", "stiffness_low", "stiffness_high"]
+    assert table["stiffness_high"].tolist() == [3.0, 3.0]
+    assert table["force"].tolist() == pytest.approx([1.0, 2.0])
+
+
+def test_a_notebook_shows_flows_fields_searches_and_creep():
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0)
+    surface = spectrum.surface(16, rng=7)
+    curve = rl.press(surface, E_star=1.0, forces=[0.01], periodic=True, fields=True)
+    creep = rl.press_creep(
+        spectrum.line(64, rng=1), rl.Creep([0.5], [1.0]), times=[0.1, 1.0], force=1e-3, E_star=1.0
+    )
+    flow = rl.flow(curve.fields[0])
+    for value, named, number in (
+        (flow, "hydraulic aperture u_h", flow.hydraulic_aperture),
+        (curve.fields[0], "mean pressure", 0.01),
+        (rl.sealing_pressure(surface, E_star=1.0, interval=False), "found", None),
+        (rl.reopening(curve, times=1.5), "found", None),
+        (creep, "0.1", creep.depth[0]),
+    ):
+        html = value._repr_html_()
+        HTMLParser().feed(html)
+        assert 'src="data:image/png;base64,' in html
+        shown = {row[0]: row[1:] for row in cells(html) if row}[named]
+        assert number is None or float(shown[0]) == pytest.approx(number, rel=1e-3)

@@ -13,6 +13,7 @@ _HOMES = {name: home for _, home, _, name, *_ in _WORDS}
 
 __all__ = [name for name in _HOMES if name != "plot"]  # which ``import *`` would load
 
+filled_by(lambda: import_module("roughline.report.notebook"))
 filled_by(lambda: import_module("roughline.plot.notebook"))
 
 

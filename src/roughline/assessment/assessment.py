@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from roughline.assessment.question import Question
 from roughline.assessment.slip import PartialSlip
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
+from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
@@ -27,6 +28,9 @@ from roughline.fluid.flow import Flow, flow
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +110,8 @@ class Assessment:
     notes: Sequence[str] = ()
 
     __repr__ = summary
+    __str__ = printed
+    _repr_html_ = in_notebook
 
     @property
     def area(self) -> float:
@@ -183,6 +189,42 @@ class Assessment:
     def area_interval(self) -> Ends | None:
         """Both ends of the corrected area fraction, over the loads of the curve. [1]"""
         return None if self.intervals is None else self.intervals.area
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Return the answers as a table of pandas, a row for each load that was asked for.
+
+        Of each answer there is a column with its key, and, where its interval is known, one more
+        for each end, "..._low" and "..._high". Without materials there are the quantities of the
+        curve. All are in SI units; ``attrs["units"]`` tells them by the columns.
+        """
+        import pandas  # here because it loads slowly
+
+        if self.answers:
+            columns = {key: (each.rows, each.unit) for key, each in self.answers.items()}
+        else:
+            columns = self._columns_of_curve
+        table, units = {}, {}
+        for key, (rows, unit) in columns.items():
+            for name, row in zip((key, f"{key}_low", f"{key}_high"), rows, strict=False):
+                table[name], units[name] = row, unit
+        found = pandas.DataFrame(table, index=pandas.Index(self.headings, name="load"))
+        found.attrs["units"] = units
+        return found
+
+    @property
+    def _columns_of_curve(self) -> dict[str, tuple[Real, str]]:
+        """Quantities of the curve, or of the joint, with their intervals and units."""
+        curve, known = self.curve_as_asked, self.intervals_as_asked
+        stiffness, area = (None, None) if known is None else (known.stiffness, known.area)
+        columns = {
+            "depth": (np.stack([curve.depth]), "m"),
+            "force": (self.scale * np.stack([curve.force]), "N"),
+            "stiffness": (self.scale * np.stack([curve.stiffness, *(stiffness or ())]), "N/m"),
+        }
+        if curve.area_fraction_corrected is not None:
+            share = np.stack([curve.area_fraction_corrected, *(area or ())])
+            columns["area_fraction_corrected"] = share, "1"
+        return columns
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -11,6 +11,7 @@ import numpy as np
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
+from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
 from roughline.engineering.intervals import Ends
 from roughline.engineering.rule import Answer, Rule, within
@@ -139,6 +140,8 @@ class PartAssessment:
     notes: Sequence[str] = ()
 
     __repr__ = summary
+    __str__ = printed
+    _repr_html_ = in_notebook
 
     @property
     def interrupted(self) -> bool:

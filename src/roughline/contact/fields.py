@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.distribution import Distribution, distribution_of
 from roughline.contact.patches import Patches, patches_of
@@ -56,6 +57,7 @@ class Fields:
     periodic: Periodic
 
     __repr__ = summary
+    _repr_html_ = in_notebook
 
     @property
     def repeats(self) -> tuple[bool, bool]:

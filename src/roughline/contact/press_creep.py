@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Indices, Real
+from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import LARGEST, given_half_space
 from roughline.contact.creep import Creep, memory_of_strain, memory_of_stress
@@ -117,6 +118,7 @@ class CreepCurve:
     creep: Creep = field(repr=False)
 
     __repr__ = summary
+    _repr_html_ = in_notebook
 
     @property
     def warnings(self) -> Sequence[str]:

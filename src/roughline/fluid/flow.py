@@ -11,6 +11,7 @@ import numpy as np
 
 from roughline.computing.arrays import Integers, Mask, Real
 from roughline.computing.memory import refuse_beyond_memory
+from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
@@ -70,6 +71,7 @@ class Flow:
     network: Network = field(repr=False)
 
     __repr__ = summary
+    _repr_html_ = in_notebook
 
     @property
     def inflow(self) -> float:
@@ -303,12 +305,6 @@ def flow(
     """
     one_of("along", along, (*get_args(Along), "both"))
     one_of("sides", sides or "periodic", get_args(Sides))
-    if gap is None or isinstance(gap, Curve):
-        refuse(
-            "gap",
-            gap,
-            "give the fields of a load, curve.fields[i], which rl.press keeps with fields=True",
-        )
     repeats = gap.repeats if isinstance(gap, Fields) else (True, True)
     sizes = sizes or (gap.sizes if isinstance(gap, Fields) else None)
     gap = _checked_gap(gap)
@@ -355,6 +351,9 @@ def _solved(along: Along, sides: Sides, gap: Real, sizes: tuple[float, float], p
 
 def _checked_gap(given: Any) -> Real:
     """The gap that is given, as an array of its own."""
+    if given is None or isinstance(given, Curve):
+        needed = "give the fields of a load, curve.fields[i], which rl.press keeps with fields=True"
+        refuse("gap", given, needed)
     if isinstance(given, Line):
         raise InputError(
             "is a Line; along a line, in one dimension, any contact stops the flow: give "

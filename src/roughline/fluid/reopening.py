@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import checked_count
 from roughline.contact.curve import Curve
@@ -64,6 +65,7 @@ class Reopening:
     interval: tuple[float, float] = (math.nan, math.nan)
 
     __repr__ = summary
+    _repr_html_ = in_notebook
 
     @property
     def value(self) -> float:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
+from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import given_half_space, given_law
 from roughline.contact.fields import Fields
@@ -65,6 +66,7 @@ class SealingPressure:
     interval: tuple[float, float] = (math.nan, math.nan)
 
     __repr__ = summary
+    _repr_html_ = in_notebook
 
     @property
     def value(self) -> float:

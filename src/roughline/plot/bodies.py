@@ -107,7 +107,7 @@ def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     curve, load, axes
         As of :func:`roughline.plot.contact`, with what it returns and refuses.
     """
-    return drawn_at(curve, load, axes, _draw_pressure)
+    return drawn_at(curve, load, axes, draw_pressure)
 
 
 def draw_contact(axes: Axes, fields: Fields, unit: str | None) -> None:
@@ -123,7 +123,7 @@ def _draw_contact_with_key(axes: Axes, fields: Fields, unit: str | None) -> None
     axes.set_title(axes.get_title() + yield_key(fields), fontsize=_TITLE)
 
 
-def _draw_pressure(axes: Axes, fields: Fields, unit: str | None) -> None:
+def draw_pressure(axes: Axes, fields: Fields, unit: str | None) -> None:
     """Draw the pressure where bodies touch."""
     of_pressure = "Pa" if unit == "m" else None
     label, factor = in_unit("pressure $p$", fields.pressure, of_pressure)

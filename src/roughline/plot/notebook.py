@@ -1,4 +1,4 @@
-"""What a notebook shows: of a body its heights, of a curve a table of its loads."""
+"""What a notebook shows: a table of numbers, and a picture where there is one."""
 
 from __future__ import annotations
 
@@ -13,13 +13,23 @@ from matplotlib.figure import Figure
 from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
 from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
+from roughline.contact.press_creep import CreepCurve
 from roughline.contact.quantities import unit_of
 from roughline.contact.status import Status
+from roughline.fluid.flow import Flow
+from roughline.fluid.reopening import Reopening
+from roughline.fluid.sealing_pressure import SealingPressure
+from roughline.plot.bodies import draw_pressure
+from roughline.plot.flows import draw_flow
+from roughline.plot.style import COLUMN, new_figure, styled
 from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.borders import whole_or_piece
 from roughline.units import MOST_DIGITS, decimal, digits_known, in_words
 
 _WIDTH, _HEIGHT = 3.2, 1.6  # of a thumbnail [inch]
+_PICTURE = 2.6  # height of a picture with axes [inch]
+_DPI = 100
 _MOST_POINTS = 2000  # of a line in a thumbnail
 _MOST_PIXELS = 200  # of a surface in a thumbnail, along a side
 _FIRST, _LAST = 12, 4  # loads of a long curve that are shown
@@ -43,7 +53,7 @@ def _of_body(body: Body) -> str:
         ("borders" if is_surface else "ends", whole_or_piece(body)),
     ]
     kind = "Surface" if isinstance(body, Surface) else f"Line, {body.kind}"
-    return _html(kind, ("", ""), rows, _thumbnail(body.heights))
+    return html(kind, ("", ""), rows, _thumbnail(body.heights))
 
 
 @in_notebook.register
@@ -81,13 +91,136 @@ def _of_curve(curve: Curve) -> str:
     if left := curve.status.size - reached.size:  # told once
         missing = ["–"] * len(columns)
         rows.append([f"{left} of {curve.status.size}", *missing, Status.INTERRUPTED.reason])
-    return _html(title, header, rows)
+    return html(title, header, rows, remarks=curve.warnings)
 
 
-def _html(
-    title: str, header: Sequence[str], rows: Iterable[Sequence[str]], picture: bytes = b""
+@in_notebook.register
+def _of_creep(curve: CreepCurve) -> str:
+    """A table of the times, and the quantities over them."""
+    unit = curve.elastic.unit
+    columns: list[tuple[str, Real, str | None]] = [
+        ("depth d", curve.depth, "length"),
+        ("force F", curve.force, "force"),
+        ("instantaneous stiffness", curve.instantaneous_stiffness, "force/length"),
+    ]
+    if curve.area_fraction_corrected is not None:
+        columns.append(("corrected area A/A_0", curve.area_fraction_corrected, None))
+    rows = [
+        [decimal(float(curve.time[i]), MOST_DIGITS)]
+        + [_cell(i, values, None, kind, unit) for _, values, kind in columns]
+        for i in _shown(curve.time.size)
+    ]
+    if len(rows) < curve.time.size:
+        rows.insert(_FIRST, ["…"] * (1 + len(columns)))
+    with styled():
+        figure = new_figure(COLUMN, _PICTURE)
+        # the one of both that is not held, as a rule
+        changes = [float(np.ptp(values) / np.abs(values).max()) for _, values, _ in columns[:2]]
+        name, drawn, _ = columns[int(np.argmax(changes))]
+        axes = figure.subplots()
+        axes.plot(curve.time, drawn, ".-")
+        axes.set(xlabel="time", ylabel=name)
+        picture = png(figure)
+    E_star = _with_unit(curve.elastic.E_star, "pressure", unit)
+    header = ["time", *(name for name, *_ in columns)]
+    title = f"Contact that creeps, E* = {E_star} at once"
+    return html(title, header, rows, picture, curve.warnings)
+
+
+@in_notebook.register
+def _of_fields(fields: Fields) -> str:
+    """A table of means, and the pressure."""
+    rows = [
+        ("points", " × ".join(map(str, fields.gap.shape))),
+        ("sizes", " × ".join(_number(side) for side in fields.sizes)),
+        ("mean pressure", _number(float(fields.pressure.mean()))),
+        ("largest pressure", _number(float(fields.pressure.max()))),
+        ("contact area A/A_0", _number(float(fields.contact.mean()))),
+        ("mean gap", _number(float(fields.gap.mean()))),
+    ]
+    with styled():
+        figure = new_figure(COLUMN, _PICTURE)
+        draw_pressure(figure.subplots(), fields, None)
+        picture = png(figure)
+    return html("Fields of a load", ("", ""), rows, picture)
+
+
+@in_notebook.register
+def _of_flow(flow: Flow) -> str:
+    """A table of what flows, and where."""
+    aperture = "0, sealed" if flow.is_sealed else _number(flow.hydraulic_aperture)
+    rows = [
+        ("cells", " × ".join(map(str, flow.gap.shape))),
+        ("sizes", " × ".join(_number(side) for side in flow.sizes)),
+        ("sides", flow.sides),
+        ("hydraulic aperture u_h", aperture),
+        ("permeance Λ", _number(flow.permeance)),
+        ("share of the strongest channel", _number(flow.largest_share)),
+        ("imbalance of the flows", f"{flow.imbalance:.1g}"),
+    ]
+    with styled():
+        figure = new_figure(COLUMN, COLUMN)
+        draw_flow(figure.subplots(), flow, None)
+        picture = png(figure)
+    remarks = [flow.validity] if flow.validity else []
+    return html(f"Flow along {flow.along}", ("", ""), rows, picture, remarks)
+
+
+@in_notebook.register
+def _of_sealing(found: SealingPressure) -> str:
+    """Both ends, the interval, and what coarser grid and quarters give."""
+    areas = " to ".join(map(_number, found.area_fractions))
+    title = f"Mean pressure at which the gap seals, along {found.along}"
+    return _of_search(found, title, [("contact area A/A_0", areas)])
+
+
+@in_notebook.register
+def _of_reopening(found: Reopening) -> str:
+    """Both shares, the interval, and what coarser grid and quarters give."""
+    apertures = ", ".join(map(_number, found.apertures))
+    title = f"Share of the load down to which less than {_number(found.times)} times as much leaks"
+    return _of_search(found, title, [("apertures under the load and at both shares", apertures)])
+
+
+def _of_search(
+    found: SealingPressure | Reopening, title: str, further: list[tuple[str, str]]
 ) -> str:
-    """Return a table under a title as HTML, with a picture (PNG) beside it."""
+    """A table of what was found, and a picture of what leaves it open."""
+    rows = [("found", f"{_number(found.low)} to {_number(found.high)}"), *further]
+    on: list[tuple[str, Sequence[float]]] = [("found", [found.low, found.high])]
+    if np.isfinite(found.interval).all():
+        rows.append(("interval", " to ".join(map(_number, found.interval))))
+        on.append(("interval", found.interval))
+    if np.isfinite(found.on_half):
+        rows.append(("on half as many points", _number(found.on_half)))
+        on.append(("half as many points", [found.on_half]))
+    if len(found.on_quarters):
+        rows.append(("of the four quarters", ", ".join(map(_number, found.on_quarters))))
+        on.append(("quarters", found.on_quarters))
+    with styled():
+        figure = new_figure(COLUMN, _HEIGHT)
+        axes = figure.subplots()
+        for place, (name, values) in enumerate(on):
+            look = "|-" if name in ("found", "interval") else "o"
+            axes.plot(values, [place] * len(values), look, color="k")
+        axes.set_yticks(range(len(on)), [name for name, _ in on])
+        axes.set_ylim(len(on) - 0.5, -0.5)
+        picture = png(figure)
+    return html(title, ("", ""), rows, picture)
+
+
+def _number(value: float) -> str:
+    return decimal(value, MOST_DIGITS)
+
+
+def html(
+    title: str,
+    header: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    picture: bytes = b"",
+    remarks: Iterable[str] = (),
+) -> str:
+    """Return a table under a title as HTML, with a picture (PNG) beside it, and remarks below."""
     heads = "".join(f"<th>{escape(cell)}</th>" for cell in header) if any(header) else ""
     body = "".join(
         "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
@@ -98,12 +231,21 @@ def _html(
         data = base64.b64encode(picture).decode()
         image = f'<img alt="{escape(title)}" src="data:image/png;base64,{data}">'
     side_by_side = "display:flex;flex-wrap:wrap;gap:1em;align-items:center"
-    return f'<div><b>{escape(title)}</b><div style="{side_by_side}">{table}{image}</div></div>'
+    below = "".join(f"<div>{escape(remark)}</div>" for remark in remarks)
+    beside = f'<div style="{side_by_side}">{table}{image}</div>'
+    return f"<div><b>{escape(title)}</b>{beside}{below}</div>"
+
+
+def png(figure: Figure, *, transparent: bool = False) -> bytes:
+    """Return a figure as a PNG."""
+    written = io.BytesIO()
+    figure.savefig(written, format="png", dpi=_DPI, transparent=transparent)
+    return written.getvalue()
 
 
 def _thumbnail(heights: Real) -> bytes:
     """Draw heights on few pixels: a surface from above, a line from the side."""
-    figure = Figure(figsize=(_WIDTH, _HEIGHT), dpi=100)
+    figure = Figure(figsize=(_WIDTH, _HEIGHT), dpi=_DPI)
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_axis_off()
     if heights.ndim == 2:
@@ -111,9 +253,7 @@ def _thumbnail(heights: Real) -> bytes:
         axes.imshow(heights[::nx, ::ny].T, origin="lower", cmap="cividis")
     else:
         axes.plot(heights[:: max(1, heights.size // _MOST_POINTS)], linewidth=0.6)
-    written = io.BytesIO()
-    figure.savefig(written, format="png", transparent=True)
-    return written.getvalue()
+    return png(figure, transparent=True)
 
 
 def _with_unit(

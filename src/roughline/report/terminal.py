@@ -41,7 +41,11 @@ _MOST_NAMED = 5  # loads that were not solved, or maps, that are named
 
 
 def print_assessment(
-    assessment: Assessment, files: Iterable[Path] = (), *, unfolded_by: str = ""
+    assessment: Assessment,
+    files: Iterable[Path] = (),
+    *,
+    unfolded_by: str = "",
+    console: Console | None = None,
 ) -> None:
     """Print what was pressed, and its curve or its answers as far as they are not folded.
 
@@ -49,7 +53,7 @@ def print_assessment(
     The last line names the caller's option `unfolded_by`, which shows what is folded; without one
     everything is printed.
     """
-    console = Console(markup=False)
+    console = console or Console(markup=False)
     console.print(_described(assessment.body), highlight=False, soft_wrap=True)
     curve, pair = assessment.curve, assessment.question.pair
     model = "reduced model, exact"
@@ -75,9 +79,15 @@ def print_assessment(
     _print_end(console, assessment.notes, files, folded)
 
 
-def print_part(part: PartAssessment, files: Iterable[Path] = (), *, unfolded_by: str = "") -> None:
+def print_part(
+    part: PartAssessment,
+    files: Iterable[Path] = (),
+    *,
+    unfolded_by: str = "",
+    console: Console | None = None,
+) -> None:
     """Print the mean answers of several maps with scatter and interval, folded as those of one."""
-    console = Console(markup=False)
+    console = console or Console(markup=False)
     some = ", ".join(part.names) if len(part.names) <= _MOST_NAMED else ""
     console.print(": ".join(filter(None, (count_in_words(part), some))), highlight=False)
     folded = _print_answers(console, part, _MOST_OF_PART, unfolded_by)
