@@ -120,7 +120,10 @@ def press(
         body on a periodic half-space, this takes its place; eps is the rounding of numbers,
         2.2e-16, or 1.2e-7 in single precision. Tension, and pressure above the hardness, are
         relative to the mean contact pressure, the error of the force to the force. A point is in
-        contact where its pressure is above zero.
+        contact where its pressure is above zero. Dents are as uncertain as the load that left them:
+        under lighter loads after it, gaps are right to `rtol` times the l of the largest load so
+        far, though the residuals on that dented surface are smaller. Give a smaller `rtol` where
+        light loads on a dented surface count.
     max_iterations : int, optional
         Largest number of convolutions to find the contact under one load. A few more certify it,
         and its stiffness takes further ones.

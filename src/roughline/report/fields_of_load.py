@@ -12,6 +12,7 @@ from roughline.plot.flows import draw_flow
 from roughline.plot.style import PAGE, new_figure, save
 from roughline.report.contact_figures import load_with_fields
 from roughline.report.page import Picture, Section, Table
+from roughline.report.values import length
 from roughline.units import decimal, engineering
 
 if TYPE_CHECKING:
@@ -95,9 +96,9 @@ def fields_table(fields: Fields) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of what the figure shows in numbers; lengths in metres."""
     gap, pressure = fields.distribution("gap"), fields.distribution("pressure")
     rows = [
-        ["mean gap", engineering(gap.mean, "m", _DIGITS)],
-        ["standard deviation of the gap", engineering(gap.std, "m", _DIGITS)],
-        ["largest gap", engineering(gap.edges[-1], "m", _DIGITS)],
+        ["mean gap", length(gap.mean, _DIGITS)],
+        ["standard deviation of the gap", length(gap.std, _DIGITS)],
+        ["largest gap", length(gap.edges[-1], _DIGITS)],
     ]
     patches = fields.patches()
     if patches.count:

@@ -8,12 +8,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from roughline.units import MOST_DIGITS, decimal, prefix, supported_digits
+from roughline.units import MOST_DIGITS, decimal, engineering, prefix, supported_digits
 
 _NARROW = 0.1  # half width of an interval up to which it is written as ±
 _ONE_SIDED = 0.5  # shorter over longer half below which both ends are written
 _LEAST = 1e-4  # half width below which an interval says nothing
 _DIGITS_OF_ENDS = 2  # of both ends of an interval, at least
+_FAR_APART = 10.0  # of both ends, from which on each has its own prefix and unit
+_SHORTEST = 1e-12  # length, a hundredth of an atom, below which it is told as that [m]
 _SHOWN = 3  # digits on a page of the lab
 _INTERVAL = re.compile(r" (?=[(±])")
 
@@ -25,6 +27,8 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     """Write a value, and its interval: as ± where that is narrow and even, else by both ends."""
     if not np.isfinite(value):
         return "not solved" if np.isnan(value) else "infinite"
+    if is_below_atoms(value, unit):
+        return _below_atoms(ends)
     digits = supported_digits(value, ends)
     factor, sign = scale_of(value, unit, digits)
     shown = f"{decimal(value * factor, digits)}{sign}"
@@ -35,17 +39,45 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
         return f"{shown} (up to {with_interval(high, None, unit)})" if high > 0 else shown
     shorter, half_width = sorted(((value - low) / value, (high - value) / value))
     one_sided = shorter < _ONE_SIDED * half_width and half_width > _LEAST
-    if half_width < _NARROW and not one_sided:
+    reached = value * (1 + max(half_width, _LEAST))  # by an even interval
+    if unit == "%" and high <= 1 < reached:  # no share is more than all
+        ends = min(low, value * (1 - _LEAST)), high
+    elif half_width < _NARROW and not one_sided:
         return f"{shown} ± {100 * max(half_width, _LEAST):.2g}%"
     least = max(digits, _DIGITS_OF_ENDS)
+    if unit not in ("1", "%") and not high <= _FAR_APART * low:
+        first, last = (_with_unit(end, unit, least) for end in ends)
+        return f"{shown} ({first} to {last})"
     first, last = (decimal(end * factor, least) if np.isfinite(end) else "infinite" for end in ends)
     percent = "%" if unit == "%" and np.isfinite(high) else ""
     return f"{shown} ({first} to {last}{percent})"
 
 
+def length(value: float, digits: int) -> str:
+    """Write a length in metres with so many digits; one far below an atom as that."""
+    below = is_below_atoms(value, "m")
+    return _below_atoms(None) if below else engineering(value, "m", digits)
+
+
+def is_below_atoms(value: float, unit: str) -> bool:
+    """Whether a length is so much smaller than an atom that it is none, but for rounding."""
+    return unit == "m" and 0 < abs(value) < _SHORTEST
+
+
+def _below_atoms(ends: tuple[float, float] | None) -> str:
+    shown = f"below {_with_unit(_SHORTEST, 'm', 1)}"
+    if ends is None or not ends[1] >= _SHORTEST:
+        return shown
+    return f"{shown} (up to {_with_unit(ends[1], 'm', _DIGITS_OF_ENDS)})"
+
+
+def _with_unit(value: float, unit: str, digits: int) -> str:
+    return engineering(value, unit, digits) if np.isfinite(value) else "infinite"
+
+
 def up_to_three_digits(value: float, ends: tuple[float, float] | None, unit: str) -> str:
     """Write a value with the digits that are known of it, and both ends of its interval."""
-    if not np.isfinite(value) or not value:
+    if not np.isfinite(value) or not value or is_below_atoms(value, unit):
         return with_interval(value, ends, unit)
     digits = supported_digits(value, ends, _SHOWN)
     factor, sign = scale_of(value, unit, digits)

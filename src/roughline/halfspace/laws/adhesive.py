@@ -177,12 +177,15 @@ class Adhesive(ContactLaw):
         """Say where the grid does not resolve the pull, and where all of the bodies is pulled."""
         found = []
         if self.zone < self.resolved_zone:
-            wider = math.sqrt(self.resolved_zone / self.zone)
+            wider = math.ceil(100 * math.sqrt(self.resolved_zone / self.zone)) / 100
+            cells = (
+                f"{math.floor(100 * self.zone) / 100:g}" if self.zone > 1 else f"{self.zone:.2g}"
+            )
             found.append(
-                f"the zone that pulls about a contact, E* w / (pi sigma_0²), is {self.zone:.2g} "
+                f"the zone that pulls about a contact, E* w / (pi sigma_0²), is {cells} "
                 f"cells wide, and {self.resolved_zone:.0f} are needed: "
                 + ("no pull-off is given; " if self.zone < _IS_POORLY else "")
-                + f"give a range {wider:.2g} times as large, or a finer grid"
+                + f"give a range {wider:.3g} times as large, or a finer grid"
             )
         if self.range >= separation.max():
             found.append(
