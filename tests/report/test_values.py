@@ -13,10 +13,10 @@ from roughline.units import supported_digits
 @pytest.mark.parametrize(
     ("value", "ends", "unit", "written"),
     [
-        (4.839e9, (0.176e9, 137e9), "N/m", "5 GN/m (180 MN/m to 140 GN/m)"),
-        (1.2e3, (68.0, 28e3), "N/m", "1.2 kN/m (68 N/m to 28 kN/m)"),
-        (1.2e3, (0.0, 28e3), "N/m", "1.2 kN/m (0 N/m to 28 kN/m)"),
-        (1.2e3, (400.0, 3.9e3), "N/m", "1.2 kN/m (0.4 to 3.9)"),
+        (4.839e9, (0.176e9, 137e9), "N/m", "5 GN/m (0.18 to 140 GN/m)"),
+        (1.2e3, (68.0, 28e3), "N/m", "1.2 kN/m (0.068 to 28 kN/m)"),
+        (1.2e3, (0.0, 28e3), "N/m", "1.2 kN/m (0 to 28 kN/m)"),
+        (1.2e3, (100.0, 3.9e3), "N/m", "1.2 kN/m (0.1 to 3.9)"),
         (802.5e-15, None, "m", "below 1 pm"),
         (802.5e-15, (0.0, 3e-13), "m", "below 1 pm"),
         (802.5e-15, (1e-13, 3.1e-9), "m", "below 1 pm (up to 3.1 nm)"),
@@ -27,7 +27,7 @@ from roughline.units import supported_digits
         (14.79e6, (13.8e6, 15.9e6), "N/m", "14.8 MN/m ± 7.5%"),
         (14.79e6, (14.788e6, 14.792e6), "N/m", "14.79 MN/m ± 0.014%"),
         (14.79e6, None, "N/m", "14.79 MN/m"),
-        (9.88e14, (2.98e14, math.inf), "N/m", "1 PN/m (300 TN/m to infinite)"),
+        (9.88e14, (2.98e14, math.inf), "N/m", "1 PN/m (0.3 to infinite)"),
         (math.inf, (math.inf, math.inf), "N/m", "infinite"),
         (math.nan, (math.nan, math.nan), "N/m", "not solved"),
         (0.0, (0.0, 0.0), "N/m", "0 N/m"),

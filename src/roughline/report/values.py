@@ -14,7 +14,7 @@ _NARROW = 0.1  # half width of an interval up to which it is written as ±
 _ONE_SIDED = 0.5  # shorter over longer half below which both ends are written
 _LEAST = 1e-4  # half width below which an interval says nothing
 _DIGITS_OF_ENDS = 2  # of both ends of an interval, at least
-_FAR_APART = 10.0  # of both ends, from which on each has its own prefix and unit
+_FAR_APART = 100.0  # of both ends, from which on they have the unit as well
 _SHORTEST = 1e-12  # length, a hundredth of an atom, below which it is told as that [m]
 _SHOWN = 3  # digits on a page of the lab
 _INTERVAL = re.compile(r" (?=[(±])")
@@ -45,12 +45,10 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     elif half_width < _NARROW and not one_sided:
         return f"{shown} ± {100 * max(half_width, _LEAST):.2g}%"
     least = max(digits, _DIGITS_OF_ENDS)
-    if unit not in ("1", "%") and not high <= _FAR_APART * low:
-        first, last = (_with_unit(end, unit, least) for end in ends)
-        return f"{shown} ({first} to {last})"
     first, last = (decimal(end * factor, least) if np.isfinite(end) else "infinite" for end in ends)
-    percent = "%" if unit == "%" and np.isfinite(high) else ""
-    return f"{shown} ({first} to {last}{percent})"
+    far_apart = not high <= _FAR_APART * low  # the unit is then said once more
+    last += sign if np.isfinite(high) and (far_apart or unit == "%") else ""
+    return f"{shown} ({first} to {last})"
 
 
 def length(value: float, digits: int) -> str:
