@@ -155,10 +155,10 @@ def press(
     Warns
     -----
     UnitWarning
-        If the depth is more than ten times the shorter side, or the mean pressure than ten times
-        E*: half-spaces are linear elastic far below that only, and a unit may be wrong. Flat bodies
-        and those with heights in a unit of their own, of more than a tenth of the side, are left
-        alone.
+        If a given depth is more than ten times the shorter side, or the mean pressure on a
+        homogeneous half-space more than ten times E*: half-spaces are linear elastic far below
+        that only, and a unit may be wrong. Flat bodies and those with heights in a unit of their
+        own, of more than a tenth of the side, are left alone.
 
     Examples
     --------

@@ -39,7 +39,10 @@ def warn_of_strain(body: Body | Profile, curve: Curve) -> None:
         area = body.area if isinstance(body, Surface) else side**2
     if not curve.converged.any() or not 0 < body.rms_height <= _IN_ONE_UNIT * side:
         return
-    found = [(float(np.nanmax(curve.depth)) / side, "depth", "the shorter side of the body")]
+    found = [(0.0, "", "")]
+    if curve.control == "depths":  # under a force, a soft base gives way as deep as it is soft
+        depth = float(np.nanmax(curve.depth))
+        found.append((depth / side, "depth", "the shorter side of the body"))
     if isinstance(curve.half_space, Homogeneous):
         pressure = float(np.nanmax(curve.force)) / area
         found.append((pressure / curve.E_star, "mean pressure", "the contact modulus"))

@@ -178,9 +178,9 @@ class Adhesive(ContactLaw):
         found = []
         if self.zone < self.resolved_zone:
             wider = math.ceil(100 * math.sqrt(self.resolved_zone / self.zone)) / 100
-            cells = (
-                f"{math.floor(100 * self.zone) / 100:g}" if self.zone > 1 else f"{self.zone:.2g}"
-            )
+            cells = f"{self.zone:.2g}"
+            if float(cells) >= self.resolved_zone:
+                cells = f"{math.floor(100 * self.zone) / 100:g}"
             found.append(
                 f"the zone that pulls about a contact, E* w / (pi sigma_0²), is {cells} "
                 f"cells wide, and {self.resolved_zone:.0f} are needed: "
