@@ -175,3 +175,16 @@ def test_a_hardness_that_is_given_or_not_used_needs_no_word_on_layers():
     for asked in ({"hardness": "1 GPa"}, {"elastic": True}):
         result = said(rough, "gold 20 um on copper, steel", loads="1 mN", grid_error=False, **asked)
         assert not [note for note in result.notes if "layers of it have" in note]
+
+
+@pytest.mark.parametrize("pair", ["steel,steel", "rubber,glass"])
+def test_a_whole_curve_has_the_words_of_the_loads_that_were_asked_for(surface, pair):
+    """A page presses lighter loads for its pictures, and warns of none of them."""
+    cut = rl.Surface(surface.heights, surface.sizes, "m", is_cut_out=True)
+    given = {"loads": ["1 N"], "grid_error": False, "elastic": True}
+    asked, whole = (
+        rl.assess(rl.Question(cut, pair, ask=ask, **given)) for ask in ((), (rl.WholeCurve(),))
+    )
+    assert whole.curve.force.size > asked.curve.force.size
+    assert whole.remarks == asked.remarks
+    assert any("within 5% of the border" in each for each in asked.warnings)

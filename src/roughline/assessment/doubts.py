@@ -10,6 +10,8 @@ from roughline.assessment.case import COARSENED_FROM
 from roughline.assessment.kinds import is_map
 from roughline.assessment.notes import borders_of_repeated, how_far_a_line_serves, listed, of_each
 from roughline.assessment.question import Question
+from roughline.computing.arrays import Indices
+from roughline.contact.borders import border_warnings
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.formulas import plasticity_index
 from roughline.engineering.rules.mechanical import (
@@ -44,8 +46,9 @@ def warnings_of(
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
     borders, are_grave = borders_of_repeated(result.question, body)
     of_line, is_grave = how_far_a_line_serves(result.question, body)
-    # what a curve says of the borders is said below, as a warning or as a note
-    of_curve = [text for text in curve.warnings if text not in {borders, *grave_effects(body)}]
+    # what a curve says of where it is repeated is said below, as a warning or as a note
+    said_below = {borders, *grave_effects(body), *_of_border(result, np.arange(curve.status.size))}
+    of_curve = [text for text in curve.warnings if text not in said_below]
     is_scan = isinstance(body, Line) and body.kind == "profile"
     warnings = [
         *(of_curve if is_scan else _departures_in_words(result)),
@@ -57,12 +60,21 @@ def warnings_of(
         *remarks(_of_wide_interval(result), INTERVALS),
         *remarks([of_line] if is_grave else [], is_grave=True),
         *([] if is_scan else of_curve),
+        *_of_border(result, result.asked),
         *remarks([borders] if are_grave else [], is_grave=True),
     ]
     if isinstance(body, Surface) and curve.stiffness_error is None:
         why = _why_without_grid_error(result.question, body, grid_error_was_tried)
         warnings.append(Remark(why, INTERVALS))
     return remarks(warnings)
+
+
+def _of_border(result: Assessment, loads: Indices) -> tuple[str, ...]:
+    """Say what the border carries under some loads, which need not be all that were pressed."""
+    curve = result.curve
+    if curve.surface is None or curve.border_share is None:
+        return ()
+    return border_warnings(curve.surface, curve.force[loads], curve.border_share[loads])
 
 
 def _departures_in_words(result: Assessment) -> list[Remark]:

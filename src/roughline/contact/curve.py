@@ -117,6 +117,8 @@ class Curve:
         NaN where there is none, and where the grid does not resolve the pull. [force] and [length]
     pull_off_force_error : float
         Estimated discretisation error of `pull_off_force`, if asked for. [force]
+    border_share : ndarray, shape (loads,), or None
+        Share of the force that is carried near borders at which the surface ends; None for a line.
     residual_of : sequence of str
         What the largest residual of each load is of, such as "the gap within the contact". Empty
         for a line.
@@ -167,6 +169,7 @@ class Curve:
     pull_off_force: float = math.nan
     pull_off_depth: float = math.nan
     pull_off_force_error: float = math.nan
+    border_share: Real | None = field(default=None, repr=False)
     residual_of: Sequence[str] = field(default=(), repr=False)
     warnings: Sequence[str] = ()
     measured: Mapping[str, Measured] = field(default_factory=dict, repr=False)

@@ -14,6 +14,7 @@ import numpy as np
 from roughline._version import __version__
 from roughline.computing import linear_algebra
 from roughline.computing.arrays import Real
+from roughline.contact.borders import border_warnings, share_at_border
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.loads import Loads, comes_nearer
@@ -22,7 +23,6 @@ from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
 from roughline.errors import Interrupted
-from roughline.errors.remark import Remark
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.kept import working_memory
@@ -37,13 +37,6 @@ from roughline.topography.effects import grave_effects
 from roughline.topography.preparation import tilt_warnings
 from roughline.topography.repetition import border_jump
 from roughline.topography.settings import as_body
-from roughline.units import engineering
-
-# A surface that was cut out of a larger one ends where the larger one continues. Where the outer
-# frame of this width carries more than this share of the force, the part beyond it is missed.
-_BORDER_WIDTH = 0.05
-_BORDER_SHARE = 0.05
-_BORDER_DECIDES = 0.5  # share from which on answers are those of the frame
 
 
 def press_surface(
@@ -161,7 +154,7 @@ def _curve(
     law_there = scaled.law(law)
     at_the_border = (
         *_jump_warnings(surface, half_space.repeats),
-        *_border_warnings(surface, values["force"], shares),
+        *border_warnings(surface, values["force"], shares),
     )
     pull_off_depth, pull_off_force = _pull_off(results, values, law_there)
     return Curve(
@@ -192,6 +185,7 @@ def _curve(
         ),
         pull_off_depth=pull_off_depth,
         pull_off_force=pull_off_force,
+        border_share=shares,
         residual_of=tuple(result.residual_of for result in results),
         surface=surface,
         dents=tuple(result.dents for result in results) if law.memory == "dents" else (),
@@ -286,7 +280,7 @@ class _LoadResult:
             dissipated_work=dissipated,
             stored_work=stored * scaled.force * scaled.height,
             pulling_fraction=_pulling_nodes(contact) / nodes,
-            border_share=_border_share(contact),
+            border_share=share_at_border(contact),
             fields=fields if with_fields else None,
             measures=[] if fields is None else [each.of(fields) for each in measures],
             dents=dents,
@@ -438,42 +432,6 @@ def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) 
         sizes=scaled.surface.sizes,
         periodic=scaled.half_space.periodic,
     )
-
-
-def _border_share(contact: Contact) -> float:
-    """Share of the force that is carried near the borders at which the surface ends. [1]"""
-    shape, repeats = contact.separation.shape, contact.problem.grid.half_space.repeats
-    if not contact.nodes.size:
-        return 0.0
-    within = np.ones(contact.nodes.size)
-    for place, n, repeated in zip(np.divmod(contact.nodes, shape[1]), shape, repeats, strict=True):
-        if not repeated:
-            within = np.minimum(within, np.minimum(place, n - 1 - place) / n)
-    borne = np.abs(contact.pressure)
-    return float(borne[within < _BORDER_WIDTH].sum() / borne.sum())
-
-
-def _border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
-    """Say under which forces the border of a surface that was cut out carries too large a share.
-
-    Shares are NaN where a load was not solved.
-    """
-    beyond = np.flatnonzero(shares > _BORDER_SHARE)
-    if not surface.is_cut_out or not beyond.size:
-        return ()
-    extremes = force[beyond].min(), force[beyond].max()
-    ends = [
-        engineering(each, "N", 3) if surface.unit == "m" else f"{each:.3g}" for each in extremes
-    ]
-    at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
-    text = (
-        f"at {at}, up to {shares[beyond].max():.0%} of the force is carried within "
-        f"{_BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: the "
-        "surface beyond it would carry a part of the load, so depth, stiffness and area are those "
-        "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or the "
-        "periodic half-space"
-    )
-    return (Remark(text, is_grave=bool(shares[beyond].max() > _BORDER_DECIDES)),)
 
 
 def _jump_warnings(surface: Surface, repeats: tuple[bool, bool]) -> tuple[str, ...]:

@@ -1,0 +1,54 @@
+"""The border of a surface that was cut out of a larger one: what it carries of the force.
+
+Such a surface ends where the larger one continues. Where its outer frame carries much of the force,
+the part beyond it is missed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.errors.remark import Remark
+from roughline.halfspace.search.problem import Contact
+from roughline.topography.body import Surface
+from roughline.units import engineering
+
+_WIDTH = 0.05  # of the frame, over the sides
+_SHARE = 0.05  # of the force that is too much on it
+_DECIDES = 0.5  # share from which on answers are those of the frame
+
+
+def share_at_border(contact: Contact) -> float:
+    """Share of the force that is carried near the borders at which the surface ends. [1]"""
+    shape, repeats = contact.separation.shape, contact.problem.grid.half_space.repeats
+    if not contact.nodes.size:
+        return 0.0
+    within = np.ones(contact.nodes.size)
+    for place, n, repeated in zip(np.divmod(contact.nodes, shape[1]), shape, repeats, strict=True):
+        if not repeated:
+            within = np.minimum(within, np.minimum(place, n - 1 - place) / n)
+    borne = np.abs(contact.pressure)
+    return float(borne[within < _WIDTH].sum() / borne.sum())
+
+
+def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
+    """Say under which forces the border of a surface that was cut out carries too large a share.
+
+    Shares are NaN where a load was not solved.
+    """
+    beyond = np.flatnonzero(shares > _SHARE)
+    if not surface.is_cut_out or not beyond.size:
+        return ()
+    extremes = force[beyond].min(), force[beyond].max()
+    ends = [
+        engineering(each, "N", 3) if surface.unit == "m" else f"{each:.3g}" for each in extremes
+    ]
+    at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
+    text = (
+        f"at {at}, up to {shares[beyond].max():.0%} of the force is carried within {_WIDTH:.0%} of "
+        "the border, where this surface was cut out of a larger one: the surface beyond it would "
+        "carry a part of the load, so depth, stiffness and area are those of the piece alone, a "
+        "punch with this outline. Take a larger piece, or the periodic half-space"
+    )
+    return (Remark(text, is_grave=bool(shares[beyond].max() > _DECIDES)),)
