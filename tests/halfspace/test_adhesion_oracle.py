@@ -83,12 +83,15 @@ def share_of(body, law, matrix):
     own = matrix[0, 0]
     if body.periodic:
         own += 2 * max(body.sizes) / (2 * np.pi * body.E_star) / body.heights.size
-    beyond = {"mode": "wrap"} if body.periodic else {"mode": "reflect", "reflect_type": "odd"}
-    heights = np.pad(body.heights, 1, **beyond)
-    steps = [
-        np.abs(heights[2:, 1:-1] - heights[:-2, 1:-1]).ravel() / 2,
-        np.abs(heights[1:-1, 2:] - heights[1:-1, :-2]).ravel() / 2,
-    ]
+    half_space = getattr(body, "half_space", None)
+    repeats = (body.periodic, body.periodic) if half_space is None else half_space.repeats
+    steps = []
+    for axis in (0, 1):
+        beside = [(0, 0), (0, 0)]
+        beside[axis] = (1, 1)
+        beyond = {"mode": "wrap"} if repeats[axis] else {"mode": "reflect", "reflect_type": "odd"}
+        heights = np.moveaxis(np.pad(body.heights, beside, **beyond), axis, 0)
+        steps.append(np.moveaxis(np.abs(heights[2:] - heights[:-2]) / 2, 0, axis).ravel())
     pull = law.work_of_adhesion / law.range
     ramp = np.minimum(np.maximum(sum(steps) / 2, 4 * pull * own), law.range)
     return lambda gap: np.clip((law.range + ramp - gap) / (2 * ramp), 0, 1)
@@ -161,3 +164,16 @@ def test_forces_are_where_depths_have_them(law, seeds):
             borne = np.abs(state.pressure).sum() * body.cell
             assert abs(state.force - forces[i]) <= 1e-5 * borne, (seed, i)
             assert (curve.fields[i].contact.ravel() == state.touching).all(), (seed, i)
+
+
+@pytest.mark.parametrize("seed", [3, 16, 33])
+def test_bodies_of_which_one_node_touches_bear_no_load_at_all(seed):
+    """Nothing is within reach there, so that nothing pushes and nothing pulls."""
+    body, law, depths = posed(seed, rl.Dugdale)
+    force = float(np.abs(pressed(body, law, depths=[max(depths)]).force[0]))
+    curve = pressed(body, law, forces=[force, 0.3 * force, 0.0])
+    assert curve.converged.all()
+    one_node = law.work_of_adhesion / law.range * body.cell
+    assert abs(curve.force[2]) <= 1e-3 * RTOL * one_node
+    nearby = pressed(body, law, forces=[force, 0.3 * force, 1e-6 * force])
+    assert nearby.stiffness[2] == pytest.approx(curve.stiffness[2], rel=1e-6)

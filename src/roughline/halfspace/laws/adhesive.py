@@ -19,6 +19,7 @@ from roughline.halfspace.laws.unilateral import Unilateral, refuse_beyond_full_c
 # a change is so large a part of the one before, no end is near: bodies slide to a jump, and shares
 # go up to so many times as far.
 _NEAR, _ROUNDS, _NEARER, _FASTEST = 0.1, 6, 0.9, 8.0
+_LEAST_PULL = 1e-3  # of the largest pull, with which pressures are compared at least
 _IS_POORLY = 2.0  # cells of the pulling zone, with which a pull-off is resolved at least
 
 
@@ -165,8 +166,12 @@ class Adhesive(ContactLaw):
         return -self.work_of_adhesion * float(self.work_beyond(contact.gap).mean())
 
     def scales(self, pressure: Real, displacement: Real) -> tuple[float, float]:
-        """Compare gaps with the range, as bodies that pull may displace each other by nothing."""
-        return float(np.abs(pressure).mean()), self.range
+        """Compare gaps with the range, as bodies that pull may displace each other by nothing.
+
+        Nor need they bear anything: where they touch under no load and nothing else is within
+        reach, pressures are compared with a part of the largest pull.
+        """
+        return max(float(np.abs(pressure).mean()), _LEAST_PULL * self.largest_pull), self.range
 
     @property
     def zone(self) -> float:

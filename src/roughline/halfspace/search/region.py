@@ -180,9 +180,11 @@ class Trial:
         # 1. The scales. Where a flat body bears evenly hardly anything moves: there a gap is
         # compared with what rounding leaves of displacements, over the tolerance.
         pressure_scale, length_scale = 1.0, abs(approach) or 1.0
+        compared = borne
         if borne > 0:
             displacement = gap[places] + approach - (region.separation[places] - problem.touch)
             pressure_scale, length_scale = problem.law.scales(pressure, displacement)
+            compared = max(borne, pressure_scale * cell_area)
         # which keeps what is no number
         length_scale = float(np.maximum(length_scale, problem.resolution * borne))
         if problem.rms_height:
@@ -201,7 +203,7 @@ class Trial:
             penetration=-least_gap / length_scale if least_gap < least_on_contact else 0.0,
             tension=below / pressure_scale,
             excess=above / pressure_scale,
-            load=0.0 if load.force is None else _part(abs(force - load.force), borne),
+            load=0.0 if load.force is None else _part(abs(force - load.force), compared),
             rounding=float(np.spacing(abs(approach))) / length_scale,
         )
         return cls(
