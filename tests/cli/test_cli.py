@@ -158,7 +158,7 @@ def test_the_first_real_surface(topographies, invoke, only_drawn, tmp_path, load
             ("press", "{file}", "--modulus", "1 GPa", "--periodic", "--depth", "1 mm"),
             "beyond reach",
         ),
-        (("press", "{file}", "--modulus", "1 GPa", "--unit", "um"), "leave unit = um out"),
+        (("press", "{file}", "--modulus", "1 GPa", "--unit", "um"), "leave --unit um out"),
         (("press", "{file}", "--modulus", "1 GPa", "--out", "{file}/sub"), "cannot write to"),
         (("press", "{text}", "--modulus", "1 GPa"), "of a type that is not known"),
         (

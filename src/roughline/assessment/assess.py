@@ -16,7 +16,7 @@ from roughline.assessment.notes import notes_of
 from roughline.assessment.question import Question
 from roughline.assessment.scatter import elastic_answers, scatter_of
 from roughline.assessment.slip import slip_at_largest_load
-from roughline.assessment.solution import fields_of_gap, solution_of, solution_of_scan
+from roughline.assessment.solution import Solution, fields_of_gap, solution_of, solution_of_scan
 from roughline.assessment.sought import sought_of
 from roughline.assessment.variants import Curves, Stopped, Way, press_all, variants_of
 from roughline.contact.curve import Curve
@@ -56,13 +56,7 @@ def assess_body(
         If a file cannot be read, or the question does not suit what the file holds.
     """
     case = Case.of(question)
-    if case.scan is not None:
-        solution = solution_of_scan(case, case.scan)
-        curves = Curves({Way.AS_ASKED: solution.curve})
-    else:
-        curves = _pressed(case, announce, progress)
-        solution = solution_of(case, curves)
-        _refuse_all_at_the_hardness(case, solution.curve)
+    curves, solution = _solved(case, announce, progress)
     answers, left_out = answers_of(case, solution)
     theories, others = _theories(question, case.body, solution.curve)
     scatter, answers, intervals = scatter_of(case, curves, solution, answers)
@@ -89,6 +83,19 @@ def assess_body(
     )
     warnings = warnings_of(result, case.moments, case.loads.grid_error)
     return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
+
+
+def _solved(
+    case: Case, announce: Announce | None, progress: LoadProgress | None
+) -> tuple[Curves, Solution]:
+    """Press a body, or a line scan through its spectrum."""
+    if case.scan is not None:
+        solution = solution_of_scan(case, case.scan)
+        return Curves({Way.AS_ASKED: solution.curve}), solution
+    curves = _pressed(case, announce, progress)
+    solution = solution_of(case, curves)
+    _refuse_all_at_the_hardness(case, solution.curve)
+    return curves, solution
 
 
 def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | None) -> Curves:

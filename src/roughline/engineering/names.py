@@ -19,6 +19,7 @@ _ELEMENTS = (
 _SYMBOL = re.compile("[A-Z][a-z]?")
 _COUNTED = re.compile(r"\(?(?:[A-Z][a-z]?[\d.()]*)+")
 _ALIKE = 0.8  # share of letters that a hint has in common with what was typed: tialn is not tin
+_LISTED = 24  # names in a message
 _SHORTEST = 3  # letters of a text that gets a hint: "in" is indium, and not tin
 
 
@@ -55,7 +56,9 @@ def name_of(typed: str, what: str, formulas: Mapping[str, str], example: str) ->
         return by_formula[formula]
     is_short = len(joined) < _SHORTEST
     near = [] if is_formula or is_short else difflib.get_close_matches(name, formulas, 1, _ALIKE)
-    hint = f'; did you mean "{near[0]}"?' if near else f". Known are {', '.join(formulas)}."
+    known, more = ", ".join([*formulas][:_LISTED]), len(formulas) - _LISTED
+    known += f" and {more} more" if more > 0 else ""
+    hint = f'; did you mean "{near[0]}"?' if near else f". Known are {known}."
     raise InputError(f'no {what} is called {shown(typed)}{hint} Others are given as "{example}"')
 
 
