@@ -263,6 +263,13 @@ def test_a_spectrum_has_its_law_and_the_exponent(surface):
     assert "no spectrum" in texts(flat)
 
 
+def test_a_spectrum_that_follows_no_law_is_drawn_without_one():
+    noise = rl.Surface(np.random.default_rng(1).normal(size=(64, 64)), (1.0, 1.0))
+    axes = rl.plot.spectrum(noise)
+    assert axes.get_title() == "not self-affine"
+    assert len(axes.lines) == 1
+
+
 @pytest.mark.parametrize("n", [64, 200])
 def test_a_spectrum_leaves_out_rounding_and_nothing_else(n):
     """Beyond the cutoff of a surface there is rounding alone, 28 powers of ten below its waves."""

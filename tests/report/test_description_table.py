@@ -42,3 +42,18 @@ def test_all_channels_of_a_file_are_listed(tmp_path):
     assert "channels" not in dict(
         description_table(describe_measurement(file, alone, rl.Reading()))
     )
+
+
+def test_nothing_that_hangs_on_a_refused_law_is_written(tmp_path, invoke):
+    """White noise follows no power law, so no exponent, and no Sq of such surfaces, is told."""
+    noise = np.random.default_rng(1).normal(0.0, 1e-9, (64, 64))
+    rl.write(rl.Surface(noise, (1e-5, 1e-5), "m"), tmp_path / "map.nc")
+    _, out, _ = invoke("info", tmp_path / "map.nc")
+    assert re.search(r"self-affine +no: ", out)
+    for name in ("such surfaces", "Hurst", "fractal", "roll-off wave", "cutoff", "blur"):
+        assert name not in out
+    _, out, _ = invoke("info", tmp_path / "map.nc", "--json")
+    found = json.loads(out)["self_affine"]
+    assert found.pop("objections")
+    assert found.pop("scatter") >= 0
+    assert all(value in (None, [None, None]) for value in found.values())

@@ -126,6 +126,17 @@ def test_what_is_not_self_affine_is_said():
         fit_self_affine(isotropic_spectrum(rl.Surface(noise.heights[:12, :12], (1.0, 1.0))))
 
 
+def test_a_refused_law_has_no_intervals_and_makes_no_surface():
+    """White noise has an rms height of 1; no law with a slope holds it."""
+    noise = rl.Surface(np.random.default_rng(1).normal(size=(128, 128)), (1.0, 1.0))
+    fit = fit_self_affine(isotropic_spectrum(noise))
+    assert not fit.is_judged
+    assert np.isnan([*fit.rms_interval, *fit.q_roll_interval, *fit.blur_interval]).all()
+    assert fit.without_intervals().objections == fit.objections
+    with pytest.raises(rl.InputError, match="no self-affine spectrum like this one: the power law"):
+        fit.spectrum()
+
+
 def off_the_law(spectrum, fit):
     """Rms over tenths of a decade of the logarithm of the spectrum over the fitted law.
 

@@ -37,7 +37,7 @@ from roughline.computing.arrays import Real
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.errors.words import called
-from roughline.spectra.fit import SelfAffineFit, fit_self_affine
+from roughline.spectra.fit import SelfAffineFit, nearest_law
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
 from roughline.spectra.longer_waves import long_shapes
 from roughline.statistics.places import Agreement, agreement
@@ -179,7 +179,7 @@ def _of_one_size(surfaces: Sequence[Surface]) -> list[Surface]:
 def _law_of(surfaces: Sequence[Surface]) -> SelfAffineFit | None:
     """Law of the mean spectrum of maps of one size; None where there are too few points."""
     try:
-        return fit_self_affine(mean_spectrum([isotropic_spectrum(each) for each in surfaces]))
+        return nearest_law(mean_spectrum([isotropic_spectrum(each) for each in surfaces]))
     except InputError:
         return None
 

@@ -126,7 +126,7 @@ def draw_spectrum(axes: Axes, found: Roughness, unit: str | None) -> None:
     axes.set_xlabel(in_unit("wavenumber $q = 2\\pi/\\lambda$", 1.0, of_q)[0])
     axes.set_ylabel(in_unit(f"spectrum ${symbol}$", 1.0, of_power)[0])
     if found.fit is not None:
-        axes.set_title(f"H = {found.fit.hurst_in_words}", fontsize=9)
+        axes.set_title(found.fit.in_words, fontsize=9)
 
 
 def _rounding(spectrum: IsotropicSpectrum | ProfileSpectrum, rms_height: float) -> float:

@@ -84,8 +84,8 @@ def _surface(assessment: Assessment) -> str:
         f"{what}; rms height {engineering(body.rms_height, 'm')}, rms slope {body.rms_slope:.3g}. "
         f"{done}"
     )
-    if parameters is not None and parameters.fit is not None:
-        text += f" Hurst exponent {parameters.fit.hurst_in_words}."
+    if parameters is not None and (fit := parameters.fit) is not None and not fit.objections:
+        text += f" Hurst exponent {fit.hurst_in_words}."
     if parameters is not None and parameters.remarks:
         text += " " + " ".join(sentence(remark) for remark in parameters.remarks)
     return text

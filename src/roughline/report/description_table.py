@@ -137,7 +137,7 @@ def _rows_of_roughness(
         rows.append(
             ("slope, least over largest", f"{_number(parameters.isotropy)} over all directions")
         )
-    if fit is not None:
+    if fit is not None and not fit.objections:
         low, high = fit.rms_interval
         rows += [
             (
@@ -151,8 +151,9 @@ def _rows_of_roughness(
             ("roll-off wavelength", _wavelength(fit.q_roll, fit.q_roll_interval, "none")),
             ("cutoff wavelength", _wavelength(fit.q_high, fit.q_high_interval, "the grid's")),
             ("blur of the instrument", _blur(fit)),
-            ("self-affine", _verdict(fit, departures)),
         ]
+    if fit is not None:
+        rows.append(("self-affine", _verdict(fit, departures)))
     return rows
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from roughline.assessment.description import Description
     from roughline.assessment.part import PartAssessment
     from roughline.contact.measures import Measured
+    from roughline.spectra.fit import SelfAffineFit
 
 
 def to_json(content: Mapping[str, Any]) -> str:
@@ -177,19 +178,22 @@ def of_description(description: Description, files: Sequence[Path] = ()) -> dict
         "obstacles": description.obstacles,
         "body": None if description.body is None else _of_body(description.body),
         **{name: getattr(parameters, name, None) for name in (*names, "isotropy")},
-        "self_affine": None
-        if fit is None
-        else {
-            name: getattr(fit, name)
-            for name in (
-                *("hurst", "hurst_interval", "q_roll", "q_roll_interval"),
-                *("q_high", "q_high_interval", "corner", "blur", "blur_interval"),
-                *("q_tail", "C_0", "rms_interval", "scatter", "objections"),
-            )
-        },
+        "self_affine": None if fit is None else _of_fit(fit),
         "remarks": parameters.remarks if parameters is not None else [],
         "notes": description.notes,
         "files": list(files),
+    }
+
+
+def _of_fit(fit: SelfAffineFit) -> dict[str, Any]:
+    """A self-affine law; where it is refused, null but for what is off it, and why."""
+    values = ("hurst", "q_roll", "q_high", "corner", "blur", "q_tail", "C_0")
+    intervals = ("hurst_interval", "q_roll_interval", "q_high_interval")
+    return {
+        **{name: None if fit.objections else getattr(fit, name) for name in values},
+        **{name: getattr(fit, name) for name in (*intervals, "blur_interval", "rms_interval")},
+        "scatter": fit.scatter,
+        "objections": fit.objections,
     }
 
 

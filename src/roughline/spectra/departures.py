@@ -332,12 +332,14 @@ def _grave_shapes(body: Body, fit: SelfAffineFit) -> list[LongShape]:
 
 
 def judged(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
-    """Take the intervals of a fit down where a body departs from what one law rests on.
+    """Take the intervals down of a refused law, and where a body departs from what one rests on.
 
     So does a bow, which stands in the place of the longest waves.
     """
     if not fit.is_judged:
         return fit
+    if fit.objections:
+        return fit.without_intervals()
     if any(each.assumption in FIT_RESTS_ON for each in departures(body)):
         return fit.without_intervals()
     for shape in _grave_shapes(body, fit) if body.is_cut_out else []:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -42,7 +43,8 @@ class SelfAffineFit:
 
     Intervals are at 95 %. Besides chance, they allow for deviations of 10 % from the law in each
     tenth of a decade, for both shapes of the corner at the roll-off, and for what an instrument may
-    do to short waves. Their ends are NaN where directions have no law in common.
+    do to short waves. Their ends are NaN where the law does not describe the spectrum, or where
+    directions have none in common: the other numbers are then those of the nearest law.
 
     Attributes
     ----------
@@ -85,6 +87,8 @@ class SelfAffineFit:
         nowhere. [1 / length]
     remarks : tuple of str
         What speaks against the assumptions of the fit.
+    refusals : tuple of str
+        Why the law does not describe the spectrum; empty where it does.
     """
 
     hurst: float
@@ -104,6 +108,7 @@ class SelfAffineFit:
     blur_interval: _Interval = (0.0, 0.0)
     q_tail: float | None = None
     remarks: tuple[str, ...] = ()
+    refusals: tuple[str, ...] = ()
 
     __repr__ = summary
 
@@ -125,20 +130,14 @@ class SelfAffineFit:
         return f"{self.hurst:.2f} ({span})"
 
     @property
+    def in_words(self) -> str:
+        """The exponent as the caption of a spectrum, or that it follows no such law."""
+        return "not self-affine" if self.objections else f"H = {self.hurst_in_words}"
+
+    @property
     def objections(self) -> list[str]:
-        """Reasons why a self-affine law does not describe the spectrum; empty where it does."""
-        objections = [*self.remarks]
-        low, high = self.hurst_interval
-        if high < 0 or low > 1:
-            objections.append(f"the slope is that of H = {self.hurst:.2f}, outside 0 to 1")
-        begin, end = self.q_roll or self.q_low, self.q_high or self.q_last
-        if end < _LEAST_RANGE * begin:
-            objections.append(f"the power law spans a factor of {end / begin:.2g} only")
-        if self.scatter > _MOST_SCATTER:
-            objections.append(
-                f"the spectrum is off the law by a factor of {10**self.scatter:.2f} (rms)"
-            )
-        return objections
+        """All that speaks against a self-affine law; what hangs on the fit stands if empty."""
+        return [*self.remarks, *self.refusals]
 
     def without_intervals(self, *why: str) -> SelfAffineFit:
         """Return the same law, not judged, with a remark that says why where that is told."""
@@ -159,8 +158,13 @@ class SelfAffineFit:
         Raises
         ------
         InputError
-            If the exponent is outside 0 to 1.
+            If the law does not describe the spectrum, or its exponent is outside 0 to 1.
         """
+        if self.refusals:
+            raise InputError(
+                f"there is no self-affine spectrum like this one: {'; '.join(self.refusals)}; "
+                "state the law that is meant, as rl.SelfAffine(...)"
+            )
         if not 0 <= self.hurst <= 1:
             raise InputError(f"H is {self.hurst:.2f}; a self-affine surface has H from 0 to 1")
         return SelfAffine(
@@ -191,7 +195,7 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     Short waves are seen through an instrument. What is not known of it is tried: no effect, a blur
     up to four spacings, waves that are too short for the grid and appear as longer ones, and white
     noise. The corner at the roll-off is tried sharp and smooth. Intervals hold what is likely with
-    any of them.
+    any of them. A law that does not describe the spectrum has none, and says why in its refusals.
 
     Parameters
     ----------
@@ -216,6 +220,16 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     >>> print(round(fitted.hurst, 1))
     0.8
     """
+    fit = nearest_law(spectrum)
+    return fit.without_intervals() if fit.refusals else fit
+
+
+def nearest_law(spectrum: _Spectrum) -> SelfAffineFit:
+    """The likeliest law with its intervals, even if it does not describe the spectrum.
+
+    Where the spectrum stops rising towards long waves, that is, its roll-off, does not hang on a
+    power law beyond.
+    """
     spectrum = _within_reach(spectrum)
     observed, remarks = _observed(spectrum)
     fit = _fitted(spectrum, observed, remarks)
@@ -228,10 +242,10 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
 
 
 def fitted(body: Body) -> tuple[_Spectrum, SelfAffineFit]:
-    """Return the spectrum of a body and the law that fits it, computed once for each body."""
+    """Return the spectrum of a body and the nearest law, computed once for each body."""
     if body not in _KNOWN:
         spectrum = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
-        _KNOWN[body] = spectrum, fit_self_affine(spectrum)
+        _KNOWN[body] = spectrum, nearest_law(spectrum)
     return _KNOWN[body]
 
 
@@ -252,6 +266,8 @@ def _fitted(spectrum: _Spectrum, observed: Observed, remarks: tuple[str, ...]) -
     rms, lowest_rms, highest_rms = spectrum.rms_height * _rms_factors(observed, likely)
     blurs = observed.responses.blurs
     least_blur, most_blur = likely.blur_interval(blurs)
+    scatter = deviations.scatter / math.log(10)
+    span = q_low * min(end, last) / (q_low * roll if roll > 1 else float(spectrum.q[0]))
     return SelfAffineFit(
         hurst=hurst,
         hurst_interval=likely.hurst_interval,
@@ -262,7 +278,7 @@ def _fitted(spectrum: _Spectrum, observed: Observed, remarks: tuple[str, ...]) -
         C_0=math.exp(log_level) * max(1.0, 1 / roll) ** (-2 * (hurst + 1)) / q_low**2,
         rms_height=float(rms),
         rms_interval=(float(lowest_rms), float(highest_rms)),
-        scatter=deviations.scatter / math.log(10),
+        scatter=scatter,
         q_low=float(spectrum.q[0]),
         q_last=q_low * last,
         corner=corner,
@@ -270,7 +286,18 @@ def _fitted(spectrum: _Spectrum, observed: Observed, remarks: tuple[str, ...]) -
         blur_interval=(least_blur * spectrum.spacing, most_blur * spectrum.spacing),
         q_tail=_tail(observed, law, q_low),
         remarks=remarks,
+        refusals=tuple(_refusals(hurst, likely.hurst_interval, span, scatter)),
     )
+
+
+def _refusals(hurst: float, interval: _Interval, span: float, scatter: float) -> Iterator[str]:
+    """Say why a law does not describe a spectrum, from its slope, its span and what is off it."""
+    if interval[1] < 0 or interval[0] > 1:
+        yield f"the slope is that of H = {hurst:.2f}, outside 0 to 1"
+    if span < _LEAST_RANGE:
+        yield f"the power law spans a factor of {span:.2g} only"
+    if scatter > _MOST_SCATTER:
+        yield f"the spectrum is off the law by a factor of {10**scatter:.2f} (rms)"
 
 
 def _tail(observed: Observed, law: Law, q_low: float) -> float | None:

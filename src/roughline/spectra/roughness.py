@@ -41,7 +41,8 @@ class Roughness:
     spectrum : IsotropicSpectrum, ProfileSpectrum or None
         Spectrum, averaged over directions; None if there is none.
     fit : SelfAffineFit or None
-        The self-affine law that fits best; None if there is no fit.
+        The self-affine law that fits best; None if there is no fit. Where `fit.objections` has
+        entries, the law does not describe the topography, and has no intervals.
     remarks : list of str
         How the topography departs from what predictions rest on, the gravest first; why there is
         no spectrum or no fit, or why it is not to be trusted.
@@ -70,9 +71,9 @@ class Roughness:
 
     @property
     def law(self) -> tuple[Real, Real] | None:
-        """The fitted law as (q, power); None without a fit, or where a line's is not known."""
+        """The fitted law as (q, power); None without a fit, or where it does not describe these."""
         spectrum, fit = self.spectrum, self.fit
-        if spectrum is None or fit is None:
+        if spectrum is None or fit is None or fit.objections:
             return None
         if isinstance(spectrum, IsotropicSpectrum):
             return spectrum.q, fit.values(spectrum.q)

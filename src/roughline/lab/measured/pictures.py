@@ -240,7 +240,7 @@ def _spectrum(found: Description) -> Panels:
     panel = Filled.fitted(
         {"spectrum": _xy(q, power), "law": _xy(*((), ()) if law is None else law)},
         axes=("", label),
-        caption="" if fit is None else f"H = {fit.hurst_in_words}",
+        caption="" if fit is None else fit.in_words,
         columns=["q [1/m]", label],
         rows=[[f"{q[i]:.2e}", f"{power[i]:.2e}"] for i in some],
     )
