@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from roughline.assessment.assumptions import broken
 from roughline.computing.arrays import Real
+from roughline.contact.comparison.median_ratio import median_ratio
 from roughline.contact.comparison.trust import trust_map
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
@@ -49,7 +50,7 @@ class PressedScan:
     ----------
     curve : Curve
         Medians over the lines; of a square with the scan's length as its side. Its stiffness is
-        that of the lines times the ratio of the two models on Gaussian surfaces. Its warnings say
+        that of the lines times the ratio of both models' middles on Gaussian surfaces. Its warnings say
         why there is no interval.
     low, high : ndarray, shape (loads,)
         95 % interval of the stiffness of one such surface: it holds the uncertainty of the
@@ -111,7 +112,7 @@ def press_scan(
     >>> scan = rl.Line(surface.heights[0], length=1.0, kind="profile")
     >>> pressed = rl.press_scan(scan, E_star=1.0, forces=[1e-3])
     >>> print(pressed.curve.stiffness.round(2), pressed.low.round(2), pressed.high.round(2))
-    [0.21] [0.14] [0.28]
+    [0.23] [0.14] [0.28]
     """
     gaussian = flag("gaussian", gaussian)
     scans = [each for each in (scan, against) if each is not None]
@@ -206,11 +207,11 @@ def _surfaces(
 
 
 def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real, Real]:
-    """The full model's stiffness over the reduced one's by the map, and both ends of its interval.
+    """The full model's stiffness over the reduced one's, and both ends of its interval.
 
-    For the law that explains the scan best. The map was computed with Gaussian surfaces. Where the
-    law or a load is beyond the map, the ratio is that of the nearest place, and the interval
-    reaches to equal models.
+    For the law that explains the scan best. The ratio is that of single Gaussian surfaces in the
+    middle, and the interval that of the map of trust. Where the law or a load is beyond the map,
+    both are those of the nearest place, and the interval reaches to equal models.
     """
     table = trust_map()
     hurst, roll, *_ = bins.laws.at(*bins.laws.best)
@@ -218,9 +219,9 @@ def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real, Real]:
     roll_off = float(np.clip(roll, *table.roll_off_ratios[[0, -1]]))
     loads = np.clip(curve.force_bar, *table.force_bars[[0, -1]])
     differences = [table.at(dimension, load, roll_off) for load in loads]
-    value, low, high = (
-        np.array([1 + getattr(each, name) for each in differences])
-        for name in ("value", "low", "high")
+    value = median_ratio(3 - hurst, curve.force_bar, roll)
+    low, high = (
+        np.array([1 + getattr(each, name) for each in differences]) for name in ("low", "high")
     )
     is_beyond = (loads != curve.force_bar) | (dimension != 3 - hurst) | (roll > roll_off)
     low = np.where(is_beyond, np.minimum(low, 1.0), low)
