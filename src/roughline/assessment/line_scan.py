@@ -50,8 +50,8 @@ class PressedScan:
     ----------
     curve : Curve
         Medians over the lines; of a square with the scan's length as its side. Its stiffness is
-        that of the lines times the ratio of both models' middles on Gaussian surfaces. Its warnings say
-        why there is no interval.
+        that of the lines times the ratio of both models' middles on Gaussian surfaces. Its warnings
+        say why there is no interval.
     low, high : ndarray, shape (loads,)
         95 % interval of the stiffness of one such surface: it holds the uncertainty of the
         spectrum, the scatter of random phases, and the difference of the full model from the
