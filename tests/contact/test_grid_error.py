@@ -6,6 +6,7 @@ import pytest
 import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of
 from roughline.contact.grid_error import steepening_of
+from roughline.contact.terraces import with_whole_plateaus
 from roughline.exact.indenters import PowerLawIndenter
 from roughline.spectra.moments import bands
 from roughline.theories.layers import felt
@@ -284,3 +285,36 @@ def test_means_of_a_turned_surface_are_covered():
     for quantity, inside in covered_by(curve, finer).items():
         assert len(inside) >= 4
         assert all(inside), quantity
+
+
+def terraced(seed, n=128):
+    """Plateaus of six heights, whose shares are equal, on points four times finer than a map."""
+    make = Make(n, 1, hurst=0.7, waves=4.0, cells=16.0)
+    rough = make.rough(np.random.default_rng(seed))
+    levels = np.digitize(rough, np.quantile(rough, np.arange(1, 6) / 6))
+    return rl.Surface(1e-3 * levels, (1.0, 1.0), is_cut_out=True)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_it_covers_plateaus_whose_rims_pixels_lose(seed):
+    fine = terraced(seed)
+    coarse = fine.coarsened().coarsened()
+    loads = {"E_star": 1.0, "forces": [3e-6, 3e-5, 3e-4]}
+    curve, finer = rl.press(coarse, grid_error=True, **loads), rl.press(fine, **loads)
+    assert (finer.stiffness <= curve.stiffness + curve.unloading_stiffness_error).all()
+
+
+def test_edges_are_raised_to_the_highest_of_their_points():
+    fine = terraced(1, 256)
+    coarse = fine.coarsened().coarsened()
+    highest = fine.heights.reshape(64, 4, 64, 4).max((1, 3))
+    raised = with_whole_plateaus(coarse).heights
+    assert (raised >= coarse.heights).all()
+    # but for pixels across two edges, far from the upper plateau
+    reached = [
+        (each >= highest - 1e-9 * np.ptp(highest)).mean() for each in (coarse.heights, raised)
+    ]
+    assert reached[0] < 0.4
+    assert reached[1] > 0.85
+    for other in (fine, rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(64, 1)):
+        assert with_whole_plateaus(other) is None  # points, and a surface without plateaus

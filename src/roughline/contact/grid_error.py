@@ -14,6 +14,7 @@ from roughline.contact.full_contact import in_full_contact
 from roughline.contact.loads import Loads
 from roughline.contact.measures import Measured
 from roughline.contact.selection import among_loads
+from roughline.contact.terraces import with_whole_plateaus
 from roughline.errors import InputError
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface, with_heights
@@ -108,6 +109,10 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
     as a count does, by 1 / sqrt(N). The logarithm of a measure is as uncertain as it differs
     between grids, times the root of m.
 
+    A pixel that is a mean across the edge of a plateau lies below it, and all grids lose the rim.
+    So terraced surfaces are pressed once more with the pixels around plateaus raised to them, and
+    what this changes adds to the error.
+
     The error under a load does not depend on the other loads. The errors cover grids four times
     finer, but no noise that begins at the spacing. A value v with error e lies between
     v / (1 + e / v) and v + e. Errors are NaN where a grid did not converge, and where the surface
@@ -133,16 +138,19 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
         return _unknown(curve, error)
     pull_offs = np.array([each.pull_off_force for each in coarser])
     steepening = grids.steepening
+    rims_of_k, rims_of_area = _of_rims(curve, surface, law, partial(press, measures=()))
     softer = _softer(grids, steepening, coarser[1], laws[1], partial(press, measures=()))
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
         of_k_u = np.hypot(
             steepening * _of_compliance("unloading_stiffness", coarser, curve),
             _OF_YIELD * _of_yield(*softer),
         )
+        of_k_u = np.hypot(of_k_u, rims_of_k)
         taken = np.where((k > 0) & (k < k_u), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
         of_k = np.maximum(steepening * _of_compliance("stiffness", coarser, curve), of_k_u + taken)
         felt = steepening_of(in_full_contact(surface, curve.half_space))
         of_area = _of_area(curve, law, coarser, max(steepening, felt), surface.heights.size)
+        of_area = np.hypot(of_area, rims_of_area)
         return replace(
             curve,
             stiffness_error=_times(k, of_k),
@@ -186,6 +194,24 @@ def _of_compliance(name: str, coarser: Sequence[Curve], curve: Curve) -> Real:
     found = _between(np.where(values == full, 1.0, full / values), 1.0)
     is_apart = (full == 0) & (values != 0).any(axis=0)  # and a coarser grid is not
     return np.where(np.isinf(found) | is_apart, np.nan, found)
+
+
+def _of_rims(curve: Curve, surface: Surface, law: ContactLaw, press: _Press) -> tuple[Real, Real]:
+    """What the rims of plateaus change of the compliance and of the area's logarithm."""
+    none = np.zeros(curve.depth.shape)
+    whole = with_whole_plateaus(surface)
+    if whole is None:
+        return none, none
+    found = _pressed_again(curve, whole, law, press)
+    k, area = curve.unloading_stiffness, curve.area_fraction_corrected
+    raised, wider = found.unloading_stiffness, found.area_fraction_corrected
+    assert k is not None
+    assert area is not None
+    assert raised is not None
+    assert wider is not None
+    with np.errstate(invalid="ignore", divide="ignore"):
+        of_k, of_area = np.abs(1 - k / raised), np.abs(np.log(wider / area))
+    return np.where(k == raised, 0.0, of_k), np.where(area == wider, 0.0, of_area)
 
 
 def _between(of_coarser: Sequence[Real] | Real, of_surface: Real | float) -> Real:

@@ -55,7 +55,7 @@ _LEVELLED = 1.01  # gravity of a tilt that is not known
 
 _LEAST = 8  # points along the shortest side that tell of faults
 _MOST = 1024  # points along a side that are searched for equal heights
-_ROUNDING = 1e-9  # of the largest height, within which heights are equal
+ROUNDING = 1e-9  # of the largest height, within which heights are equal
 _BESIDE = 3  # levels on either side of one that show how many heights are equal by their steps
 _MORE = 3.0  # times as many as on any of them that are not equal by steps alone
 _SCATTERS = 8.0  # of rows from the line through those beside them that are not by chance
@@ -159,7 +159,7 @@ def _of_rows(rows: _Jump, surface: Surface) -> str:
 def _share_on_lines(heights: Real) -> float:
     """Return the share of heights in line with their neighbours along every side."""
     heights = _some_of(heights)
-    inner = _in_line(heights)[(slice(1, -1),) * heights.ndim]
+    inner = in_line(heights)[(slice(1, -1),) * heights.ndim]
     return 0.0 if inner.all() else float(inner.mean())
 
 
@@ -170,14 +170,11 @@ def _share_on_a_level(heights: Real) -> float:
     it.
     """
     heights = _some_of(heights)
-    flat = _in_line(heights)
+    flat = in_line(heights)
     if not flat.any():
         return 0.0
-    level = heights - heights.max()
-    for axis, n in enumerate(heights.shape):
-        slope = np.median(np.gradient(heights, axis=axis)[flat])
-        level = np.moveaxis(np.moveaxis(level, axis, -1) - slope * np.arange(n), -1, axis)
-    steps = np.round((level - level.max()) / (_ROUNDING * np.abs(heights).max()))
+    level = levelled(heights, flat)
+    steps = np.round((level - level.max()) / (ROUNDING * np.abs(heights).max()))
     _, counts = np.unique(steps, return_counts=True)
     ends = np.pad(counts, _BESIDE, constant_values=1)
     beside = np.lib.stride_tricks.sliding_window_view(ends, 2 * _BESIDE + 1).copy()
@@ -186,7 +183,16 @@ def _share_on_a_level(heights: Real) -> float:
     return float(counts[1:][many[1:]].max(initial=0) / heights.size)
 
 
-def _in_line(heights: Real) -> Mask:
+def levelled(heights: Real, flat: Mask) -> Real:
+    """Heights below the highest, without the tilt that flat ones have."""
+    level: Real = heights - heights.max()
+    for axis, n in enumerate(heights.shape):
+        slope = np.median(np.gradient(heights, axis=axis)[flat])
+        level = np.moveaxis(np.moveaxis(level, axis, -1) - slope * np.arange(n), -1, axis)
+    return level
+
+
+def in_line(heights: Real) -> Mask:
     """Mark heights in line with their neighbours along every side; those at the rim are not."""
     found = np.zeros(heights.shape, dtype=bool)
     if min(heights.shape) < _LEAST:
@@ -197,7 +203,7 @@ def _in_line(heights: Real) -> Mask:
     for axis in range(heights.ndim):
         along = np.moveaxis(np.diff(heights, n=2, axis=axis), axis, 0)
         others = np.moveaxis(along[(slice(None), *inner[1:])], 0, axis)
-        found[inner] &= np.abs(others) <= _ROUNDING * scale
+        found[inner] &= np.abs(others) <= ROUNDING * scale
     return found
 
 
