@@ -382,10 +382,6 @@ def test_points_filled_before_are_not_said_to_matter_nothing(
         ((), "either a contact modulus"),
         (("--modulus", "1 GPa", "--report", "r"), "need two --materials"),
         (("--materials", "steel,rigid", "--report", "r"), "a report needs a --load"),
-        (
-            ("--materials", "steel,rigid", "--load", "1 N", "--friction", "0.1"),
-            "give --report or --json",
-        ),
         (("--modulus", "1 GPa", "--theory", "hertz"), '--theory is "hertz"; allowed are'),
         (
             ("--materials", "steel,rigid", "--load", "1 N", "--frequency=-5 MHz"),

@@ -1,6 +1,5 @@
 """My surface: answers are the library's, texts the command line's, refusals sentences."""
 
-import json
 import math
 import os
 import re
@@ -667,9 +666,7 @@ def test_code_runs_as_it_is_and_gives_the_same(page, run_code, tmp_path, name, s
     with xarray.open_dataset(folder / "curve.nc", engine="h5netcdf") as curve:
         np.testing.assert_array_equal(curve.stiffness, result.curve.stiffness)
     out = " ".join(done["command"].stdout.split())
-    if out.startswith("{"):  # partial slip is written there alone
-        assert json.loads(out)["curve"]["stiffness"] == result.curve.stiffness.tolist()
-    for figure in answered["figures"]["answers"] if not out.startswith("{") else []:
+    for figure in answered["figures"]["answers"]:
         assert figure["name"] in out
         assert is_told(figure, out)
 

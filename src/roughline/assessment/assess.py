@@ -79,7 +79,6 @@ def assess_body(
         fields_of_gap=fields_of_gap(case, curves),
         sought=solution.sought,
         theories=theories,
-        partial_slip=slip_at_largest_load(case, curves),
     )
     warnings = warnings_of(result, case.moments, case.loads.grid_error)
     return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
@@ -95,7 +94,8 @@ def _solved(
     curves = _pressed(case, announce, progress)
     solution = solution_of(case, curves)
     _refuse_all_at_the_hardness(case, solution.curve)
-    return curves, solution
+    sought = replace(solution.sought, slip=slip_at_largest_load(case, curves))
+    return curves, replace(solution, sought=sought)
 
 
 def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | None) -> Curves:

@@ -12,7 +12,6 @@ import numpy as np
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.question import Question
-from roughline.assessment.slip import PartialSlip
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook, printed
@@ -24,6 +23,7 @@ from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pressed import Sought
 from roughline.engineering.rule import Answer
+from roughline.engineering.slip import PartialSlip
 from roughline.fluid.flow import Flow, flow
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
@@ -76,12 +76,10 @@ class Assessment:
         load was not solved.
     sought : Sought
         What was sought beyond the loads, as far as that was asked for: at which mean pressure the
-        gap of the map seals (``closing``), and what it takes to draw bodies apart that stick
-        (``separation``).
+        gap of the map seals (``closing``), what it takes to draw bodies apart that stick
+        (``separation``), and how they slip (``slip``).
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved, rising, each once.
-    partial_slip : PartialSlip or None
-        At the largest load, if a coefficient of friction was given and that load was solved.
     warnings : sequence of str
         Where an assumption breaks, what is suspicious, and why there are no intervals.
     notes : sequence of str
@@ -105,7 +103,6 @@ class Assessment:
     fields_of_gap: Fields | None = None
     sought: Sought = field(default_factory=Sought)
     theories: Sequence[TheoryCurve] = ()
-    partial_slip: PartialSlip | None = None
     warnings: Sequence[str] = ()
     notes: Sequence[str] = ()
 
@@ -122,6 +119,11 @@ class Assessment:
     def scale(self) -> float:
         """Force and stiffness of the joint over those of the curve; 1 without a joint."""
         return self.question.scale(self.area)
+
+    @property
+    def partial_slip(self) -> PartialSlip | None:
+        """At the largest load, if a coefficient of friction was given and that load was solved."""
+        return self.sought.slip
 
     @cached_property
     def roughness(self) -> Roughness | None:

@@ -309,7 +309,7 @@ FIELDS: tuple[Field, ...] = (
         of="Friction",
         fold=_MORE,
         help="Coefficient of friction, above 0 and up to 5, such as 0.3: adds partial slip at the "
-        "largest load to the report and to JSON.",
+        "largest load, its curve in the report and in JSON.",
         otherwise="none",
         kind=float,
         read=_number("friction"),

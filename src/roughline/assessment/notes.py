@@ -101,7 +101,9 @@ def _scatter_in_words(result: Assessment, yielded: float) -> str:
     moved = {
         each.name: [float(end[load]) for end in result.hardness_scatter[key]]
         for key, each in result.answers.items()
-        if key in result.hardness_scatter and (each.leads or each.rule.is_of_interface)
+        if key in result.hardness_scatter
+        and (each.leads or each.rule.is_of_interface)
+        and not each.rule.is_given
     }
     if not moved:
         return (

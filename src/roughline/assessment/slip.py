@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from roughline.assessment.case import Case
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.variants import Curves, Way
-from roughline.computing.arrays import Real
 from roughline.engineering.formulas import partial_slip
-
-
-@dataclass(frozen=True, eq=False)
-class PartialSlip:
-    """Tangential loading at the largest normal load, from no load to full sliding."""
-
-    friction: float  # coefficient [1]
-    displacement: Real  # [m]
-    force: Real  # [N]
+from roughline.engineering.slip import PartialSlip
 
 
 def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:

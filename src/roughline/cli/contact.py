@@ -136,11 +136,6 @@ def press_command(
         {**told, "whole_curve": report is not None},
         fields=report is not None or out is not None,
     )
-    if question.friction is not None and report is None and not json:
-        raise InputError(
-            "partial slip (--friction) is written to the report and to JSON only: give --report or "
-            "--json"
-        )
     unfolded_by = "" if everything else "--all"
     if export_table is not None:
         from roughline.report.finite_elements import checked_table

@@ -15,6 +15,7 @@ from roughline.engineering.attraction import Attraction, Separation
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Closing, Sealing
+from roughline.engineering.slip import PartialSlip
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +44,7 @@ class Sought:
 
     closing: Closing | None = None  # at which pressure the gap seals, and down to which it does
     separation: Separation | None = None  # what it takes to draw bodies apart that stick
+    slip: PartialSlip | None = None  # of the largest load, before the bodies slide
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,9 @@ from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse, several, shown
 from roughline.errors.public import are_numbers, public
 
-_Group = Literal["mechanics", "contact", "adhesion", "sealing", "electrical", "thermal", "acoustic"]
+_Group = Literal[
+    "mechanics", "contact", "adhesion", "friction", "sealing", "electrical", "thermal", "acoustic"
+]
 """What an answer is about."""
 
 _GROUPS: tuple[_Group, ...] = get_args(_Group)  # in the order in which pages show them
@@ -49,8 +51,9 @@ class Rule:
         Name by which the answer is found, such as "contact_stiffness".
     name, symbol, unit : str
         What it is called in tables and formulas; the unit is SI.
-    group : {"mechanics", "contact", "adhesion", "sealing", "electrical", "thermal", "acoustic"}
-        What it is about.
+    group : str
+        "mechanics", "contact", "adhesion", "friction", "sealing", "electrical", "thermal" or
+        "acoustic": what it is about.
     formula : str
         How it follows, in words and symbols.
     value : callable
@@ -77,6 +80,10 @@ class Rule:
         Key of an answer that this one never exceeds, and the factor of that one's upper end.
     leads : callable, optional
         Whether a page begins with it. Default: never.
+    answers_question : callable, optional
+        Whether it is what something was asked for beside the contact, as a pull-off force is of
+        bodies that stick. It leads then, and stands first, and its group before all others.
+        Default: never.
     is_shown_at_many_loads : bool, optional
         Whether tables of many loads, which have no room for all answers, show it though it does not
         lead.
@@ -85,7 +92,7 @@ class Rule:
     is_of_interface : bool, optional
         Whether it is about the surface that a map was cut out of, rather than about the map.
     is_given : bool, optional
-        Whether it is known without an interval, as loads are.
+        Whether it stands without an interval, as loads and depths do.
     is_of_hardness_alone : bool, optional
         Whether the hardness enters by the formula alone, and nothing else leaves it open.
     in_per_cent : bool, optional
@@ -141,6 +148,7 @@ class Rule:
     limits: Callable[[Pressed], Limits] = lambda _pressed: (0.0, np.inf)
     under: Callable[[Pressed], tuple[str, float]] | None = None
     leads: Callable[[Pressed], bool] = lambda _pressed: False
+    answers_question: Callable[[Pressed], bool] = lambda _pressed: False
     is_shown_at_many_loads: bool = False
     is_extensive: bool = False
     is_of_interface: bool = False
@@ -190,6 +198,7 @@ class Rule:
         told = ("name", "symbol", "formula", "validity", "source")
         texts = {name: getattr(self, name) for name in told}
         texts |= self.differing(pressed)
+        is_first = self.answers_question(pressed)
         for name in ("formula", "validity"):
             texts[name] = re.sub(r"\bk_[ui]\b", lambda k: pressed.symbols[k[0]], texts[name])
         return Answer(
@@ -200,7 +209,8 @@ class Rule:
             **texts,
             limits=limits,
             under=None if self.under is None else self.under(pressed),
-            leads=self.leads(pressed),
+            leads=is_first or self.leads(pressed),
+            answers_question=is_first,
             warning=self.warning(pressed),
             note=self.note(pressed),
         )
@@ -233,6 +243,8 @@ class Answer:
         Key of an answer that it never exceeds, and the factor of that one's upper end.
     leads : bool
         Whether a page begins with it.
+    answers_question : bool
+        Whether it is what something was asked for beside the contact.
     warning, note : str
         What is to be said with it.
     """
@@ -249,6 +261,7 @@ class Answer:
     limits: Limits = (0.0, np.inf)
     under: tuple[str, float] | None = None
     leads: bool = False
+    answers_question: bool = False
     warning: str = ""
     note: str = ""
 
@@ -350,7 +363,10 @@ class Rules:
         return list(dict.fromkeys(filter(None, (each.lacking(pair, frequency) for each in self))))
 
     def answers(self, pressed: Pressed) -> tuple[dict[str, Answer], list[str]]:
-        """Work out all answers by their keys, and say which are left out, and why."""
+        """Work out all answers by their keys, and say which are left out, and why.
+
+        What was asked for beside the contact comes first, with its group.
+        """
         answers: dict[str, Answer] = {}
         left_out: dict[str, list[str]] = {}  # names by why
         for rule in self:
@@ -365,7 +381,21 @@ class Rules:
             if share < 1:
                 answers[rule.key] = answer
         lacking = self.left_out(pressed.pair, pressed.frequency)
-        return answers, [*lacking, *(f"{', '.join(of)}: {why}" for why, of in left_out.items())]
+        return _in_order(answers), [
+            *lacking,
+            *(f"{', '.join(of)}: {why}" for why, of in left_out.items()),
+        ]
+
+
+def _in_order(answers: Mapping[str, Answer]) -> dict[str, Answer]:
+    """Answers in groups, those that answer the question before the others of their group."""
+    asked = {each.rule.group for each in answers.values() if each.answers_question}
+
+    def place(item: tuple[str, Answer]) -> tuple[bool, int, bool]:
+        group = item[1].rule.group
+        return group not in asked, _GROUPS.index(group), not item[1].answers_question
+
+    return dict(sorted(answers.items(), key=place))
 
 
 def _why_not_used(answer: Answer, pressed: Pressed) -> tuple[str, float]:

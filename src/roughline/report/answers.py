@@ -27,31 +27,49 @@ UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surfac
 NO_MEAN = "-"
 """Written where maps have no common value."""
 
-_MOST_FIGURES = 5  # that a page begins with
+_MOST_FIGURES = 5  # that a page begins with, beside what was asked for
 _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
 
 
 @dataclass(frozen=True)
 class _Group:
-    """Answers about one thing, by their keys, and the one that stands for them all.
+    """Answers about one thing, by their keys, and those that stand for them all.
 
-    That is the first leading one, or else the first.
+    These are what was asked for, or the first leading one, or else the first.
     """
 
     name: str
     keys: Sequence[str]
-    headline: str
+    shown: Sequence[str]
+
+    @property
+    def headline(self) -> str:
+        """The one that stands for them all."""
+        return self.shown[0]
 
 
 def groups(result: Assessment | PartAssessment) -> list[_Group]:
-    """The groups of its answers, in the order of their rules."""
-    leading, keys = leading_keys(result), dict[str, list[str]]()
+    """The groups of its answers, in their order."""
+    asked, leading, keys = asked_keys(result), leading_keys(result), dict[str, list[str]]()
     for key, each in result.answers.items():
         keys.setdefault(each.rule.group, []).append(key)
     return [
-        _Group(name, some, next((key for key in some if key in leading), some[0]))
+        _Group(
+            name,
+            some,
+            [key for key in some if key in asked]
+            or [next((key for key in some if key in leading), some[0])],
+        )
         for name, some in keys.items()
     ]
+
+
+def asked_keys(result: Assessment | PartAssessment) -> list[str]:
+    """Keys of the answers that something was asked for beside the contact."""
+    if isinstance(result, PartAssessment):
+        asked = {key for each in result.assessments for key in asked_keys(each)}
+        return [key for key in result.answers if key in asked]
+    return [key for key, each in result.answers.items() if each.answers_question]
 
 
 def leading_keys(result: Assessment | PartAssessment) -> list[str]:
@@ -64,15 +82,16 @@ def leading_keys(result: Assessment | PartAssessment) -> list[str]:
 
 
 def figure_keys(result: Assessment | PartAssessment) -> list[str]:
-    """Keys of the answers in large figures: the leading ones, of each group at least one.
+    """Keys of the answers in large figures: what was asked for, and of each group the first.
 
-    Of a group without a leading answer one is told only if it was asked for alone, as a reflection.
+    Others that lead follow as long as there is room.
     """
-    leading, found = leading_keys(result), groups(result)
-    first = [each.headline for each in found if each.headline in leading or len(each.keys) == 1]
+    asked, leading = asked_keys(result), leading_keys(result)
+    first = [key for each in groups(result) for key in each.shown if key in leading]
     further = [key for key in leading if key not in first]
-    shown = {*first, *further[: _MOST_FIGURES - len(first)]}
-    return [key for group in found for key in group.keys if key in shown]
+    room = _MOST_FIGURES - len({*first} - {*asked})
+    shown = {*first, *further[: max(room, 0)]}
+    return [key for key in result.answers if key in shown]
 
 
 def headline(result: Assessment | PartAssessment, write: Write = with_interval) -> Headline:

@@ -24,10 +24,10 @@ from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
-    from roughline.assessment.slip import PartialSlip
     from roughline.contact.curve import Curve
     from roughline.contact.measures import Measured
     from roughline.engineering.intervals import Ends
+    from roughline.engineering.slip import PartialSlip
 
 _PANEL, _PANELS = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
 _DASHES = ("--", ":", "-.", (0, (6, 1)), (0, (3, 1, 1, 1, 1, 1)))  # for each theory one

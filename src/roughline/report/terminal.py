@@ -104,15 +104,17 @@ def _print_answers(
 ) -> str:
     """Print the answers of two materials; returns a line on what is folded, if anything is.
 
-    Folded, a group has one answer, a curve of which no load was named has its ends, and a body
-    under one load has the large figures alone.
+    Folded, a group has what was asked of it or else one answer, a curve of which no load was named
+    has its ends, and a body under one load has the large figures alone.
     """
     _print_headline(console, result)
     headings = starred(result)
     loads = list(range(len(headings)))
     if unfolded_by and not result.question.headings:
         loads = sorted({0, result.largest})
-    keys = [each.headline for each in groups(result)] if unfolded_by else list(result.answers)
+    keys = list(result.answers)
+    if unfolded_by:
+        keys = [key for each in groups(result) for key in each.shown]
     if unfolded_by and isinstance(result, Assessment) and len(headings) == 1:
         keys, loads = figure_keys(result), []  # are printed, and a table would repeat them
     elif len(loads) > abreast:
@@ -134,9 +136,9 @@ def _print_answers(
 def _folded_table(
     result: Assessment | PartAssessment, loads: Sequence[int]
 ) -> tuple[list[str], list[list[str]]]:
-    """One answer of each group, and how many more the group has."""
-    found = groups(result)
-    header, rows = answer_table(result, loads, [each.headline for each in found])
+    """What stands for each group, and how many more answers the group has."""
+    shown = {key: group for group in groups(result) for key in group.shown}
+    header, rows = answer_table(result, loads, list(shown))
     if not result.question.headings:  # loads that nobody named are called by their numbers
         force = result.answers["normal_force"]
         header[1:] = [
@@ -144,8 +146,12 @@ def _folded_table(
             for i, heading in zip(loads, header[1:], strict=True)
         ]
     return [*header, "further"], [
-        [f"{group.name}: {name}", *cells, str(len(group.keys) - 1 or "")]
-        for group, (name, *cells) in zip(found, rows, strict=True)
+        [
+            f"{group.name}: {name}",
+            *cells,
+            str(len(group.keys) - len(group.shown) or "") if key == group.shown[-1] else "",
+        ]
+        for (key, group), (name, *cells) in zip(shown.items(), rows, strict=True)
     ]
 
 

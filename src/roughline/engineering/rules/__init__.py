@@ -7,11 +7,14 @@ from roughline.engineering.rules.acoustic import ACOUSTIC
 from roughline.engineering.rules.adhesion import ADHESION
 from roughline.engineering.rules.contact import CONTACT
 from roughline.engineering.rules.electrical import ELECTRICAL
+from roughline.engineering.rules.friction import FRICTION
 from roughline.engineering.rules.mechanical import MECHANICAL
 from roughline.engineering.rules.sealing import SEALING
 from roughline.engineering.rules.thermal import THERMAL
 
-rules = Rules([*MECHANICAL, *CONTACT, *ADHESION, *ELECTRICAL, *THERMAL, *SEALING, *ACOUSTIC])
+_ALL = (MECHANICAL, CONTACT, ADHESION, FRICTION, ELECTRICAL, THERMAL, SEALING, ACOUSTIC)
+
+rules = Rules([rule for group in _ALL for rule in group])
 """By which all answers are worked out; more can be added."""
 
 

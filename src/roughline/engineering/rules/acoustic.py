@@ -10,7 +10,7 @@ from roughline.computing.arrays import Real
 from roughline.engineering.formulas import reflection
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
-from roughline.engineering.rule import Limits, Rule
+from roughline.engineering.rule import Limits, Rule, always
 
 
 def _lacking(pair: MaterialPair, frequency: float | None) -> str:
@@ -55,7 +55,7 @@ _REFLECTION = Rule(
     symbol="|r|",
     unit="1",
     group="acoustic",
-    is_shown_at_many_loads=True,
+    answers_question=always,
     formula="|z1 - z2 + i omega z1 z2 / K| / |z1 + z2 + i omega z1 z2 / K|, K = k_i / A_0",
     validity="longitudinal plane waves much longer than the distances between contact spots; k_u, "
     "as their amplitude is small, so that all of the contact springs back",

@@ -126,7 +126,7 @@ ADHESION = (
         value=partial(_found, lambda separation, pressed: separation.pull_off * pressed.scale),
         warning=_set_by_the_range,
         note=_branch,
-        leads=always,
+        answers_question=always,
         is_extensive=True,
     ),
     _rule(

@@ -289,6 +289,13 @@ def _stays_tight(pressed: Pressed) -> str:
     )
 
 
+def _without_leak(pressed: Pressed) -> bool:
+    """Whether a fluid is asked for, but neither its leak nor the pressure that seals."""
+    asked = pressed.sealing
+    is_of_leak = asked is not None and asked.seal is not None
+    return asked is not None and not is_of_leak and pressed.sought.closing is None
+
+
 def _gas_conductance(pressed: Pressed) -> Real | None:
     asked, inverse = pressed.sealing, _largest(pressed, _inverse_gap)
     return None if asked is None or inverse is None else asked.conductivity * inverse
@@ -303,6 +310,31 @@ def _joint_conductance(pressed: Pressed) -> Real | None:
 
 SEALING = (
     _rule(
+        key="sealing_pressure",
+        name="sealing pressure",
+        symbol="p_s",
+        unit="Pa",
+        formula="mean pressure at which the last channel closes on first loading, by bisection",
+        validity="of the map; the interval holds what its quarters and its grid leave open",
+        source="Dapp et al. 2012",
+        value=partial(_bisected, lambda closing: closing.pressure),
+        answers_question=always,
+    ),
+    _rule(
+        key="reopening",
+        name="load left when ten times as much leaks",
+        symbol="F_10/F",
+        unit="1",
+        formula="share of the largest load down to which it may be taken off, by bisection",
+        validity="of the map; the interval holds what its quarters and its grid leave open",
+        source="Pérez-Ràfols, Larsson and Almqvist 2016",
+        value=partial(_bisected, lambda closing: closing.reopening),
+        note=_stays_tight,
+        answers_question=always,
+        limits=lambda _pressed: (0.0, 1.0),
+        in_per_cent=True,
+    ),
+    _rule(
         key="leak_rate",
         name="leak rate",
         symbol="Q",
@@ -312,7 +344,7 @@ SEALING = (
         value=_of_liquid,
         unknown=_lifts,
         differing=_through_seal,
-        leads=always,
+        answers_question=always,
     ),
     _rule(
         key="leak_throughput",
@@ -324,7 +356,7 @@ SEALING = (
         is_of_interface=True,
         value=partial(_of_gas, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
         differing=_through_seal,
-        leads=always,
+        answers_question=always,
         measured_with=_apertures_with_slip,
     ),
     _rule(
@@ -353,6 +385,7 @@ SEALING = (
         ),
         note=_sealed,
         leads=always,
+        answers_question=_without_leak,
         measured_with=_APERTURES,
     ),
     *(
@@ -395,30 +428,6 @@ SEALING = (
         measured_with=_along_each(largest_share, slope_of_flow),
     ),
     _rule(
-        key="sealing_pressure",
-        name="sealing pressure",
-        symbol="p_s",
-        unit="Pa",
-        formula="mean pressure at which the last channel closes on first loading, by bisection",
-        validity="of the map; the interval holds what its quarters and its grid leave open",
-        source="Dapp et al. 2012",
-        value=partial(_bisected, lambda closing: closing.pressure),
-        leads=always,
-    ),
-    _rule(
-        key="reopening",
-        name="load left when ten times as much leaks",
-        symbol="F_10/F",
-        unit="1",
-        formula="share of the largest load down to which it may be taken off, by bisection",
-        validity="of the map; the interval holds what its quarters and its grid leave open",
-        source="Pérez-Ràfols, Larsson and Almqvist 2016",
-        value=partial(_bisected, lambda closing: closing.reopening),
-        note=_stays_tight,
-        limits=lambda _pressed: (0.0, 1.0),
-        in_per_cent=True,
-    ),
-    _rule(
         key="gas_conductance",
         name="thermal conductance per area of the gas",
         symbol="h_g",
@@ -443,6 +452,7 @@ SEALING = (
         source="Yovanovich 2005",
         value=_joint_conductance,
         leads=always,
+        answers_question=_without_leak,
         is_of_interface=True,
         may_be_infinite=True,
         measured_with=_inverse_gap,

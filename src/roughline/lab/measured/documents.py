@@ -125,7 +125,7 @@ def as_command(said: Said, names: Sequence[str]) -> str:
     if "materials" in told and told.get("loads"):
         words += ["--report", "report"]
     else:
-        words += ["--out", "curve"] + ["--json"] * ("friction" in told)  # which tables leave out
+        words += ["--out", "curve"]
     return shlex.join(words)
 
 
