@@ -40,7 +40,7 @@ def _to_rounding(monkeypatch):
 def differences(first, second):
     """Largest relative difference of each answer that both have, ends of intervals included."""
     found = {}
-    for key in second.answers:
+    for key in first.answers.keys() & second.answers.keys():
         for name in ("values", "low", "high"):
             one, other = (getattr(each.answers[key], name) for each in (first, second))
             if one is None or other is None:
@@ -75,7 +75,7 @@ def test_a_coating_of_its_base_changes_no_answer_that_is_kept(others, body):
     of_a_piece = {"thermal_conductance_per_area", "joint_conductance"}
     left_out = OF_ONE_MATERIAL | (set() if others.get("periodic") else of_a_piece)
     assert set(plain.answers) - set(coated.answers) <= left_out
-    assert set(coated.answers) <= set(plain.answers)
+    assert set(coated.answers) - set(plain.answers) <= {"layer_stiffness"}
     assert max(differences(plain, coated).values()) < 1e-9
     assert coated.curve.E_star == pytest.approx(plain.curve.E_star, rel=1e-14)
     assert coated.hardness_scatter.keys() == coated.answers.keys() & plain.hardness_scatter.keys()
@@ -94,8 +94,9 @@ def test_spaced_loads_of_a_coating_of_its_base_are_the_same():
 def test_of_a_map_the_values_are_the_same_and_the_larger_surface_is_left_open(joint):
     pair = ("steel", "copper"), ("steel", "copper 20 um on copper")
     plain, coated = (assessed(each, "1 MPa", MAP, elastic=True, ask=joint) for each in pair)
-    for key, answer in coated.answers.items():
-        np.testing.assert_allclose(answer.values, plain.answers[key].values, rtol=1e-9)
+    assert coated.answers.keys() - plain.answers.keys() == {"layer_stiffness"}
+    for key in coated.answers.keys() & plain.answers.keys():
+        np.testing.assert_allclose(coated.answers[key].values, plain.answers[key].values, rtol=1e-9)
     assert "thermal_conductance_per_area" in coated.answers
     assert ("constriction_resistance" in coated.answers) == bool(joint)
     assert plain.answers["interface_stiffness"].low is not None
@@ -161,16 +162,51 @@ def test_a_rigid_base_is_the_limit_of_a_stiff_one_for_the_interface():
         for base in ("rigid", "E=3000 GPa nu=0.3")
     ]
     assert max(differences(*of).values()) < 1e-4
-    note = next(each for each in of[0].notes if "those of the interface alone" in each)
+    note = next(each for each in of[0].remarks if "those of the interface alone" in each)
     even = 50e-6 / (3e6 * (1 - 0.4) / ((1 + 0.4) * (1 - 0.8)))
     assert f"{even * 1e5 * 1e9:.1f} nm under 100 kPa" in note
-    assert not any("those of the interface alone" in each for each in of[1].notes)
+    assert note in of[1].remarks
+
+
+def test_layers_give_way_as_a_whole_in_series_with_the_interface():
+    """A slab of the base, ten waves deep on a rigid plate, is the periodic body as a whole."""
+    depth, area = 4e-3, SMALL.area
+    pair = "E=5 MPa nu=0.45 200 um on E=9 MPa nu=0.3", "rigid"
+    found = assessed(pair, "0.01 N", SMALL, periodic=True, grid_error=False)
+    k, k_l = (found.answers[f"{name}_stiffness"].values for name in ("contact", "layer"))
+    of_slab = area * _constrained(9e6, 0.3) / depth
+    assert k_l == pytest.approx(area * _constrained(5e6, 0.45) / 200e-6, rel=1e-12)
+    slab = rl.Layered((5e6, 9e6), (0.45, 0.3), (200e-6, depth), math.inf, periodic=True)
+    whole = rl.press(SMALL, half_space=slab, forces=[0.01])
+    assert whole.stiffness == pytest.approx(1 / (1 / k + 1 / k_l + 1 / of_slab), rel=1e-5)
+    assert k > 0.1 * k_l
+    assert any("in series with k" in each for each in found.warnings)
+
+
+def _constrained(young, poisson):
+    """Stress over strain where sides cannot move, by Hooke's law. [Pa]"""
+    lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+    stiffness = np.full((3, 3), lame) + np.eye(3) * young / (1 + poisson)
+    return (stiffness @ [1.0, 0.0, 0.0])[0]
+
+
+def test_layers_of_a_joint_give_way_as_its_area_does_and_those_of_a_piece_alone_are_in_k():
+    layered = ("E=5 MPa nu=0.45 200 um on steel", "E=5 MPa nu=0.45 100 um on steel")
+    joint = assessed(layered, "2 kPa", MAP, ask=[rl.Joint("2 cm^2")], grid_error=False)
+    found = joint.answers["layer_stiffness"].values
+    assert found == pytest.approx(2e-4 * _constrained(5e6, 0.45) / 300e-6, rel=1e-12)
+    free = assessed(layered, "2 kPa", grid_error=False)
+    assert "layer_stiffness" not in free.answers
 
 
 def test_a_layer_that_keeps_its_volume_may_be_repeated_on_a_rigid_base():
     found = assessed(("E=3 MPa nu=0.5 50 um on rigid", "rigid"), "0.1 N", periodic=True)
     nearly = assessed(("E=3 MPa nu=0.49999 50 um on rigid", "rigid"), "0.1 N", periodic=True)
+    of_layers, of_nearly = (each.answers.pop("layer_stiffness") for each in (found, nearly))
     assert max(differences(found, nearly).values()) < 2e-3
+    assert np.isinf(of_layers.values).all()
+    assert of_nearly.values == pytest.approx(SURFACE.area * 50e9 / 50e-6, rel=1e-3)
+    assert any("keep their volume" in each for each in found.notes)
 
 
 @SMALL_OR_LARGE

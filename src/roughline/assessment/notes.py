@@ -198,14 +198,6 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
             f"interval of {listed(bare)} includes it"
         )
         notes.append(Remark(text, INTERVALS))
-    even = question.elasticity.even_compliance
-    if (question.is_repeated or result.larger is not None) and 0 < even < math.inf:
-        pressure = float(np.nanmax(result.curve.force)) / result.area
-        given = engineering(even * pressure, "m"), engineering(pressure, "Pa")
-        notes.append(
-            "depths and stiffness of the periodic contact are those of the interface alone: they "
-            f"leave out by how much even pressure displaces the layers, {given[0]} under {given[1]}"
-        )
     return notes + _of_currents(result, pair)
 
 

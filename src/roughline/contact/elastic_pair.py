@@ -49,6 +49,15 @@ class ElasticBody:
         young, poisson = zip(*layers, strict=True)
         return Layered(young, poisson, self.thickness, *base)
 
+    @property
+    def layers_compliance(self) -> float:
+        """How far even pressure compresses the layers, which cannot widen. [length / pressure]
+
+        The sum of their thicknesses over M = E (1 - nu) / ((1 + nu) (1 - 2 nu)).
+        """
+        layers = zip(self.young, self.poisson, self.thickness, strict=False)  # without the base
+        return sum(h * (1 + nu) * (1 - 2 * nu) / (E * (1 - nu)) for E, nu, h in layers)
+
     def softness(self, side: float) -> float:
         """Strain over the pressure on a place of some side, of the base or of its layers together.
 
@@ -92,12 +101,9 @@ class ElasticPair:
         return 1 / sum(1 / min(each.moduli) for each in self.bodies)
 
     @property
-    def even_compliance(self) -> float:
-        """How far even pressure displaces both; infinite of deep bodies. [length / pressure]"""
-        if not self.is_layered:
-            return math.inf
-        with np.errstate(divide="ignore"):
-            return float(self.half_space(periodic=False).spectrum(np.zeros(1))[0])
+    def layers_compliance(self) -> float:
+        """How far even pressure compresses the layers of both. [length / pressure]"""
+        return sum(each.layers_compliance for each in self.bodies)
 
     def strain(self, pressure: float, side: float) -> float:
         """About how far pressure on a place of some side strains both; infinite: everywhere. [1]"""

@@ -50,6 +50,8 @@ def symbols_of(
         _Symbol("G*", "tangential contact modulus", "Pa", pair.G_star),
         *_of_bodies("G", "shear modulus", "Pa", pair.both("shear_modulus")),
         *_of_bodies("nu", "Poisson's ratio", "1", pair.both("nu")),
+        _Symbol("t", "thickness of a layer", "m"),
+        _Symbol("E_c", "modulus of a layer that cannot widen", "Pa"),
         _Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
         _Symbol("a_H", "radius of Holm's single spot", "m"),
         *_of_bodies("z", "acoustic impedance", "Pa s/m", pair.both("impedance")),
@@ -69,7 +71,7 @@ def _names_in(formula: str) -> set[str]:
 
 
 _GREEK = {"rho", "kappa", "sigma", "omega", "nu", "eta"}
-_LETTERS = {*"ABEFGHKMPRTWdikmpuwz"}
+_LETTERS = {*"ABEFGHKMPRTWdikmptuwz"}
 
 
 def _of_fluid(sealing: Sealing) -> list[_Symbol]:

@@ -16,7 +16,11 @@ from roughline.units import decimal, engineering
 
 _rule = partial(Rule, group="mechanics")
 
-_CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
+_OF_KEPT_VOLUME = (
+    "even pressure does not compress layers that keep their volume, nu = 0.5: as a whole they give "
+    "way at their rim alone, where they can widen, and no answer holds that"
+)
+_IN_SERIES_MATTERS = 0.1  # of the interface's stiffness over that of what lies in series with it
 
 
 def _of_joint(**texts: str) -> Callable[[Pressed], Mapping[str, str]]:
@@ -76,7 +80,7 @@ def _meaning_of_joint(pressed: Pressed, *, bodies_matter: bool) -> str:
         return ""
     disc = pressed.curve.half_space.disc_stiffness(math.sqrt(pressed.joint / math.pi))
     share = float(np.nanmax(pressed.interface_stiffness[0], initial=0.0)) / disc
-    if (share > _CONSTRICTION_MATTERS) != bodies_matter:
+    if (share > _IN_SERIES_MATTERS) != bodies_matter:
         return ""
     resistivities = pressed.pair.both("resistivity")
     added = engineering(disc, "N/m")
@@ -95,6 +99,37 @@ def _meaning_of_joint(pressed: Pressed, *, bodies_matter: bool) -> str:
     return (
         f"{text}; the interface is up to {decimal(share, 2)} times as stiff as that, so such "
         "bodies matter as well, and load the joint's edge more than its middle"
+    )
+
+
+def _layer_stiffness(pressed: Pressed) -> Real | None:
+    """Stiffness of the layers of both bodies under even pressure; a piece alone holds it. [N/m]"""
+    compliance = pressed.pair.elasticity.layers_compliance
+    if not pressed.is_repeated or not pressed.pair.coated:
+        return None
+    stiffness = pressed.nominal_area / compliance if compliance else np.inf
+    return np.where(pressed.curve.converged, stiffness, np.nan)
+
+
+def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
+    """Say that the interface does not hold what layers give way as a whole, if that matters."""
+    of_layers = _layer_stiffness(pressed)
+    if of_layers is None:
+        return ""
+    share = pressed.interface_stiffness[0] / of_layers
+    if bool(np.nanmax(share, initial=0.0) > _IN_SERIES_MATTERS) != layers_matter:
+        return ""
+    if np.isinf(of_layers).any():
+        return _OF_KEPT_VOLUME
+    k_i = pressed.symbols["k_i"]
+    pressure = float(np.nanmax(pressed.pressure))
+    compressed = engineering(pressure * pressed.pair.elasticity.layers_compliance, "m")
+    added = engineering(float(np.nanmax(of_layers)), "N/m")
+    return (
+        f"{k_i} and the approach are those of the interface alone: layers are compressed as a "
+        f"whole too, by {compressed} under {engineering(pressure, 'Pa')}, which is a spring k_l = "
+        f"{added} in series with {k_i}. That is of layers much wider than they are thick; narrow "
+        "ones widen and give way more"
     )
 
 
@@ -192,6 +227,23 @@ MECHANICAL = (
     INTERFACE_STIFFNESS,
     CONTACT_STIFFNESS,
     UNLOADING_STIFFNESS,
+    _rule(
+        key="layer_stiffness",
+        name="stiffness of the layers",
+        symbol="k_l",
+        unit="N/m",
+        formula="A_0 / sum(t / E_c) over the layers, E_c = E (1 - nu) / ((1 + nu) (1 - 2 nu))",
+        validity="in series with k_i: 1/k_i + 1/k_l is the compliance of both. Of layers much "
+        "wider than they are thick, under even pressure; the constriction of bodies to a joint, "
+        "where that is added, holds it already",
+        source="Johnson 1985",
+        value=_layer_stiffness,
+        warning=partial(_beside_layers, layers_matter=True),
+        note=partial(_beside_layers, layers_matter=False),
+        is_extensive=True,
+        is_given=True,
+        may_be_infinite=True,
+    ),
     _rule(
         key="stiffness_per_area",
         name="stiffness per area",
