@@ -220,6 +220,7 @@ def test_currents_need_the_properties_of_all_layers():
         "no constriction resistance: the resistivity of rubber in the first body (gold 2 µm on "
     )
     assert [each.name for each in rules.measures(unknown, None)] == [
+        "effective_modulus",
         "mean_gap",
         "thermal_spreading",
     ]

@@ -28,6 +28,15 @@ class MaterialPair:
         return contact_modulus(self.first.surface, self.second.surface)
 
     @property
+    def of_bases(self) -> float:
+        """Contact modulus of both without their layers; infinite of rigid bases. [Pa]"""
+        compliance = sum(
+            (1 - each.nu**2) / each.E
+            for each in (self.first.materials[-1], self.second.materials[-1])
+        )
+        return 1 / compliance if compliance else math.inf
+
+    @property
     def elasticity(self) -> ElasticPair:
         """How both give way to pressure."""
         bodies = (self.first.elasticity, self.second.elasticity) if self.coated else ()

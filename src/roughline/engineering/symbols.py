@@ -50,6 +50,8 @@ def symbols_of(
         _Symbol("G*", "tangential contact modulus", "Pa", pair.G_star),
         *_of_bodies("G", "shear modulus", "Pa", pair.both("shear_modulus")),
         *_of_bodies("nu", "Poisson's ratio", "1", pair.both("nu")),
+        _Symbol("U", "elastic energy under the pressures of the contact", "J"),
+        _Symbol("U_t", "that of the same pressures on the materials at the surfaces", "J"),
         _Symbol("t", "thickness of a layer", "m"),
         _Symbol("E_c", "modulus of a layer that cannot widen", "Pa"),
         _Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
@@ -71,7 +73,7 @@ def _names_in(formula: str) -> set[str]:
 
 
 _GREEK = {"rho", "kappa", "sigma", "omega", "nu", "eta"}
-_LETTERS = {*"ABEFGHKMPRTWdikmptuwz"}
+_LETTERS = {*"ABEFGHKMPRTUWdikmptuwz"}
 
 
 def _of_fluid(sealing: Sealing) -> list[_Symbol]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.contact.effective_modulus import effective_modulus
+from roughline.contact.measures import Measure
 from roughline.engineering.formulas import electrical_resistance
+from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule
 from roughline.units import decimal, engineering
@@ -133,6 +137,33 @@ def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
     )
 
 
+def _of_energy(pair: MaterialPair) -> Sequence[Measure]:
+    """What is measured of coated bodies: which contact modulus their contact feels."""
+    return [_felt(pair.E_star)] if pair.coated else []
+
+
+@functools.cache
+def _felt(E_star: float) -> Measure:
+    meaning = "contact modulus of one material that stores as much energy"
+    value = partial(effective_modulus, E_star=E_star)
+    return Measure("effective_modulus", "E^*_e", "pressure", meaning, value)
+
+
+def _between_moduli(pressed: Pressed) -> Mapping[str, str]:
+    """From which modulus to which the effective one goes, and of which contact it is."""
+    if not pressed.pair.coated:
+        return {}
+    top = engineering(pressed.pair.E_star, "Pa")
+    of_bases = pressed.pair.of_bases
+    base = engineering(of_bases, "Pa") if np.isfinite(of_bases) else "infinity"
+    of_map = pressed.is_repeated and pressed.interface is not None
+    place = "; of the map in a periodic half-space" if of_map else ""
+    return {
+        "validity": f"from {top}, that of what lies at the surfaces, in light contacts to {base}, "
+        f"that of the bases, in contacts that are wide beside the layers{place}"
+    }
+
+
 def _of_contact(pressed: Pressed) -> Mapping[str, str]:
     """What the contact is taken to be, and what k is called of a joint."""
     validity = f"without friction; bodies are {pressed.curve.assumption}"
@@ -227,6 +258,17 @@ MECHANICAL = (
     INTERFACE_STIFFNESS,
     CONTACT_STIFFNESS,
     UNLOADING_STIFFNESS,
+    _rule(
+        key="effective_modulus",
+        name="contact modulus that is felt",
+        symbol="E*_e",
+        unit="Pa",
+        formula="E* U_t/U",
+        value=lambda pressed: pressed.measure("effective_modulus"),
+        differing=_between_moduli,
+        leads=lambda pressed: bool(pressed.pair.coated),
+        measured_of=_of_energy,
+    ),
     _rule(
         key="layer_stiffness",
         name="stiffness of the layers",
