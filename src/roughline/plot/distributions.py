@@ -15,7 +15,7 @@ from roughline.contact.quantities import QUANTITIES
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
 from roughline.plot.bodies import drawn_at
-from roughline.plot.style import in_unit, say
+from roughline.plot.style import in_unit, label_decades, say
 from roughline.units import decimal, in_words
 
 _BARS = "0.75"
@@ -94,6 +94,7 @@ def draw_patches(axes: Axes, fields: Fields, unit: str | None) -> None:
     areas, fewer = np.unique(-found.areas, return_index=True)
     at_least = np.append(fewer[1:], found.count)
     axes.loglog(-areas * factor, at_least, "o", color="k")
+    label_decades(axes)
     share = _percent(found.forces[0] / found.forces.sum())
     many = f"{found.count} patches; the largest" if found.count > 1 else "1 patch, which"
     _tell(axes, [many, f"bears {share} of the force"])

@@ -12,13 +12,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogFormatterSciNotation
+from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation
 from numpy.typing import ArrayLike, NDArray
 
 from roughline.units import SI, prefix
 
 COLUMN, PAGE = 3.5, 7.2  # widths of one and two journal columns [inch]
 MARKERS = "osD^vP"
+_FEW = 0.4  # decades, in which some more labels have room
 _DIMENSIONS = {"length", "force", "pressure", "energy"}  # units of no system
 
 FORCE_LABEL = r"force $\bar F = F\,/\,(E^* h L)$"
@@ -111,8 +112,23 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
 
 
 def label_decades(axes: Axes) -> None:
-    """Label the powers of ten alone on a logarithmic x axis, where labels would overlap."""
-    axes.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(0, 0.4)))
+    """Label so few places of a logarithmic x axis that labels do not overlap.
+
+    These are the powers of ten if two are seen. Else a few multiples of them are labelled as well,
+    the more, the smaller the part of a decade that is seen.
+    """
+    written = LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf))
+    written.set_axis(axes.xaxis)
+
+    def label(value: float, _position: int | None = None) -> str:
+        low, high = np.log10(sorted(axes.get_xlim()))
+        if np.floor(high) - np.ceil(low) >= 1:
+            return ""
+        multiple = round(value / 10 ** np.floor(np.log10(value)), 6)
+        some = (2, 3, 5, 7) if high - low < _FEW else (2, 5) if high - low < 1 else (3,)
+        return written(value) if multiple in some else ""
+
+    axes.xaxis.set_minor_formatter(FuncFormatter(label))
 
 
 def dimension_label(dimension: float) -> str:

@@ -39,6 +39,7 @@ _ABREAST = 4  # maps of heights in a row
 _LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic
 _LONGEST, _BEGIN = 18, 4  # letters of a name under an axis, and of them from its beginning
 _BROAD = 22  # letters of a line beside an axis
+_MOST_IN_PAIRS = 6  # answers, of which more stand three abreast, so that the figure fits a sheet
 _MOST_NAMED = 12  # maps whose names fit under an axis
 _MOST_HEIGHTS = 16  # maps whose heights are drawn, so that the figure fits a sheet
 
@@ -156,11 +157,12 @@ def _each_map_table(
 def answers_figure(part: PartAssessment) -> Figure:
     """Leading answers of each map with their intervals, their mean and the part's interval."""
     keys = leading_keys(part)
-    rows = math.ceil(len(keys) / 2)
+    abreast = 2 if len(keys) <= _MOST_IN_PAIRS else 3
+    rows = math.ceil(len(keys) / abreast)
     figure = new_figure(PAGE, 2.4 * max(rows, 1))
     if not keys:
         return figure
-    panels = np.atleast_1d(figure.subplots(rows, 2)).ravel()
+    panels = np.atleast_1d(figure.subplots(rows, abreast)).ravel()
     for axes, key in zip(panels, keys, strict=False):
         _draw_answer(axes, part.answers[key], part)
     for empty in panels[len(keys) :]:
