@@ -11,8 +11,10 @@ from roughline.assessment import cost
 from roughline.engineering.leak import beyond_slip
 from roughline.fluid import measures
 from roughline.report.contact_tables import symbol_table
+from roughline.report.fields_of_load import _of_flow
 from roughline.report.json_output import of_assessment, to_json
 from roughline.report.terminal import print_assessment
+from roughline.report.typeset import formula_in_symbols
 from roughline.units import engineering
 
 LOADS = ["20 MPa", "60 MPa"]
@@ -351,7 +353,32 @@ def test_every_symbol_of_its_formulas_is_on_the_page(surface, ask):
         if key in result.answers:
             letters = re.findall(r"[A-Za-z]+(?:_[a-z]+)?\d?", result.answers[key].formula)
             words = {"at", "C", "of", "the", "open", "gap", "temperature", "jump", "length"}
-            assert {*letters} - words - {"with", "slip"} <= told
+            left = {*letters} - words - {"with", "slip"}
+            assert {*map(formula_in_symbols, left)} <= told
+
+
+@pytest.mark.parametrize(
+    ("shape", "expected"),
+    [
+        ("100 mm x 2 mm", {"W": "100 mm", "B": "2 mm"}),
+        ("20 mm .. 24 mm", {"W/B": "34.46"}),
+    ],
+)
+def test_the_seal_of_its_formulas_has_its_values_on_the_page(surface, shape, expected):
+    ask = [rl.Fluid("water"), rl.Inlet("6 bar"), rl.Seal(shape)]
+    _, rows = symbol_table(asked(surface, ask, loads="20 MPa"))
+    found = {symbol: value for symbol, _, value in rows}
+    assert {each: found.get(each) for each in ("W", "B", "W/B") if each in found} == expected
+
+
+def test_the_aperture_with_slip_is_that_of_the_pictures_of_a_gas(surface):
+    result = asked(surface, HELIUM, loads="60 MPa")
+    apertures = [flow.hydraulic_aperture for flow in result.flows]
+    assert result.answers["aperture_with_slip"].values == pytest.approx(max(apertures), rel=1e-9)
+    assert "aperture_with_slip" not in asked(surface, WATER, loads="60 MPa").answers
+    text = _of_flow(result, 0)
+    u_h = result.answers["hydraulic_aperture_x"].values[0]
+    assert f"without it, u_h is {engineering(u_h, 'm', 3)} along x and" in text
 
 
 def test_the_temperature_jump_is_that_at_the_mean_pressure(surface):

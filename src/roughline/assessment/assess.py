@@ -90,10 +90,11 @@ def _solved(
     """Press a body, or a line scan through its spectrum."""
     if case.scan is not None:
         solution = solution_of_scan(case, case.scan)
-        return Curves({Way.AS_ASKED: solution.curve}), solution
-    curves = _pressed(case, announce, progress)
-    solution = solution_of(case, curves)
-    _refuse_all_at_the_hardness(case, solution.curve)
+        curves = Curves({Way.AS_ASKED: solution.curve})
+    else:
+        curves = _pressed(case, announce, progress)
+        solution = solution_of(case, curves)
+        _refuse_all_at_the_hardness(case, solution.curve)
     sought = replace(solution.sought, slip=slip_at_largest_load(case, curves))
     return curves, replace(solution, sought=sought)
 

@@ -36,6 +36,7 @@ class SealShape:
     ratio: float  # W / B, length across the flow over the way through, of a ring 2π / ln(R/r) [1]
     width: float  # W, of a ring its inner circumference [m]
     area: float  # [m²]
+    is_ring: bool
 
     @classmethod
     def of(cls, given: Any) -> SealShape:
@@ -62,11 +63,11 @@ class SealShape:
         if not (0 < first < math.inf and 0 < second < math.inf):
             refuse("seal", given, "positive, finite lengths are needed")
         if pattern is _ACROSS:
-            return cls(given.strip(), first / second, first, first * second)
+            return cls(given.strip(), first / second, first, first * second, False)
         if first >= second:
             refuse("seal", given, "the inner radius comes first, and is below the outer one")
         around, area = 2 * math.pi, math.pi * (second**2 - first**2)
-        return cls(given.strip(), around / math.log(second / first), around * first, area)
+        return cls(given.strip(), around / math.log(second / first), around * first, area, True)
 
 
 @dataclass(frozen=True)

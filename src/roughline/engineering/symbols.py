@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from roughline.engineering.formulas import harmonic_conductivity
 from roughline.engineering.pair import MaterialPair
-from roughline.engineering.sealing import Sealing
+from roughline.engineering.sealing import Sealing, SealShape
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def symbols_of(
         _Symbol("U", "elastic energy under the pressures of the contact", "J"),
         _Symbol("U_t", "that of the same pressures on the materials at the surfaces", "J"),
         _Symbol("t", "thickness of a layer", "m"),
-        _Symbol("E_c", "modulus of a layer that cannot widen", "Pa"),
+        _Symbol("E_c", "E (1 - nu) / ((1 + nu) (1 - 2 nu)) of a layer, which cannot widen", "Pa"),
         _Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
         _Symbol("a_H", "radius of Holm's single spot", "m"),
         *_of_bodies("z", "acoustic impedance", "Pa s/m", pair.both("impedance")),
@@ -63,7 +63,7 @@ def symbols_of(
         *([] if sealing is None else _of_fluid(sealing)),
     ]
     used = {name for each in formulas for name in _names_in(each)}
-    return [each for each in known if each.symbol in used]
+    return [each for each in known if used.issuperset(each.symbol.split("/"))]
 
 
 def _names_in(formula: str) -> set[str]:
@@ -80,8 +80,7 @@ def _of_fluid(sealing: Sealing) -> list[_Symbol]:
     """The symbols of a fluid and of the seal that it crosses."""
     gas = sealing.gas
     found = [
-        _Symbol("W", "length of the seal across the flow; of a ring W/B is 2 pi / ln(R/r)", "m"),
-        _Symbol("B", "width of the seal along the flow", "m"),
+        *_of_seal(sealing.seal),
         _Symbol("P1", "absolute pressure at the inlet", "Pa", sealing.inlet),
         _Symbol("P2", "absolute pressure at the outlet", "Pa", sealing.outlet),
         _Symbol("eta", f"viscosity of {sealing.fluid.name}", "Pa s", sealing.fluid.viscosity),
@@ -92,11 +91,22 @@ def _of_fluid(sealing: Sealing) -> list[_Symbol]:
     pressure = sealing.mean_pressure
     return [
         *found,
-        _Symbol("u_s", "hydraulic aperture of u³ + 6 u² times the mean free path", "m"),
         _Symbol("R_s", "specific gas constant", "J/(kg K)", gas.gas_constant),
         _Symbol("T", "temperature of the gas", "K", gas.temperature),
         _Symbol("k_g", "thermal conductivity of the gas", "W/(m K)", gas.conductivity),
         _Symbol("M", "temperature jump length", "m", gas.temperature_jump(pressure)),
+    ]
+
+
+def _of_seal(seal: SealShape | None) -> list[_Symbol]:
+    """The symbols of the face that a fluid crosses; of a ring they have no value of their own."""
+    if seal is not None and seal.is_ring:
+        meaning = "of the ring, whose radii are r and R: 2 pi / ln(R/r)"
+        return [_Symbol("W/B", meaning, "1", seal.ratio)]
+    length, width = (None, None) if seal is None else (seal.width, seal.width / seal.ratio)
+    return [
+        _Symbol("W", "length of the seal across the flow", "m", length),
+        _Symbol("B", "width of the seal along the flow", "m", width),
     ]
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
+from roughline.fluid.measures import hydraulic_aperture
 from roughline.plot.distributions import draw_distribution, draw_patches
 from roughline.plot.flows import draw_flow
 from roughline.plot.style import PAGE, new_figure, save
@@ -57,16 +58,28 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
         files += save(flow_figure(assessment), folder, "flow")
         of_flow = Section(
             f"Where the fluid goes at {force}",
-            pictures=[Picture(files[2], "Flow", _of_flow(assessment))],
+            pictures=[Picture(files[2], "Flow", _of_flow(assessment, load))],
             behind="where it goes, and where it is throttled",
         )
         sections.insert(0, of_flow)
     return sections, files
 
 
-def _of_flow(assessment: Assessment) -> str:
+def _of_flow(assessment: Assessment, load: int) -> str:
     """Say what the pictures of the flow show."""
     text = f"{_OF_FLOW} {assessment.flows[0].sides}."
+    text += " Apertures are those of the map, to three digits whatever is open of them."
+    sealing = assessment.question.sealing
+    if sealing is not None and sealing.free_path:
+        of_map = {
+            each.along: assessment.measured[hydraulic_aperture(each.along).name].values[load]
+            for each in assessment.flows
+        }
+        told = [f"{engineering(u, 'm', _DIGITS)} along {along}" for along, u in of_map.items()]
+        text += (
+            f" They hold the slip of {sealing.fluid.name} at its mean pressure; without it, u_h is "
+            f"{' and '.join(told)}."
+        )
     if assessment.fields_of_gap is not assessment.fields:
         text += " The map is pressed repeated on all sides here, as for the answers about its gap."
     return text

@@ -26,7 +26,8 @@ def _of_slip(pressed: Pressed) -> Mapping[str, str]:
     if slip is None:
         return {}
     force = engineering(float(slip.force[-1]), "N")
-    return {"validity": f"mu = {slip.friction:g}, sliding from {force} on; {_SLIP.validity}"}
+    friction = f"coefficient of friction {slip.friction:g}, sliding from {force} on"
+    return {"validity": f"{friction}; {_SLIP.validity}"}
 
 
 _SLIP = Rule(

@@ -130,8 +130,8 @@ def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
     compressed = engineering(pressure * pressed.pair.elasticity.layers_compliance, "m")
     added = engineering(float(np.nanmax(of_layers)), "N/m")
     return (
-        f"{k_i} and the approach are those of the interface alone: layers are compressed as a "
-        f"whole too, by {compressed} under {engineering(pressure, 'Pa')}, which is a spring k_l = "
+        f"stiffness {k_i} and approach are those of the interface alone: layers are compressed as "
+        f"a whole too, by {compressed} under {engineering(pressure, 'Pa')}, a spring k_l = "
         f"{added} in series with {k_i}. That is of layers much wider than they are thick; narrow "
         "ones widen and give way more"
     )
@@ -274,7 +274,7 @@ MECHANICAL = (
         name="stiffness of the layers",
         symbol="k_l",
         unit="N/m",
-        formula="A_0 / sum(t / E_c) over the layers, E_c = E (1 - nu) / ((1 + nu) (1 - 2 nu))",
+        formula="A_0 / sum(t / E_c) over the layers",
         validity="in series with k_i: 1/k_i + 1/k_l is the compliance of both. Of layers much "
         "wider than they are thick, under even pressure; the constriction of bodies to a joint, "
         "where that is added, holds it already",

@@ -76,6 +76,12 @@ def _inverse_gap(asked: Sealing) -> Sequence[Measure]:
     return [inverse_gap(asked.gas.temperature_jump(asked.mean_pressure))]
 
 
+def _with_slip(pressed: Pressed) -> Real | None:
+    """Aperture that a gas finds, in rows; a liquid does not slip. [m]"""
+    is_gas = pressed.sealing is not None and pressed.sealing.gas is not None
+    return _largest(pressed, _apertures_with_slip) if is_gas else None
+
+
 def _largest(pressed: Pressed, needed: _Needed) -> Real | None:
     """A measure along the direction in which it is larger, in rows; None where it is not taken."""
     asked = [] if pressed.sealing is None else needed(pressed.sealing)
@@ -387,6 +393,17 @@ SEALING = (
         leads=always,
         answers_question=_without_leak,
         measured_with=_APERTURES,
+    ),
+    _rule(
+        key="aperture_with_slip",
+        name="aperture with slip",
+        symbol="u_s",
+        unit="m",
+        formula="hydraulic aperture of u³ + 6 u² times the mean free path",
+        is_of_interface=True,
+        value=_with_slip,
+        differing=partial(_with_direction, "aperture with slip"),
+        measured_with=_apertures_with_slip,
     ),
     *(
         _rule(
