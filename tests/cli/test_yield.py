@@ -124,7 +124,7 @@ def test_a_report_of_metals_that_yield(holed, points, extent, invoke, only_drawn
         "unloaded to 75%",
         "change by scatter of hardness",
         "the scatter of the hardness",
-        "E* (rho1 + rho2) / (2 k_u)",
+        "E* (ρ_1 + ρ_2) / (2 k_u)",
     ):
         assert text in bare, text
     assert "not solved" not in bare

@@ -139,4 +139,4 @@ def test_elastic_bodies_slip_as_the_closed_form_says(surface):
     expected = 0.3 * pair.E_star / pair.G_star * result.curve.depth[-1]
     np.testing.assert_allclose(slip.values, expected, rtol=1e-12)
     assert slip.low is None
-    assert slip.validity.startswith("mu = 0.3, sliding from 6 N on")
+    assert slip.validity.startswith("coefficient of friction 0.3, sliding from 6 N on")

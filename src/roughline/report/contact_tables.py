@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,7 @@ from roughline.contact.status import Status
 from roughline.engineering.coated import Coated
 from roughline.engineering.symbols import symbols_of
 from roughline.report.answers import starred
+from roughline.report.typeset import formula_in_symbols
 from roughline.report.values import Write, value_and_interval, with_interval
 from roughline.units import change_in_words, engineering
 
@@ -71,7 +73,12 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """
     header, i = ["", "formula", "validity", "source"], assessment.largest
     rows = [
-        [f"{each.name} {each.symbol}", each.formula, each.validity, each.source]
+        [
+            f"{each.name} {each.symbol}",
+            formula_in_symbols(each.formula),
+            each.validity,
+            each.source,
+        ]
         for each in assessment.answers.values()
     ]
     if assessment.hardness_scatter:
@@ -90,8 +97,8 @@ def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         return header, []
     rows = [
         [
-            each.symbol,
-            each.meaning,
+            formula_in_symbols(each.symbol),
+            formula_in_symbols(each.meaning),
             "" if each.value is None else with_interval(each.value, None, each.unit),
         ]
         for each in symbols_of(
@@ -133,6 +140,8 @@ def solid_in_words(solid: Solid) -> str:
 
 
 def _in_words(material: Material) -> str:
+    if math.isinf(material.E):
+        return f"{material.name} ({material.source})"
     parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
     if material.hardness:
         factor = material.hardness_factor

@@ -108,7 +108,9 @@ def _sections(
             [*_assumptions(body), *([_ASSUMPTION_OF_PART] if is_part else [])],
             behind="what all answers and their intervals rest on",
         ),
-        Section("How to repeat it", how_to_repeat, behind="what gives the same numbers again"),
+        Section(
+            "How to repeat it", verbatim=how_to_repeat, behind="what gives the same numbers again"
+        ),
     ]
 
 

@@ -43,7 +43,9 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and the content below it, in this order; `notes` are shown as a list.
+    """A heading and the content below it; `notes` are shown as a list.
+
+    Symbols in it are set, but for paragraphs that are to be typed again, which are `verbatim`.
 
     On a screen the content is folded behind the heading where `behind` says in short what it is.
     """
@@ -55,6 +57,7 @@ class Section:
     tables: Sequence[Table] = ()
     pictures: Sequence[Picture] = field(default=())
     behind: str = ""
+    verbatim: Sequence[str] = ()
 
 
 @dataclass(frozen=True)
@@ -108,7 +111,7 @@ def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: 
     """Return the page as Markdown, with its pictures in a folder beside it."""
     parts = [f"# {title}", lead]
     for section in sections:
-        parts += [f"## {section.heading}", *section.paragraphs]
+        parts += [f"## {section.heading}", *section.paragraphs, *section.verbatim]
         parts += ["\n".join(f"- {note}" for note in section.notes)] if section.notes else []
         parts += [markdown_table(table) for table in section.tables]
         for picture in section.pictures:

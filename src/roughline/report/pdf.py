@@ -6,18 +6,19 @@ from collections.abc import Iterator, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.sax.saxutils import escape
 
+from markupsafe import escape
 from matplotlib import get_data_path
 
 from roughline.errors import StoreError
+from roughline.report.typeset import typeset
 from roughline.report.values import value_and_interval
 
 if TYPE_CHECKING:
     from roughline.report.page import Headline, KeyFigure, Section, Table
 
 _SIZE = 9.0
-"""Of the text and of tables; nothing is smaller. [points]"""
+"""Of the text and of tables; nothing but indices and powers is smaller. [points]"""
 
 _LARGE, _HEADING, _TITLE = 15.0, 11.5, 16.0  # of key figures, headings and the title [points]
 _LEADING = 1.3  # distance of lines over their size
@@ -29,6 +30,8 @@ _PADDING = 4.0  # left and right of a cell [points]
 _NAMES = 0.2  # share of the width that the first column gets at least, if it needs it
 _WORD = 0.4  # share of the width from which on a word is broken
 _ABREAST = 3  # key figures beside each other
+_TOGETHER = 3  # first or last rows of a table that stay on one sheet
+_LOW, _HIGH = '<sub rise="1.5" size="7">', '<sup rise="3" size="7">'
 _GRAVE = "#fbe9e7"  # behind warnings
 
 
@@ -119,18 +122,19 @@ def _flow(
     if headline is not None:
         grave = _style(_SIZE, backColor=colors.HexColor(_GRAVE), borderPadding=3, spaceAfter=7)
         flow += [Spacer(1, 3)] if headline.warnings else []
-        flow += [Paragraph(f"Warning: {escape(each)}", grave) for each in headline.warnings]
+        flow += [Paragraph(f"Warning: {_set(each)}", grave) for each in headline.warnings]
     flow += [Paragraph(escape(lead), _style(_SIZE + 1, spaceAfter=4))] if lead else []
     if headline is not None and headline.figures:
         flow += [_key_figures(headline.figures, width), Spacer(1, 3)]
-        flow += [Paragraph(escape(headline.below), text)] if headline.below else []
+        flow += [Paragraph(_set(headline.below), text)] if headline.below else []
     flow += [Paragraph(escape(made), small)] if made else []
     for section in sections:
         flow += [CondPageBreak(_ROOM), Paragraph(escape(section.heading), heading)]
         spaced = text.clone("spaced", spaceAfter=3)
-        flow += [Paragraph(escape(paragraph), spaced) for paragraph in section.paragraphs]
-        flow += [Paragraph(escape(section.note), spaced)] if section.note else []
-        flow += [Paragraph(escape(note), item, bulletText="•") for note in section.notes]
+        flow += [Paragraph(_set(paragraph), spaced) for paragraph in section.paragraphs]
+        flow += [Paragraph(escape(paragraph), spaced) for paragraph in section.verbatim]
+        flow += [Paragraph(_set(section.note), spaced)] if section.note else []
+        flow += [Paragraph(_set(note), item, bulletText="•") for note in section.notes]
         for i, grid in enumerate(grid for each in section.tables for grid in _grids(each, width)):
             flow += [CondPageBreak(_ROOM)] if i else []  # the first stays below its heading
             flow += [Spacer(1, 5), grid]
@@ -143,7 +147,10 @@ def _style(size: float, *, bold: bool = False, **others: Any) -> Any:
     from reportlab.lib.styles import ParagraphStyle
 
     font = "Sans-Bold" if bold else "Sans"
-    return ParagraphStyle(font, fontName=font, fontSize=size, leading=_LEADING * size, **others)
+    whole = {"allowWidows": 0, "allowOrphans": 0}  # no line alone on a sheet
+    return ParagraphStyle(
+        font, fontName=font, fontSize=size, leading=_LEADING * size, **whole, **others
+    )
 
 
 def _key_figures(figures: Sequence[KeyFigure], width: float) -> Any:
@@ -158,10 +165,10 @@ def _key_figures(figures: Sequence[KeyFigure], width: float) -> Any:
         shown = figures[i : i + _ABREAST]
         blank = [""] * (_ABREAST - len(shown))
         values = [
-            [Paragraph(_unbroken(each.value), large), Paragraph(escape(each.interval), text)]
+            [Paragraph(_unbroken(each.value), large), Paragraph(_set(each.interval), text)]
             for each in shown
         ]
-        rows += [[Paragraph(escape(each.name), text) for each in shown] + blank, values + blank]
+        rows += [[Paragraph(_set(each.name), text) for each in shown] + blank, values + blank]
     rules = [
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
         ("LEFTPADDING", (0, 0), (-1, -1), 0),
@@ -182,7 +189,7 @@ def _picture(path: Path, caption: str, width: float) -> list[Any]:
     image = Image(str(path), width * share, width * share * high / wide)
     space = Spacer(1, 5)
     space.keepWithNext = image.keepWithNext = 1
-    return [space, image, Paragraph(escape(caption), _style(_SIZE))]
+    return [space, image, Paragraph(_set(caption), _style(_SIZE))]
 
 
 def _grids(table: Table, width: float) -> Iterator[Any]:
@@ -204,13 +211,15 @@ def _grids(table: Table, width: float) -> Iterator[Any]:
         ("LEFTPADDING", (0, 0), (-1, -1), _PADDING),
         ("RIGHTPADDING", (0, 0), (-1, -1), _PADDING),
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
+        ("NOSPLIT", (0, 0), (-1, min(_TOGETHER, len(table.rows)))),
+        ("NOSPLIT", (0, max(-_TOGETHER, -len(table.rows))), (-1, -1)),
     ]
     lines = [table.header, *table.rows]
     for columns in _abreast(table, width):
         rows = [
             [
                 Paragraph(
-                    _unbroken(line[i]) if i in table.numbers and n else escape(line[i]),
+                    _unbroken(line[i]) if i in table.numbers and n else _set(line[i]),
                     styles[n == 0, i in table.numbers],
                 )
                 for i in columns
@@ -221,10 +230,15 @@ def _grids(table: Table, width: float) -> Iterator[Any]:
         yield Grid(rows, widths, style=rules, repeatRows=1, hAlign="LEFT")
 
 
+def _set(text: str) -> str:
+    """A text with its symbols, whose low letters stay clear of the line below."""
+    return str(typeset(text)).replace("<sub>", _LOW).replace("<sup>", _HIGH)
+
+
 def _unbroken(cell: str) -> str:
     """A number that is broken before its interval only."""
     pieces = value_and_interval(cell)
-    return " ".join(escape(piece.replace(" ", "\u00a0")) for piece in pieces)
+    return " ".join(_set(piece.replace(" ", "\u00a0")) for piece in pieces)
 
 
 def _abreast(table: Table, width: float) -> list[list[int]]:
