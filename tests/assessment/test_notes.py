@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.assessment.notes import listed_in_short
 
 PAIR = "steel,copper"
 
@@ -188,3 +189,9 @@ def test_a_whole_curve_has_the_words_of_the_loads_that_were_asked_for(surface, p
     assert whole.curve.force.size > asked.curve.force.size
     assert whole.remarks == asked.remarks
     assert any("within 5% of the border" in each for each in asked.warnings)
+
+
+def test_a_sentence_names_three_and_counts_the_others():
+    assert listed_in_short(["depth"]) == "depth"
+    assert listed_in_short(["depth", "force", "area"]) == "depth, force and area"
+    assert listed_in_short(["depth", "force", "area", "gap", "work"]).endswith("area and 2 more")

@@ -217,11 +217,14 @@ def test_roughness_that_drifts_takes_it_down_as_well(made):
     x = np.linspace(-1, 1, 64)[:, np.newaxis]
     level = piece.detrended().heights * np.exp(0.6 * x)
     drifting = replace(piece, heights=level)
-    found = rl.assess(
-        rl.Question(drifting, MATERIALS, loads="200 MPa", elastic=True, grid_error=True)
-    )
+    asked = {"loads": "200 MPa", "elastic": True, "fields": False, "grid_error": True}
+    found = rl.assess(rl.Question(drifting, MATERIALS, **asked))
     assert found.answers["interface_stiffness"].ends is None
-    assert any("roughness drifts over the map: along x" in each for each in found.warnings)
+    said = next(each for each in found.warnings if "roughness drifts over the map: along x" in each)
+    lost = "interface stiffness and mean gap"
+    assert said.endswith(f"; {lost} come without an interval")
+    joint = rl.assess(rl.Question(drifting, MATERIALS, ask=rl.Joint("4 cm^2"), **asked))
+    assert any("; all answers of the joint come without an" in each for each in joint.warnings)
 
 
 @pytest.mark.parametrize("points", [32, 64])

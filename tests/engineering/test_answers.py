@@ -198,6 +198,26 @@ def test_the_periodic_half_space_is_nearer_to_the_parent_than_the_punch(parents)
     assert (np.abs(np.log(periodic[2:])) < np.abs(np.log(free[2:]))).all()
 
 
+LIGHT, HEAVY = 1e-4, 0.03  # mean pressures over E* and the rms slope
+
+
+@pytest.mark.parametrize("seed", [3, 5])
+def test_which_surface_k_i_is_of_is_told_where_the_bodies_give_way_beside_the_interface(seed):
+    """Up to 5 % of that, the piece is as stiff as it is repeated, and its validity is enough."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, length=1.0, q_roll=6 * math.tau)
+    surface = spectrum.surface(64, seed)
+    for load, is_told in ((LIGHT, False), (HEAVY, True)):
+        forces = np.array([load * surface.rms_slope])
+        curve = rl.press(surface, E_star=1.0, forces=forces)
+        repeated = rl.press(surface, E_star=1.0, forces=forces, periodic=True)
+        interface = stiffness_of_the_piece(surface, curve)
+        k_i = answers(curve, surface.area, PAIR, interface=interface)["k_i"]
+        assert (1 - curve.stiffness / k_i.values > 0.05) == is_told
+        assert is_told or k_i.values == pytest.approx(repeated.stiffness, rel=0.02)
+        assert bool(k_i.warning) == is_told
+        assert k_i.validity.startswith("of this piece alone")
+
+
 def test_near_full_contact_the_interval_has_no_upper_end():
     """Where k_s - k is smaller than what the grid knows of the punch."""
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-3, q_roll=12 * math.tau, q_high=16 * math.tau)

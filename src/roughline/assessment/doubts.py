@@ -8,7 +8,13 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import Prediction, takes_down
 from roughline.assessment.case import COARSENED_FROM
 from roughline.assessment.kinds import is_map
-from roughline.assessment.notes import borders_of_repeated, how_far_a_line_serves, listed, of_each
+from roughline.assessment.notes import (
+    MOST_NAMED,
+    borders_of_repeated,
+    how_far_a_line_serves,
+    listed_in_short,
+    of_each,
+)
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices
 from roughline.contact.borders import border_warnings
@@ -107,17 +113,19 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
         return "theories assume otherwise"
     if prediction == "grid":
         return "all values come without an interval"
-    names = [
-        each.symbol
+    is_joint = result.question.joint is not None
+    meant = [
+        each
         for each in result.answers.values()
-        if (result.question.joint or each.rule.is_of_interface)
-        and each.low is None
-        and not each.rule.is_given
+        if (is_joint or each.rule.is_of_interface) and not each.rule.is_given
     ]
-    if not names:
+    bare = [each.name for each in meant if each.low is None]
+    if not bare:
         return ""
-    verb = "comes" if len(names) == 1 else "come"
-    return f"{listed(names)} {verb} without an interval"
+    names = listed_in_short(bare)
+    if MOST_NAMED < len(bare) == len(meant):
+        names = f"all answers of the {'joint' if is_joint else 'larger surface'}"
+    return f"{names} {'comes' if len(bare) == 1 else 'come'} without an interval"
 
 
 def _of_filled_points(result: Assessment) -> list[Remark]:

@@ -32,6 +32,9 @@ from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import decimal
 
+_PUNCH_MATTERS = 0.05
+"""Share of 1 / k_s in 1 / k, up to which k_i of a piece is within 2 % of that of it repeated."""
+
 _LEAST_SHARE = 1e-9  # of the area that is in contact, or is not; less counts as this
 
 
@@ -131,10 +134,10 @@ def stiffness_of_the_piece(
     """
     k = unloading_stiffness(curve)
     if isinstance(body, Line):
-        saturated, error = curve.E_star * body.length, 0.0
+        saturated, error, told_from = curve.E_star * body.length, 0.0, 0.0
         validity = "of the reduced line alone; waves longer than the scan are missing"
     else:
-        saturated = saturated_stiffness(body, curve)
+        saturated, told_from = saturated_stiffness(body, curve), _PUNCH_MATTERS
         # as a share of k_s, which is a little more
         error = PUNCH_GRID_ERROR / math.sqrt(body.heights.size)
         validity = "of this piece alone, a punch with its outline; "
@@ -152,7 +155,9 @@ def stiffness_of_the_piece(
     known = interval is not None or bool(close.any())
     ends = interface_stiffness(low, saturated), interface_stiffness(high, saturated)
     formula = "1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch"
-    return Interface(interface_stiffness(k, saturated), ends if known else None, validity, formula)
+    return Interface(
+        interface_stiffness(k, saturated), ends if known else None, validity, formula, told_from
+    )
 
 
 def saturated_stiffness(surface: Surface, curve: Curve) -> float:

@@ -22,6 +22,9 @@ from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
+MOST_NAMED = 3
+"""Answers that a sentence names one by one."""
+
 
 def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
     """What is left out, what was filled, how the loads were meant, and what was cropped."""
@@ -192,10 +195,10 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
             pair.refuses_layers("plasticity index", "it is of summits of one material each")
         )
     if is_map(result.body) or question.joint is not None:
-        bare = [each.symbol for each in result.answers.values() if each.rule.is_of_interface]
+        bare = [each.name for each in result.answers.values() if each.rule.is_of_interface]
         text = (
             "how far a larger surface may be from its map is not known of coated bodies, so no "
-            f"interval of {listed(bare)} includes it"
+            f"interval of {listed_in_short(bare)} includes it"
         )
         notes.append(Remark(text, INTERVALS))
     return notes + _of_currents(result, pair)
@@ -357,6 +360,12 @@ def _cropping_and_resampling(body: Body) -> list[str]:
         pixel = " x ".join(engineering(size, "m") for size in body.spacing)
         notes.append(f"second body: resampled by cubic splines to pixels of {pixel}, the first's")
     return notes
+
+
+def listed_in_short(names: Sequence[str]) -> str:
+    """Write names one after the other; of many the first, and how many more there are."""
+    further = len(names) - MOST_NAMED
+    return listed([*names[:MOST_NAMED], f"{further} more"] if further > 0 else names)
 
 
 def listed(names: Sequence[str]) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.kinds import nominal_area
-from roughline.assessment.notes import listed
+from roughline.assessment.notes import listed, listed_in_short
 from roughline.assessment.part import PartAnswer
 from roughline.errors.remark import INTERVALS, Remark, remarks
 from roughline.errors.words import called
@@ -164,10 +164,11 @@ def _what_they_tell_of_the_part(
         return [], []
     warnings: list[str] = []
     notes: list[str] = []
-    bare = [each.symbol for each in answers.values() if each.of_maps[0].rule.is_of_interface]
+    bare = [each.name for each in answers.values() if each.of_maps[0].rule.is_of_interface]
     if behind.untold and bare:
-        bare = ["answers of the joint"] if is_joint else bare
-        warnings.append(f"{behind.untold}; {listed(bare)} come without an interval")
+        names = "answers of the joint" if is_joint else listed_in_short(bare)
+        verb = "comes" if len(bare) == 1 and not is_joint else "come"
+        warnings.append(f"{behind.untold}; {names} {verb} without an interval")
     found = behind.agreement
     if found is None:
         return warnings, notes

@@ -26,6 +26,8 @@ class Interface:
     ends: Ends | None  # of its interval; None where it is not known [N / m]
     validity: str  # which interface it is
     formula: str  # how it was found
+    told_from: float = 0.0
+    """Share of 1 / k_u that it leaves to the bodies, from which a warning says which it is. [1]"""
 
     @property
     def rows(self) -> Real:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughline._version import __version__
-from roughline.assessment.notes import listed
+from roughline.assessment.notes import listed, listed_in_short
 from roughline.assessment.part import PartAssessment
 from roughline.report.answers import (
     UNRESOLVED,
@@ -184,11 +184,9 @@ def _of_intervals(assessment: Assessment) -> list[str]:
     if is_of_joint:
         held += f", and what {beyond}"
     else:
-        ours = [each for each in assessment.answers.values() if each.rule.is_of_interface]
+        ours = [each.name for each in assessment.answers.values() if each.rule.is_of_interface]
         if ours:
-            held += (
-                f"; those of {listed([each.symbol for each in ours])} hold what {beyond} as well"
-            )
+            held += f"; those of {listed_in_short(ours)} hold what {beyond} as well"
     other = "other material data" if assessment.hardness_scatter else "material data"
     places = "of places which are not alike" if is_of_joint else "between places on the part"
     return [

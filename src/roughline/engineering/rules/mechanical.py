@@ -72,8 +72,12 @@ def _which_interface(pressed: Pressed) -> Mapping[str, str]:
 
 
 def _which_surface(pressed: Pressed) -> str:
-    """Say which surface k_i belongs to."""
+    """Say which surface k_i belongs to, unless it is so near k_u that this does not matter."""
     if pressed.interface is None:
+        return ""
+    with np.errstate(divide="ignore", invalid="ignore"):  # bodies apart, and full contact
+        left = 1 - pressed.unloading[0] / pressed.interface_stiffness[0]
+    if np.nanmax(left, initial=0.0) < pressed.interface.told_from:
         return ""
     return f"the interface stiffness k_i is {pressed.interface.validity}"
 
