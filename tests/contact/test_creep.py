@@ -8,6 +8,7 @@ import re
 import mpmath
 import numpy as np
 import pytest
+import xarray
 from scipy.integrate import quad
 
 import roughline as rl
@@ -532,7 +533,12 @@ def test_a_dataset_over_time_has_units(surface, tmp_path):
     assert data.attrs["creep_times"] == RUBBER.times
     for name in data.data_vars:
         np.testing.assert_array_equal(data[name], getattr(curve, name))
-    data.to_netcdf(tmp_path / "creep.nc", engine="h5netcdf")
+    curve.write(tmp_path / "creep.nc")
+    with xarray.open_dataset(tmp_path / "creep.nc", engine="h5netcdf") as written:
+        xarray.testing.assert_equal(written, data)
+    curve.write(tmp_path / "creep.csv")
+    with pytest.raises(rl.InputError, match="ends in neither"):
+        curve.write(tmp_path / "creep.txt")
     of_line = rl.press_creep(ball(), RUBBER, times=[0, 1], force=1e-3, E_star=1.0).to_dataset()
     assert "area_fraction" in of_line
     assert "3 values" in repr(curve)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,17 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
-from roughline.computing.disk import write_dataset
 from roughline.computing.notebook import in_notebook
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
+from roughline.contact.curve_files import checked_name, write_curve
 from roughline.contact.fields import Fields, Indentation, KeptFields
 from roughline.contact.jkr import JKR
 from roughline.contact.measures import Measured
 from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import Status
-from roughline.errors import InputError, StoreError
-from roughline.errors.checks import refuse
+from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
@@ -358,22 +356,5 @@ class Curve:
         StoreError
             If the file cannot be written.
         """
-        if not isinstance(path, str | os.PathLike):
-            refuse("path", path, 'a name that ends in ".nc" or ".csv" is needed')
-        path = Path(path)
-        if path.suffix not in (".nc", ".csv"):
-            raise InputError(
-                f'{path} ends in neither ".nc" (NetCDF) nor ".csv" (a table): rename it'
-            )
-        data = self.to_dataset()
-        try:
-            if path.suffix == ".nc":
-                write_dataset(data, path)
-                return
-            over_loads = data.drop_dims(["field_load", "x", "y"], errors="ignore")
-            table = over_loads.to_dataframe().reset_index()
-            units = {name: over_loads[name].attrs.get("units") for name in table}
-            table.columns = [f"{name} [{units[name]}]" if units[name] else name for name in table]
-            table.to_csv(path, index=False)
-        except (OSError, ValueError) as error:
-            raise StoreError(f"cannot write {path} ({error}): choose another place") from error
+        name = checked_name(path)
+        write_curve(self.to_dataset(), name)

@@ -17,6 +17,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import pairwise
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -28,6 +29,7 @@ from roughline.computing.summary import summary
 from roughline.contact.arguments import LARGEST, given_half_space
 from roughline.contact.creep import Creep, memory_of_strain, memory_of_stress
 from roughline.contact.curve import Curve
+from roughline.contact.curve_files import checked_name, write_curve
 from roughline.contact.fading_memory import FadingMemory
 from roughline.contact.loads import checked_numbers, comes_nearer
 from roughline.contact.press import press
@@ -149,6 +151,25 @@ class CreepCurve:
         }
         when = {"time": ("time", self.time, {"long_name": "time"})}
         return xarray.Dataset(variables, when, attrs)
+
+    def write(self, path: str | Path) -> None:
+        """Write the curve to a file.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file; an existing file is replaced. ".nc": NetCDF, with settings. ".csv":
+            only a table, with a row for each time and units in its header.
+
+        Raises
+        ------
+        InputError
+            If the name ends in neither ".nc" nor ".csv".
+        StoreError
+            If the file cannot be written.
+        """
+        name = checked_name(path)
+        write_curve(self.to_dataset(), name)
 
 
 @public_names

@@ -14,9 +14,11 @@ if TYPE_CHECKING:
     from roughline.topography.files.curves import CurveInFile
 
 _HEADER = {
+    "time": "time",
     "force": "force F",
     "depth": "depth d",
     "stiffness": "stiffness k",
+    "instantaneous_stiffness": "k of a fast load",
     "area_fraction_corrected": "corrected A/A_0",
     "area_fraction": "raw A/A_0",
 }
@@ -39,7 +41,7 @@ def _settings_table(curve: CurveInFile) -> list[tuple[str, str]]:
     settings = curve.settings
     rows = [
         ("file", f"{curve.file}, a curve that roughline wrote"),
-        ("loads", str(curve.columns["force"].size)),
+        ("times" if "time" in curve.columns else "loads", str(curve.columns["force"].size)),
         ("E*", _shown(settings["E_star"], settings.get("E_star_units", ""))),
     ]
     if "boundary" in settings:

@@ -12,8 +12,9 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.topography.files.archives import refuse_empty_datasets
 
-_SHOWN = ("depth", "force", "stiffness", "area_fraction_corrected", "area_fraction")
-"""Quantities of a curve that are shown; the first three are in all of them."""
+_STIFFNESSES = ("stiffness", "instantaneous_stiffness")  # over loads, and over time
+_SHOWN = ("time", "depth", "force", *_STIFFNESSES, "area_fraction_corrected", "area_fraction")
+"""Quantities of a curve that are shown, as far as it has them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +30,10 @@ class CurveInFile:
 
 
 def curve_in(path: Path) -> CurveInFile | None:
-    """Return the curve in a file of :meth:`roughline.Curve.write`; None if there is none."""
+    """Return the curve in a file of :meth:`roughline.Curve.write`; None if there is none.
+
+    Those of :meth:`roughline.CreepCurve.write` are over time.
+    """
     if path.suffix != ".nc" or not os.path.isfile(path):  # noqa: PTH113 - as in reading
         return None
     refuse_empty_datasets(path, path.name)
@@ -37,7 +41,9 @@ def curve_in(path: Path) -> CurveInFile | None:
 
     try:
         with h5netcdf.File(path, "r") as file:
-            if "E_star" not in file.attrs or not set(_SHOWN[:3]) <= set(file.variables):
+            names = set(file.variables)
+            is_curve = {"depth", "force"} <= names and not names.isdisjoint(_STIFFNESSES)
+            if "E_star" not in file.attrs or not is_curve:
                 return None
             found = {name: file[name] for name in _SHOWN if name in file.variables}
             if any(variable.ndim != 1 for variable in found.values()):
