@@ -58,6 +58,7 @@ _EXAMPLES = {
     "Pa*s": "40 mPa s",
     "kg/mol": "29 g/mol",
     "K": "300 K",
+    "s": "10 s",
 }
 
 

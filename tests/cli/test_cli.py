@@ -33,7 +33,7 @@ def surface_file(tmp_path, invoke):
 def test_help_and_version(invoke):
     command = [sys.executable, "-c", "from roughline.cli import main; main()", "--help"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    for command in ("paper", "press", "generate"):
+    for command in ("paper", "press", "ball", "creep", "generate"):
         assert command in done.stdout
         assert invoke(command, "--help")[0] == 0
     assert invoke("--version")[:2] == (0, f"roughline {rl.__version__}\n")

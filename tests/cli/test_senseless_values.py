@@ -13,7 +13,7 @@ from roughline.lab.server import serve
 
 VALUES = ("text", "-1", "0", "nan", "inf", "1e400", "", "1 kg", "1,5 mm", "x" * 500, "a\nb")
 SKIPPED = ("--out", "--report", "--store", "--scheduler")  # any text is a name, or an address
-INSTEAD_OF = {"--fractal-dimension": "--hurst", "--modulus": "--materials"}
+INSTEAD_OF = {"--fractal-dimension": "--hurst", "--modulus": "--materials", "--depth": "--load"}
 PLAN = """
 [[ensemble]]
 name = "lines"
@@ -37,6 +37,11 @@ NEEDED = {
     "generate": (
         *("--hurst", "0.8", "--out", "{folder}/made.nc"),
         *("--length", "1 mm", "--rms-height", "1 um"),
+    ),
+    "ball": ("--radius", "1 mm", "--materials", "steel,copper", "--load", "1 N"),
+    "creep": (
+        *("{file}", "--materials", "E=9 MPa nu=0.49, rigid", "--prony", "0.5 1 s"),
+        *("--load", "10 mN", "--times", "0 s, 1 s"),
     ),
     "paper": ("--out", "{folder}/paper"),
     "lab": ("--no-browser",),

@@ -15,7 +15,7 @@ from roughline.engineering.material import Material
 from roughline.engineering.materials import material
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, shown
-from roughline.errors.words import speaking
+from roughline.errors.words import called, speaking
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import example_of, in_si, load_in_newtons, refuse_decimal_comma
 
@@ -110,6 +110,15 @@ def bodies_or_paths(given: Any) -> Body | Path | tuple[Body | Path, ...]:
         if path in paths[:i]:
             raise InputError(f"{path.name} is given twice; give maps of different places")
     return found
+
+
+def refuse_unless_one_modulus(E_star: Any, materials: Any) -> None:
+    """Refuse a contact modulus beside two materials, and neither of them."""
+    if (E_star is None) == (materials is None):
+        raise InputError(
+            f"give either a contact modulus ({called('E_star')}) or two materials "
+            f"({called('materials')})"
+        )
 
 
 def pair_of(given: Any) -> tuple[Solid, Solid]:

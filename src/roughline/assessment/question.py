@@ -34,6 +34,7 @@ from roughline.assessment.given import (
     body_or_path,
     pair_of,
     quantity,
+    refuse_unless_one_modulus,
     several,
 )
 from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
@@ -563,10 +564,7 @@ class Question:
             text = f"reflection and partial slip need two materials ({materials})"
             which = "frequency" if self.friction is None else "friction"
             raise InputError(text, None, which)
-        if (self.E_star is None) == (self.materials is None):
-            raise InputError(
-                f"give either a contact modulus ({called('E_star')}) or two materials ({materials})"
-            )
+        refuse_unless_one_modulus(self.E_star, self.materials)
 
     def _check_layers(self) -> None:
         """Refuse partial slip of coated bodies."""

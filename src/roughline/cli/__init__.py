@@ -11,9 +11,11 @@ from typer.exceptions import TyperException
 
 from roughline._version import __version__
 from roughline.cli.about import about
+from roughline.cli.ball import ball_command
 from roughline.cli.campaign import app as campaign_app
 from roughline.cli.comparison import compare_command
 from roughline.cli.contact import press_command
+from roughline.cli.creep import creep_command
 from roughline.cli.flags import FLAGS
 from roughline.cli.help import PanelsFirst
 from roughline.cli.lab import lab
@@ -31,8 +33,13 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",
 )
-_summary, _, _details = (inspect.getdoc(press_command) or "").partition("\n\n")
-app.command("press", cls=PanelsFirst, help=_summary, epilog=_details)(press_command)
+for _name, _command in (
+    ("press", press_command),
+    ("ball", ball_command),
+    ("creep", creep_command),
+):
+    _summary, _, _details = (inspect.getdoc(_command) or "").partition("\n\n")
+    app.command(_name, cls=PanelsFirst, help=_summary, epilog=_details)(_command)
 app.command()(info)
 app.command("compare")(compare_command)
 app.command()(generate)

@@ -11,6 +11,7 @@ _SPELLED = (
     *("hurst", "fractal_dimension", "length", "rms_height", "surfaces", "tolerance", "threads"),
     *("workers", "scheduler", "host", "port", "password_file", "behind_proxy", "max_upload"),
     *("max_points", "max_seconds", "max_memory", "max_disk"),
+    *("radius", "prony", "times"),
 )
 """Arguments of other commands whose flags are spelled like them."""
 
@@ -20,6 +21,8 @@ _OTHERS = {
     "n": "--points",
     "rng": "--seed",
     "forces": "--load",
+    "force": "--load",
+    "depth": "--depth",
     "force_bars": "--force-bar",
     "table": "--export-table",
     "range": "the range of --adhesion",

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, NoReturn
 import typer
 
 import roughline as rl
-from roughline.assessment.fields import FIELDS, Field
+from roughline.assessment.fields import ANSWERS, BODIES, FIELDS, Field
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
 
@@ -22,12 +22,13 @@ Told = Mapping[str, Any]
 
 
 def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command the options of the fields in some groups; it is told of them as `told`."""
+    """Give a command the options of the fields in some groups, where it has `told` of them."""
     fields = [each for each in FIELDS if each.group in groups and each.flag]
 
     def with_options(command: Callable[..., None]) -> Callable[..., None]:
-        given = inspect.signature(command, eval_str=True).parameters.values()
-        first, *others = [each for each in given if each.name != "told"]
+        given = list(inspect.signature(command, eval_str=True).parameters.values())
+        place = [each.name for each in given].index("told")
+        before, after = given[:place], given[place + 1 :]
 
         @functools.wraps(command)
         def run(**given: Any) -> None:
@@ -35,10 +36,10 @@ def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., N
             command(**given, told=told)
 
         options = [
-            inspect.Parameter(each.name, first.kind, default=None, annotation=_option_of(each))
+            inspect.Parameter(each.name, before[0].kind, default=None, annotation=_option_of(each))
             for each in fields
         ]
-        parameters = [first, *options, *others]
+        parameters = [*before, *options, *after]
         run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
         run.__annotations__ = {each.name: each.annotation for each in parameters}
         return run
@@ -80,6 +81,28 @@ RollOff = Annotated[
 Cutoff = Annotated[
     str | None,
     _of_spectrum('Shortest wavelength, such as "5 um" [default: that of the grid].'),
+]
+Materials = Annotated[
+    str | None,
+    typer.Option(
+        help='Both materials, such as "steel,copper" or "E=3 GPa nu=0.38, rigid".',
+        rich_help_panel=BODIES,
+    ),
+]
+Modulus = Annotated[
+    str | None,
+    typer.Option(
+        help='Contact modulus E* instead of the materials, such as "110 GPa".',
+        rich_help_panel=BODIES,
+    ),
+]
+CurveFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        help='File for the curve, ending in ".nc" (NetCDF) or ".csv" (a table).',
+        rich_help_panel=ANSWERS,
+    ),
 ]
 Points = Annotated[int, typer.Option("-n", "--points", help="Points along a side.")]
 SeedOption = Annotated[int, typer.Option(min=0, help="Root of all random seeds.")]
@@ -179,3 +202,12 @@ def writable(*folders: Path | None) -> Iterator[None]:
             with suppress(OSError):  # it holds something
                 folder.rmdir()
         raise
+
+
+@contextmanager
+def writable_file(file: Path | None) -> Iterator[None]:
+    """Refuse a file that a curve cannot be written to before the work, and make its folder."""
+    from roughline.contact.curve_files import checked_name
+
+    with writable(None if file is None else checked_name(file).parent):
+        yield

@@ -13,8 +13,7 @@ NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered
 """The page on what the program does not do."""
 
 _NOT_DONE = {
-    "viscoelasticity on the command line": "viscoelastic viscoelasticity viscous creep relaxation "
-    "loss-modulus",
+    "viscoelasticity of contacts that recede": "loss-modulus",
     "sliding and coupled friction": "sliding slip stick-slip shear fretting coupled-friction "
     "friction-coupled tangential tangential-load traction",
     "lubrication": "lubrication lubricant oil ehl viscosity film-thickness",
@@ -34,6 +33,12 @@ _CALLED = {
     "pull-range attraction sticking",
 }
 """Options, and other words for what they ask."""
+
+_COMMANDS = {
+    "ball": "ball sphere radius tip hertz",
+    "creep": "viscoelastic viscoelasticity viscous creep relaxation prony",
+}
+"""Commands, and words that options would be named by which ask for what they do."""
 
 _KINDS = {"int": "a whole number is needed", "float": "a number is needed"}
 """What is needed where the parser's name of a mistake begins so."""
@@ -128,6 +133,9 @@ def _unknown(option: str, command: Any) -> str:
     for name, words in _CALLED.items():
         if name in options and word in words.split():
             return f"there is no option {option}; did you mean {name}?"
+    for name, words in _COMMANDS.items():
+        if word in words.split():
+            return f"there is no option {option}; see roughline {name} --help"
     return f"there is no option {shown(option)[1:-1]}; {_meant(option, options, 'options')}"
 
 

@@ -6,7 +6,7 @@ import functools
 import math
 import operator
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -126,3 +126,13 @@ class ElasticPair:
         elastic = [each.half_space for each in self.bodies if min(each.moduli) < math.inf]
         free = functools.reduce(operator.add, elastic)
         return Repeated(free) if periodic else free
+
+    def on_rigid_base(self, *, periodic: bool) -> HalfSpace:
+        """What layers on a rigid base are pressed as, the other body being rigid as well.
+
+        Even pressure displaces them, repeated ones too.
+        """
+        body = next(each for each in self.bodies if min(each.moduli) < math.inf)
+        layered = body.half_space
+        assert isinstance(layered, Layered)
+        return replace(layered, periodic=periodic)

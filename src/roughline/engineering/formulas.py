@@ -210,3 +210,36 @@ def reflection(
 def _mean_slope(rms_slope: float) -> float:
     """Mean absolute slope of a cut through Gaussian heights with an rms gradient."""
     return rms_slope / math.sqrt(math.pi)
+
+
+def largest_pressure_under_ball(
+    contact_radius: ArrayLike,
+    radius: float,
+    E_star: float,
+    work_of_adhesion: float = 0.0,
+    *,
+    is_sphere: bool = False,
+) -> Real:
+    """Pressure in the middle of the contact of a ball, where it is largest. [Pa]
+
+    That of Hertz's parabola is 2 E* a / (pi R), 3/2 of the mean [1]_. Of a sphere it is
+    (E* / pi) (chi_2(a / R) + artanh(a / R)) with Legendre's chi function, the integral of g'(x) / x
+    of the reduced profile g(x) = x artanh(x / R) [2]_. Where bodies stick as JKR have it, the pull
+    at the edge takes sqrt(2 w E* / (pi a)) from either [1]_. NaN where nothing touches.
+
+    References
+    ----------
+    .. [1] K. L. Johnson, *Contact Mechanics*, Cambridge (1985), eq. 4.24 and §5.5.
+    .. [2] V. L. Popov and M. Heß, *Method of Dimensionality Reduction in Contact Mechanics and
+       Friction*, Springer (2015), ch. 3 and eq. 3.38.
+    """
+    from scipy.special import spence  # here because it loads slowly
+
+    a = np.where(np.asarray(contact_radius) > 0, contact_radius, np.nan)
+    share = a / radius
+    if is_sphere:
+        chi = (spence(1 - share) - spence(1 + share)) / 2
+        pressure = E_star / np.pi * (chi + np.arctanh(share))
+    else:
+        pressure = 2 / np.pi * E_star * share
+    return pressure - np.sqrt(2 * work_of_adhesion * E_star / (np.pi * a))

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from roughline.engineering.coated import Solid
     from roughline.engineering.intervals import Ends
     from roughline.engineering.material import Material
+    from roughline.engineering.pair import MaterialPair
 
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
@@ -125,11 +126,16 @@ def area_in_words(assessment: Assessment, load: int, write: Write = with_interva
 
 def modulus_in_words(assessment: Assessment, modulus: str | None = None) -> str:
     """The contact modulus, which may be written already, and of which materials it is."""
-    pair, of = assessment.question.pair, ""
-    if pair is not None:
-        names = [each.surface.name for each in (pair.first, pair.second)]
-        of = f" of {' and '.join(names)}" + (", which lie at the surfaces," if pair.coated else "")
-    return f"E*{of} = {modulus or engineering(assessment.curve.E_star, 'Pa')}"
+    written = modulus or engineering(assessment.curve.E_star, "Pa")
+    return modulus_of_pair(assessment.question.pair, written)
+
+
+def modulus_of_pair(pair: MaterialPair | None, modulus: str) -> str:
+    """A contact modulus that is written, and of which materials it is, if they are known."""
+    if pair is None:
+        return f"E* = {modulus}"
+    names = " and ".join(each.surface.name for each in (pair.first, pair.second))
+    return f"E* of {names}{', which lie at the surfaces,' if pair.coated else ''} = {modulus}"
 
 
 def solid_in_words(solid: Solid) -> str:

@@ -54,7 +54,7 @@ def print_assessment(
     everything is printed.
     """
     console = console or Console(markup=False)
-    console.print(_described(assessment.body), highlight=False, soft_wrap=True)
+    console.print(described(assessment.body), highlight=False, soft_wrap=True)
     curve, pair = assessment.curve, assessment.question.pair
     model = "reduced model, exact"
     if curve.area_fraction is not None:
@@ -280,11 +280,12 @@ def announce(text: str) -> None:
 def print_generated(body: Body, file: Path) -> None:
     """Print what was generated and where it is."""
     console = Console(markup=False)
-    console.print(_described(body), highlight=False)
+    console.print(described(body), highlight=False)
     print_files([file])
 
 
-def _described(body: Body) -> str:
+def described(body: Body) -> str:
+    """Say what a body is: points, sizes, roughness, and the trend that was removed."""
     if isinstance(body, Surface):
         points = f"surface of {body.shape[0]} x {body.shape[1]} points"
         size = " x ".join(engineering(size, "m") for size in body.sizes)
