@@ -136,16 +136,12 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
         if law.only_pushes:
             raise
         return _unknown(curve, error)
-    pull_offs = np.array([each.pull_off_force for each in coarser])
-    steepening = grids.steepening
-    rims_of_k, rims_of_area = _of_rims(curve, surface, law, partial(press, measures=()))
-    softer = _softer(grids, steepening, coarser[1], laws[1], partial(press, measures=()))
+    steepening, bare = grids.steepening, partial(press, measures=())
+    rims_of_k, rims_of_area = _of_rims(curve, surface, law, bare)
+    softer = _softer(grids, steepening, coarser[1], laws[1], bare)
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        of_k_u = np.hypot(
-            steepening * _of_compliance("unloading_stiffness", coarser, curve),
-            _OF_YIELD * _of_yield(*softer),
-        )
-        of_k_u = np.hypot(of_k_u, rims_of_k)
+        of_grids = steepening * _of_compliance("unloading_stiffness", coarser, curve)
+        of_k_u = np.hypot(np.hypot(of_grids, _OF_YIELD * _of_yield(*softer)), rims_of_k)
         taken = np.where((k > 0) & (k < k_u), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
         of_k = np.maximum(steepening * _of_compliance("stiffness", coarser, curve), of_k_u + taken)
         felt = steepening_of(in_full_contact(surface, curve.half_space))
@@ -157,8 +153,15 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
             unloading_stiffness_error=_times(k_u, of_k_u),
             area_fraction_error=_times(area, of_area),
             measured=_measured(curve, surface, coarser, steepening, press),
-            pull_off_force_error=float(_between(pull_offs, curve.pull_off_force)),
+            pull_off_force_error=_of_pull_off(curve, coarser),
         )
+
+
+def _of_pull_off(curve: Curve, coarser: Sequence[Curve]) -> float:
+    """Discretisation error of the pull-off force. [force]"""
+    return float(
+        _between(np.array([each.pull_off_force for each in coarser]), curve.pull_off_force)
+    )
 
 
 def _unknown(curve: Curve, error: InputError) -> Curve:
