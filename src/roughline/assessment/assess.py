@@ -15,7 +15,6 @@ from roughline.assessment.loads import LoadProgress
 from roughline.assessment.notes import notes_of
 from roughline.assessment.question import Question
 from roughline.assessment.scatter import elastic_answers, scatter_of
-from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import Solution, fields_of_gap, solution_of, solution_of_scan
 from roughline.assessment.sought import sought_of
 from roughline.assessment.variants import Curves, Stopped, Way, press_all, variants_of
@@ -95,8 +94,7 @@ def _solved(
         curves = _pressed(case, announce, progress)
         solution = solution_of(case, curves)
         _refuse_all_at_the_hardness(case, solution.curve)
-    sought = replace(solution.sought, slip=slip_at_largest_load(case, curves))
-    return curves, replace(solution, sought=sought)
+    return curves, solution
 
 
 def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | None) -> Curves:

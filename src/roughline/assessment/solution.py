@@ -14,6 +14,7 @@ from roughline.assessment.larger_measure import LargerMeasure
 from roughline.assessment.larger_surface import LargerSurface, larger_surface, which_surface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.notes import how_far_a_line_serves
+from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.source import Topography
 from roughline.assessment.tiles import TiledCurves, coarse_shape
 from roughline.assessment.uncertainty import change, intervals_of
@@ -57,7 +58,9 @@ def solution_of(case: Case, curves: Curves) -> Solution:
     if larger is not None and case.question.joint is not None and intervals is not None:
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
-    sought = curves.sought.get(Way.AS_ASKED, Sought())
+    sought = replace(
+        curves.sought.get(Way.AS_ASKED, Sought()), slip=slip_at_largest_load(case, curves)
+    )
     filled = curve.measured.get(ON_FILLED)
     on_filled = None if filled is None else filled.values
     return Solution(curve, intervals, larger, measured, place, sought, on_filled, note)
@@ -76,7 +79,8 @@ def solution_of_scan(case: Case, body: Line) -> Solution:
     ends = scan.low, scan.high
     _, is_too_steep = how_far_a_line_serves(case.question, body)
     known = not (is_too_steep or np.isnan(scan.low).any())
-    return Solution(scan.curve, Intervals(ends, ends) if known else None)
+    sought = Sought(slip=slip_at_largest_load(case, Curves({Way.AS_ASKED: scan.curve})))
+    return Solution(scan.curve, Intervals(ends, ends) if known else None, sought=sought)
 
 
 def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None:

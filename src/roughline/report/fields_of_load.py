@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
-from roughline.fluid.measures import hydraulic_aperture
 from roughline.plot.distributions import draw_distribution, draw_patches
 from roughline.plot.flows import draw_flow
 from roughline.plot.style import PAGE, new_figure, save
@@ -72,7 +71,7 @@ def _of_flow(assessment: Assessment, load: int) -> str:
     sealing = assessment.question.sealing
     if sealing is not None and sealing.free_path:
         of_map = {
-            each.along: assessment.measured[hydraulic_aperture(each.along).name].values[load]
+            each.along: assessment.measured[f"hydraulic_aperture_{each.along}"].values[load]
             for each in assessment.flows
         }
         told = [f"{engineering(u, 'm', _DIGITS)} along {along}" for along, u in of_map.items()]
