@@ -128,7 +128,7 @@ def test_a_range_without_cells_enough_gives_no_pull_off_and_says_so(n):
     result = asked(surface, rl.Adhesion(f"50 mJ/m^2 over {reach:.3f} nm"), periodic=True)
     assert "pull_off_force" not in result.answers
     assert any("no pull-off is given" in warning for warning in result.warnings)
-    (said,) = (each for each in result.notes if each.startswith("no pull-off force"))
+    (said,) = (each for each in result.remarks if each.startswith("no pull-off force"))
     assert "no pull-off pressure: the grid does not resolve the range of the pull" in said
 
 
@@ -263,7 +263,7 @@ def test_work_that_is_not_solved_is_told_with_its_limits(monkeypatch):
     result = asked(rough(16), rl.Adhesion(RANGE), periodic=True)
     assert "work_of_separation" not in result.answers
     assert value(result, "pull_off_force") == value(known, "pull_off_force")
-    (said,) = (each for each in result.notes if each.startswith("no work of separation"))
+    (said,) = (each for each in result.remarks if each.startswith("no work of separation"))
     assert "were not solved at a depth of" in said
     joules = {"pJ": 1e-12, "fJ": 1e-15}
     found = re.findall(r"([\d.]+) ([pf]J)", said)
@@ -275,7 +275,7 @@ def test_no_answer_about_bodies_that_stick_vanishes_in_silence(monkeypatch):
     asked_for = {each.key: each.name for each in ADHESION}
     with_few_steps(monkeypatch, "forces", 10)
     result = asked(rough(16), rl.Adhesion(RANGE), periodic=True)
-    said = " ".join(result.notes)
+    said = " ".join(result.remarks)
     for key, name in asked_for.items():
         assert key in result.answers or f"no {name}" in said
     assert "the load that is taken off was not solved" in said

@@ -13,6 +13,7 @@ from roughline.assessment.notes import (
     borders_of_repeated,
     how_far_a_line_serves,
     listed_in_short,
+    not_answered,
     of_each,
 )
 from roughline.assessment.question import Question
@@ -58,6 +59,7 @@ def warnings_of(
     is_scan = isinstance(body, Line) and body.kind == "profile"
     warnings = [
         *(of_curve if is_scan else _departures_in_words(result)),
+        *not_answered(result),
         *remarks(of_each(bodies, suspicions), is_grave=True),
         *remarks(of_each(bodies, grave_effects), is_grave=True),
         *_broken_assumptions(result, spectrum),

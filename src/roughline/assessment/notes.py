@@ -37,7 +37,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
         notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
         notes += of_unknown_hardness(pair)
         notes += remarks(_of_films(pair), INTERVALS)
-        notes += result.left_out
+        notes += [each for each in result.left_out if each not in not_answered(result)]
         notes += _of_layers(result, pair)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")
@@ -71,6 +71,11 @@ def _without_pull_off(question: Question) -> str:
         "what it takes to draw the bodies apart is one of the answers, which need two materials "
         f"({called('materials')})"
     )
+
+
+def not_answered(result: Assessment) -> list[Remark]:
+    """Why something that was asked for beside the contact is not answered: no note, a warning."""
+    return [each for each in remarks(result.left_out) if each.is_grave]
 
 
 def _of_yield(result: Assessment) -> list[str]:

@@ -18,6 +18,7 @@ from roughline.engineering.sealing import Sealing
 from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse, several, shown
 from roughline.errors.public import are_numbers, public
+from roughline.errors.remark import Remark
 
 _Group = Literal[
     "mechanics", "contact", "adhesion", "friction", "sealing", "electrical", "thermal", "acoustic"
@@ -369,6 +370,7 @@ class Rules:
         """
         answers: dict[str, Answer] = {}
         left_out: dict[str, list[str]] = {}  # names by why
+        missed = set()  # why something that was asked for is not answered
         for rule in self:
             lacks = rule.lacking(pressed.pair, pressed.frequency)
             answer = None if lacks else rule.answer(pressed)
@@ -378,12 +380,17 @@ class Rules:
             if why:
                 loads = "" if share == 1 else f" under {share:.0%} of the loads"
                 left_out.setdefault(why, []).append(f"no {answer.name}{loads}")
+                if rule.answers_question(pressed):
+                    missed.add(why)
             if share < 1:
                 answers[rule.key] = answer
         lacking = self.left_out(pressed.pair, pressed.frequency)
         return _in_order(answers), [
             *lacking,
-            *(f"{', '.join(of)}: {why}" for why, of in left_out.items()),
+            *(
+                Remark(f"{', '.join(of)}: {why}", is_grave=why in missed)
+                for why, of in left_out.items()
+            ),
         ]
 
 

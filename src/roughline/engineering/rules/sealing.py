@@ -215,14 +215,17 @@ def _one_channel(pressed: Pressed) -> str:
 def _sealed(pressed: Pressed) -> str:
     """Say under which loads no path is open, and whether that is sure."""
     aperture = _largest(pressed, _APERTURES)
-    if aperture is None or not (aperture[0] == 0).any():
+    if aperture is None:
         return ""
-    least = pressed.pressure[aperture[0] == 0].min()
+    sealed = (aperture[0] == 0) & (_lift(pressed) < 1)
+    if not sealed.any():
+        return ""
+    least = pressed.pressure[sealed].min()
     text = (
         f"no path leads through the map from {engineering(least, 'Pa')} on: the leak is exactly "
         "zero on this map and its grid"
     )
-    open_still = aperture.shape[0] == 3 and (aperture[2][aperture[0] == 0] > 0).any()
+    open_still = aperture.shape[0] == 3 and (aperture[2][sealed] > 0).any()
     return text + (
         ", but other places, coarser grids or waves that no grid here has leak"
         if open_still
