@@ -223,3 +223,16 @@ def test_a_layer_that_half_the_points_do_not_resolve_is_not_halved():
     for thickness, resolved in ((1.0, True), (0.8, False)):
         layer = rl.Layered(1.0, 0.3, thickness, 2.0, 0.3, periodic=True)
         assert is_judged(surface, layer) == resolved
+
+
+@pytest.mark.parametrize(("q_roll", "tells"), [(60.0, True), (None, False)])
+def test_a_piece_without_waves_of_its_roll_off_does_not_tell_how_early_its_whole_seals(
+    q_roll, tells
+):
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=q_roll)
+    piece = spectrum.surface(128, rng=3).cropped((0, 64), (0, 64))
+    low, high = rl.sealing_pressure(piece, E_star=1.0, along="x", rtol=0.1).interval
+    assert (low > 0) == tells
+    assert high > low
+    whole = rl.Surface(piece.heights, piece.sizes, is_cut_out=False)
+    assert rl.sealing_pressure(whole, E_star=1.0, along="x", rtol=0.1).interval[0] > 0

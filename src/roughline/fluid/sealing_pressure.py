@@ -20,7 +20,13 @@ from roughline.errors import InputError
 from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
 from roughline.fluid.flow import Along, components
-from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
+from roughline.fluid.one_map import (
+    factor_left_open,
+    is_judged,
+    on_half,
+    quarters,
+    tells_of_larger,
+)
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
@@ -54,7 +60,8 @@ class SealingPressure:
         how much the logarithm differs from that on half as many points, and how uncertain the mean
         of the quarters is by their scatter, at 95 %. Waves that the grid does not have open the gap
         further: the upper end is at least that of an elastic surface as steep as a grid four times
-        finer will be, as far as the hardness bears it. [pressure]
+        finer will be, as far as the hardness bears it. A piece that holds fewer than three waves of
+        the roll-off does not tell how early its whole seals: the lower end is zero. [pressure]
     """
 
     low: float
@@ -152,7 +159,7 @@ def sealing_pressure(
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
     factor = factor_left_open(found.value, half, of_quarters)
     most = min(high * max(factor, steepening_of(full)), law.largest_force(1.0))
-    ends = low / factor, max(high, most)
+    ends = low / factor if tells_of_larger(surface) else 0.0, max(high, most)
     return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
 
