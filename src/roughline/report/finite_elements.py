@@ -379,9 +379,9 @@ def _exponential_in_words(law: _ExponentialLaw | None, table: _JointTable) -> st
         "both; MORTAR and LINMORTAR take other pressures from it. Its conductance over the "
         "pressure is that of the table, and its pressure over the overclosure, at the loads from "
         f"{law.lightest:.4e} to {table.pressure[-1]:.4e} Pa, to {error}. Beyond, it goes on "
-        f"exponentially. It presses by {law.p_0:.2e} Pa where the highest points touch. From NODE TO "
-        f"SURFACE it begins {law.clearance:.2e} m before; from SURFACE TO SURFACE it is zero until "
-        "there, and jumps to that."
+        f"exponentially. It presses by {law.p_0:.2e} Pa where the highest points touch. From NODE "
+        f"TO SURFACE it begins {law.clearance:.2e} m before; from SURFACE TO SURFACE it is zero "
+        "until there, and jumps to that."
     )
     if law.lightest > table.pressure[1]:
         text += f" At the lightest load its pressure is {law.excess:.2g} times that of the table."
