@@ -391,3 +391,31 @@ def test_thin_layers_have_no_bound_of_a_coarser_grid_where_they_are_sealed(surfa
     assert np.isfinite(sealing.values).all()
     assert sealing.low is None
     assert math.isfinite(found.answers["hydraulic_aperture"].values[0])
+
+
+def plated(film):
+    """A map of spots that are some micrometres wide, pressed by something hard."""
+    spectrum = rl.SelfAffine(hurst=0.8, length=5e-5, rms_height=3e-7, q_roll=5e5, q_high=1e6)
+    surface = replace(spectrum.surface(64, rng=3), unit="m")
+    pair = (film, "steel hardness=8 GPa")
+    given = {"loads": ["60 MPa"], "periodic": True, "grid_error": True}
+    return rl.assess(rl.Question(surface, pair, **given))
+
+
+@pytest.mark.parametrize(
+    ("film", "way", "solid"),
+    [
+        ("gold 0.5 um on nickel", "harder, so area and conductance are too large", "nickel"),
+        ("nickel 0.5 um on gold", "softer, so area and conductance are too small", "gold"),
+    ],
+)
+def test_spots_wider_than_a_film_is_thick_feel_what_lies_below(film, way, solid):
+    """The interval holds the area of the solid below; a thick film is that of its own."""
+    thin, below = plated(film), plated(solid)
+    area = thin.answers["contact_area"]
+    inside = below.answers["contact_area"].values
+    assert area.low < inside < area.high
+    assert any(way in each for each in thin.remarks)
+    thick = plated(film.replace("0.5 um", "50 um"))
+    assert not any("as well, which is" in each for each in thick.remarks)
+    assert not thick.answers["contact_area"].low < inside < thick.answers["contact_area"].high

@@ -8,6 +8,7 @@ from random_cases import cases, seeds
 from random_problems import E_STAR, random_problem
 
 
+@pytest.mark.filterwarnings("ignore::roughline.UnitWarning")  # loads of all sizes
 @pytest.mark.parametrize("seed", range(1, 6))
 @seeds(10, cases(500, share=8))
 def test_random_problems_are_certified(seed, seeds):

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
+from roughline.assessment.films import hardness_ends
 from roughline.assessment.kinds import has_spectrum, nominal_area
 from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
-from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
 from roughline.contact.curve import Curve
@@ -103,7 +103,7 @@ def _pressed(
     spectrum: Moments | None,
 ) -> Pressed:
     """What the rules of the answers are given."""
-    hardness = hardness_of(question)
+    ends = hardness_ends(question, curve)
     return Pressed(
         curve,
         nominal_area(body),
@@ -114,7 +114,7 @@ def _pressed(
         rms_slope=spectrum.rms_slope if spectrum else None,
         frequency=question.frequency_in_hertz,
         intervals=intervals,
-        hardest=hardness.ends[1] if hardness and isinstance(body, Surface) else None,
+        hardest=ends[1] if ends and isinstance(body, Surface) else None,
         has_depths=bool(question.depths),
         sealing=question.sealing,
         attraction=question.attraction,

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.films import film_that_spots_exceed
 from roughline.assessment.given import has_forces, several
 from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
 from roughline.assessment.loads import hardness_of
@@ -177,6 +178,27 @@ def _of_films(pair: MaterialPair) -> list[str]:
     ]
 
 
+def _of_film(result: Assessment) -> list[Remark]:
+    """Say which hardness spots wider than a film is thick feel, and which way that goes."""
+    found = film_that_spots_exceed(result.question, result.curve)
+    if found is None:
+        return []
+    film, radius = found
+    text = (
+        f"contact spots have a mean radius of {engineering(radius, 'm', 2)}, and the layer of "
+        f"{film.top.name} is {engineering(film.thickness, 'm')} thick: they feel {film.below.name} "
+        "below it as well"
+    )
+    top, below = film.top.hardness, film.below.hardness
+    if top is None or below is None:
+        text += ", whose hardness is not known, and no interval includes that"
+    elif below > top:
+        text += ", which is harder, so area and conductance are too large; intervals reach to there"
+    else:
+        text += ", which is softer, so area and conductance are too small; intervals reach to there"
+    return [Remark(text, INTERVALS)]
+
+
 def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
     """Say what a hardness is of coated bodies, and what is not known of them."""
     if not pair.coated:
@@ -188,6 +210,7 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
             "bulk: one that was measured through a thin layer is of what lies below as well, which "
             "may yield first"
         )
+        notes += _of_film(result)
         if (top := softer.surface).layer_hardness and top.hardness:
             text = (
                 f"the hardness of {top.name} is {engineering(top.hardness, 'Pa')} here, of "

@@ -10,7 +10,7 @@ import numpy as np
 from roughline.assessment.answers import answers_of
 from roughline.assessment.case import Case
 from roughline.assessment.solution import Solution, larger_behind, measured_of
-from roughline.assessment.variants import Curves, Way, periodic
+from roughline.assessment.variants import Curves, Way, hardness_in, periodic
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends, Intervals
@@ -36,7 +36,7 @@ def elastic_answers(case: Case, curves: Curves) -> Mapping[str, Answer]:
     """The answers of elastic bodies; none where nothing yields, and before they were pressed."""
     if curves.stopped in (Way.ELASTIC, periodic(Way.ELASTIC)) or curves.get(Way.ELASTIC) is None:
         return {}
-    return _of_way(case, curves, Way.ELASTIC, None, case.body).answers
+    return _of_way(case, curves, Way.ELASTIC, case.body).answers
 
 
 def scatter_of(
@@ -56,19 +56,17 @@ def scatter_of(
         return {}, answers, solution.intervals
     if curves.stopped:
         return {}, {key: each.bare for key, each in answers.items()}, None
-    (softest, hardest), judged = hardness.ends, case.judged
-    moved = [
-        _of_way(case, curves, Way.SOFTEST, softest, judged),
-        _of_way(case, curves, Way.HARDEST, hardest, judged),
-    ]
+    judged = case.judged
+    moved = [_of_way(case, curves, way, judged) for way in (Way.SOFTEST, Way.HARDEST)]
     nominal = _Way(solution.curve, answers)
     if judged is not case.body:
-        nominal = _of_way(case, curves, Way.AS_HARD, hardness.value, judged)
+        nominal = _of_way(case, curves, Way.AS_HARD, judged)
     return _widened(solution.intervals, answers, nominal, moved)
 
 
-def _of_way(case: Case, curves: Curves, name: str, hardness: float | None, judged: Body) -> _Way:
-    """Answer the same of a body of another hardness, elastic if None; without intervals."""
+def _of_way(case: Case, curves: Curves, name: Way, judged: Body) -> _Way:
+    """Answer the same of a body of another hardness, or elastic; without intervals."""
+    hardness = hardness_in(case, name, curves.as_asked)
     curve = curves.by_name[name]
     larger, measured = larger_behind(case, curves, name), measured_of(case, curves, name)
     sought = curves.sought.get(name, Sought())

@@ -18,6 +18,7 @@ import numpy as np
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
 from roughline.assessment.filled import force_on
+from roughline.assessment.films import SPOT_RADIUS, film_of, hardness_ends
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import pressed_body
@@ -156,6 +157,8 @@ def variants_of(case: Case) -> list[Variant]:
         loads = replace(loads, measures=case.measures)
     if case.filled_points is not None:
         loads = replace(loads, measures=[*loads.measures, force_on(case.filled_points)])
+    if film_of(case.question) is not None:
+        loads = replace(loads, measures=[*loads.measures, SPOT_RADIUS])
     if case.question.fields:  # of the largest load asked for, or of one at three quarters of them
         loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
     shape = body.shape if isinstance(body, Surface) else (1, body.heights.size)
@@ -207,29 +210,36 @@ def _of_other_hardness(case: Case) -> list[Variant]:
     hardness, body = case.hardness, case.body
     if hardness is None or case.pair is None or not isinstance(body, Surface):
         return []
-    ways: list[tuple[str, float | None, Body]] = [(Way.ELASTIC, None, body)]
+    ways: list[tuple[Way, Body]] = [(Way.ELASTIC, body)]
     if hardness.factor != 1:
-        (softest, hardest), judged = hardness.ends, case.judged
+        judged = case.judged
         if judged is not body:
-            ways.append((Way.AS_HARD, hardness.value, judged))
-        ways += [(Way.SOFTEST, softest, judged), (Way.HARDEST, hardest, judged)]
+            ways.append((Way.AS_HARD, judged))
+        ways += [(Way.SOFTEST, judged), (Way.HARDEST, judged)]
     listed = []
-    for name, value, pressed in ways:
-        needed = partial(_as_hard, case, value, pressed)
+    for name, pressed in ways:
+        needed = partial(_as_hard, case, name, pressed)
         share = pressed.heights.size / body.heights.size
         variant = Variant(name, "hardness", needed, body.shape, case.loads.periodic, share)
         listed += [variant, *_of_the_larger_surface(case, variant)]
     return listed
 
 
-def _as_hard(
-    case: Case, hardness: float | None, body: Body, curves: Curves
-) -> LoadCase | Curve | None:
+def hardness_in(case: Case, way: Way, curve: Curve) -> float | None:
+    """The hardness in a way, from the curve as asked; None if bodies are elastic. [Pa]"""
+    ends = hardness_ends(case.question, curve)
+    if ends is None or case.hardness is None or way == Way.ELASTIC:
+        return None
+    return {Way.AS_HARD: case.hardness.value, Way.SOFTEST: ends[0], Way.HARDEST: ends[1]}[way]
+
+
+def _as_hard(case: Case, way: Way, body: Body, curves: Curves) -> LoadCase | Curve | None:
     """Press the body with another hardness, under the loads that it bears then.
 
     As long as nothing yields, the curve as asked is that of a harder body as well.
     """
     curve = curves.as_asked
+    hardness = hardness_in(case, way, curve)
     if not yields(curve):
         if hardness is None:
             return None
