@@ -107,16 +107,13 @@ def test_a_range_that_was_not_given_is_in_the_name_and_resolved(n):
     assert given.answers["pull_off_force"].name == "pull-off force"
 
 
-@pytest.mark.parametrize("n", [16, 32])
-def test_a_pull_off_that_the_range_alone_sets_is_told(n):
-    flat = rl.Surface(1e-3 * rough(n).heights, rough(n).sizes, "m")
-    for body, told in ((flat, True), (rough(n), False)):
-        result = asked(body, rl.Adhesion(RANGE), periodic=True)
-        said = [each for each in result.warnings if "set by the range alone" in each]
-        assert bool(said) == told
-    pull = WORK / float(asked(flat, rl.Adhesion(RANGE), periodic=True).curve.settings["range"])
-    result = asked(flat, rl.Adhesion(RANGE), periodic=True)
-    assert result.answers["pull_off_pressure"].values == pytest.approx(pull, rel=0.01)
+@pytest.mark.parametrize(("share", "told"), [(1e-3, True), (1.0, False)])
+def test_a_pull_off_that_the_range_alone_sets_is_told(share, told):
+    body = rl.Surface(share * rough(16).heights, rough(16).sizes, "m")
+    result = asked(body, rl.Adhesion(RANGE), periodic=True)
+    assert any("set by the range alone" in each for each in result.warnings) == told
+    largest = WORK / float(result.curve.settings["range"])
+    assert (value(result, "pull_off_pressure") >= 0.99 * largest) == told
 
 
 @pytest.mark.parametrize("n", [16, 32])
