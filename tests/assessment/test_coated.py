@@ -419,3 +419,11 @@ def test_spots_wider_than_a_film_is_thick_feel_what_lies_below(film, way, solid)
     thick = plated(film.replace("0.5 um", "50 um"))
     assert not any("as well, which is" in each for each in thick.remarks)
     assert not thick.answers["contact_area"].low < inside < thick.answers["contact_area"].high
+
+
+def test_a_film_whose_hardness_is_given_is_told_without_an_interval():
+    given = plated("gold hardness=220 MPa 0.5 um on nickel")
+    (said,) = (each for each in given.remarks if "contact spots have a mean radius" in each)
+    assert said.endswith("no interval includes that, as the hardness of the layer is given")
+    table = plated("gold 0.5 um on nickel").answers["contact_area"]
+    assert given.answers["contact_area"].low > table.low

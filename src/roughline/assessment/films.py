@@ -61,12 +61,14 @@ def hardness_ends(question: Question, curve: Curve) -> tuple[float, float] | Non
     """The softest and the hardest that the softer body may be; None if bodies are elastic. [Pa]
 
     Spots that are wider than a film is thick press into what lies below it, so that the hardness
-    they meet lies between both.
+    they meet lies between both. One that is given with the material is taken as exact.
     """
     hardness = hardness_of(question)
     if hardness is None:
         return None
     low, high = hardness.ends
+    if hardness.factor == 1:
+        return low, high
     found = film_that_spots_exceed(question, curve)
     below = None if found is None else found[0].below
     if below is None or below.hardness is None:

@@ -38,7 +38,8 @@ def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
         notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
         notes += of_unknown_hardness(pair)
         notes += remarks(_of_films(pair), INTERVALS)
-        notes += [each for each in result.left_out if each not in not_answered(result)]
+        above = not_answered(result)
+        notes += [each for each in result.left_out if each not in above]
         notes += _of_layers(result, pair)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")
@@ -192,10 +193,12 @@ def _of_film(result: Assessment) -> list[Remark]:
     top, below = film.top.hardness, film.below.hardness
     if top is None or below is None:
         text += ", whose hardness is not known, and no interval includes that"
-    elif below > top:
-        text += ", which is harder, so area and conductance are too large; intervals reach to there"
     else:
-        text += ", which is softer, so area and conductance are too small; intervals reach to there"
+        than, size = ("harder", "large") if below > top else ("softer", "small")
+        reach = "no interval includes that, as the hardness of the layer is given"
+        if film.top.hardness_factor > 1:
+            reach = "intervals reach to there"
+        text += f", which is {than}, so area and conductance are too {size}; {reach}"
     return [Remark(text, INTERVALS)]
 
 

@@ -31,9 +31,8 @@ class Missing:
     # the solution of Laplace's equation between the known heights, or the nearest known height
     method: Filling = "harmonic"
     most: float = 0.1  # largest share of missing points [1]
-    removed: Trend = (
-        "tilt"  # the trend that is removed from the body; filled about a plane at least
-    )
+    # the trend that will be removed; points are filled about a plane at least
+    removed: Trend = "tilt"
 
     def __post_init__(self) -> None:
         one_of("missing", self.method, ("harmonic", "nearest"))
