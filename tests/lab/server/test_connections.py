@@ -195,12 +195,13 @@ def test_a_task_that_fails_again_and_again_is_told_a_few_times_and_fills_no_log(
     """It comes last, since that lab is at rest only while its log is short."""
 
     async def scenario():
+        told_before = small_lab.log.read_text().count("Traceback")  # by tests of the same lab
         async with small_lab.page() as page:
             for _ in range(100):
                 await page.ask("fails")
                 assert "reason that the lab does not know" in (await page.answer())[1]
         await becomes(lambda: small_lab.log.read_text().count("JSONDecodeError: ") == 5)
-        assert small_lab.log.read_text().count("Traceback") == 5
+        assert small_lab.log.read_text().count("Traceback") == told_before + 5
         assert small_lab.log.stat().st_size < 10_000
 
     run(scenario)
