@@ -45,6 +45,9 @@ class Measurement:
     removed_trend: Trend | None = None  # likewise
     unit_of_sides: str | None = None  # of sizes and positions, where that of heights is not stated
     is_piece: bool = False  # whether it is a piece of what the file holds
+    format: str = ""  # its name, one of `formats.FORMATS`
+    reader: str = ""  # who read it, and which version; empty if roughline did
+    corrected: tuple[str, ...] = ()  # what that reader gets wrong and is right here, in sentences
 
     @property
     def unknown(self) -> Mask:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,10 @@ from roughline.topography.trend import Trend, refuse_unknown_trend
 from roughline.units import engineering
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
+_BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None], ...] = (
+    read_text,
+)
+"""Readers of formats that are read here, each None for a file that has another format."""
 
 
 @public
@@ -137,8 +142,9 @@ def _measurement(path: Path, channel: int | str | None, name: str) -> Measuremen
         )
     if measured is None and path.suffix == ".npy":
         measured = _read_array(path, name)
-    if measured is None:
-        measured = read_text(path, channel, name)
+    for reader in _BY_ROUGHLINE:
+        if measured is None:
+            measured = reader(path, channel, name)
     if measured is None:
         refuse_hollow(path, name)
         return read_instrument(path, channel, name)
