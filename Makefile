@@ -93,7 +93,7 @@ intervals: $(VENV)/installed
 	$(BIN)/python benchmarks/measured_coverage.py
 
 leak-coverage: $(VENV)/installed
-	$(BIN)/python benchmarks/measured_coverage.py leak
+	$(BIN)/python benchmarks/measured_coverage.py leak seal
 
 part-coverage: $(VENV)/installed
 	$(BIN)/python benchmarks/measured_coverage.py mine

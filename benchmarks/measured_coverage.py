@@ -19,8 +19,8 @@ from trials_of_joints import LARGER, LEAK, MINE, PART, SEAL, TILED
 from trials_of_spectra import FIT, PIECE, SCAN
 
 OF_THE_PAGE = {"grid": GRID, "larger": LARGER, "part": PART, "scan": SCAN, "fit": FIT}
-OF_LEAKS = {"leak": LEAK}
-OTHERS = {"finer": FINER, "tiled": TILED, "mine": MINE, "pieces": PIECE, "seal": SEAL}
+OF_LEAKS = {"leak": LEAK, "seal": SEAL}
+OTHERS = {"finer": FINER, "tiled": TILED, "mine": MINE, "pieces": PIECE}
 STUDIES = {**OF_THE_PAGE, **OF_LEAKS, **OTHERS}
 PAGES = {
     (*OF_THE_PAGE,): (

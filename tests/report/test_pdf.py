@@ -119,6 +119,15 @@ def test_tables_of_any_width_fit_the_sheet_and_no_number_is_broken(tmp_path, loa
     assert shown == loads
 
 
+@pytest.mark.parametrize("rows", [31, 34, 36, 40])
+def test_no_last_sheet_holds_a_line_alone(tmp_path, rows):
+    table = Table(["", "2 MPa"], [[f"answer {i}", "1 MPa"] for i in range(rows)])
+    words = [Section("Assumptions", ["small slopes " * 40]), Section("Again", ["press map.nc"])]
+    write_pdf(tmp_path / "report.pdf", "Contact", "", [Section("Answers", tables=[table]), *words])
+    texts, _ = sheets(tmp_path / "report.pdf")[-1]
+    assert len(texts) >= 8  # two headings, what stands below them, and the foot
+
+
 @pytest.mark.parametrize("rows", [1, 2, 3, 12])
 def test_no_sheet_holds_a_row_or_two_of_a_longer_table(rows):
     _register_fonts()

@@ -113,7 +113,7 @@ def _flow(
 ) -> list[Any]:
     """What stands on the sheets, from the title down."""
     from reportlab.lib import colors
-    from reportlab.platypus import CondPageBreak, Paragraph, Spacer
+    from reportlab.platypus import CondPageBreak, KeepTogether, Paragraph, Spacer
 
     text, small = _style(_SIZE), _style(_SIZE, textColor=colors.HexColor("#555555"))
     heading = _style(_HEADING, bold=True, keepWithNext=1, spaceBefore=_SIZE, spaceAfter=3)
@@ -128,18 +128,30 @@ def _flow(
         flow += [_key_figures(headline.figures, width), Spacer(1, 3)]
         flow += [Paragraph(_set(headline.below), text)] if headline.below else []
     flow += [Paragraph(escape(made), small)] if made else []
-    for section in sections:
-        flow += [CondPageBreak(_ROOM), Paragraph(escape(section.heading), heading)]
-        spaced = text.clone("spaced", spaceAfter=3)
-        flow += [Paragraph(_set(paragraph), spaced) for paragraph in section.paragraphs]
-        flow += [Paragraph(escape(paragraph), spaced) for paragraph in section.verbatim]
-        flow += [Paragraph(_set(section.note), spaced)] if section.note else []
-        flow += [Paragraph(_set(note), item, bulletText="•") for note in section.notes]
-        for i, grid in enumerate(grid for each in section.tables for grid in _grids(each, width)):
-            flow += [CondPageBreak(_ROOM)] if i else []  # the first stays below its heading
-            flow += [Spacer(1, 5), grid]
-        for each in section.pictures:
-            flow += _picture(each.path, f"{each.name}. {each.caption}", width)
+    parts = [_of_section(section, heading, text, item, width) for section in sections]
+    last = len(sections)
+    while last > 1 and not (sections[last - 1].tables or sections[last - 1].pictures):
+        last -= 1  # words at the end, which would leave a sheet to a line
+    for each in parts[:last]:
+        flow += [CondPageBreak(_ROOM), *each]
+    return [*flow, KeepTogether([every for each in parts[last:] for every in each])]
+
+
+def _of_section(section: Section, heading: Any, text: Any, item: Any, width: float) -> list[Any]:
+    """A section, in styles of its heading, its text and its notes."""
+    from reportlab.platypus import CondPageBreak, Paragraph, Spacer
+
+    spaced = text.clone("spaced", spaceAfter=3)
+    flow: list[Any] = [Paragraph(escape(section.heading), heading)]
+    flow += [Paragraph(_set(paragraph), spaced) for paragraph in section.paragraphs]
+    flow += [Paragraph(escape(paragraph), spaced) for paragraph in section.verbatim]
+    flow += [Paragraph(_set(section.note), spaced)] if section.note else []
+    flow += [Paragraph(_set(note), item, bulletText="•") for note in section.notes]
+    for i, grid in enumerate(grid for each in section.tables for grid in _grids(each, width)):
+        flow += [CondPageBreak(_ROOM)] if i else []  # the first stays below its heading
+        flow += [Spacer(1, 5), grid]
+    for each in section.pictures:
+        flow += _picture(each.path, f"{each.name}. {each.caption}", width)
     return flow
 
 
