@@ -133,6 +133,26 @@ WRONG = {
         rl.fit_self_affine(array)
         rl.fit_self_affine(None)
         rl.fit_self_affine(spectrum)
+        rl.iso(array)
+        rl.iso("map.nc")
+        rl.iso(None)
+        rl.iso(line)
+        rl.iso(spectrum)
+        rl.iso(surface, 1e-4)
+        rl.iso(surface, l_filter="80 um")
+        rl.iso(surface, l_filter=-1e-4)
+        rl.iso(surface, l_filter=np.nan)
+        rl.iso(surface, l_filter=1.0)
+        rl.iso(surface, l_filter=True)
+        rl.iso(surface, s_filter=1e-9)
+        rl.iso(surface, s_filter=[1e-4])
+        rl.iso(surface, s_filter=5e-4, l_filter=5e-4)
+        rl.iso(surface, trend="plane")
+        rl.iso(surface, trend=None)
+        rl.iso(surface, low_pass=1e-4)
+        rl.iso(scan, l_filter=2.0)
+        rl.iso(surface).material_ratio("0")
+        rl.iso(surface).material_ratio(None)
         rl.roughness(array)
         rl.roughness("map.nc")
         rl.roughness(None)
@@ -748,6 +768,7 @@ def test_a_wrong_call_is_refused_in_one_line(names, call):
         ("rl.Material('x', E=1e9, poisson=0.3)", "give nu="),
         ("rl.Surface(array, (1.0, 1.0), periodic=True)", "give is_cut_out=, False for"),
         ("rl.Surface(array, size=(1.0, 1.0))", "give sizes="),
+        ("rl.iso(surface, cutoff=1e-4)", "iso has no argument cutoff=; give l_filter="),
         ("rl.plot.topography(array)", "make one, rl.Surface(heights, sizes=(Lx, Ly))"),
         ("rl.plot.topography('map.nc')", "rl.read(file) makes one of a file"),
         ("rl.SelfAffine(hurst=0.8, rms_height='1 um')", "a number without a unit is needed"),

@@ -91,6 +91,8 @@ from roughline.statistics.averages import relative_difference as relative_differ
 from roughline.statistics.power_law import PowerLaw as PowerLaw
 from roughline.statistics.power_law import fit_power_law as fit_power_law
 from roughline.statistics.window import find_window as find_window
+from roughline.texture.iso import IsoParameters as IsoParameters
+from roughline.texture.iso import iso as iso
 from roughline.theories.adhesion import stickiness as stickiness
 from roughline.theories.bruggeman import effective_medium as effective_medium
 from roughline.theories.theory import theory as theory

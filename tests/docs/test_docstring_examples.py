@@ -10,7 +10,7 @@ LOOKED_UP = (
     *("press", "press_scan", "compare", "estimate", "theory", "assess", "Question"),
     *("SelfAffine", "Surface", "Line", "read", "write", "prepared", "facing"),
     *("roughness", "isotropic_spectrum", "fit_self_affine", "fit_power_law", "average"),
-    *("material", "contact_modulus", "fluid_of"),
+    *("material", "contact_modulus", "fluid_of", "iso"),
 )
 """Names whose pages have an example: those that people look up."""
 

@@ -80,7 +80,9 @@ _MEANT = {
     "window": "range limits",
     "averaging": "method average mean",
     "points": "n resample",
-    "trend": "detrend",
+    "trend": "detrend f_operation F",
+    "s_filter": "lambda_s low_pass S",
+    "l_filter": "lambda_c high_pass L cutoff",
     "is_cut_out": "periodic",
 }
 """Arguments, and other names that they are called by."""
