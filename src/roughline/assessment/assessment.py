@@ -26,6 +26,7 @@ from roughline.engineering.rule import Answer
 from roughline.engineering.slip import PartialSlip
 from roughline.fluid.flow import Flow, flow
 from roughline.spectra.roughness import Roughness, roughness
+from roughline.texture.iso import IsoParameters, iso
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 
@@ -130,6 +131,13 @@ class Assessment:
         """Roughness parameters of the body; None for a reduced line, which is no topography."""
         if isinstance(self.body, Surface) or self.body.kind == "profile":
             return roughness(self.body)
+        return None
+
+    @cached_property
+    def texture(self) -> IsoParameters | None:
+        """Parameters of ISO 25178-2 or ISO 21920-2 of the body; None for a reduced line."""
+        if isinstance(self.body, Surface) or self.body.kind == "profile":
+            return iso(self.body)
         return None
 
     @property

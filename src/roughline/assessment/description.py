@@ -11,6 +11,7 @@ from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body, of_piece
 from roughline.errors import InputError
 from roughline.spectra.roughness import Roughness, roughness
+from roughline.texture.iso import IsoParameters, iso
 from roughline.topography.body import Body
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement, suspicions
@@ -31,6 +32,7 @@ class Description:
     body: Body | None = None  # prepared; None if something is still needed [m]
     roughness: Roughness | None = None  # None for a reduced line, which is no topography
     notes: Sequence[str] = ()  # what was filled, what is suspicious
+    texture: IsoParameters | None = None  # of the body, if they were asked for
 
 
 def describe(
@@ -44,6 +46,23 @@ def describe(
     reading = reading or Reading()
     content = measurement(file, reading.channel, reading.name)
     return describe_measurement(file, content, reading, preparation)
+
+
+def with_texture(
+    description: Description, s_filter: float | None = None, l_filter: float | None = None
+) -> Description:
+    """Return a description with the parameters of ISO 25178-2 or ISO 21920-2 of its body.
+
+    Without a body there are none; what it lacks is among the obstacles.
+
+    Raises
+    ------
+    InputError
+        For a reduced line, and for cutoffs that the body cannot show.
+    """
+    if description.body is None:
+        return description
+    return replace(description, texture=iso(description.body, s_filter=s_filter, l_filter=l_filter))
 
 
 def describe_measurement(

@@ -11,6 +11,7 @@ import typer
 from roughline.assessment.fields import FILE, PREPARATION
 from roughline.cli import options
 from roughline.cli.options import print_json, writable
+from roughline.errors import InputError
 
 
 @options.with_fields(FILE, PREPARATION)
@@ -26,6 +27,18 @@ def info(
     out: Annotated[
         Path | None, typer.Option(help="Folder for a figure and the prepared topography.")
     ] = None,
+    iso: Annotated[
+        bool,
+        typer.Option("--iso", help="Print the parameters of ISO 25178-2 or ISO 21920-2 as well."),
+    ] = False,
+    s_filter: Annotated[
+        str | None,
+        typer.Option(help='Cutoff of the S-filter before them, such as "2.5 um" [default: none].'),
+    ] = None,
+    l_filter: Annotated[
+        str | None,
+        typer.Option(help='Cutoff of the L-filter before them, such as "0.8 mm" [default: none].'),
+    ] = None,
     json: options.Json = False,
 ) -> None:
     """Describe a topography: sizes, missing points, roughness, and its self-affine spectrum.
@@ -36,17 +49,27 @@ def info(
     plateau and a power law fitted to the spectrum; the last line says whether this fit describes
     the spectrum.
     """
-    from roughline.assessment.description import describe
+    from roughline.assessment.description import describe, with_texture
     from roughline.assessment.told import preparation_of, reading_of
     from roughline.report.curve_file import as_json, print_curve_file
     from roughline.report.description_table import print_description
     from roughline.report.json_output import of_description
     from roughline.topography.files.curves import curve_in
+    from roughline.units import in_si
 
+    cutoffs = {"s_filter": s_filter, "l_filter": l_filter}
+    if not iso and (asked := [name for name, text in cutoffs.items() if text is not None]):
+        raise InputError("is of the parameters of ISO alone; give --iso too", asked[0])
     if curve := curve_in(file):
         return print_json(as_json(curve)) if json else print_curve_file(curve)
     with writable(out):
         result = describe(file, reading_of(told), preparation_of(told))
+        if iso:
+            lengths = {
+                name: None if text is None else in_si(text, "m", name)
+                for name, text in cutoffs.items()
+            }
+            result = with_texture(result, **lengths)
     files: list[Path] = []
     if out is not None:
         from roughline.report.description_figures import write_description

@@ -11,7 +11,13 @@ from roughline.plot.style import save, styled
 from roughline.report.contact_figures import overview, overview_in_words, write_contact
 from roughline.report.document import write_document
 from roughline.report.fields_of_load import write_fields
-from roughline.report.page import Picture, Section, sentence
+from roughline.report.page import Picture, Section, Table, sentence
+from roughline.report.texture_table import (
+    causes_in_words,
+    filters_in_words,
+    texture_table,
+    title_of,
+)
 from roughline.topography.body import Body, Line, Surface, sides_of
 from roughline.units import engineering
 
@@ -50,7 +56,8 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
     surface = Section("Surface", [_surface(assessment)], pictures=pictures)
     title = f"Contact of {assessment.question.name}"
     repeat = [how_to_repeat, settings_in_words(assessment)]
-    document = write_document(assessment, folder, title, [surface, *of_fields], repeat)
+    own = [surface, *_texture(assessment), *of_fields]
+    document = write_document(assessment, folder, title, own, repeat)
     return [*document, *files, *drawn, *drawn_fields]
 
 
@@ -89,6 +96,22 @@ def _surface(assessment: Assessment) -> str:
     if parameters is not None and parameters.remarks:
         text += " " + " ".join(sentence(remark) for remark in parameters.remarks)
     return text
+
+
+def _texture(assessment: Assessment) -> list[Section]:
+    """The trade's parameters of what was pressed; none of a reduced line."""
+    found = assessment.texture
+    if found is None:
+        return []
+    told = [f"{title_of(found)}; filters: {filters_in_words(found)}", *found.remarks]
+    return [
+        Section(
+            "Surface texture",
+            [" ".join(map(sentence, [*told, *causes_in_words(found)]))],
+            tables=[Table(*texture_table(found), numbers=(1,))],
+            behind=f"{title_of(found).lower().replace('iso', 'ISO')} of what was pressed",
+        )
+    ]
 
 
 def _preparation(body: Body) -> str:

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from roughline.assessment.assumptions import broken
 from roughline.report.terminal import print_files, print_remarks, print_rows
+from roughline.report.texture_table import texture_rows, title_of
 from roughline.report.values import Write, figure, with_interval
 from roughline.topography.body import Surface, sides_of, spacings_of
 from roughline.units import engineering, metres_per
@@ -55,6 +56,10 @@ def print_description(description: Description, files: Iterable[Path] = ()) -> N
         console.print(line, highlight=False, soft_wrap=True)
     for obstacle in description.obstacles:
         console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
+    if description.texture is not None:
+        console.print(f"\n{title_of(description.texture)}", highlight=False)
+        print_rows(console, texture_rows(description.texture))
+        print_remarks(console, "note", description.texture.remarks)
     print_remarks(console, "note", description.notes)
     print_files(files)
 

@@ -14,6 +14,7 @@ import numpy as np
 from roughline._version import __version__
 from roughline.contact.quantities import IN_JSON
 from roughline.contact.status import Status
+from roughline.report.texture_table import of_texture
 from roughline.topography.body import Body, sides_of
 
 if TYPE_CHECKING:
@@ -180,6 +181,7 @@ def of_description(description: Description, files: Sequence[Path] = ()) -> dict
         **{name: getattr(parameters, name, None) for name in (*names, "isotropy")},
         "self_affine": None if fit is None else _of_fit(fit),
         "remarks": parameters.remarks if parameters is not None else [],
+        **({} if description.texture is None else {"iso": of_texture(description.texture)}),
         "notes": description.notes,
         "files": list(files),
     }

@@ -17,6 +17,14 @@ from roughline.report.answers import answer_table, lead_of, load_table
 from roughline.report.contact_figures import overview
 from roughline.report.contact_tables import curve_table, modulus_in_words
 from roughline.report.terminal import print_assessment, print_part
+from roughline.report.texture_table import (
+    causes_in_words,
+    filters_in_words,
+    texture_in_text,
+    texture_table,
+    title_of,
+)
+from roughline.texture.iso import IsoParameters
 
 _MOST_ABREAST = 3  # loads of which the answers stand beside each other
 
@@ -29,6 +37,11 @@ def _of_assessment(assessment: Assessment) -> str:
 @printed.register
 def _of_part(part: PartAssessment) -> str:
     return _written(lambda console: print_part(part, console=console))
+
+
+@printed.register
+def _of_texture(found: IsoParameters) -> str:
+    return texture_in_text(found)
 
 
 def _written(printing: Callable[[Console], None]) -> str:
@@ -56,6 +69,13 @@ def _table_of_assessment(assessment: Assessment) -> str:
 def _table_of_part(part: PartAssessment) -> str:
     """What was asked of several maps, their answers, and the remarks."""
     return html(lead_of(part), *_answers(part), remarks=_remarks(part))
+
+
+@in_notebook.register
+def _table_of_texture(found: IsoParameters) -> str:
+    """The parameters, and below them filters, remarks and what is not defined."""
+    remarks = [filters_in_words(found), *found.remarks, *causes_in_words(found)]
+    return html(title_of(found), *texture_table(found), remarks=remarks)
 
 
 def _answers(result: Assessment | PartAssessment) -> tuple[list[str], list[list[str]]]:
