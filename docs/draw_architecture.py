@@ -36,6 +36,7 @@ PLACES = {
     "halfspace": 3.1,
     "reduction": 4.9,
     "statistics": 8.2,
+    "texture": 1.1,
     "spectra": 6.6,
     "topography": 4.0,
     "computing": 3.1,

@@ -25,6 +25,7 @@ from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
 from roughline.exact import adhesion, flow, indenters, lines, mdr, punch, westergaard
+from roughline.texture.parameters import OF_PROFILES, OF_SURFACES
 from roughline.units import decimal
 
 SECTIONS = {
@@ -33,6 +34,7 @@ SECTIONS = {
     ),
     "Spectra and roughness": (
         *("SelfAffine", "isotropic_spectrum", "profile_spectrum", "fit_self_affine", "roughness"),
+        *("iso", "IsoParameters"),
     ),
     "Contact": (
         *(
@@ -88,6 +90,7 @@ SOURCES = {
     "made/fluids.md": "../src/roughline/engineering/fluids.csv",
     "made/quantities.md": "../src/roughline/contact/quantities.py",
     "made/answers.md": "../src/roughline/engineering/rules",
+    "made/texture.md": "../src/roughline/texture/parameters.py",
     "made/commands.md": "../src/roughline/cli",
     "made/names.rst": "../src/roughline/__init__.pyi",
     "made/validation.md": "validation.json",
@@ -152,6 +155,7 @@ def write_pages(source: str | Path) -> None:
         "fluids.md": page_of_fluids(),
         "quantities.md": page_of_quantities(),
         "answers.md": page_of_answers(),
+        "texture.md": page_of_texture(),
         "validation.md": page_of_validation(Path(source) / "validation.json"),
     }
     for name, text in pages.items():
@@ -271,6 +275,29 @@ def page_of_quantities() -> str:
     ]
     header = ("name", "symbol", "meaning", "unit", "over")
     return f"# Output quantities of a curve\n\n{table(header, rows)}"
+
+
+def page_of_texture() -> str:
+    """The parameters of surface texture, of surfaces and of profiles."""
+    parts = [
+        "# Parameters of surface texture\n",
+        "What `rl.iso` returns; [how they are defined](../how-to/iso.md) where programs differ.\n",
+    ]
+    header = ("name", "meaning", "unit", "clause", "tells of")
+    for heading, declared in (("Surfaces", OF_SURFACES), ("Profiles", OF_PROFILES)):
+        standard = next(iter(declared.values())).standard
+        rows = [
+            (
+                f"`{each.name}`",
+                each.meaning + (f" (before: `{each.formerly}`)" if each.formerly else ""),
+                each.dimension,
+                each.clause,
+                each.group,
+            )
+            for each in declared.values()
+        ]
+        parts += [f"## {heading}: {standard}\n", table(header, rows)]
+    return "\n".join(parts)
 
 
 def page_of_answers() -> str:

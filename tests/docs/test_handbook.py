@@ -14,6 +14,7 @@ from roughline.cli import app
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
+from roughline.texture.parameters import OF_PROFILES, OF_SURFACES
 
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
 
@@ -70,6 +71,12 @@ def test_every_quantity_is_listed_with_its_meaning():
     page = made.page_of_quantities()
     assert all(f"| `{each.name}` |" in page for each in QUANTITIES.values())
     assert all(each.meaning in page for each in QUANTITIES.values())
+
+
+def test_every_parameter_of_texture_is_listed_with_its_meaning():
+    page = made.page_of_texture()
+    for each in (*OF_SURFACES.values(), *OF_PROFILES.values()):
+        assert f"| `{each.name}` | {each.meaning}" in page
 
 
 def test_each_exact_test_stands_on_the_page_of_validation():
