@@ -181,3 +181,18 @@ def test_wrong_options_are_refused_in_one_line(rough, invoke, options, said):
     assert (code, out) == (2, "")
     assert said in errors
     assert errors.count("\n") == 1
+
+
+def test_a_file_without_unit_has_none_yet_and_says_so(tmp_path, invoke):
+    np.save(tmp_path / "map.npy", gaussian_field(16, 2.0, 1))
+    code, out, _ = invoke("info", tmp_path / "map.npy", "--iso")
+    assert code == 0
+    assert "note: there are no parameters of ISO until what is missing here is given" in out
+
+
+def test_a_curve_has_none(tmp_path, invoke):
+    body = surface(gaussian_field(16, 2.0, 1))
+    rl.press(body, E_star=1.0, n_loads=2).write(tmp_path / "curve.nc")
+    code, _, errors = invoke("info", tmp_path / "curve.nc", "--iso")
+    assert code == 2
+    assert "this file is a curve" in errors

@@ -53,7 +53,7 @@ def with_texture(
 ) -> Description:
     """Return a description with the parameters of ISO 25178-2 or ISO 21920-2 of its body.
 
-    Without a body there are none; what it lacks is among the obstacles.
+    Without a body there are none, and a note says so; what it lacks is among the obstacles.
 
     Raises
     ------
@@ -61,7 +61,8 @@ def with_texture(
         For a reduced line, and for cutoffs that the body cannot show.
     """
     if description.body is None:
-        return description
+        missing = "there are no parameters of ISO until what is missing here is given"
+        return replace(description, notes=[*description.notes, missing])
     return replace(description, texture=iso(description.body, s_filter=s_filter, l_filter=l_filter))
 
 

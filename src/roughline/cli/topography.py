@@ -61,6 +61,8 @@ def info(
     if not iso and (asked := [name for name, text in cutoffs.items() if text is not None]):
         raise InputError("is of the parameters of ISO alone; give --iso too", asked[0])
     if curve := curve_in(file):
+        if iso:
+            raise InputError("--iso is of topographies, and this file is a curve; leave it out")
         return print_json(as_json(curve)) if json else print_curve_file(curve)
     with writable(out):
         result = describe(file, reading_of(told), preparation_of(told))
