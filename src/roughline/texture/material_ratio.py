@@ -48,7 +48,7 @@ def layers_of(curve: Real) -> Layers:
 
     The line of the core is the least-squares line through the 40 % of the curve whose secant is
     least steep, the first of several. Where nothing is above the core at 0 %, or below it at 100 %,
-    there are no hills or no dales.
+    there are no hills or no dales. A core without height is crossed at one ratio, which is both.
     """
     n = curve.size
     span = min(max(1, round(_CORE * n)), n - 1)
@@ -61,12 +61,15 @@ def layers_of(curve: Real) -> Layers:
     top, bottom = middle - slope * ratio.mean(), middle + slope * (1 - ratio.mean())
     rounding = _ROUNDING * (curve[0] - curve[-1])
     hills, dales = curve[curve > top + rounding] - top, bottom - curve[curve < bottom - rounding]
+    first, second = hills.size / n, 1 - dales.size / n
+    if abs(top - bottom) <= rounding and (hills.size > 0) != (dales.size > 0):  # crossed once
+        first = second = first if hills.size else second
     return Layers(
         core=float(top - bottom),
         peaks=2 * float(hills.mean()) if hills.size else 0.0,
         pits=2 * float(dales.mean()) if dales.size else 0.0,
-        first=hills.size / n,
-        second=1 - dales.size / n,
+        first=first,
+        second=second,
     )
 
 
