@@ -20,6 +20,7 @@ _NUMBER_AND_UNIT = re.compile(
     re.IGNORECASE,
 )
 _EXPONENT = re.compile(r"(?<=[^\W\d_])(-?\d+)\b")  # of "mm2", "m-3"
+_MIL = re.compile(r"\bmils?\b")  # the inch's thousandth, which the registry takes for an angle
 _DECIMAL_COMMA = re.compile(r"\d+,\d+")
 
 LEAST_CHANGE = 0.05
@@ -38,7 +39,7 @@ MOST_DIGITS = 4
 """Significant digits of values that are shown."""
 
 _ROUNDING = 1e-9  # of a value: an end that is no further away is the value itself
-_OTHER_LENGTHS = ("in", "inch", "Å", "angstrom")
+_OTHER_LENGTHS = ("in", "inch", "mil", "Å", "angstrom")
 _EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
@@ -89,7 +90,8 @@ def in_si(text: str, unit: str, name: str) -> float:
             power = _POWERS[prefixed["prefix"].replace("u", "µ").replace("μ", "µ")]
             value = float(Decimal(parts["number"]).scaleb(power))
             return float(f"{value:.{_EXACT}g}")
-        units = _registry().parse_units(_EXPONENT.sub(r"**\1", parts["unit"].replace("·", "*")))
+        written = _MIL.sub("thou", parts["unit"].replace("·", "*"))
+        units = _registry().parse_units(_EXPONENT.sub(r"**\1", written))
         value = _registry().Quantity(float(parts["number"]), units).to(unit).magnitude
         return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without the prefix's rounding
     except Exception as error:  # of a senseless unit the parser raises errors of any type
@@ -123,7 +125,7 @@ def example_of(unit: str, name: str) -> str:
 
 
 def is_unit_of_length(unit: str) -> bool:
-    """Whether a text is a metre with or without a prefix, an inch or an angstrom."""
+    """Whether a text is a metre with or without a prefix, an inch, a mil or an angstrom."""
     prefixed = _PREFIXED.fullmatch(unit)
     return unit in _OTHER_LENGTHS or (prefixed is not None and prefixed["unit"] == "m")
 
