@@ -267,7 +267,7 @@ def _tiff(image: np.ndarray, **tags: int) -> bytes:
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
-        ("map.sdf", _sdf, "damaged"),
+        ("map.sdf", _sdf, "declares 20000 x 20000"),
         ("scans.zip", _scans_of_a_nanomeasuring_machine, "lists 30000000 scans and has 1 parts"),
         ("sets.ezd", _datasets_of_easyscan, "lists 30000000 datasets"),
         (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -20,10 +21,13 @@ from roughline.topography.files.archives import (
     refuse_points,
 )
 from roughline.topography.files.curves import curve_in
+from roughline.topography.files.gsf import read_gsf
 from roughline.topography.files.heights_in_text import read_text
 from roughline.topography.files.instrument import read_instrument
 from roughline.topography.files.measurement import Measurement, Sizes
 from roughline.topography.files.netcdf import read_body_file
+from roughline.topography.files.sdf import read_sdf
+from roughline.topography.files.smd import read_smd
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
@@ -31,6 +35,9 @@ from roughline.units import engineering
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None], ...] = (
+    read_sdf,
+    read_smd,
+    read_gsf,
     read_text,
 )
 """Readers of formats that are read here, each None for a file that has another format."""
@@ -130,7 +137,20 @@ def measurement(
 
 
 def _measurement(path: Path, channel: int | str | None, name: str) -> Measurement:
-    """Read a file that exists, by the first of the readers that knows it."""
+    """Read a file that exists; sides that no map has are refused, whoever read them."""
+    measured = _by_first_reader(path, channel, name)
+    sides = measured.sizes or ()
+    if not all(0 < side < math.inf for side in sides):
+        stated = " x ".join(f"{side:.6g}" for side in sides)
+        raise InputError(
+            f"{name} states sides of {stated} {measured.unit or ''}; sides are above 0 and finite: "
+            "export it again, or write the heights as NPY or text and give the sizes"
+        )
+    return measured
+
+
+def _by_first_reader(path: Path, channel: int | str | None, name: str) -> Measurement:
+    """Read a file by the first of the readers that knows it."""
     measured = None
     if path.suffix == ".nc":
         refuse_empty_datasets(path, name)
