@@ -100,7 +100,7 @@ def test_a_number_that_may_be_a_height_is_one(tmp_path, separator):
         ("1,234;2,345;999;4,567\n" * 4, '"1,234" may have a decimal comma or a separator of th'),
         ("1,5\n2,5\n3,5\n", "each of its lines has one comma"),
         ("1'234.5;2.5;3.5;4.5\n" * 4, "text is read as a matrix of heights or as lines of x z"),
-        ('"1,5","2,5","3,5","4,5"\n' * 4, "text is read as a matrix"),
+        ('"1,5","2,5,"3,5","4,5"\n' * 4, "text is read as a matrix"),
         ("1.5 2.5 3.5 4.5\n1.5 2.5 x 4.5\n", 'line 2: "x" is no number; text is read as'),
         ("1.5;a;3.5;4.5\n" + "1.5;2.5;3.5;4.5\n" * 3, 'line 1: "a" is no number'),
         (written(ROWS, ";") + "1;2;3\n", "3 numbers in line 13 and 9 in line 1: it was cut short"),
@@ -261,6 +261,40 @@ def test_a_line_scan_is_read_along_its_positions(tmp_path, columns, length):
     assert found.positions is None
     assert (found.heights == SCAN).all()
     assert found.sizes == (None if length is None else pytest.approx((length,)))
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_quotation_marks_around_cells_change_nothing(tmp_path, separator, decimal):
+    """As spreadsheets write them: a comma within them is a decimal sign."""
+    text = written(HOLED, separator, decimal, missing="", form='"{:.4f}"')
+    assert np.array_equal(read(tmp_path, text).heights, HOLED.T, equal_nan=True)
+    titles = separator.join(['"X [mm]"', '"Y [mm]"', '"Z [µm]"']) + "\n"
+    found = read(tmp_path, titles + written(points(), separator, decimal, form='"{:.4f}"'))
+    assert found.unit == "mm"
+    assert found.sizes == pytest.approx(SIDES)
+    assert found.heights == pytest.approx(1e-3 * HEIGHTS)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [("{\n", "}\n"), ("", "}\n"), ("x [mm] y [mm] z [mm] {\n", "}")]
+)
+def test_a_list_may_stand_in_braces(tmp_path, before, after):
+    text = before + written(points()) + after
+    found = read(tmp_path, text)
+    assert (found.heights == HEIGHTS).all()
+    assert found.unit == ("mm" if "mm" in before else None)
+    if before:
+        assert "does not close it: it was cut short" in refusal(tmp_path, text[: -len(after)])
+
+
+@pytest.mark.parametrize("unit", ["MM", "Um", "nM", "mil", "Å", "inches"])
+def test_capitals_change_no_unit(tmp_path, unit):
+    metres = {"MM": 1e-3, "Um": 1e-6, "nM": 1e-9, "mil": 25.4e-6, "Å": 1e-10, "inches": 0.0254}
+    read(tmp_path, f"x [{unit}];y [{unit}];z [{unit}]\n" + written(points(), ";"))
+    body = rl.read(tmp_path / "table.csv", trend="none")
+    assert body.sizes == pytest.approx([side * metres[unit] for side in SIDES])
+    assert body.heights == pytest.approx(HEIGHTS * metres[unit])
 
 
 def test_positions_in_metres_are_even_only_if_they_are(tmp_path):

@@ -10,13 +10,11 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
-from roughline.topography.files.instrument import read_instrument
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import Table, table_of
+from roughline.topography.files.text_head import Head, head_of, length_unit, ratio
 from roughline.topography.settings import MEASURED
-from roughline.units import metres_per
 
-_STATED = re.compile(r"\d|unit|einheit|unité", re.IGNORECASE)
 _IN_BRACKETS = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]")
 _POINTS = re.compile(
     r"\W*(?:number of |no\.? of |num[-_ ]?)?(?:data[-_ ]?)?(?:points|samples|columns|rows|lines|"
@@ -25,10 +23,6 @@ _POINTS = re.compile(
 )
 _LENGTH = re.compile(
     r"\W*(?:(?:scan|profile|traverse|measuring)[-_ ]?)?length\W+([\d.]+)\s*(\w+)\W*", re.IGNORECASE
-)
-_LENGTHS = re.compile(
-    r"[fpnuµμmcd]?m|Å|angstroms?|microns?|(?:nano|micro|milli|centi)?met(?:er|re)s?|in|inch|mil",
-    re.IGNORECASE,
 )
 _KEY_AND_VALUE = re.compile(r"\W*([^:=;,\t]+)[:=;,\t](.*)")
 _OF_ALL = re.compile(r"(?:all |length )?units?", re.IGNORECASE)
@@ -41,47 +35,61 @@ _NEAR = 0.15  # of a step: positions nearer to each other are one, and nearer to
 _SPARSE = 20  # nodes of the grid for each point of a list, at most
 
 
-def read_text(path: Path, channel: int | str | None, name: str) -> Measurement | None:
+def read_text(path: Path, _: int | str | None, name: str) -> Measurement | None:
     """Read heights from text; None if the file is no text, or that of a program's own format."""
     table = table_of(path, name)
     if table is None:
         return None
-    if len(table.rows) == 1:
+    titles = _titles(table)
+    named = _named(titles)
+    rows, columns = table.rows.shape
+    _refuse_fewer_points(table, name)
+    head = Head() if named else head_of(table, name)
+    if rows == 1:
         raise InputError(
             f"{name} has one row of numbers: it was cut short, or a line scan stands in a row; "
             "write one height, or x and z, in each line"
         )
-    titles = _titles(table)
-    named = _named(titles)
-    _refuse_fewer_points(table, name)
-    if table.rows.shape[1] == 1:
-        return _measured(name, kind="profile", heights=table.rows[:, 0])
-    if table.rows.shape[1] <= len(_AXES) or named:
+    if head.sides is not None and not _begins_with_positions(table.rows):
+        return _of_matrix(table, head, name)  # however few columns it has
+    if columns == 1:
+        return _measured(
+            name, kind="profile", heights=head.factor * table.rows[:, 0], unit=head.unit
+        )
+    if columns <= len(_AXES) or named:
         return _of_points(table, titles, named, name)
     _refuse_unnamed_list(table, titles, name)
-    if len(table.rows) == 2:
+    if rows == 2:
         raise InputError(f"{name} has two rows of numbers: write a line scan as lines of x z")
     _refuse_positions_beside_heights(table.rows, name)
-    if any(_STATED.search(line) for line in table.head):
-        return read_instrument(path, channel, name, _as_matrix(table))
-    return _measured(name, kind="surface", heights=table.rows.T)
+    return _of_matrix(table, head, name)
+
+
+def _of_matrix(table: Table, head: Head, name: str) -> Measurement:
+    """A map, or a line scan where the matrix has one column."""
+    heights = table.rows[:, ::-1] if head.are_columns else table.rows.T
+    if head.factor != 1:
+        heights = head.factor * heights
+    along = [i for i, n in enumerate(heights.shape) if n > 1]
+    is_map = len(along) == 2
+    settings = {"channel": head.channel} if head.channel else {}
+    return _measured(
+        name,
+        kind="surface" if is_map else "profile",
+        heights=heights if is_map else heights.ravel(),
+        unit=head.unit,
+        unit_of_sides=head.unit_of_sides,
+        sizes=tuple(head.sides[i] for i in along) if head.sides else None,
+        channel=head.channel,
+        format=head.format,
+        settings={"origin": MEASURED, "file": name, **settings},
+    )
 
 
 def _measured(name: str, **others: Any) -> Measurement:
-    stated: dict[str, Any] = {"unit": None, "sizes": None, **others}
-    return Measurement(file=name, settings={"origin": MEASURED, "file": name}, **stated)
-
-
-def _as_matrix(table: Table) -> str:
-    """The table as SurfaceTopography reads it, which knows what many programs write above it."""
-    head = []
-    for line in table.head:
-        text = re.sub(r"(\d),(\d)", r"\1.\2", line) if table.decimal == "," else line
-        if table.separator is not None and not re.search(r"[:=]", text):
-            text = text.replace(table.separator, ": ", 1).replace(table.separator, " ")
-        head.append(text.strip(" ;,\t"))
-    rows = [" ".join(map(repr, row)) for row in table.rows.tolist()]
-    return "\n".join([*head, *rows, ""])
+    stated: dict[str, Any] = {"unit": None, "sizes": None, "format": "Text"}
+    stated["settings"] = {"origin": MEASURED, "file": name}
+    return Measurement(file=name, **stated | others)
 
 
 def _of_points(
@@ -129,7 +137,7 @@ def _titles(table: Table) -> list[list[str]]:
         if len(cells) != table.rows.shape[1] or any(re.match(r"[-+.\d]|$", cell) for cell in cells):
             break
         found.append(cells)
-        if not all(_is_length(cell.strip("[]()")) for cell in cells):
+        if not all(length_unit(cell.strip("[]()")) for cell in cells):
             break  # these are the names
     return found
 
@@ -177,18 +185,19 @@ def _units_of_columns(
     for line in table.head:
         stated = _KEY_AND_VALUE.match(line)
         key, value = (each.strip(' ;,\t"') for each in stated.groups()) if stated else ("", "")
-        if not _is_length(value):
+        unit = length_unit(value)
+        if not unit:
             continue
         if _OF_ALL.fullmatch(key) or _OF_POSITIONS.fullmatch(key):
-            units["x"] = value
+            units["x"] = unit
         if _OF_ALL.fullmatch(key) or _OF_HEIGHTS.fullmatch(key):
-            units["z"] = value
+            units["z"] = unit
     for cells in titles:
         found = {axis: _unit_in(cells[i]) for axis, i in order.items()}
         units.update({axis: unit for axis, unit in found.items() if unit})
     if not units:
         return None, None, 1.0
-    if "x" not in units or _metres(units.get("y", units["x"])) != _metres(units["x"]):
+    if "x" not in units or ratio(units.get("y", units["x"]), units["x"]) != 1:
         said = ", ".join(f"{axis} in {unit}" for axis, unit in units.items())
         raise InputError(
             f"{name} states units of some columns alone ({said}), or different ones of x and y: "
@@ -196,24 +205,14 @@ def _units_of_columns(
         )
     if "z" not in units:
         return units["x"], None, 1.0
-    return units["x"], units["x"], _metres(units["z"]) / _metres(units["x"])
+    return units["x"], units["x"], ratio(units["z"], units["x"])
 
 
 def _unit_in(title: str) -> str | None:
     """The unit in the title of a column, such as "x [mm]", "Lateral um" or "mm"."""
     in_brackets = _IN_BRACKETS.search(title)
     candidate = in_brackets[1] if in_brackets else re.split(r"[\s/_]+", title)[-1]
-    return candidate if _is_length(candidate) else None
-
-
-def _is_length(text: str) -> bool:
-    """Whether a word is a unit of length."""
-    return bool(_LENGTHS.fullmatch(text))
-
-
-def _metres(unit: str) -> float:
-    """The length of a unit, however its name is capitalised. [m]"""
-    return metres_per(unit if len(unit) < 3 else unit.lower())
+    return length_unit(candidate)
 
 
 def _refuse_fewer_points(table: Table, name: str) -> None:
@@ -233,13 +232,14 @@ def _refuse_shorter_scan(table: Table, unit: str | None, length: float, name: st
     """Refuse a line scan that is shorter than its head says."""
     for line in table.head:
         stated = _LENGTH.fullmatch(line)
-        if stated and unit and _is_length(stated[2]):
-            held = length * _metres(unit)
-            if held < _NEARLY * float(stated[1]) * _metres(stated[2]):
-                raise InputError(
-                    f'{name} says "{line[:40]}" and ends at {length:g} {unit}: it was cut short; '
-                    "export it again"
-                )
+        other = length_unit(stated[2]) if stated else None
+        if not (stated and unit and other):
+            continue
+        if length < _NEARLY * float(stated[1]) * ratio(other, unit):
+            raise InputError(
+                f'{name} says "{line[:40]}" and ends at {length:g} {unit}: it was cut short; '
+                "export it again"
+            )
 
 
 def _is_even(positions: Real, tolerance: float = 0.01) -> bool:
@@ -305,6 +305,13 @@ def _map_of(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, fl
     if not listed.all():
         _refuse_cut_list(i, j, listed, name)
     return heights, (dx * shape[0], dy * shape[1])
+
+
+def _begins_with_positions(rows: Real) -> bool:
+    """Whether a narrow table lists positions before its heights."""
+    if rows.shape[1] not in (2, 3) or len(rows) < 3 or not np.isfinite(rows[:, :-1]).all():
+        return False
+    return _is_even(rows[:, 0]) or (rows.shape[1] == 3 and _is_grid(rows[:, 0], rows[:, 1]))
 
 
 def _is_grid(x: Real, y: Real) -> bool:

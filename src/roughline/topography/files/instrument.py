@@ -18,10 +18,11 @@ from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import shortened
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
-from roughline.topography.files.text import READ_AS_TEXT
+from roughline.topography.files.text import READ_AS_TEXT, has_other_bytes
 from roughline.topography.settings import MEASURED
 
 _WITHOUT_MARK = ("hgt", "nms")  # formats of SurfaceTopography that start like any other file
+_OF_TEXT = ("asc", "matrix", "xyz")  # its formats of text, which take any lines for remarks
 _OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")
 """Formats of optical instruments alone, whose heights are means over pixels."""
 
@@ -29,20 +30,15 @@ _TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", ".xyz", ".tsv", ".prn")
 _BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 
 
-def read_instrument(
-    path: Path, channel: int | str | None, name: str, matrix: str | None = None
-) -> Measurement:
+def read_instrument(path: Path, channel: int | str | None, name: str) -> Measurement:
     """Read the heights of an instrument's file, and what it states of them."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ImportWarning)  # MPI is absent, and not needed
         from SurfaceTopography.Exceptions import ReadFileError  # here because it loads slowly
         from SurfaceTopography.IO import open_topography
-        from SurfaceTopography.IO.Text import AscReader
 
     try:
         opened = partial(open_topography, str(path), format=_marked_format(path))
-        if matrix is not None:
-            opened = partial(AscReader, StringIO(matrix))
         with _silence(), opened() as reader:
             _refuse_guessed_format(reader, path)
             chosen = _channel_of(reader, channel, name)
@@ -97,6 +93,8 @@ def _refuse_guessed_format(reader: Any, path: Path) -> None:
     extensions = [f".{each.lower()}" for each in reader.file_extensions() or ()]
     if reader.format() in _WITHOUT_MARK and path.suffix.lower() not in extensions:
         raise CannotDetectFileFormat("no format has a mark that is at the start of the file")
+    if reader.format() in _OF_TEXT and has_other_bytes(path):
+        raise CannotDetectFileFormat("text has no such bytes")
 
 
 @contextmanager

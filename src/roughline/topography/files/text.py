@@ -22,13 +22,16 @@ READ_AS_TEXT = (
 
 _LIST = 3  # columns of a list of points, at most
 _LAST_ROWS = 50  # that show how many decimals numbers have
+_PIECE = 2**20  # of a file that is read in pieces [bytes]
 _SAMPLE = 4096  # bytes that show whether a file is text
 _BYTES_PER_CHARACTER = 5  # of text: as characters, as lines and as numbers
 _CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x1f]")
 _MARKS = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 _COMMENT = re.compile(r"\s*(?:#(?!N/A|NV|VALUE)|%|//|!)", re.IGNORECASE)
 
-_OF_PROGRAMS = re.compile(r"[ab](ISO|BCR)-|X;Y;valid")  # SurfaceTopography reads them whole
+_OF_PROGRAMS = re.compile(r"X;Y;valid")  # SurfaceTopography reads them whole
+_OPENS, _CLOSES = "{", "}"  # a list of points, in what Alicona's programs write
+_BETWEEN = (r"[\s;,]+", r"[\s;]+")  # cells, where a comma separates, and where it is a decimal sign
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _MISSING_WORDS = {"", "nan", "bad", "n/a", "na", "null", "none", "inf", "+inf", "-inf"}
 _MISSING_WORDS |= {"#n/a", "#nv", "#value!"}  # of spreadsheets
@@ -68,11 +71,12 @@ def table_of(path: Path, name: str) -> Table | None:
     text = _text_of(path, name)
     if text is None or _OF_PROGRAMS.match(text):
         return None
-    lines = text.split("\n")
-    start = next((i for i, line in enumerate(lines) if _begins_rows(line)), None)
+    lines = _unquoted(text.split("\n"))
+    start = _first_row(lines)
     if start is None:
         return None
     body = [(i + 1, line) for i, line in enumerate(lines[start:], start) if line.strip(" \r")]
+    body = _within_braces(body, lines[:start], name)
     if any(_COMMENT.match(line) for _, line in body):
         _refuse_words_between_rows(body, name)
         return None  # files of several channels go on so
@@ -91,7 +95,8 @@ def table_of(path: Path, name: str) -> Table | None:
         cells = _without_empty_ends(cells, name)
     rows = _without_stand_ins(_numbers(cells, name), name)
     _refuse_row_in_head(lines[:start], separator, rows.shape[1], name)
-    head = tuple(line.strip() for line in lines[:start] if line.strip())
+    above = (line.strip().removesuffix(_OPENS).strip() for line in lines[:start])
+    head = tuple(line for line in above if line)
     return Table(head, rows, separator, decimal)
 
 
@@ -119,9 +124,76 @@ def _text_of(path: Path, name: str) -> str | None:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
+def has_other_bytes(path: Path) -> bool:
+    """Whether a file holds bytes that no text has."""
+    with path.open("rb") as file:
+        if file.read(2) in _MARKS:
+            return False
+        file.seek(0)
+        return any(_CONTROLS.search(piece) for piece in iter(lambda: file.read(_PIECE), b""))
+
+
 def _begins_rows(line: str) -> bool:
     """Whether a line is the first row of numbers."""
     return bool(_FIRST_ROW.fullmatch(line)) and any(c.isdigit() or c in "nN" for c in line)
+
+
+def _first_row(lines: list[str]) -> int | None:
+    """The line that rows begin at; None if there are none.
+
+    A row of which all points are missing may be the first.
+    """
+    start = next((i for i, line in enumerate(lines) if _begins_rows(line)), None)
+    if start is None:
+        return None
+    counts = {len(re.split(signs, lines[start].strip(" \t;,"))) for signs in _BETWEEN}
+    while start and _is_missing(lines[start - 1], counts):
+        start -= 1
+    return start
+
+
+def _is_missing(line: str, counts: set[int]) -> bool:
+    """Whether a line is a row of marks of missing points, as many as a row may have cells."""
+    cells = re.split(_BETWEEN[0], line.strip(" \t;,"))
+    return (
+        len(cells) > _LIST
+        and len(cells) in counts
+        and all(
+            cell.lower() in _MISSING_WORDS - {""} or _MISSING_SIGNS.fullmatch(cell)
+            for cell in cells
+        )
+    )
+
+
+def _unquoted(lines: list[str]) -> list[str]:
+    """Lines without quotation marks around cells.
+
+    Commas between cells become semicolons where there are commas in them.
+    """
+    start = next((i for i, each in enumerate(lines) if _begins_rows(each.replace('"', ""))), None)
+    if start is None or '"' not in lines[start]:
+        return lines
+    cells = [line.split('"') for line in lines]
+    within = [cell for line in cells[start:] if len(line) % 2 for cell in line[1::2]]
+    has_comma = any("," in cell for cell in within)
+    for line in cells:
+        if has_comma and len(line) % 2:
+            line[::2] = [between.replace(",", ";") for between in line[::2]]
+    return ["".join(line) if len(line) % 2 else '"'.join(line) for line in cells]
+
+
+def _within_braces(
+    body: list[tuple[int, str]], above: list[str], name: str
+) -> list[tuple[int, str]]:
+    """The rows of a list that a brace closes, without it."""
+    is_closed = body[-1][1].strip() == _CLOSES
+    is_opened = any(line.strip().endswith(_OPENS) for line in above)
+    if is_opened and not is_closed:
+        raise InputError(
+            f'{name} opens a list with "{_OPENS}" and does not close it: it was cut short; export '
+            "it again"
+        )
+    return body[:-1] if is_closed else body
 
 
 def _dialect(body: str, name: str) -> tuple[str | None, str]:
