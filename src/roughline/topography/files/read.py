@@ -57,9 +57,9 @@ def read(
 ) -> Body:
     """Read a surface or a line from a file, in metres.
 
-    It reads NetCDF files that roughline wrote and the formats of SurfaceTopography, plain arrays
-    (NPY, text) included. A measured line scan is returned as a Line of kind "profile"; one with
-    uneven spacing is interpolated linearly to as many evenly spaced points. Points that the
+    It reads NetCDF files that roughline wrote, SDF, SMD, GSF, plain arrays (NPY, text), and the
+    formats of SurfaceTopography. A measured line scan is returned as a Line of kind "profile"; one
+    with uneven spacing is interpolated linearly to as many evenly spaced points. Points that the
     instrument could not measure are filled, and the tilt of its stage is removed; the settings of
     the result record both. Heights in files that roughline wrote are not changed.
 

@@ -92,7 +92,7 @@ def head_of(table: Table, name: str) -> Head:
     stated = _Stated(lines, name)
     _refuse_other_points(stated, lines, table, name)
     unit, factor = _heights_of(stated)
-    sides = _sides_of(stated, table, unit)
+    sides = _sides_of(stated, table)
     spip = "nm" if any(map(_OF_SPIP.fullmatch, lines)) else None
     own = [each for _, each in sides if each]
     of_x = stated.unit("unit of x") or stated.unit("unit") or spip or unit
@@ -197,7 +197,7 @@ def _heights_of(stated: _Stated) -> tuple[str | None, float]:
     return unit, (stated.number("scale") or 1.0) if is_scaled else 1.0
 
 
-def _sides_of(stated: _Stated, table: Table, unit: str | None) -> list[tuple[float, str | None]]:
+def _sides_of(stated: _Stated, table: Table) -> list[tuple[float, str | None]]:
     """Both sides, each with its own unit if it has one; none if they are not stated."""
     rows, columns = table.rows.shape
     sides = [stated.quantity("width"), stated.quantity("height")]
