@@ -107,9 +107,9 @@ def _of_points(
     if y is not None and (along := _along_a_line(x, y)) is not None:
         x, y = along, None
     if y is not None:
-        heights, sides = _map_of(x, y, z, name)
+        heights, sides = map_of(x, y, z, name)
         return _measured(name, kind="surface", heights=heights, sizes=sides, **stated)
-    heights, positions, length = _line_of(x, z, name)
+    heights, positions, length = line_of(x, z, name)
     _refuse_shorter_scan(table, of_positions, length, name)
     return _measured(
         name, kind="profile", heights=heights, sizes=(length,), positions=positions, **stated
@@ -260,7 +260,7 @@ def _refuse_positions_beside_heights(rows: Real, name: str) -> None:
             )
 
 
-def _line_of(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
+def line_of(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
     """Return the heights of a line in order, the positions if they are uneven, and the length."""
     if x.size < 2:
         raise InputError(f"{name} lists {x.size} point: at least 2 are needed; it was cut short")
@@ -278,7 +278,7 @@ def _line_of(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
     return z, x, float(x[-1] - x[0])
 
 
-def _map_of(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, float]]:
+def map_of(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, float]]:
     """Return the heights of a list of points on their grid, and the sides of the map.
 
     Nodes of the grid that the list leaves out are NaN.

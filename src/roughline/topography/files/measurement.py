@@ -6,13 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 
+from roughline._version import __version__
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError, UnitError
-from roughline.errors.checks import shown
+from roughline.errors.checks import one_of, shown
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.crop import Crop, points_between, points_in, settings_of_piece
@@ -25,6 +26,9 @@ from roughline.units import in_si, metres_per, refuse_decimal_comma
 
 Sizes = float | str | Sequence[float | str]
 """Sides of a file as a caller gives them: one length makes a square; texts have their own units."""
+
+MaskUse = Literal["use", "leave-out"]
+"""What becomes of points that a mask in the file selects: they are used, or left out as missing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,11 +52,28 @@ class Measurement:
     format: str = ""  # its name, one of `formats.FORMATS`
     reader: str = ""  # who read it, and which version; empty if roughline did
     corrected: tuple[str, ...] = ()  # what that reader gets wrong and is right here, in sentences
+    doubts: tuple[str, ...] = ()  # what in the file itself is wrong or unusual, in sentences
+    masked: Mask | None = None  # shape of the heights: points that its mask selects
+    mask_of: str = ""  # the program that made the mask
 
     @property
     def unknown(self) -> Mask:
         """Which points are missing."""
         return np.ma.getmaskarray(self.heights) | ~np.isfinite(np.ma.getdata(self.heights))
+
+    def with_mask(self, use: MaskUse) -> Measurement:
+        """Return the measurement with the points that the file's mask selects, or without them.
+
+        Such a mask marks grains or spikes; its points were measured.
+        """
+        one_of("mask", use, get_args(MaskUse))
+        if use == "use":
+            return self
+        if self.masked is None:
+            raise InputError(
+                f'is "{use}"; {self.file} has no mask that selects points: leave it out', "mask"
+            )
+        return replace(self, heights=np.ma.array(self.heights, mask=self.unknown | self.masked))
 
     def piece(self, crop: Crop, unit: str | None, sizes: Sizes | None) -> Measurement:
         """Return a piece, with its own sizes, in which missing points are still missing.
@@ -78,6 +99,7 @@ class Measurement:
             heights=self.heights[kept].copy(order="K"),  # so that the whole can go
             sizes=tuple(length / scale.metres_aside for length in lengths),
             positions=positions,
+            masked=None if self.masked is None else self.masked[kept],
             settings=settings_of_piece(self.settings, kept, self.heights.shape),
             is_cut_out=self.is_cut_out if is_whole else True,
             is_piece=True,
@@ -114,7 +136,7 @@ class Measurement:
         scale = _Scale(self, unit, sizes)
         sides = scale.sides
         heights, filling = missing.completed(self.heights, self.file)
-        settings = {**self.settings, **filling}
+        settings = {**self.settings, **filling, **self._record()}
         removed = self._trend_to_remove(trend)
         if not self.by_roughline:
             settings["file_unit"] = str(self.unit or unit)
@@ -140,6 +162,22 @@ class Measurement:
         if self.kind == "surface":
             return Surface(heights, (sides[0], sides[1]), "m", settings, **of_both)
         return Line(heights, sides[0], "m", settings, self.kind, **of_both)
+
+    def _record(self) -> Settings:
+        """Who read the file and how, for the settings of the body."""
+        if self.by_roughline:
+            return {}
+        record: dict[str, str | int | float] = {
+            "format": self.format,
+            "reader": self.reader or f"roughline {__version__}",
+            "corrected": "; ".join(self.corrected),
+            "doubts_of_file": "; ".join(self.doubts),
+        }
+        if self.masked is not None:
+            is_used = bool((self.masked & ~self.unknown).any())
+            record["mask"] = f"{'used' if is_used else 'left out'}: points masked in {self.mask_of}"
+            record["masked_share"] = float(self.masked.mean())
+        return {name: value for name, value in record.items() if value != ""}
 
     def _trend_to_remove(self, wanted: Trend) -> Trend:
         """The trend of what an instrument measured; from a piece of ours, what the whole lacks."""

@@ -28,6 +28,7 @@ from roughline.topography.files.measurement import Measurement, Sizes
 from roughline.topography.files.netcdf import read_body_file
 from roughline.topography.files.sdf import read_sdf
 from roughline.topography.files.smd import read_smd
+from roughline.topography.files.x3p import read_x3p
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
@@ -38,6 +39,7 @@ _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None]
     read_sdf,
     read_smd,
     read_gsf,
+    read_x3p,
     read_text,
 )
 """Readers of formats that are read here, each None for a file that has another format."""
@@ -199,7 +201,7 @@ def _read_array(path: Path, name: str) -> Measurement:
 
 def suspicions(body: Body) -> list[str]:
     """List properties of a measured body that suggest a wrong unit or a wrong file."""
-    doubts = []
+    doubts = [text] if (text := str(body.settings.get("doubts_of_file", ""))) else []
     rms, slope = body.rms_height, body.rms_slope
     if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
         doubts.append(
