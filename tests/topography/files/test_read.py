@@ -189,6 +189,22 @@ def test_suspicious_scales_are_pointed_out():
     assert "pixels are" in suspicions(thin)[0]
 
 
+@pytest.mark.parametrize(
+    ("side", "slope", "settings", "said"),
+    [
+        (160.0, 1e-5, {}, "the sides are 160 m x 160 m; instruments measure 10 nm to 1 m"),
+        (5e-9, 0.1, {}, "the sides are 5 nm x 5 nm"),
+        (0.048, 1e-3, {"pixels": "means"}, "the pixels are 2 mm x 2 mm"),
+        (0.048, 1e-3, {}, ""),
+        (0.9, 9e-7, {}, "the rms slope is 9e-07"),
+    ],
+)
+def test_a_scale_of_the_sides_that_no_instrument_has_is_pointed_out(side, slope, settings, said):
+    rough = rl.Surface(SPECTRUM.surface(24, 7).heights, (side, side), "m", settings)
+    found = suspicions(rough.scaled(slope / rough.rms_slope))
+    assert any(said in each for each in found) if said else not found
+
+
 @pytest.mark.parametrize("name", ["curve.nc", "zygo.datx", "sheet.xlsx"])
 def test_what_is_declared_and_not_there_is_refused_before_it_is_read(tmp_path, name):
     """A curve, texts and a table would take 10 GB, for ever, and 8 s."""

@@ -13,7 +13,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, Surface, sides_of, spacings_of
 from roughline.topography.crop import Crop
 from roughline.topography.files.archives import (
     refuse_empty_datasets,
@@ -28,6 +28,7 @@ from roughline.topography.files.measurement import Measurement, Sizes
 from roughline.topography.files.netcdf import read_body_file
 from roughline.topography.files.sdf import read_sdf
 from roughline.topography.files.smd import read_smd
+from roughline.topography.files.nms import read_nms
 from roughline.topography.files.x3p import read_x3p
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MEASURED
@@ -35,11 +36,15 @@ from roughline.topography.trend import Trend, refuse_unknown_trend
 from roughline.units import engineering
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
+_SIDES = (1e-8, 1.0)  # that instruments measure [m]
+_LARGEST_PIXEL = 1e-3  # of an optical instrument [m]
+_LEAST_SLOPE = 1e-6  # an rms slope below which no surface is known
 _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None], ...] = (
     read_sdf,
     read_smd,
     read_gsf,
     read_x3p,
+    read_nms,
     read_text,
 )
 """Readers of formats that are read here, each None for a file that has another format."""
@@ -215,10 +220,35 @@ def suspicions(body: Body) -> list[str]:
             f"the rms slope is {slope:.3g}; theories and instruments do not reach slopes of 1: "
             "check the unit, and outliers"
         )
+    doubts += _doubts_of_sides(body)
     if isinstance(body, Surface):
         dx, dy = body.spacing
         if max(dx, dy) > 2 * min(dx, dy):
-            doubts.append(
-                f"pixels are {engineering(dx, 'm')} x {engineering(dy, 'm')}: check the sizes"
-            )
+            doubts.append(f"pixels are {_by((dx, dy))}: check the sizes")
     return doubts
+
+
+def _doubts_of_sides(body: Body) -> list[str]:
+    """What suggests a wrong unit of the sides, of which a rough surface shows nothing itself."""
+    doubts = []
+    sides, spacings = sides_of(body), spacings_of(body)
+    if max(sides) > _SIDES[1] or min(sides) < _SIDES[0]:
+        doubts.append(
+            f"the sides are {_by(sides)}; instruments measure 10 nm to 1 m: check the unit of the "
+            "sides"
+        )
+    if body.settings.get("pixels") == "means" and max(spacings) > _LARGEST_PIXEL:
+        doubts.append(
+            f"the pixels are {_by(spacings)}; those of optical instruments are below 1 mm: check "
+            "the unit of the sides"
+        )
+    if 0 < body.rms_slope < _LEAST_SLOPE:
+        doubts.append(
+            f"the rms slope is {body.rms_slope:.3g}; polished mirrors reach 1e-5: check whether "
+            "heights and sides have the units that they are read in"
+        )
+    return doubts
+
+
+def _by(lengths: tuple[float, ...]) -> str:
+    return " x ".join(engineering(length, "m") for length in lengths)
