@@ -78,7 +78,8 @@ def describe_measurement(
 
     Bodies are made by another function for a caller that keeps them.
     """
-    piece, obstacles = content, content.scale_obstacles(reading.unit, reading.sizes)
+    piece = content = content.with_mask(reading.mask)
+    obstacles = content.scale_obstacles(reading.unit, reading.sizes)
     if not obstacles:
         piece, reading, preparation = of_piece(content, reading, preparation)
     filling = Missing(reading.missing, reading.most_missing)

@@ -441,6 +441,13 @@ FIELDS: tuple[Field, ...] = (
         read=_number("most_missing"),
     ),
     _of_file(
+        name="mask",
+        label="masked points",
+        help="What becomes of points that a mask in the file selects, such as grains marked in "
+        "Gwyddion: their heights are used, or they are left out and filled like missing points.",
+        choices={"use": ("use", "used"), "leave-out": ("leave-out", "left out")},
+    ),
+    _of_file(
         name="tilt",
         label="tilt is of",
         help="Whose the tilt of measured heights is: the mounting's alone, such as the stage's, or "

@@ -308,7 +308,7 @@ def what_was_prepared(body: Body) -> list[str]:
 
 def _filled_spikes_and_effects(body: Body) -> list[str]:
     """Say what was filled, what spikes there are, and what the preparation did, unless grave."""
-    notes = []
+    notes = _of_the_file(body)
     if body.settings.get("missing_points"):
         count, share = body.settings["missing_points"], float(body.settings["missing_share"])
         notes.append(f"{count} missing points ({share:.2%}) filled: {body.settings['filled']}")
@@ -326,6 +326,21 @@ def _filled_spikes_and_effects(body: Body) -> list[str]:
     if body.settings.get("outliers_removed"):
         notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
     return notes + [each.text for each in effects(body) if not each.is_grave]
+
+
+def _of_the_file(body: Body) -> list[str]:
+    """Say what was corrected as the file was read, and what became of points that it masks."""
+    notes = []
+    if corrected := body.settings.get("corrected"):
+        notes.append(f"{body.settings.get('format')} was corrected as it was read: {corrected}")
+    if share := float(body.settings.get("masked_share", 0.0)):
+        rest = (
+            f"their heights are used ({called('mask', 'leave-out')} leaves them out)"
+            if body.settings["mask"] == "used"
+            else "they are left out, and filled like missing points"
+        )
+        notes.append(f"masked in {body.settings['mask_of']}: {share:.1%} of the points; {rest}")
+    return notes
 
 
 def meaning_of_loads(question: Question, body: Body) -> list[str]:

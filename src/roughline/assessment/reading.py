@@ -9,7 +9,7 @@ from typing import Literal, get_args
 from roughline.errors.checks import between, one_of, positive
 from roughline.errors.public import public
 from roughline.spectra.response import Pixels
-from roughline.topography.files.measurement import Sizes
+from roughline.topography.files.measurement import MaskUse, Sizes
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MOUNTING, Settings
 from roughline.units import metres_per
@@ -22,7 +22,7 @@ class Reading:
 
     Parameters
     ----------
-    unit, channel, sizes, missing, most_missing
+    unit, channel, sizes, missing, most_missing, mask
         As for :func:`roughline.read`.
     name : str, optional
         What the first file is called in messages and results; default: its own name.
@@ -50,6 +50,7 @@ class Reading:
     pixels: Pixels | None = None
     blur: float | None = None
     tip_radius: float | None = None
+    mask: MaskUse = "use"
 
     def __post_init__(self) -> None:
         if self.pixels is not None:
@@ -58,6 +59,7 @@ class Reading:
             between("blur", self.blur, 0.0, sys.float_info.max, "a length from 0 on is needed")
         if self.tip_radius is not None:
             positive("tip_radius", self.tip_radius)
+        one_of("mask", self.mask, get_args(MaskUse))
         one_of("tilt", self.tilt, ("unknown", MOUNTING))
         Missing(self.missing, self.most_missing)  # refuses what cannot be
         if self.unit is not None:

@@ -44,7 +44,7 @@ class Topography:
         """Take or read a body, and prepare it; refuse files and steps that do not suit."""
         if isinstance(given, Surface | Line):
             return cls(as_prepared(given, preparation), None, None, reading, preparation)
-        content = measurement(given, reading.channel, reading.name)
+        content = measurement(given, reading.channel, reading.name).with_mask(reading.mask)
         content, reading, preparation = of_piece(content, reading, preparation)
         kept = content if not content.by_roughline and content.unknown.any() else None
         body = measured_body(content, reading, preparation, in_place=kept is None)

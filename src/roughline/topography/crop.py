@@ -16,6 +16,7 @@ Crop = tuple[float, ...]
 
 _OF_THE_WHOLE = (
     *("missing_points", "missing_share", "filled", "outliers_kept"),
+    *("mask", "mask_of", "masked_share"),
     *("border_step", "border_chance"),
 )
 """What settings say of all points of a body, or of its borders."""

@@ -66,6 +66,16 @@ def test_a_piece_is_read_back_as_a_piece(tmp_path, is_cut_out):
         assert found.removed_trend == ("mean" if is_cut_out else "none")
 
 
+@pytest.mark.parametrize("shape", [(32, 1), (1, 32)])
+def test_one_row_or_column_of_points_is_a_line_scan(tmp_path, shape):
+    heights = SPECTRUM.line(32, 7).heights
+    np.save(tmp_path / "row.npy", heights.reshape(shape))
+    found = rl.read(tmp_path / "row.npy", unit="m", sizes="1 mm", trend="none")
+    assert isinstance(found, rl.Line)
+    assert (found.kind, found.length) == ("profile", 1e-3)
+    assert np.array_equal(found.heights, heights)
+
+
 @pytest.mark.parametrize("missing", ["harmonic", "nearest"])
 def test_one_measurement_gives_the_body_with_either_filling(tmp_path, missing):
     heights = SPECTRUM.surface(32, 7).heights.copy()

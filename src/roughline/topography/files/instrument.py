@@ -17,11 +17,12 @@ import numpy as np
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import shortened
 from roughline.topography.files.archives import refuse_points
+from roughline.topography.files.channels import Channel, channel_of, listed
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import READ_AS_TEXT, has_other_bytes
 from roughline.topography.settings import MEASURED
 
-_READ_HERE = ("nms", "x3p")  # formats of SurfaceTopography that have readers of our own
+_READ_HERE = ("gwy", "nms", "x3p")  # formats of SurfaceTopography that have readers of our own
 _WITHOUT_MARK = ("hgt", *_READ_HERE)  # that start like any other file, or are read here
 _OF_TEXT = ("asc", "matrix", "xyz")  # its formats of text, which take any lines for remarks
 _OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")
@@ -42,7 +43,8 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
         opened = partial(open_topography, str(path), format=_marked_format(path))
         with _silence(), opened() as reader:
             _refuse_guessed_format(reader, path)
-            chosen = _channel_of(reader, channel, name)
+            first = reader._default_channel_index
+            chosen = reader.channels[channel_of(_channels(reader), channel, name, first)]
             advice = "crop it with the instrument's software"
             refuse_points(chosen.nb_grid_pts, path, name, _BYTES_PER_POINT, advice)
             _refuse_long_arrays(reader, chosen, name)
@@ -111,27 +113,12 @@ def _silence() -> Iterator[None]:
         logging.disable(before)
 
 
-def _channel_of(reader: Any, wanted: int | str | None, file: str) -> Any:
-    """Find a channel of heights by number or name."""
-    channels = reader.channels
-    listed = ", ".join(f"{i} {each.name!r}" for i, each in enumerate(channels))
-    if wanted is None:
-        return reader.default_channel
-    text = str(wanted)
-    if text.isdigit() and int(text) < len(channels):
-        chosen = channels[int(text)]
-    else:
-        named = [each for each in channels if each.name.lower() == text.lower()]
-        if not named:
-            raise InputError(f"{file} has no channel {text!r}; it has {listed}")
-        if len(named) > 1:
-            raise InputError(
-                f"{file} has {len(named)} channels {text!r}: choose one by its number: {listed}"
-            )
-        chosen = named[0]
-    if not _holds_heights(chosen):
-        raise InputError(f"channel {text!r} of {file} holds no heights; it has {listed}")
-    return chosen
+def _channels(reader: Any) -> list[Channel]:
+    """The channels of a file, and which of them hold heights."""
+    return [
+        Channel(each.name or "", "" if _holds_heights(each) else f"in {each.unit or 'no unit'}")
+        for each in reader.channels
+    ]
 
 
 def _holds_heights(channel: Any) -> bool:
@@ -157,16 +144,13 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
         unit_of_sides=None if unit else unit_of_sides,
         sizes=tuple(map(float, topography.physical_sizes)) if stated else None,
         kind="surface" if topography.dim == 2 else "profile",
-        channel=channel.name,
-        channels=tuple(
-            f"{i} {each.name}" + ("" if _holds_heights(each) else " (no heights)")
-            for i, each in enumerate(reader.channels)
-        ),
+        channel=channel.name or "",
+        channels=listed(_channels(reader)),
         positions=np.asarray(topography.positions(), dtype=np.float64) if uneven else None,
         settings={
             "origin": MEASURED,
             "file": file,
-            "channel": channel.name,
+            "channel": channel.name or "",
             **({"pixels": "means"} if reader.format() in _OPTICAL else {}),
         },
     )

@@ -173,9 +173,10 @@ class Measurement:
             "corrected": "; ".join(self.corrected),
             "doubts_of_file": "; ".join(self.doubts),
         }
-        if self.masked is not None:
+        if self.masked is not None and self.masked.any():
             is_used = bool((self.masked & ~self.unknown).any())
-            record["mask"] = f"{'used' if is_used else 'left out'}: points masked in {self.mask_of}"
+            record["mask"] = "used" if is_used else "left out"
+            record["mask_of"] = self.mask_of
             record["masked_share"] = float(self.masked.mean())
         return {name: value for name, value in record.items() if value != ""}
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,9 +23,10 @@ from roughline.topography.files.archives import (
 )
 from roughline.topography.files.curves import curve_in
 from roughline.topography.files.gsf import read_gsf
+from roughline.topography.files.gwy import read_gwy
 from roughline.topography.files.heights_in_text import read_text
 from roughline.topography.files.instrument import read_instrument
-from roughline.topography.files.measurement import Measurement, Sizes
+from roughline.topography.files.measurement import MaskUse, Measurement, Sizes
 from roughline.topography.files.netcdf import read_body_file
 from roughline.topography.files.sdf import read_sdf
 from roughline.topography.files.smd import read_smd
@@ -44,6 +46,7 @@ _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None]
     read_smd,
     read_gsf,
     read_x3p,
+    read_gwy,
     read_nms,
     read_text,
 )
@@ -61,6 +64,7 @@ def read(
     most_missing: float = 0.1,
     trend: Trend = "tilt",
     crop: Crop | None = None,
+    mask: MaskUse = "use",
 ) -> Body:
     """Read a surface or a line from a file, in metres.
 
@@ -92,6 +96,9 @@ def read(
     crop : tuple of float, optional
         The piece to read, (x0, x1, y0, y1) of a map or (x0, x1) of a line, from 0 along each side.
         Missing points are counted and filled, and the trend is removed, in the piece alone. [m]
+    mask : {"use", "leave-out"}, optional
+        What becomes of points that a mask in the file selects, such as grains marked in Gwyddion:
+        their heights are used, or they are left out and filled like missing ones.
 
     Returns
     -------
@@ -117,7 +124,7 @@ def read(
     """
     refuse_unknown_trend(trend)
     filling = Missing(missing, most_missing, trend)
-    content = measurement(path, channel)
+    content = measurement(path, channel).with_mask(mask)
     if crop is not None:
         content, sizes = content.piece(crop, unit, sizes), None
     return content.body(unit, sizes, filling, trend, in_place=True)
@@ -135,7 +142,7 @@ def measurement(
     if path.stat().st_size == 0:
         raise InputError(f"{name} is empty: export it again")
     try:
-        return _measurement(path, channel, name)
+        return _as_line_scan(_measurement(path, channel, name))
     except (MemoryError, OverflowError) as error:
         raise InputError(
             f"{name} declares more than memory can hold; if it should not, it is damaged: export "
@@ -178,6 +185,21 @@ def _by_first_reader(path: Path, channel: int | str | None, name: str) -> Measur
     if channel is not None and not measured.channels:
         raise InputError(f"{name} has one channel only; leave {called('channel')} out")
     return measured
+
+
+def _as_line_scan(measured: Measurement) -> Measurement:
+    """What a file holds; one row or one column of a map is a line scan."""
+    shape = measured.heights.shape
+    if measured.by_roughline or len(shape) != 2 or min(shape) > 1:
+        return measured
+    along = int(np.argmax(shape))
+    return replace(
+        measured,
+        kind="profile",
+        heights=measured.heights.ravel(),
+        sizes=None if measured.sizes is None else (measured.sizes[along],),
+        masked=None if measured.masked is None else measured.masked.ravel(),
+    )
 
 
 def _read_array(path: Path, name: str) -> Measurement:

@@ -1,0 +1,61 @@
+"""Channels of a file: which of them hold heights, and which one is meant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from roughline.errors import InputError
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A channel, as a file lists it."""
+
+    name: str
+    why_none: str = ""  # why it holds no heights, in words; empty if it does
+    about: str = ""  # what tells it from another one of the same name, such as "retrace"
+
+    def __str__(self) -> str:
+        return ", ".join(filter(None, (self.name, self.about)))
+
+
+def channel_of(
+    channels: Sequence[Channel], wanted: int | str | None, file: str, first: int = 0
+) -> int:
+    """Find a channel of heights by number or name; by default the first one, or one before it."""
+    listed = ", ".join(f"{i} {str(each)!r}" for i, each in enumerate(channels))
+    if wanted is None:
+        order = [first, *range(len(channels))] if channels else []
+        number = next((i for i in order if not channels[i].why_none), None)
+        if number is None:
+            found = ", ".join(f"{each} ({each.why_none})" for each in channels) or "no channel"
+            raise InputError(f"{file} holds no heights; it has {found}: export the heights")
+        return number
+    text = str(wanted)
+    if text.isdigit() and int(text) < len(channels):
+        number = int(text)
+    else:
+        named = [
+            i
+            for i, each in enumerate(channels)
+            if text.lower() in (each.name.lower(), str(each).lower())
+        ]
+        if not named:
+            raise InputError(f"{file} has no channel {text!r}; it has {listed}")
+        if len(named) > 1:
+            raise InputError(
+                f"{file} has {len(named)} channels {text!r}: choose one by its number: {listed}"
+            )
+        number = named[0]
+    if channels[number].why_none:
+        raise InputError(f"channel {text!r} of {file} holds no heights; it has {listed}")
+    return number
+
+
+def listed(channels: Sequence[Channel]) -> tuple[str, ...]:
+    """The channels of a file with their numbers, and what holds no heights."""
+    return tuple(
+        f"{i} {each}" + (" (no heights)" if each.why_none else "")
+        for i, each in enumerate(channels)
+    )
