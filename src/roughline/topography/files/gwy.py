@@ -16,9 +16,9 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.channels import Channel, channel_of, listed
-from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.measurement import Measurement, in_stated_units
 from roughline.topography.settings import MEASURED
-from roughline.units import is_unit_of_length, metres_per
+from roughline.units import is_unit_of_length
 
 _MARK = b"GWYP"
 _NUMBERS = {"b": "<?", "c": "<c", "i": "<i", "q": "<q", "d": "<d"}
@@ -53,16 +53,9 @@ def read_gwy(path: Path, channel: int | str | None, name: str) -> Measurement | 
         if selection.points != field.points:
             selection.refuse("has other points than its channel")
         masked = selection.numbers > _SELECTED
-    unit, unit_of_heights = field.unit("xy"), field.unit("z")
-    heights = field.numbers
-    if unit and unit_of_heights and unit != unit_of_heights:
-        heights = heights * (metres_per(unit_of_heights) / metres_per(unit))
     return Measurement(
         file=name,
-        heights=heights,
-        unit=(unit or unit_of_heights) if unit_of_heights else None,
-        unit_of_sides=None if unit_of_heights else unit or None,
-        sizes=None if unit_of_heights and not unit else field.sides,
+        **in_stated_units(field.numbers, field.sides, field.unit("z"), field.unit("xy")),
         kind="surface",
         channel=field.name,
         channels=listed(channels),

@@ -22,7 +22,12 @@ from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import READ_AS_TEXT, has_other_bytes
 from roughline.topography.settings import MEASURED
 
-_READ_HERE = ("gwy", "nms", "x3p")  # formats of SurfaceTopography that have readers of our own
+_READ_HERE = (
+    "gwy",
+    "nms",
+    "sur",
+    "x3p",
+)  # formats of SurfaceTopography that have readers of our own
 _WITHOUT_MARK = ("hgt", *_READ_HERE)  # that start like any other file, or are read here
 _OF_TEXT = ("asc", "matrix", "xyz")  # its formats of text, which take any lines for remarks
 _OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")

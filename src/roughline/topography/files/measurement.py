@@ -287,6 +287,20 @@ class _Scale:
         )
 
 
+def in_stated_units(
+    heights: Real, sides: tuple[float, ...], unit: str, unit_of_sides: str
+) -> dict[str, Any]:
+    """Heights, sides and units as a measurement takes them; a unit that is not stated is empty."""
+    if unit and unit_of_sides and unit != unit_of_sides:
+        heights = heights * (metres_per(unit) / metres_per(unit_of_sides))
+    return {
+        "heights": heights,
+        "sizes": None if unit and not unit_of_sides else sides,
+        "unit": (unit_of_sides or unit) if unit else None,
+        "unit_of_sides": None if unit else unit_of_sides or None,
+    }
+
+
 def _changeable(heights: Real, is_free: bool) -> Real:
     """Heights that may be changed: a copy, unless nobody else needs the array."""
     if not heights.flags.writeable:

@@ -31,6 +31,7 @@ from roughline.topography.files.netcdf import read_body_file
 from roughline.topography.files.sdf import read_sdf
 from roughline.topography.files.smd import read_smd
 from roughline.topography.files.nms import read_nms
+from roughline.topography.files.sur import read_sur
 from roughline.topography.files.x3p import read_x3p
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MEASURED
@@ -47,6 +48,7 @@ _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None]
     read_gsf,
     read_x3p,
     read_gwy,
+    read_sur,
     read_nms,
     read_text,
 )
@@ -68,11 +70,10 @@ def read(
 ) -> Body:
     """Read a surface or a line from a file, in metres.
 
-    It reads NetCDF files that roughline wrote, SDF, SMD, GSF, plain arrays (NPY, text), and the
-    formats of SurfaceTopography. A measured line scan is returned as a Line of kind "profile"; one
-    with uneven spacing is interpolated linearly to as many evenly spaced points. Points that the
-    instrument could not measure are filled, and the tilt of its stage is removed; the settings of
-    the result record both. Heights in files that roughline wrote are not changed.
+    A measured line scan is returned as a Line of kind "profile"; one with uneven spacing is
+    interpolated linearly to as many evenly spaced points. Points that the instrument could not
+    measure are filled, and the tilt of its stage is removed; the settings of the result record
+    both, and who read the file. Heights in files that roughline wrote are not changed.
 
     Parameters
     ----------
@@ -83,12 +84,11 @@ def read(
     channel : int or str, optional
         Number, from 0, or name of the channel; default: the file's first one of heights.
     sizes : float, str, or sequence of them, optional
-        Length of a line, or both sides (Lx, Ly), for a file that states no sizes; one of them
-        makes a square of a square array. Numbers are in `unit` if that is given, like everything
-        else in the file, and in metres if not; texts have units of their own, "1 mm, 0.5 mm".
+        Length of a line, or both sides (Lx, Ly), for a file that states none; one makes a square
+        of a square array. Numbers are in `unit`, or in metres without it; texts have units.
     missing : {"harmonic", "nearest"}, optional
-        How missing points are filled: by the smoothest surface through their neighbours, or by
-        the nearest known height; both of what the known points depart from their own trend.
+        How missing points are filled, less the trend of the known ones: by the smoothest surface
+        through their neighbours, or by the nearest known height.
     most_missing : float, optional
         Share of missing points above which the file is refused.
     trend : {"tilt", "none", "mean", "curvature"}, optional
@@ -97,8 +97,7 @@ def read(
         The piece to read, (x0, x1, y0, y1) of a map or (x0, x1) of a line, from 0 along each side.
         Missing points are counted and filled, and the trend is removed, in the piece alone. [m]
     mask : {"use", "leave-out"}, optional
-        What becomes of points that a mask in the file selects, such as grains marked in Gwyddion:
-        their heights are used, or they are left out and filled like missing ones.
+        Whether points that a mask of the file selects, such as grains in Gwyddion, are missing.
 
     Returns
     -------
@@ -118,9 +117,8 @@ def read(
     >>> import roughline as rl
     >>> heights = 1e-6 * np.random.default_rng(7).standard_normal((32, 32))
     >>> rl.write(rl.Surface(heights, sizes=(1e-3, 1e-3), unit="m", is_cut_out=True), "map.nc")
-    >>> surface = rl.read("map.nc")
-    >>> print(surface.shape, surface.unit)
-    (32, 32) m
+    >>> rl.read("map.nc").shape
+    (32, 32)
     """
     refuse_unknown_trend(trend)
     filling = Missing(missing, most_missing, trend)
