@@ -64,6 +64,7 @@ WIDE = (
         "made/validation",
         "made/materials",
         "made/fluids",
+        "made/formats",
     ),
     *("architecture", "conventions", "other_programs", "science"),
     *("how-to/coverage", "how-to/grid_error", "how-to/interface_stiffness", "how-to/several_maps"),

@@ -26,6 +26,7 @@ from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
 from roughline.exact import adhesion, flow, indenters, lines, mdr, punch, westergaard
 from roughline.texture.parameters import OF_PROFILES, OF_SURFACES
+from roughline.topography.files.formats import FORMATS
 from roughline.units import decimal
 
 SECTIONS = {
@@ -88,6 +89,7 @@ SECTIONS = {
 SOURCES = {
     "made/materials.md": "../src/roughline/engineering/materials.csv",
     "made/fluids.md": "../src/roughline/engineering/fluids.csv",
+    "made/formats.md": "../src/roughline/topography/files/formats.py",
     "made/quantities.md": "../src/roughline/contact/quantities.py",
     "made/answers.md": "../src/roughline/engineering/rules",
     "made/texture.md": "../src/roughline/texture/parameters.py",
@@ -153,6 +155,7 @@ def write_pages(source: str | Path) -> None:
         "commands.md": page_of_commands(),
         "materials.md": page_of_materials(),
         "fluids.md": page_of_fluids(),
+        "formats.md": page_of_formats(),
         "quantities.md": page_of_quantities(),
         "answers.md": page_of_answers(),
         "texture.md": page_of_texture(),
@@ -259,6 +262,32 @@ def page_of_fluids() -> str:
         "fluids of one's own.\n"
     )
     return f"# Fluids\n\n{_comments('fluids')}\n\n{own}\n{table(header, rows)}"
+
+
+def page_of_formats() -> str:
+    """The formats that are read, by whom, and what of each."""
+    rows = [
+        (
+            each.name,
+            " ".join(f"`{suffix}`" for suffix in each.suffixes),
+            each.written_by,
+            each.is_read,
+            each.is_not_read,
+            "SurfaceTopography" if each.reader else "roughline",
+            each.compared,
+        )
+        for each in sorted(FORMATS, key=lambda each: each.name.lower())
+    ]
+    header = (
+        *("format", "files", "written by", "read", "not read", "reader"),
+        "compared with",
+    )
+    own = (
+        "A file is known by what is in it; its name counts where a format has no mark. `roughline "
+        "info` says who read a file, as which format, and what was corrected. Other formats of "
+        "SurfaceTopography are read as it reads them.\n"
+    )
+    return f"# Formats of files\n\n{own}\n{table(header, rows)}"
 
 
 def page_of_quantities() -> str:

@@ -15,6 +15,7 @@ from roughline.contact.quantities import QUANTITIES
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.texture.parameters import OF_PROFILES, OF_SURFACES
+from roughline.topography.files.formats import FORMATS
 
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
 
@@ -65,6 +66,14 @@ def test_every_fluid_is_listed_with_its_source():
         (row,) = (line for line in page.splitlines() if line.startswith(f"| {each.name} |"))
         assert each.source in row
     assert "| helium | He | 0.0196 | 4.003 |" in page
+
+
+def test_every_format_is_listed_with_who_reads_it():
+    page = made.page_of_formats()
+    for each in FORMATS:
+        reader = "SurfaceTopography" if each.reader else "roughline"
+        assert f"| {each.name} | `{each.suffixes[0]}`" in page
+        assert f"| {each.is_read} | {each.is_not_read} | {reader} | {each.compared} |" in page
 
 
 def test_every_quantity_is_listed_with_its_meaning():

@@ -82,7 +82,10 @@ def _rows_of_file(description: Description) -> list[tuple[str, str]]:
     """What the file holds, and of the body its points and sizes."""
     content, body, missing = description.measurement, description.body, description.missing
     channel = "own format" if content.by_roughline else content.channel
-    rows = [("file", ", ".join(filter(None, (content.file, channel))))]
+    rows = [
+        ("file", ", ".join(filter(None, (content.file, channel)))),
+        ("read by", ", as ".join(filter(None, (content.read_by, content.format)))),
+    ]
     if len(content.channels) > 1:
         rows.append(("channels", ", ".join(content.channels)))
     points = content.heights.shape if body is None else body.heights.shape

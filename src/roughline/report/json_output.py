@@ -155,17 +155,23 @@ def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
 def of_description(description: Description, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What a topography is like, in SI units."""
     parameters, missing = description.roughness, description.missing
+    content = description.measurement
     fit = parameters.fit if parameters is not None else None
     names = ("rms_height", "rms_slope", "skewness", "kurtosis", "summits", "summit_skewness")
     return {
         "file": description.file,
         "in_file": {
-            "points": description.measurement.heights.shape,
-            "sizes": description.measurement.sizes,
-            "unit": description.measurement.unit,
-            "kind": description.measurement.kind,
-            "channel": description.measurement.channel,
-            "channels": description.measurement.channels,
+            "points": content.heights.shape,
+            "sizes": content.sizes,
+            "unit": content.unit,
+            "kind": content.kind,
+            "channel": content.channel,
+            "channels": content.channels,
+            "format": content.format,
+            "reader": content.read_by,
+            "corrected": content.corrected,
+            "doubts": content.doubts,
+            "masked_share": None if content.masked is None else content.masked.mean(),
         },
         "missing": {
             "points": missing.count,

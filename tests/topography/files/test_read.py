@@ -178,11 +178,15 @@ def test_channels(topographies):
     file = topographies / "di-1.di"
     assert rl.read(file, channel=1).rms_height != rl.read(file).rms_height
     assert rl.read(file, channel="1").settings["channel"] == "Height"
+    second = rl.read(file, channel="Height (retrace, interleave)")
+    assert second.rms_height == rl.read(file, channel=1).rms_height
+    assert second.settings["reader"].startswith("SurfaceTopography 1.")
+    assert second.settings["format"] == "Nanoscope"
     for channel, message in (
-        ("Height", "has 2 channels 'Height': choose one by its number: 0 'Height'"),
+        ("Height", "has 2 channels 'Height': choose one by its number: 0 'Height \\(trace, main"),
         ("Phase", "channel 'Phase' of di-1.di holds no heights"),
         (2, "channel '2' of di-1.di holds no heights"),
-        (7, "has no channel '7'; it has 0 'Height', 1"),
+        (7, "has no channel '7'; it has 0 'Height "),
     ):
         with pytest.raises(rl.InputError, match=message):
             rl.read(file, channel=channel)
@@ -213,6 +217,21 @@ def test_a_scale_of_the_sides_that_no_instrument_has_is_pointed_out(side, slope,
     rough = rl.Surface(SPECTRUM.surface(24, 7).heights, (side, side), "m", settings)
     found = suspicions(rough.scaled(slope / rough.rms_slope))
     assert any(said in each for each in found) if said else not found
+
+
+def test_arrays_that_their_names_tell_from_heights_are_not_taken(tmp_path):
+    path, heights = tmp_path / "map.h5", SPECTRUM.surface(16, 7).heights
+    with h5py.File(path, "w") as file:
+        file["Error"], file["height"], file["thumbnail"] = 2 * heights, heights, heights[::4, ::4]
+    found = measurement(path)
+    assert np.array_equal(found.heights, heights)
+    assert found.channels == ("0 Error (no heights)", "1 height", "2 thumbnail (no heights)")
+    assert found.doubts == ()
+    with h5py.File(path, "a") as file:
+        file["second"] = heights
+    (doubt,) = measurement(path).doubts
+    assert "2 arrays that may be heights (height, second), of which 'height' is read" in doubt
+    assert measurement(path, channel="second").doubts == ()
 
 
 @pytest.mark.parametrize("name", ["curve.nc", "zygo.datx", "sheet.xlsx"])

@@ -17,7 +17,7 @@ class Channel:
     about: str = ""  # what tells it from another one of the same name, such as "retrace"
 
     def __str__(self) -> str:
-        return ", ".join(filter(None, (self.name, self.about)))
+        return f"{self.name} ({self.about})" if self.about else self.name
 
 
 def channel_of(

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import logging
 import math
+import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from dataclasses import replace
 from functools import partial
+from importlib.metadata import version
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -16,8 +19,10 @@ import numpy as np
 
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import shortened
+from roughline.errors.words import called
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.channels import Channel, channel_of, listed
+from roughline.topography.files.formats import FORMATS
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import READ_AS_TEXT, has_other_bytes
 from roughline.topography.settings import MEASURED
@@ -30,6 +35,12 @@ _READ_HERE = (
 )  # formats of SurfaceTopography that have readers of our own
 _WITHOUT_MARK = ("hgt", *_READ_HERE)  # that start like any other file, or are read here
 _OF_TEXT = ("asc", "matrix", "xyz")  # its formats of text, which take any lines for remarks
+_WITHOUT_UNITS = ("h5", "mat", "npz")  # of any arrays, which have names and nothing else
+_NO_HEIGHTS = re.compile(
+    r"thumbnail|preview|error|phase|amplitude|intensity|mask|quality|image|valid|flag|weight|"
+    r"colou?r|rgb|deflection|current|voltage|(^|/)[xy](_?coord\w*|_?pos\w*)?$",
+    re.IGNORECASE,
+)
 _OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")
 """Formats of optical instruments alone, whose heights are means over pixels."""
 
@@ -53,7 +64,8 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
             advice = "crop it with the instrument's software"
             refuse_points(chosen.nb_grid_pts, path, name, _BYTES_PER_POINT, advice)
             _refuse_long_arrays(reader, chosen, name)
-            return _measurement_of(reader, chosen, name)
+            found = _measurement_of(reader, chosen, name)
+            return found if channel is not None else replace(found, doubts=_choice(reader, chosen))
     except (RoughlineError, MemoryError):
         raise
     except ReadFileError as error:
@@ -119,16 +131,46 @@ def _silence() -> Iterator[None]:
 
 
 def _channels(reader: Any) -> list[Channel]:
-    """The channels of a file, and which of them hold heights."""
+    """The channels of a file, which of them hold heights, and what tells those of one name."""
+    names = [each.name or "" for each in reader.channels]
     return [
-        Channel(each.name or "", "" if _holds_heights(each) else f"in {each.unit or 'no unit'}")
-        for each in reader.channels
+        Channel(
+            name,
+            _why_no_heights(each, reader.format()),
+            _direction(each) if names.count(name) > 1 else "",
+        )
+        for name, each in zip(names, reader.channels, strict=True)
     ]
 
 
-def _holds_heights(channel: Any) -> bool:
-    of_lengths = not isinstance(channel.unit, tuple) or bool(channel.unit[1])
-    return bool(channel.is_height_channel) and of_lengths
+def _choice(reader: Any, chosen: Any) -> tuple[str, ...]:
+    """A doubt where a file has several arrays, and nothing in it says which one holds heights."""
+    if reader.format() not in _WITHOUT_UNITS:
+        return ()
+    possible = [each.name for each in _channels(reader) if not each.why_none]
+    if len(possible) < 2:
+        return ()
+    return (
+        f"it holds {len(possible)} arrays that may be heights ({shortened(', '.join(possible))}), "
+        f"of which {chosen.name!r} is read: {called('channel')} chooses",
+    )
+
+
+def _why_no_heights(channel: Any, format_: str) -> str:
+    """Why a channel holds no heights; empty if it does."""
+    if not channel.is_height_channel or (isinstance(channel.unit, tuple) and not channel.unit[1]):
+        return f"a channel of {channel.unit if isinstance(channel.unit, str) else 'other numbers'}"
+    is_named_otherwise = format_ in _WITHOUT_UNITS and _NO_HEIGHTS.search(channel.name or "")
+    return "by its name" if is_named_otherwise else ""
+
+
+def _direction(channel: Any) -> str:
+    """The direction and the pass in which a scan of an AFM was recorded, as far as it is stated."""
+    stated = channel.info.get("raw_metadata")
+    if not isinstance(stated, Mapping):
+        return ""
+    told = (str(stated.get(key, "")).lower() for key in ("line direction", "scan line"))
+    return ", ".join(filter(None, told))
 
 
 def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
@@ -141,6 +183,7 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
         **({} if unit else {"unit": unit_of_sides or "m"}),
         **({} if stated else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}),
     )
+    known = next((each for each in FORMATS if each.reader == reader.format()), None)
     uneven = topography.dim == 1 and not topography.is_uniform
     return Measurement(
         file=file,
@@ -149,6 +192,8 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
         unit_of_sides=None if unit else unit_of_sides,
         sizes=tuple(map(float, topography.physical_sizes)) if stated else None,
         kind="surface" if topography.dim == 2 else "profile",
+        format=reader.name() if known is None else known.name,
+        reader=f"SurfaceTopography {version('SurfaceTopography')}",
         channel=channel.name or "",
         channels=listed(_channels(reader)),
         positions=np.asarray(topography.positions(), dtype=np.float64) if uneven else None,

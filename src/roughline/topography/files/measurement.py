@@ -61,6 +61,11 @@ class Measurement:
         """Which points are missing."""
         return np.ma.getmaskarray(self.heights) | ~np.isfinite(np.ma.getdata(self.heights))
 
+    @property
+    def read_by(self) -> str:
+        """The program that read the file, and its version."""
+        return self.reader or f"roughline {__version__}"
+
     def with_mask(self, use: MaskUse) -> Measurement:
         """Return the measurement with the points that the file's mask selects, or without them.
 
@@ -169,7 +174,7 @@ class Measurement:
             return {}
         record: dict[str, str | int | float] = {
             "format": self.format,
-            "reader": self.reader or f"roughline {__version__}",
+            "reader": self.read_by,
             "corrected": "; ".join(self.corrected),
             "doubts_of_file": "; ".join(self.doubts),
         }

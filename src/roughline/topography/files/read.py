@@ -32,6 +32,7 @@ from roughline.topography.files.sdf import read_sdf
 from roughline.topography.files.smd import read_smd
 from roughline.topography.files.nms import read_nms
 from roughline.topography.files.sur import read_sur
+from roughline.topography.files.tmd import read_tmd
 from roughline.topography.files.x3p import read_x3p
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MEASURED
@@ -49,6 +50,7 @@ _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None]
     read_x3p,
     read_gwy,
     read_sur,
+    read_tmd,
     read_nms,
     read_text,
 )
@@ -84,11 +86,12 @@ def read(
     channel : int or str, optional
         Number, from 0, or name of the channel; default: the file's first one of heights.
     sizes : float, str, or sequence of them, optional
-        Length of a line, or both sides (Lx, Ly), for a file that states none; one makes a square
-        of a square array. Numbers are in `unit`, or in metres without it; texts have units.
+        Length of a line, or both sides (Lx, Ly), for a file that states no sizes; one of them
+        makes a square of a square array. Numbers are in `unit` if that is given, like everything
+        else in the file, and in metres if not; texts have units of their own, "1 mm, 0.5 mm".
     missing : {"harmonic", "nearest"}, optional
-        How missing points are filled, less the trend of the known ones: by the smoothest surface
-        through their neighbours, or by the nearest known height.
+        How missing points are filled: by the smoothest surface through their neighbours, or by
+        the nearest known height; both of what the known points depart from their own trend.
     most_missing : float, optional
         Share of missing points above which the file is refused.
     trend : {"tilt", "none", "mean", "curvature"}, optional
@@ -97,7 +100,8 @@ def read(
         The piece to read, (x0, x1, y0, y1) of a map or (x0, x1) of a line, from 0 along each side.
         Missing points are counted and filled, and the trend is removed, in the piece alone. [m]
     mask : {"use", "leave-out"}, optional
-        Whether points that a mask of the file selects, such as grains in Gwyddion, are missing.
+        What becomes of points that a mask in the file selects, such as grains marked in Gwyddion:
+        their heights are used, or they are left out and filled like missing ones.
 
     Returns
     -------
@@ -220,6 +224,7 @@ def _read_array(path: Path, name: str) -> Measurement:
         unit=None,
         sizes=None,
         kind="surface" if stored.ndim == 2 else "profile",
+        format="NPY",
         settings={"origin": MEASURED, "file": name},
     )
 

@@ -1,0 +1,48 @@
+"""TMD, the format of TrueMap and of GelSight's scanners, in mm."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import numpy as np
+
+from roughline.errors import InputError
+from roughline.topography.files.archives import refuse_points
+from roughline.topography.files.measurement import Measurement
+from roughline.topography.settings import MEASURED
+
+_MARK = b"Binary TrueMap Data File v2.0"
+_COMMENT = 32  # where it begins; it ends with a zero byte, after as many as its program likes
+_LONGEST = 2**16  # of a comment
+_HEAD = "<2I4f"  # points, sides and the place of the map, along x and y
+_BYTES_PER_POINT = 24
+
+
+def read_tmd(path: Path, channel: int | str | None, name: str) -> Measurement | None:
+    """Read heights from TMD; None if the file has another format."""
+    with path.open("rb") as file:
+        start = file.read(_COMMENT + _LONGEST)
+        if not start.startswith(_MARK):
+            return None
+        place = start.find(b"\0", _COMMENT) + 1
+        head = start[place : place + struct.calcsize(_HEAD)]
+        if not place or len(head) < struct.calcsize(_HEAD):
+            raise InputError(f"{name} ends within the head of TMD: export it again")
+        nx, ny, x, y, *_ = struct.unpack(_HEAD, head)
+        if not (0 < x < np.inf and 0 < y < np.inf):
+            raise InputError(f"{name} is damaged: its sides are {x:g} mm x {y:g} mm")
+        refuse_points((nx, ny), path, name, _BYTES_PER_POINT)
+        file.seek(place + len(head))
+        stored = file.read(4 * nx * ny)
+    if len(stored) < 4 * nx * ny:
+        raise InputError(f"{name} ends before its {nx} x {ny} points do: export it again")
+    return Measurement(
+        file=name,
+        heights=np.frombuffer(stored, "<f4").astype(np.float64).reshape(ny, nx).T,
+        unit="mm",
+        sizes=(x, y),
+        kind="surface",
+        format="TMD",
+        settings={"origin": MEASURED, "file": name},
+    )

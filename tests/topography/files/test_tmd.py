@@ -1,0 +1,42 @@
+"""TMD of TrueMap and GelSight: a comment of any length, lengths in mm."""
+
+import struct
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.topography.files.read import measurement
+
+NX, NY = 12, 9
+HEIGHTS = np.random.default_rng(7).standard_normal((NX, NY)).astype("<f4")
+
+
+def tmd(comment=b"Created by TrueMap v6\r\n", points=(NX, NY), sides=(1.2, 0.9)):
+    head = struct.pack("<2I4f", *points, *sides, 0.0, 0.0)
+    return b"Binary TrueMap Data File v2.0\r\n\0" + comment + b"\0" + head + HEIGHTS.T.tobytes()
+
+
+@pytest.mark.parametrize("comment", [b"Created by TrueMap v6\r\n", b"", 300 * b"GelSight "])
+def test_heights_follow_a_comment_of_any_length(tmp_path, comment):
+    (tmp_path / "a.tmd").write_bytes(tmd(comment))
+    found = measurement(tmp_path / "a.tmd")
+    assert np.array_equal(found.heights, HEIGHTS)
+    assert (found.unit, found.sizes) == ("mm", pytest.approx((1.2, 0.9)))
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (tmd()[:60], "ends within the head"),
+        (tmd(sides=(0.0, 1.0)), "sides are 0 mm x 1 mm"),
+        (tmd(sides=(1.0, float("nan"))), "sides are 1 mm x nan mm"),
+        (tmd(points=(0, NY)), "holds 0 x 9 points"),
+        (tmd(points=(10**6, 10**6)), "declares 1000000 x 1000000 points"),
+        (tmd()[:-1], "ends before its 12 x 9 points do"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_in_one_line(tmp_path, content, message):
+    (tmp_path / "a.tmd").write_bytes(content)
+    with pytest.raises(rl.InputError, match=f"a.tmd .*{message}"):
+        rl.read(tmp_path / "a.tmd")
