@@ -18,6 +18,7 @@ import pytest
 import xarray
 
 import roughline as rl
+from gwyddion_files import field, gwy
 from lab.unpacked import unpacked
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.description import describe
@@ -353,6 +354,22 @@ def test_a_file_of_which_most_is_missing_is_shown_and_can_be_allowed(page, rough
     header, _ = page.ask("look", {**said, "most_missing": "95 %"})
     filled = f"{missing} missing points ({share:.2%}) filled"
     assert any(filled in each for each in header["lists"]["remarks"])
+
+
+def test_masked_points_are_used_or_left_out(page, tmp_path):
+    heights = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(24, 1).heights
+    mask = np.zeros((24, 24))
+    mask[3:9, 5:11] = 1.0
+    named = {"0_data": field(heights, sides=(1e-3, 1e-3)), "0_mask": field(mask, z="")}
+    (tmp_path / "map.gwy").write_bytes(gwy(**named))
+    said = page.bring(tmp_path / "map.gwy")
+    header, _ = page.ask("look", said)
+    assert any("6.2% of the points; their heights" in each for each in header["lists"]["remarks"])
+    said["mask"] = "leave-out"
+    header, _ = page.ask("look", said)
+    assert any("36 missing points" in each for each in header["lists"]["remarks"])
+    assert "mask='leave-out'" in page.ask("code", {**said, **PAIR}, which="python")[0]["text"]
+    assert "--mask leave-out" in page.ask("code", {**said, **PAIR}, which="command")[0]["text"]
 
 
 def test_an_array_needs_unit_and_size(page, loads_of_curve, tmp_path):
@@ -695,8 +712,8 @@ def test_code_of_several_maps_of_which_one_is_refused_runs(page, part, run_code,
 
 
 def test_every_field_with_a_flag_and_a_control_is_run_above():
-    of_one_channel = {"channel"}  # which a file of one channel refuses
-    assert set(BY_CONTROL) - of_one_channel <= {*EVERY, *STICKING}
+    of_some_files = {"channel", "mask"}  # which files of one channel and without a mask refuse
+    assert set(BY_CONTROL) - of_some_files <= {*EVERY, *STICKING}
 
 
 def test_a_folded_step_names_theories_as_its_boxes_do(page):

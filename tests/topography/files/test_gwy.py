@@ -1,11 +1,12 @@
 """GWY of Gwyddion: units as stated or given, masks as selections, channels by name."""
 
-import struct
-
 import numpy as np
 import pytest
+from SurfaceTopography import Topography
 
+import gwyddion_files
 import roughline as rl
+from gwyddion_files import gwy
 from roughline.assessment.description import describe
 from roughline.assessment.reading import Reading
 from roughline.topography.files.read import measurement
@@ -14,40 +15,10 @@ NX, NY, SIDES = 24, 20, (2.4e-6, 4e-6)
 HEIGHTS = 1e-9 * np.random.default_rng(7).standard_normal((NX, NY))
 GRAINS = np.zeros((NX, NY))
 GRAINS[3:9, 5:11] = 1.0  # 7.5 %
-CODES = {float: "d", int: "i", str: "s"}
 
 
-def component(name, value):
-    """A component as Gwyddion writes it."""
-    if isinstance(value, tuple):
-        return name.encode() + b"\0o" + obj(*value)
-    if isinstance(value, np.ndarray):
-        return name.encode() + b"\0D" + struct.pack("<I", value.size) + value.T.tobytes("C")
-    packed = (
-        value.encode() + b"\0"
-        if isinstance(value, str)
-        else struct.pack("<" + CODES[type(value)], value)
-    )
-    return name.encode() + b"\0" + CODES[type(value)].encode() + packed
-
-
-def obj(name, components):
-    inside = b"".join(component(*each) for each in components.items())
-    return name.encode() + b"\0" + struct.pack("<I", len(inside)) + inside
-
-
-def field(heights=HEIGHTS, xy="m", z="m", sides=SIDES, **others):
-    stated = {"xres": heights.shape[0], "yres": heights.shape[1]}
-    stated |= {"xreal": sides[0], "yreal": sides[1], "data": heights}
-    for key, unit in (("si_unit_xy", xy), ("si_unit_z", z)):
-        if unit is not None:
-            stated[key] = ("GwySIUnit", {"unitstr": unit})
-    return ("GwyDataField", stated | others)
-
-
-def gwy(**components):
-    named = {"/" + name.replace("_", "/"): each for name, each in components.items()}
-    return b"GWYP" + obj("GwyContainer", named)
+def field(heights=HEIGHTS, **others):
+    return gwyddion_files.field(heights, sides=others.pop("sides", SIDES), **others)
 
 
 @pytest.fixture
@@ -112,6 +83,22 @@ def test_a_mask_is_a_selection_and_its_heights_are_used_or_left_out(file):
     bare = file(gwy(**{"0_data": field()}))
     with pytest.raises(rl.InputError, match="has no mask that selects points"):
         rl.read(bare, mask="leave-out")
+
+
+@pytest.mark.parametrize("value", [0.0, 3e-9])
+def test_masked_points_that_all_have_one_height_are_missing(file, value):
+    """As SurfaceTopography and Gwyddion write missing points, with 0 or the mean for a height."""
+    heights = np.where(GRAINS > 0, value, HEIGHTS)
+    found = measurement(file(gwy(**{"0_data": field(heights), "0_mask": field(GRAINS, z="")})))
+    assert (found.unknown == (GRAINS > 0)).all()
+    assert found.masked is None
+    assert "all have one height" in found.doubts[0]
+
+
+def test_missing_points_of_surface_topography_come_back(tmp_path):
+    heights = np.ma.array(HEIGHTS, mask=GRAINS > 0)
+    Topography(heights, SIDES, unit="m").to_gwy(str(tmp_path / "a.gwy"))
+    assert (measurement(tmp_path / "a.gwy").unknown == (GRAINS > 0)).all()
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,7 @@ def test_heights_follow_a_comment_of_any_length(tmp_path, comment):
         (tmd(sides=(1.0, float("nan"))), "sides are 1 mm x nan mm"),
         (tmd(points=(0, NY)), "holds 0 x 9 points"),
         (tmd(points=(10**6, 10**6)), "declares 1000000 x 1000000 points"),
-        (tmd()[:-1], "ends before its 12 x 9 points do"),
+        (tmd()[:-1], "has 431 bytes of heights, and its 12 x 9 points need 432"),
     ],
 )
 def test_what_cannot_be_read_is_refused_in_one_line(tmp_path, content, message):

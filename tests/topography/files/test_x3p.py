@@ -177,6 +177,15 @@ def test_layers_are_channels(read):
         read(content, channel=2)
 
 
+def test_numbers_that_are_none_are_missing_points(read):
+    z = HEIGHTS.astype("<f4")
+    z[2, 3], z[4, 5] = np.nan, np.inf
+    data = bytearray(z.T.tobytes())
+    data[:4] = b"\1\0\x80\x7f"  # of which a processor warns when it is converted
+    found = read(x3p(axes=axes_of("F"), data=bytes(data)))
+    assert np.argwhere(found.unknown).tolist() == [[0, 0], [2, 3], [4, 5]]
+
+
 def test_axes_that_fall_mirror_the_map(read):
     axes = axis("CX", "I", "D", -DX) + axis("CY", "I", "D", DY) + axis("CZ", "A", "D", 1.0)
     found = read(x3p(axes=axes))

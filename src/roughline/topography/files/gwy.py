@@ -33,7 +33,8 @@ _FIELD = "GwyDataField"
 def read_gwy(path: Path, channel: int | str | None, name: str) -> Measurement | None:
     """Read heights from GWY; None if the file has another format.
 
-    A mask of Gwyddion selects points, such as grains; it does not say that they are missing.
+    A mask of Gwyddion selects points, such as grains; it does not say that they are missing. But
+    points that are missing are written with a mask too, and with one height for all of them.
     """
     with path.open("rb") as file:
         if file.read(len(_MARK)) != _MARK:
@@ -53,17 +54,31 @@ def read_gwy(path: Path, channel: int | str | None, name: str) -> Measurement | 
         if selection.points != field.points:
             selection.refuse("has other points than its channel")
         masked = selection.numbers > _SELECTED
+    heights = field.numbers
+    doubts: tuple[str, ...] = ()
+    if masked is not None and _stands_for_missing(heights[masked]):
+        heights, masked = np.ma.array(heights, mask=masked), None
+        doubts = (
+            "the points that its mask selects all have one height, as programs write it for "
+            "missing points: they are missing",
+        )
     return Measurement(
         file=name,
-        **in_stated_units(field.numbers, field.sides, field.unit("z"), field.unit("xy")),
+        **in_stated_units(heights, field.sides, field.unit("z"), field.unit("xy")),
         kind="surface",
         channel=field.name,
         channels=listed(channels),
         format="GWY",
         masked=masked if masked is not None and masked.any() else None,
         mask_of="Gwyddion",
+        doubts=doubts,
         settings={"origin": MEASURED, "file": name, "channel": field.name},
     )
+
+
+def _stands_for_missing(heights: Real) -> bool:
+    """Whether masked heights are one and the same; a single one may be measured if it is not 0."""
+    return heights.tolist() == [0.0] if heights.size < 2 else bool((heights == heights[0]).all())
 
 
 @dataclass(frozen=True, eq=False)

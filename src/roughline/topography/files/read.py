@@ -144,7 +144,8 @@ def measurement(
     if path.stat().st_size == 0:
         raise InputError(f"{name} is empty: export it again")
     try:
-        return _as_line_scan(_measurement(path, channel, name))
+        with np.errstate(over="ignore", invalid="ignore"):  # heights beyond all numbers are missing
+            return _as_line_scan(_measurement(path, channel, name))
     except (MemoryError, OverflowError) as error:
         raise InputError(
             f"{name} declares more than memory can hold; if it should not, it is damaged: export "

@@ -34,9 +34,12 @@ def read_tmd(path: Path, channel: int | str | None, name: str) -> Measurement | 
             raise InputError(f"{name} is damaged: its sides are {x:g} mm x {y:g} mm")
         refuse_points((nx, ny), path, name, _BYTES_PER_POINT)
         file.seek(place + len(head))
-        stored = file.read(4 * nx * ny)
-    if len(stored) < 4 * nx * ny:
-        raise InputError(f"{name} ends before its {nx} x {ny} points do: export it again")
+        stored = file.read()
+    if len(stored) != 4 * nx * ny:
+        raise InputError(
+            f"{name} has {len(stored)} bytes of heights, and its {nx} x {ny} points need "
+            f"{4 * nx * ny}: export it again"
+        )
     return Measurement(
         file=name,
         heights=np.frombuffer(stored, "<f4").astype(np.float64).reshape(ny, nx).T,
