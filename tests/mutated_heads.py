@@ -1,5 +1,8 @@
 """Files of which some bytes of the head are changed: a right answer, or one line."""
 
+import io
+import zipfile
+
 import numpy as np
 
 import roughline as rl
@@ -69,3 +72,39 @@ def assert_read_or_refused(folder, name, data, head, seeds, is_right=None, cuts=
             continue
         right = is_right(found, changed) if is_right else agrees(found, whole)
         assert right, f"seed {seed}: {found.kind} {found.heights.shape} {found.sizes} {found.unit}"
+
+
+def mutated(content, head, rng):
+    """Bytes some of which, in the head, are others, are gone, or are more."""
+    place, length = int(rng.integers(head)), int(rng.integers(1, 9))
+    gone, new = ((length, length), (length, 0), (0, length))[rng.integers(3)]
+    return content[:place] + rng.bytes(new) + content[place + gone :]
+
+
+def mutated_part(content, part, rng):
+    """An archive of which one part is changed, so that the archive's own checksum is right."""
+    changed = io.BytesIO()
+    with (
+        zipfile.ZipFile(io.BytesIO(content)) as before,
+        zipfile.ZipFile(changed, "w", zipfile.ZIP_DEFLATED) as after,
+    ):
+        for name in before.namelist():
+            data = before.read(name)
+            after.writestr(name, mutated(data, len(data), rng) if name == part else data)
+    return changed.getvalue()
+
+
+def assert_each_is_read_or_refused_in_one_line(file, content, head, seeds):
+    """Read a file whose head, so many bytes or a part of an archive, is changed again and again."""
+    change = mutated_part if isinstance(head, str) else mutated
+    for seed in seeds:
+        file.write_bytes(change(content, head, np.random.default_rng(seed)))
+        try:
+            body = rl.read(file)
+        except rl.RoughlineError as error:
+            said = str(error)
+        else:
+            said = ""
+            assert np.isfinite(body.heights).all()
+        assert "\n" not in said
+        assert len(said) < 300

@@ -74,10 +74,14 @@ def test_info_describes_a_file_of_which_most_is_missing(topographies, invoke, tm
     assert len(rows) == 16
     assert [set(row) == {"#"} for row in rows] == [True] * 7 + [False] * 2 + [True] * 7
     assert (tmp_path / "file.png").stat().st_size > 10_000
+    shown = out
     code, out, _ = invoke("info", topographies / "sur-3.sur", "--json")
     found = json.loads(out)
     assert (code, found["body"], found["rms_height"]) == (0, None, None)
     assert found["in_file"]["points"] == [512, 512]
+    assert found["in_file"]["format"] == "SUR"
+    assert found["in_file"]["reader"] == f"roughline {rl.__version__}"
+    assert re.search(rf"read by +roughline {rl.__version__}, as SUR", shown)
     assert found["missing"]["points"] == 233009
     assert np.mean(found["missing"]["cells"]) == pytest.approx(233009 / 512**2)
     assert len(found["obstacles"]) == 1

@@ -332,7 +332,7 @@ def _of_the_file(body: Body) -> list[str]:
     """Say what was corrected as the file was read, and what became of points that it masks."""
     notes = []
     if corrected := body.settings.get("corrected"):
-        notes.append(f"{body.settings.get('format')} was corrected as it was read: {corrected}")
+        notes.append(f"corrected as it was read ({body.settings.get('format')}): {corrected}")
     if share := float(body.settings.get("masked_share", 0.0)):
         rest = (
             f"their heights are used ({called('mask', 'leave-out')} leaves them out)"

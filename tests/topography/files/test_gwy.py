@@ -7,6 +7,8 @@ from SurfaceTopography import Topography
 import gwyddion_files
 import roughline as rl
 from gwyddion_files import gwy
+from mutated_heads import assert_each_is_read_or_refused_in_one_line
+from random_cases import seeds
 from roughline.assessment.description import describe
 from roughline.assessment.reading import Reading
 from roughline.topography.files.read import measurement
@@ -138,3 +140,9 @@ def test_another_program_reads_the_same(file):
     path = file(gwy(**{"0_data": field()}))
     (judge,) = gwyfile.util.get_datafields(gwyfile.load(str(path))).values()
     assert np.array_equal(measurement(path).heights.T, judge.data)
+
+
+@seeds(10, 2000)
+def test_a_changed_head_gives_a_body_or_one_line(tmp_path, seeds):
+    content = gwy(**{"0_data": field(), "0_mask": field(GRAINS, z="")})
+    assert_each_is_read_or_refused_in_one_line(tmp_path / "map.gwy", content, 330, seeds)

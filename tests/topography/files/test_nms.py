@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from mutated_heads import assert_each_is_read_or_refused_in_one_line
+from random_cases import seeds
 from roughline.topography.files.read import measurement
 
 NX, NY, STEP = 16, 12, 312.5  # nm
@@ -64,3 +66,8 @@ def test_a_head_that_is_cut_is_refused(tmp_path):
     (tmp_path / "a.nms").write_bytes(nms()[:2000])
     with pytest.raises(rl.InputError, match="within the head of NMS"):
         rl.read(tmp_path / "a.nms")
+
+
+@seeds(10, 2000)
+def test_a_changed_head_gives_a_body_or_one_line(tmp_path, seeds):
+    assert_each_is_read_or_refused_in_one_line(tmp_path / "map.nms", nms(), 3468, seeds)

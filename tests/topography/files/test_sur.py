@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from mutated_heads import assert_each_is_read_or_refused_in_one_line
+from random_cases import seeds
 from roughline.topography.files.read import measurement
 
 NX, NY, DX, DY, DZ = 24, 20, 0.5, 0.25, 2.0**-10
@@ -165,3 +167,10 @@ def assert_read_or_refused(read, content):
         read(content)
     except (rl.InputError, rl.UnitError) as error:
         assert "\n" not in str(error)  # noqa: PT017 - it may be read as well
+
+
+@pytest.mark.parametrize("packed", [0, 3])
+@seeds(10, 2000)
+def test_a_changed_head_gives_a_body_or_one_line(tmp_path, packed, seeds):
+    content = sur(packed=packed)
+    assert_each_is_read_or_refused_in_one_line(tmp_path / "map.sur", content, 570, seeds)

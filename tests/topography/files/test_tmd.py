@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from mutated_heads import assert_each_is_read_or_refused_in_one_line
+from random_cases import seeds
 from roughline.topography.files.read import measurement
 
 NX, NY = 12, 9
@@ -40,3 +42,9 @@ def test_what_cannot_be_read_is_refused_in_one_line(tmp_path, content, message):
     (tmp_path / "a.tmd").write_bytes(content)
     with pytest.raises(rl.InputError, match=f"a.tmd .*{message}"):
         rl.read(tmp_path / "a.tmd")
+
+
+@pytest.mark.filterwarnings("ignore:overflow:RuntimeWarning")  # of heights of 1e38 mm, squared
+@seeds(10, 2000)
+def test_a_changed_head_gives_a_body_or_one_line(tmp_path, seeds):
+    assert_each_is_read_or_refused_in_one_line(tmp_path / "map.tmd", tmd(), 90, seeds)

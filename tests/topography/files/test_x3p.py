@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from mutated_heads import assert_each_is_read_or_refused_in_one_line
+from random_cases import seeds
 from roughline.topography.files.read import measurement, suspicions
 
 NX, NY, DX, DY = 31, 20, 1e-6, 2e-6
 HEIGHTS = 1e-6 * np.random.default_rng(7).standard_normal((NX, NY))
+LISTED = list(map(repr, HEIGHTS.T.ravel().tolist()))  # as texts
 HOLES = np.zeros((NX, NY), bool)
 HOLES[4:6, 7] = True
 TYPES = {"I": ("<i2", 1e-10), "L": ("<i4", 1e-13), "F": ("<f4", 1.0), "D": ("<f8", 1.0)}
@@ -196,7 +199,6 @@ def test_axes_that_fall_mirror_the_map(read):
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        ({"checksum": md5(HEIGHTS.T.tobytes())}, "has the checksum of the heights, not of main"),
         ({"checksum": 32 * "a"}, "is not that of its main.xml"),
         ({"sums": False}, "is not that of its bindata/data.bin"),
     ],
@@ -206,6 +208,13 @@ def test_a_checksum_of_something_else_is_said_and_the_heights_are_read(tmp_path,
     body = rl.read(tmp_path / "map.x3p", trend="none")
     assert np.array_equal(body.heights, HEIGHTS)
     assert any(said in each for each in suspicions(body))
+
+
+def test_the_checksum_of_the_heights_beside_main_is_no_doubt(read):
+    """SurfaceTopography writes it so."""
+    found = read(x3p(checksum=md5(HEIGHTS.T.tobytes())))
+    assert found.doubts == ()
+    assert "is that of the heights" in found.corrected[0]
 
 
 BOMB = "<!DOCTYPE a [<!ENTITY b 'c'>]>"
@@ -279,3 +288,10 @@ def test_another_program_reads_the_same(tmp_path):
         x3pio.write(file, z, x_scale=DX, y_scale=DY, z_type=type_, z_scale=scale)
         judge, found = x3pio.read(file), measurement(file)
         assert np.array_equal(np.ma.filled(found.heights, np.nan).T, judge.layers[0].z, True)
+
+
+@pytest.mark.parametrize("content", [x3p(valid=bits_of(HOLES)), x3p(datums=LISTED)])
+@seeds(10, 2000)
+def test_a_changed_head_gives_a_body_or_one_line(tmp_path, content, seeds):
+    file = tmp_path / "map.x3p"
+    assert_each_is_read_or_refused_in_one_line(file, content, "main.xml", seeds)

@@ -44,6 +44,7 @@ _NO_HEIGHTS = re.compile(
 _OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")
 """Formats of optical instruments alone, whose heights are means over pixels."""
 
+_ADVISED = ("X3P", "SDF", "SUR", "GWY")  # formats to export to
 _TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", ".xyz", ".tsv", ".prn")
 _BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 
@@ -70,9 +71,10 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
         raise
     except ReadFileError as error:
         allowed = f"; {READ_AS_TEXT}" if path.suffix.lower() in _TEXT_SUFFIXES else ""
+        others = [each for each in _ADVISED if path.suffix.lower() != f".{each.lower()}"]
         raise InputError(
             f"{name} is damaged or of a type that is not known{allowed}: export it again, or to "
-            "another format such as X3P, SDF, SUR or GWY"
+            f"another format such as {', '.join(others[:-1])} or {others[-1]}"
         ) from error
     except Exception as error:  # of a damaged file the readers raise errors of any type
         first_line = shortened((str(error).strip() or "no reason given").splitlines()[0])

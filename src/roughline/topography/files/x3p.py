@@ -109,7 +109,8 @@ class _File:
             "unit": "m",
             "format": "X3P",
             "settings": {"origin": MEASURED, "file": self.name},
-            "doubts": (*self._doubts(root, main), *doubts),
+            "doubts": (*self._doubts(root), *doubts, *self._doubt_of_main(root, main)),
+            "corrected": self._sum_of_heights(root),
             "channels": named,
             "channel": f"layer {layer}" if named else "",
         }
@@ -296,8 +297,8 @@ class _File:
                     self._refuse(f'its point {i} is "{shortened(text)}"')
         return rows
 
-    def _doubts(self, root: Element, main: bytes) -> list[str]:
-        """What is unusual in main.xml, or of its checksum."""
+    def _doubts(self, root: Element) -> list[str]:
+        """What is unusual in main.xml."""
         doubts = []
         revision = self._text(root, "Record1/Revision")
         if _DASHES.sub("-", revision) not in _REVISIONS:
@@ -306,18 +307,31 @@ class _File:
             )
         if root.find("Record3/Mask") is not None:
             doubts.append("it has a picture of marked regions, which are read like all others")
-        part = self._text(root, "Record4/ChecksumFile") or _CHECKSUM
-        if self.folder + part in self.archive.namelist():
-            stated = _DIGEST.match(self._part(part).decode("latin-1").strip().lower())
-            of_others = {
-                self._text(root, f"Record3/DataLink/{each}").lower()
-                for each in ("MD5ChecksumPointData", "MD5ChecksumValidPoints")
-            }
-            if stated and stated[0] in of_others:
-                doubts.append(f"its {part} has the checksum of the heights, not of {_MAIN}")
-            elif stated and stated[0] != _digest(main):
-                doubts.append(self._changed(_MAIN))
         return doubts
+
+    def _stated_sum(self, root: Element) -> str:
+        """The checksum that stands beside main.xml; empty where there is none."""
+        part = self._text(root, "Record4/ChecksumFile") or _CHECKSUM
+        if self.folder + part not in self.archive.namelist():
+            return ""
+        stated = _DIGEST.match(self._part(part).decode("latin-1").strip().lower())
+        return stated[0] if stated else ""
+
+    def _sum_of_heights(self, root: Element) -> tuple[str, ...]:
+        """A word where the sum beside main.xml is that of the heights, which harms nothing."""
+        of_heights = self._text(root, "Record3/DataLink/MD5ChecksumPointData").lower()
+        if not of_heights or self._stated_sum(root) != of_heights:
+            return ()
+        return (
+            f"the checksum beside its {_MAIN} is that of the heights, as SurfaceTopography writes "
+            "it, and was not used",
+        )
+
+    def _doubt_of_main(self, root: Element, main: bytes) -> list[str]:
+        """A doubt where the sum beside main.xml is that of something else."""
+        stated = self._stated_sum(root)
+        is_sound = not stated or stated == _digest(main) or self._sum_of_heights(root)
+        return [] if is_sound else [self._changed(_MAIN)]
 
 
 def _digest(content: bytes) -> str:
