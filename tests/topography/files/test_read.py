@@ -232,6 +232,11 @@ def test_arrays_that_their_names_tell_from_heights_are_not_taken(tmp_path):
     (doubt,) = measurement(path).doubts
     assert "2 arrays that may be heights (height, second), of which 'height' is read" in doubt
     assert measurement(path, channel="second").doubts == ()
+    assert np.array_equal(measurement(path, channel="Error").heights, 2 * heights)
+    with h5py.File(path, "a") as file:
+        del file["second"], file["height"]
+    with pytest.raises(rl.InputError, match="holds no heights; it has Error .by its name; channel"):
+        rl.read(path)
 
 
 @pytest.mark.parametrize("name", ["curve.nc", "zygo.datx", "sheet.xlsx"])

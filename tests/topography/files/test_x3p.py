@@ -246,6 +246,7 @@ def test_what_cannot_be_read_is_refused_in_one_line(read, wrong, message):
     with pytest.raises(rl.InputError, match=f"map.x3p .*{message}") as caught:
         read(x3p(**wrong))
     assert "\n" not in str(caught.value)
+    assert str(caught.value).count("map.x3p") == 1
 
 
 def test_an_archive_that_would_unpack_to_too_much_is_refused_unread(read):

@@ -61,7 +61,8 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
         with _silence(), opened() as reader:
             _refuse_guessed_format(reader, path)
             first = reader._default_channel_index
-            chosen = reader.channels[channel_of(_channels(reader), channel, name, first)]
+            channels = _channels(reader, by_name=channel is None)
+            chosen = reader.channels[channel_of(channels, channel, name, first)]
             advice = "crop it with the instrument's software"
             refuse_points(chosen.nb_grid_pts, path, name, _BYTES_PER_POINT, advice)
             _refuse_long_arrays(reader, chosen, name)
@@ -132,13 +133,16 @@ def _silence() -> Iterator[None]:
         logging.disable(before)
 
 
-def _channels(reader: Any) -> list[Channel]:
-    """The channels of a file, which of them hold heights, and what tells those of one name."""
+def _channels(reader: Any, *, by_name: bool = True) -> list[Channel]:
+    """The channels of a file, which of them hold heights, and what tells those of one name.
+
+    Names alone tell arrays that have no units; whoever chooses one knows better.
+    """
     names = [each.name or "" for each in reader.channels]
     return [
         Channel(
             name,
-            _why_no_heights(each, reader.format()),
+            _why_no_heights(each, by_name and reader.format() in _WITHOUT_UNITS),
             _direction(each) if names.count(name) > 1 else "",
         )
         for name, each in zip(names, reader.channels, strict=True)
@@ -158,12 +162,13 @@ def _choice(reader: Any, chosen: Any) -> tuple[str, ...]:
     )
 
 
-def _why_no_heights(channel: Any, format_: str) -> str:
+def _why_no_heights(channel: Any, by_name: bool) -> str:
     """Why a channel holds no heights; empty if it does."""
     if not channel.is_height_channel or (isinstance(channel.unit, tuple) and not channel.unit[1]):
         return f"a channel of {channel.unit if isinstance(channel.unit, str) else 'other numbers'}"
-    is_named_otherwise = format_ in _WITHOUT_UNITS and _NO_HEIGHTS.search(channel.name or "")
-    return "by its name" if is_named_otherwise else ""
+    if by_name and _NO_HEIGHTS.search(channel.name or ""):
+        return f"by its name; {called('channel')} takes it nevertheless"
+    return ""
 
 
 def _direction(channel: Any) -> str:

@@ -25,6 +25,7 @@ from roughline.topography.files.measurement import Measurement
 from roughline.topography.settings import MEASURED
 
 _MAIN = "main.xml"
+_MAINS = re.compile(rf"((?!__MACOSX/)[^/]+/)?{_MAIN}")  # in a folder, or in none
 _CHECKSUM = "md5checksum.hex"
 _TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}  # of numbers
 _REVISIONS = ("", "ISO5436 - 2000", "ISO25178-72:2017/DAM1")  # of one layout; not all state theirs
@@ -43,18 +44,17 @@ def read_x3p(path: Path, channel: int | str | None, name: str) -> Measurement | 
                 "again"
             )
         return None
-    with zipfile.ZipFile(path) as archive:
-        mains = [part for part in archive.namelist() if re.fullmatch(rf"([^/]+/)?{_MAIN}", part)]
-        mains = [part for part in mains if not part.startswith("__MACOSX/")]
-        if not mains:
-            return None
-        refuse_hollow(path, name)
-        folder = min(mains, key=len).removesuffix(_MAIN)
-        try:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            mains = [part for part in archive.namelist() if _MAINS.fullmatch(part)]
+            if not mains:
+                return None
+            refuse_hollow(path, name)
+            folder = min(mains, key=len).removesuffix(_MAIN)
             return _File(path, name, archive, folder).measurement(channel)
-        except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError) as error:
-            reason = shortened(str(error))
-            raise InputError(f"{name} is a damaged archive ({reason}): export it again") from error
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, EOFError, OSError) as error:
+        reason = shortened(str(error))
+        raise InputError(f"{name} is a damaged archive ({reason}): export it again") from error
 
 
 @dataclass(frozen=True)
@@ -190,6 +190,8 @@ class _File:
         try:
             parser.Parse(main, True)
             root = builder.close()
+        except InputError:
+            raise
         except (expat.ExpatError, ValueError, LookupError) as error:
             raise InputError(
                 f"{self.name} is X3P that cannot be read: {_MAIN} is damaged ({error}); export it "
