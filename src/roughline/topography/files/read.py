@@ -28,9 +28,9 @@ from roughline.topography.files.heights_in_text import read_text
 from roughline.topography.files.instrument import read_instrument
 from roughline.topography.files.measurement import MaskUse, Measurement, Sizes
 from roughline.topography.files.netcdf import read_body_file
+from roughline.topography.files.nms import read_nms
 from roughline.topography.files.sdf import read_sdf
 from roughline.topography.files.smd import read_smd
-from roughline.topography.files.nms import read_nms
 from roughline.topography.files.sur import read_sur
 from roughline.topography.files.tmd import read_tmd
 from roughline.topography.files.x3p import read_x3p
@@ -145,7 +145,7 @@ def measurement(
         raise InputError(f"{name} is empty: export it again")
     try:
         with np.errstate(over="ignore", invalid="ignore"):  # heights beyond all numbers are missing
-            return _as_line_scan(_measurement(path, channel, name))
+            return _measurement(path, channel, name)
     except (MemoryError, OverflowError) as error:
         raise InputError(
             f"{name} declares more than memory can hold; if it should not, it is damaged: export "
@@ -155,7 +155,7 @@ def measurement(
 
 def _measurement(path: Path, channel: int | str | None, name: str) -> Measurement:
     """Read a file that exists; sides that no map has are refused, whoever read them."""
-    measured = _by_first_reader(path, channel, name)
+    measured = _as_line_scan(_by_first_reader(path, channel, name))
     sides = measured.sizes or ()
     if not all(0 < side < math.inf for side in sides):
         stated = " x ".join(f"{side:.6g}" for side in sides)
