@@ -98,8 +98,8 @@ from roughline.theories.bruggeman import effective_medium as effective_medium
 from roughline.theories.theory import theory as theory
 from roughline.topography.body import Line as Line
 from roughline.topography.body import Surface as Surface
-from roughline.topography.files.netcdf import write as write
 from roughline.topography.files.read import read as read
+from roughline.topography.files.write import write as write
 from roughline.topography.preparation import Preparation as Preparation
 from roughline.topography.preparation import prepared as prepared
 from roughline.topography.profile import Profile as Profile

@@ -84,7 +84,9 @@ def info(
 
 
 def generate(
-    out: Annotated[Path, typer.Option(help='File to write, ending in ".nc".')],
+    out: Annotated[
+        Path, typer.Option(help='File to write, ending in ".nc" (NetCDF), ".x3p" or ".gsf".')
+    ],
     length: Annotated[str, typer.Option(help='Side of the surface, such as "1 mm".')],
     rms_height: Annotated[str, typer.Option(help='Rms height, such as "1 um".')],
     hurst: options.Hurst = None,
@@ -108,7 +110,7 @@ def generate(
     """Generate a random self-affine surface, or its reduced line, and write it to a file."""
     from roughline.report.json_output import of_generated
     from roughline.report.terminal import print_generated
-    from roughline.topography.files.netcdf import write
+    from roughline.topography.files.write import write
 
     spectrum = options.spectrum_of(hurst, fractal_dimension, length, rms_height, roll_off, cutoff)
     make = spectrum.line if line else spectrum.surface

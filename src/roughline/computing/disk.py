@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     import xarray
@@ -14,8 +14,13 @@ _FULL = (errno.ENOSPC, errno.EFBIG, *([errno.EDQUOT] if hasattr(errno, "EDQUOT")
 _BESIDE_DATA = 100_000  # of a file, for attributes and names [bytes]
 
 
-def write_dataset(data: xarray.Dataset, path: Path) -> None:
-    """Write a dataset; its room is taken first, since HDF5 may end the process if it finds none."""
+def write_dataset(
+    data: xarray.Dataset, path: Path, engine: Literal["h5netcdf", "scipy"] = "h5netcdf"
+) -> None:
+    """Write a dataset, as NetCDF 4 by h5netcdf or as NetCDF 3 by SciPy.
+
+    Its room is taken first, since HDF5 may end the process if it finds none.
+    """
     with path.open("wb") as file:
         try:
             if hasattr(os, "posix_fallocate"):
@@ -24,7 +29,11 @@ def write_dataset(data: xarray.Dataset, path: Path) -> None:
             if is_full(error):  # others are of file systems that cannot do this
                 file.truncate(0)
                 raise
-    data.to_netcdf(path, engine="h5netcdf")
+    if engine == "scipy":
+        complete = {name: {"_FillValue": None} for name in data.variables}
+        data.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT", encoding=complete)
+    else:
+        data.to_netcdf(path, engine="h5netcdf")
 
 
 def is_full(error: BaseException | None) -> bool:

@@ -18,7 +18,7 @@ from roughline.plot.spectra import draw_spectrum
 from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.folder import make_folder
 from roughline.topography.body import Body
-from roughline.topography.files.netcdf import write
+from roughline.topography.files.write import write
 from roughline.units import metres_per
 
 if TYPE_CHECKING:

@@ -1,6 +1,7 @@
 """Files in and out: metres always, one clear line otherwise."""
 
 import io
+import json
 import re
 import struct
 import tracemalloc
@@ -49,9 +50,10 @@ def test_a_piece_is_read_back_as_a_piece(tmp_path, is_cut_out):
     recorded = {"origin": "instrument file", "detrended": "mean"} if is_cut_out else {}
     heights = SPECTRUM.surface(16, 7).heights
     rl.write(rl.Surface(heights, (1e-3, 1e-3), "m", recorded), tmp_path / "recorded.nc")
-    with xarray.load_dataset(tmp_path / "recorded.nc", engine="h5netcdf") as dataset:
-        del dataset.attrs["is_cut_out"], dataset.attrs["removed_trend"]
-        dataset.to_netcdf(tmp_path / "before.nc", engine="h5netcdf")
+    as_before(tmp_path / "recorded.nc", "is_cut_out", "removed_trend").rename(
+        tmp_path / "before.nc"
+    )
+    rl.write(rl.Surface(heights, (1e-3, 1e-3), "m", recorded), tmp_path / "recorded.nc")
     stated = rl.Surface(
         heights,
         (1e-3, 1e-3),
@@ -74,6 +76,28 @@ def test_one_row_or_column_of_points_is_a_line_scan(tmp_path, shape):
     assert isinstance(found, rl.Line)
     assert (found.kind, found.length) == ("profile", 1e-3)
     assert np.array_equal(found.heights, heights)
+
+
+def as_before(path, *left_out):
+    """Make a file what the first version wrote: HDF5, and each setting an attribute."""
+    data = xarray.load_dataset(path).drop_vars(["x", "y"], errors="ignore")
+    for name, value in json.loads(data.attrs.pop("settings")).items():
+        data.attrs[f"body_{name}"] = value
+    data.attrs["format"] = "roughline body 1"
+    for name in left_out:
+        del data.attrs[name]
+    data.to_netcdf(path, engine="h5netcdf")
+    return path
+
+
+def test_what_the_first_version_wrote_is_read(tmp_path):
+    for body in (SPECTRUM.surface(16, 7), SPECTRUM.line(64, 7)):
+        rl.write(replace(body, unit="m"), tmp_path / "body.nc")
+        now = rl.read(tmp_path / "body.nc")
+        found = rl.read(as_before(tmp_path / "body.nc"))
+        assert found.heights.tobytes() == now.heights.tobytes()
+        assert found.settings == now.settings
+        assert (found.spacing, found.is_cut_out) == (now.spacing, now.is_cut_out)
 
 
 @pytest.mark.parametrize("missing", ["harmonic", "nearest"])
@@ -604,16 +628,20 @@ def test_points_that_are_declared_and_cannot_be_there_are_refused_before_they_ar
         {"sizes": None},
         {"unit": None},
         {"removed_trend": "foo"},
+        {"settings": "{"},
+        {"settings": "[1]"},
     ],
 )
-def test_a_file_of_our_own_that_is_damaged_is_read_as_nothing_else(tmp_path, wrong):
+@pytest.mark.parametrize("engine", ["scipy", "h5netcdf"])
+def test_a_file_of_our_own_that_is_damaged_is_read_as_nothing_else(tmp_path, wrong, engine):
     path = tmp_path / "map.nc"
     rl.write(replace(SPECTRUM.surface(16, 7), unit="m"), path)
-    with h5py.File(path, "r+") as file:
-        for name, value in wrong.items():
-            del file.attrs[name]
-            if value is not None:
-                file.attrs[name] = value
+    data = xarray.load_dataset(path)
+    for name, value in wrong.items():
+        del data.attrs[name]
+        if value is not None:
+            data.attrs[name] = value
+    data.to_netcdf(path, engine=engine)
     with pytest.raises(
         rl.InputError, match=f"damaged file of roughline .wrong: {next(iter(wrong))}"
     ):

@@ -13,6 +13,7 @@ from typing import Any, BinaryIO
 
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
+from roughline.errors.checks import shortened
 
 _LARGE = 2**26  # unpacked; smaller ones do no harm [bytes]
 _RATIO = 200  # unpacked over packed; measured heights reach about 10
@@ -185,7 +186,7 @@ def _pieces_of_image(page: Any, file: Any) -> Iterator[int]:
 
 
 def refuse_empty_datasets(path: Path, name: str) -> None:
-    """Refuse a file of HDF5, such as NetCDF, one of whose datasets it is too small to hold.
+    """Refuse a file of HDF5, such as NetCDF, that is damaged or too small for one of its datasets.
 
     A dataset may have 200 numbers, or one text, for each byte of the file, and of a large one not
     nearly all may be unwritten.
@@ -204,8 +205,14 @@ def refuse_empty_datasets(path: Path, name: str) -> None:
             written = node.id.get_storage_size() if is_large else size
             found.append((node.shape, node.dtype.kind, min(size, written)))
 
-    with suppress(OSError, RuntimeError, KeyError), h5py.File(path, "r") as file:  # damaged
-        file.visititems(note)
+    try:
+        with h5py.File(path, "r") as file:
+            dict(file.attrs)  # damaged ones leave h5netcdf half opened
+            with suppress(OSError, RuntimeError, KeyError):  # damaged further down
+                file.visititems(note)
+    except Exception as error:  # of a damaged file h5py raises errors of any type
+        first_line = shortened((str(error).strip() or "no reason given").splitlines()[0])
+        raise InputError(f"{name} is damaged HDF5 ({first_line}): export it again") from error
     for shape, kind, written in found:
         if math.prod(shape) > (_RATIO if kind in "biuf" else 1) * written:
             raise _too_small(shape, written, name)

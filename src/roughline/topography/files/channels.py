@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from roughline.errors import InputError
+from roughline.errors.checks import shortened
+
+_DIGITS = 9  # of the number of a channel, at most
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ def channel_of(
     channels: Sequence[Channel], wanted: int | str | None, file: str, first: int = 0
 ) -> int:
     """Find a channel of heights by number or name; by default the first one, or one before it."""
-    listed = ", ".join(f"{i} {str(each)!r}" for i, each in enumerate(channels))
+    known = numbered(channels)
     if wanted is None:
         order = [first, *range(len(channels))] if channels else []
         number = next((i for i in order if not channels[i].why_none), None)
@@ -33,7 +36,7 @@ def channel_of(
             raise InputError(f"{file} holds no heights; it has {found}: export the heights")
         return number
     text = str(wanted)
-    if text.isdigit() and int(text) < len(channels):
+    if text.isdecimal() and len(text) < _DIGITS and int(text) < len(channels):
         number = int(text)
     else:
         named = [
@@ -42,15 +45,20 @@ def channel_of(
             if text.lower() in (each.name.lower(), str(each).lower())
         ]
         if not named:
-            raise InputError(f"{file} has no channel {text!r}; it has {listed}")
+            raise InputError(f"{file} has no channel {text!r}; it has {known}")
         if len(named) > 1:
             raise InputError(
-                f"{file} has {len(named)} channels {text!r}: choose one by its number: {listed}"
+                f"{file} has {len(named)} channels {text!r}: choose one by its number: {known}"
             )
         number = named[0]
     if channels[number].why_none:
-        raise InputError(f"channel {text!r} of {file} holds no heights; it has {listed}")
+        raise InputError(f"channel {text!r} of {file} holds no heights; it has {known}")
     return number
+
+
+def numbered(channels: Sequence[Channel]) -> str:
+    """The channels of a file with their numbers, for a message."""
+    return shortened(", ".join(f"{i} {str(each)!r}" for i, each in enumerate(channels)))
 
 
 def listed(channels: Sequence[Channel]) -> tuple[str, ...]:

@@ -58,7 +58,7 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
 
     try:
         opened = partial(open_topography, str(path), format=_marked_format(path))
-        with _silence(), opened() as reader:
+        with silence(), opened() as reader:
             _refuse_guessed_format(reader, path)
             first = reader._default_channel_index
             channels = _channels(reader, by_name=channel is None)
@@ -121,7 +121,7 @@ def _refuse_guessed_format(reader: Any, path: Path) -> None:
 
 
 @contextmanager
-def _silence() -> Iterator[None]:
+def silence() -> Iterator[None]:
     """Keep messages of the readers off the terminal; some print damaged files in full."""
     before = logging.root.manager.disable
     logging.disable(logging.CRITICAL)

@@ -186,9 +186,13 @@ class Measurement:
         return {name: value for name, value in record.items() if value != ""}
 
     def _trend_to_remove(self, wanted: Trend) -> Trend:
-        """The trend of what an instrument measured; from a piece of ours, what the whole lacks."""
+        """The trend of what an instrument measured; from a piece of ours, what the whole lacks.
+
+        What repeats has no tilt: without a plane it would have steps at its borders.
+        """
         if not self.by_roughline or wanted == "none":
-            return wanted
+            is_repeated = self.is_cut_out is False and wanted in ("tilt", "curvature")
+            return "mean" if is_repeated else wanted
         return checked_trend(self.removed_trend, self.settings) if self.is_piece else "none"
 
 

@@ -2,93 +2,84 @@
 
 from __future__ import annotations
 
+import json
+import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, get_args
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.computing.disk import write_dataset
-from roughline.errors import InputError, RoughlineError, StoreError
-from roughline.errors.public import public
-from roughline.topography.body import Body, Surface, sides_of
+from roughline.errors import InputError, RoughlineError
+from roughline.topography.body import Body, Surface, sides_of, spacings_of
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.trend import Trend
 
-_FORMAT = "roughline body 1"
+_FORMATS = ("roughline body 2", "roughline body 1")
+"""Of what is written, and of what earlier versions wrote, which had settings as attributes."""
+
+_CLASSIC = b"CDF"  # the first bytes of a file of NetCDF 3; others are HDF5
+_LARGEST = 2**31 - 4  # array that SciPy writes to NetCDF 3 [bytes]
 
 
-@public
-def write(body: Body, path: str | Path) -> None:
-    """Write a surface or a line, settings included, to NetCDF; :func:`roughline.read` takes it.
+def write_netcdf(body: Body, path: Path) -> None:
+    """Write a body with all that is known of it.
 
-    Parameters
-    ----------
-    body : Surface or Line
-        The body.
-    path : str or Path
-        Name of the file, ending in ".nc"; an existing file is replaced.
-
-    Raises
-    ------
-    InputError
-        If the name does not end in ".nc".
-    StoreError
-        If the file cannot be written.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import roughline as rl
-    >>> heights = 1e-6 * np.random.default_rng(7).standard_normal((32, 32))
-    >>> surface = rl.Surface(heights, sizes=(1e-3, 1e-3), unit="m", is_cut_out=True)
-    >>> rl.write(surface, "map.nc")
-    >>> print((rl.read("map.nc").heights == surface.heights).all())
-    True
+    It is NetCDF 3, since SurfaceTopography reads no other, in the layout that it knows: heights
+    over (x, y), and `unit`, `length` and `periodic` of both. CF knows the same as `units` and as
+    positions, here the centres of the cells. A map too large for NetCDF 3 is written as NetCDF 4.
     """
     import xarray  # here because it loads slowly
 
-    path = Path(path)
-    if path.suffix != ".nc":
-        raise InputError(f'{path} does not end in ".nc"; bodies are written as NetCDF: rename it')
+    unit = {"units": body.unit, "unit": body.unit} if body.unit else {}
+    dimensions = ("x", "y")[: body.heights.ndim]
+    coordinates = {
+        name: (
+            name,
+            (np.arange(n) + 0.5) * step,
+            {"length": side, "periodic": int(not body.is_cut_out), **unit},
+        )
+        for name, n, step, side in zip(
+            dimensions, body.heights.shape, spacings_of(body), sides_of(body), strict=True
+        )
+    }
     attrs: dict[str, Any] = {
-        "format": _FORMAT,
+        "format": _FORMATS[0],
         "kind": "surface" if isinstance(body, Surface) else body.kind,
         "sizes": np.array(sides_of(body)),
         "unit": body.unit or "",
         "removed_trend": body.removed_trend,
         "is_cut_out": int(body.is_cut_out),
+        "settings": json.dumps({key: _plain(value) for key, value in body.settings.items()}),
     }
-    for name, value in body.settings.items():
-        attrs[f"body_{name}"] = value
-    dimensions = ("x", "y")[: body.heights.ndim]
-    heights = (dimensions, body.heights, {"units": body.unit or "length", "long_name": "height"})
-    try:
-        write_dataset(xarray.Dataset({"heights": heights}, attrs=attrs), path)
-    except OSError as error:
-        raise StoreError(f"cannot write {path} ({error}): choose another place") from error
+    heights = (dimensions, body.heights, {**unit, "long_name": "height"})
+    data = xarray.Dataset({"heights": heights}, coordinates, attrs)
+    write_dataset(data, path, "scipy" if body.heights.nbytes < _LARGEST else "h5netcdf")
+
+
+def _plain(value: Any) -> Any:
+    """A setting as one of Python's own numbers or texts."""
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def read_body_file(path: Path, name: str) -> Measurement | None:
     """Read a file that roughline wrote; None if it has another format."""
-    import h5netcdf  # here because it loads slowly; xarray loads even more slowly
-
+    with path.open("rb") as file:
+        opened = _of_netcdf_3 if file.read(len(_CLASSIC)) == _CLASSIC else _of_netcdf_4
     try:
-        with h5netcdf.File(path, "r", phony_dims="sort") as file:
-            if file.attrs.get("format") != _FORMAT:
-                return None
-            attrs = dict(file.attrs)
-            heights = _heights_in(file, path, name)
+        found = opened(path, name)
     except RoughlineError:
         raise
-    except (OSError, ValueError, KeyError, AttributeError):  # the last of h5netcdf before 1.7
+    except Exception:
         return None
+    if found is None:
+        return None
+    attrs, heights = found
+    settings = _settings_in(attrs, name)
     _refuse_damaged(attrs, heights, name)
-    settings = {
-        name.removeprefix("body_"): getattr(value, "item", lambda value=value: value)()
-        for name, value in attrs.items()
-        if name.startswith("body_")
-    }
     return Measurement(
         file=name,
         heights=heights,
@@ -100,17 +91,65 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
         # files of earlier versions state both in their settings alone
         is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else None,
         removed_trend=attrs.get("removed_trend"),
+        format="NetCDF",
     )
 
 
-def _heights_in(file: Any, path: Path, name: str) -> Any:
+def _of_netcdf_4(path: Path, name: str) -> tuple[dict[str, Any], Real] | None:
+    """Attributes and heights of a file of NetCDF 4; None if roughline did not write it."""
+    import h5netcdf  # here because it loads slowly; xarray loads even more slowly
+
+    with h5netcdf.File(path, "r", phony_dims="sort") as file:
+        if file.attrs.get("format") not in _FORMATS:
+            return None
+        return dict(file.attrs), _heights_in(file.variables, path, name, lambda found: found[:])
+
+
+def _of_netcdf_3(path: Path, name: str) -> tuple[dict[str, Any], Real] | None:
+    """Attributes and heights of a file of NetCDF 3; None if roughline did not write it."""
+    from scipy.io import netcdf_file  # here because it loads slowly
+
+    with warnings.catch_warnings(), netcdf_file(path, "r") as file:
+        warnings.simplefilter("ignore")  # what is refused is let go after its file is closed
+        attrs = {
+            key: value.decode() if isinstance(value, bytes) else value
+            for key, value in file._attributes.items()
+        }
+        if attrs.get("format") not in _FORMATS:
+            return None
+
+        def native(found: Any) -> Real:  # a copy, so that the file can be closed
+            return np.array(found.data, dtype=found.data.dtype.newbyteorder("="))
+
+        return attrs, _heights_in(file.variables, path, name, native)
+
+
+def _heights_in(variables: Any, path: Path, name: str, values: Callable[[Any], Real]) -> Real:
     """The heights of a file that roughline wrote, unless it or memory is too small for them."""
-    if "heights" not in file.variables:
+    if "heights" not in variables:
         raise InputError(
             f"{name} is a damaged file of roughline: it holds no heights; write it again"
         )
-    refuse_points(file["heights"].shape, path, name)
-    return file["heights"][:]
+    refuse_points(variables["heights"].shape, path, name)
+    return values(variables["heights"])
+
+
+def _settings_in(attrs: dict[str, Any], name: str) -> dict[str, Any]:
+    """The settings of a body that roughline wrote."""
+    before = {
+        key.removeprefix("body_"): _plain(value)
+        for key, value in attrs.items()
+        if key.startswith("body_")
+    }
+    try:
+        settings = json.loads(attrs.get("settings", "{}"))
+        if not isinstance(settings, dict):
+            raise TypeError(type(settings))
+    except (ValueError, TypeError, RecursionError) as error:
+        raise InputError(
+            f"{name} is a damaged file of roughline (wrong: settings): write it again"
+        ) from error
+    return {**before, **settings}
 
 
 def _refuse_damaged(attrs: dict[str, Any], heights: Any, name: str) -> None:

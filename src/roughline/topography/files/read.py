@@ -21,6 +21,7 @@ from roughline.topography.files.archives import (
     refuse_hollow,
     refuse_points,
 )
+from roughline.topography.files.cf_netcdf import read_netcdf
 from roughline.topography.files.curves import curve_in
 from roughline.topography.files.gsf import read_gsf
 from roughline.topography.files.gwy import read_gwy
@@ -32,6 +33,7 @@ from roughline.topography.files.nms import read_nms
 from roughline.topography.files.sdf import read_sdf
 from roughline.topography.files.smd import read_smd
 from roughline.topography.files.sur import read_sur
+from roughline.topography.files.tiff import read_tiff
 from roughline.topography.files.tmd import read_tmd
 from roughline.topography.files.x3p import read_x3p
 from roughline.topography.missing import Filling, Missing
@@ -52,6 +54,8 @@ _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None]
     read_sur,
     read_tmd,
     read_nms,
+    read_netcdf,
+    read_tiff,
     read_text,
 )
 """Readers of formats that are read here, each None for a file that has another format."""
