@@ -128,7 +128,7 @@ def _decoded(path):
     if path.suffix == ".nc":
         import xarray
 
-        with xarray.open_dataset(path, engine="h5netcdf", decode_cf=False) as data:
+        with xarray.open_dataset(path, decode_cf=False) as data:
             return _of_dataset(data.load())
     if path.suffix == ".json":
         return json.loads(path.read_text(encoding="utf-8"))

@@ -39,6 +39,12 @@ def info(
         str | None,
         typer.Option(help='Cutoff of the L-filter before them, such as "0.8 mm" [default: none].'),
     ] = None,
+    prepared: Annotated[
+        Path | None,
+        typer.Option(
+            help='File for the prepared topography, ending in ".nc" (NetCDF), ".x3p" or ".gsf".'
+        ),
+    ] = None,
     json: options.Json = False,
 ) -> None:
     """Describe a topography: sizes, missing points, roughness, and its self-affine spectrum.
@@ -55,6 +61,7 @@ def info(
     from roughline.report.description_table import print_description
     from roughline.report.json_output import of_description
     from roughline.topography.files.curves import curve_in
+    from roughline.topography.files.write import checked_name, write
     from roughline.units import in_si
 
     cutoffs = {"s_filter": s_filter, "l_filter": l_filter}
@@ -64,7 +71,7 @@ def info(
         if iso:
             raise InputError("--iso is of topographies, and this file is a curve; leave it out")
         return print_json(as_json(curve)) if json else print_curve_file(curve)
-    with writable(out):
+    with writable(out, None if prepared is None else checked_name(prepared).parent):
         result = describe(file, reading_of(told), preparation_of(told))
         if iso:
             lengths = {
@@ -72,11 +79,16 @@ def info(
                 for name, text in cutoffs.items()
             }
             result = with_texture(result, **lengths)
+        if prepared is not None and result.body is None:
+            raise InputError(result.obstacles[0])
     files: list[Path] = []
+    if prepared is not None and result.body is not None:
+        write(result.body, prepared)
+        files.append(prepared)
     if out is not None:
         from roughline.report.description_figures import write_description
 
-        files = write_description(result, out)
+        files += write_description(result, out)
     if json:
         print_json(of_description(result, files))
     else:

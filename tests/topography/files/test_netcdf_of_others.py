@@ -209,6 +209,13 @@ def test_a_single_row_is_a_line_scan(tmp_path):
     np.testing.assert_allclose(found.heights, ROWS[0])
 
 
+def test_points_in_a_list_are_refused(tmp_path):
+    columns = {name: ("n", np.arange(9.0), METRES) for name in ("x", "y", "z")}
+    xarray.Dataset(columns).to_netcdf(tmp_path / "list.nc", engine="scipy")
+    with pytest.raises(rl.InputError, match="lists points with an x and a y each"):
+        rl.read(tmp_path / "list.nc")
+
+
 def test_numbers_over_three_sides_and_groups_are_refused(tmp_path):
     cube = {"height": (("t", "y", "x"), np.zeros((2, 3, 4)), METRES)}
     xarray.Dataset(cube).to_netcdf(tmp_path / "cube.nc", engine="h5netcdf")

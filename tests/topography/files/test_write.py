@@ -72,8 +72,8 @@ def test_xarray_reads_heights_and_positions_with_units(tmp_path):
         assert data.heights.dims == ("x", "y")
         assert {data[name].attrs["units"] for name in ("heights", "x", "y")} == {"m"}
         np.testing.assert_array_equal(data.heights, HEIGHTS)
-        np.testing.assert_allclose(data.x, 1.5e-6 * (np.arange(20) + 0.5), rtol=1e-14)
-        np.testing.assert_allclose(data.y, 1e-6 * (np.arange(12) + 0.5), rtol=1e-14)
+        np.testing.assert_allclose(data.x, 1.5e-6 * np.arange(20), rtol=1e-14)
+        np.testing.assert_allclose(data.y, 1e-6 * np.arange(12), rtol=1e-14)
 
 
 @pytest.mark.parametrize("is_cut_out", [True, False])

@@ -192,5 +192,7 @@ FILES = {
     "curve.csv": "curves, CSV",
     "curve.nc": "loads in SI units, NetCDF",
     "surface.nc": "surface, NetCDF",
+    "surface.x3p": "surface, X3P",
+    "surface.gsf": "surface, GSF of Gwyddion",
 }
 """Files that can be saved, by their names, whose endings say of what type they are."""

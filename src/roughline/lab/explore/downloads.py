@@ -152,10 +152,8 @@ def _write_maps(state: ExploreState, points: int, path: Path, progress: Progress
         for each in state.added:
             for name, (values, unit, meaning) in each.fields_of(fields).items():
                 maps[name] = (("x", "y"), values, {"units": unit, "long_name": meaning})
-    centres = (np.arange(points) + 0.5) * (state.length / points)
-    sides = {name: (name, centres, {"units": "m"}) for name in ("x", "y")}
-    heights = xarray.load_dataset(path, engine="h5netcdf")
-    data = heights.merge(maps).assign_coords(sides)
+    heights = xarray.load_dataset(path)
+    data = heights.merge(maps)
     write_dataset(data.assign_attrs(_settings(state, points) | heights.attrs), path)
 
 
@@ -308,4 +306,6 @@ _WRITERS: dict[str, Callable[[ExploreState, int, Path, Progress], None]] = {
     "curve.csv": _write_panels,
     "curve.nc": _write_loads,
     "surface.nc": _write_surface,
+    "surface.x3p": _write_surface,
+    "surface.gsf": _write_surface,
 }

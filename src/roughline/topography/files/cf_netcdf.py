@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import shortened
 from roughline.errors.words import called
@@ -104,6 +105,7 @@ def _measurement_of(data: Any, path: Path, channel: int | str | None, name: str)
     names = candidates(data)
     key = names[_chosen(data, names, channel, name)]
     variable = data.variables[key].squeeze()
+    _refuse_points_in_a_list(data, variable, name)
     dims = tuple(map(str, variable.dims))
     is_transposed = len(dims) == 2 and not _x_is_first(data, dims)
     if is_transposed:
@@ -115,16 +117,7 @@ def _measurement_of(data: Any, path: Path, channel: int | str | None, name: str)
     heights = decoded(variable)
     if _is_of_surface_topography(data) and "mask" in data.variables:
         heights[data.variables["mask"].values.reshape(heights.shape) != 0] = np.nan
-    if is_transposed:
-        heights = heights.T
-    for i, side in enumerate(sides):
-        if side is not None and side.fall:
-            heights = np.flip(heights, i)
-        if side is not None and not side.are_even and len(dims) == 2:
-            raise InputError(
-                f"{name} has uneven positions along {side.name}: bring the map to an even grid, "
-                "such as by xarray's interp"
-            )
+    heights = _over_rising(heights.T if is_transposed else heights, sides, name)
     unit = unit_of(data.variables[key])
     if unit is None and _is_of_surface_topography(data) and sides[0] is not None:
         unit = sides[0].unit  # its lines state that of their positions alone, for both
@@ -142,6 +135,29 @@ def _measurement_of(data: Any, path: Path, channel: int | str | None, name: str)
     )
     known = [side for side in sides if side is not None]
     return _with_sides(measured, known) if len(known) == len(dims) else measured
+
+
+def _over_rising(heights: Real, sides: list[Positions | None], name: str) -> Real:
+    """Heights in the order of rising positions; uneven ones of a map are refused."""
+    for i, side in enumerate(sides):
+        if side is not None and side.fall:
+            heights = np.flip(heights, i)
+        if side is not None and not side.are_even and heights.ndim == 2:
+            raise InputError(
+                f"{name} has uneven positions along {side.name}: bring the map to an even grid, "
+                "such as by xarray's interp"
+            )
+    return heights
+
+
+def _refuse_points_in_a_list(data: Any, variable: Any, name: str) -> None:
+    """Refuse points, each with its x and y, on no grid."""
+    together = [data.variables[each].dims for each in ("x", "y") if each in data.variables]
+    if variable.ndim == 1 and together == [variable.dims, variable.dims]:
+        raise InputError(
+            f"{name} lists points with an x and a y each: bring them to an even grid, or write "
+            "them as text, x y z in each line"
+        )
 
 
 def _chosen(data: Any, names: list[str], channel: int | str | None, file: str) -> int:

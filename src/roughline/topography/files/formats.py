@@ -109,6 +109,28 @@ FORMATS: tuple[Format, ...] = (
         "gsffile 0.5.5",
     ),
     Format(
+        "NetCDF",
+        (".nc", ".nc4", ".cdf", ".grd"),
+        "roughline, SurfaceTopography, xarray, GMT",
+        "ours: all; of others, by the CF conventions: heights over one or two even sides, their "
+        "units, marks and ranges of missing points, scaled counts, falling positions, (y, x) and "
+        "(x, y); SurfaceTopography's `mask` and `periodic`; grids of early GMT",
+        "positions in degrees, uneven maps, groups, CDF-5, scans of GXSM; of data that do not say "
+        "that they are heights, `--channel` chooses",
+        "xarray 2026.9, SurfaceTopography 1.27; Gwyddion reads no NetCDF but GXSM's",
+    ),
+    Format(
+        "TIFF",
+        (".tif", ".tiff"),
+        "ImageJ, and programs that export images",
+        "floats and counts of 16 bits and more; sides from the pixel of ImageJ, or from a "
+        "resolution finer than 2400 dots an inch; units of heights from a straight line of ImageJ "
+        "alone; the orientation; GDAL's mark of missing points",
+        "pictures: colours, 8 bits, white to black; stacks; SEM, Park Systems; of several images "
+        "`--channel` chooses",
+        "tifffile 2026.3; Gwyddion takes sides of 1 x 1",
+    ),
+    Format(
         name="NPY",
         suffixes=(".npy",),
         written_by="NumPy",

@@ -29,8 +29,8 @@ def write_netcdf(body: Body, path: Path) -> None:
     """Write a body with all that is known of it.
 
     It is NetCDF 3, since SurfaceTopography reads no other, in the layout that it knows: heights
-    over (x, y), and `unit`, `length` and `periodic` of both. CF knows the same as `units` and as
-    positions, here the centres of the cells. A map too large for NetCDF 3 is written as NetCDF 4.
+    over (x, y), and `unit`, `length` and `periodic` of both. CF has `units` and positions for the
+    same. A map too large for NetCDF 3 is written as NetCDF 4.
     """
     import xarray  # here because it loads slowly
 
@@ -39,7 +39,7 @@ def write_netcdf(body: Body, path: Path) -> None:
     coordinates = {
         name: (
             name,
-            (np.arange(n) + 0.5) * step,
+            np.arange(n) * step,
             {"length": side, "periodic": int(not body.is_cut_out), **unit},
         )
         for name, n, step, side in zip(

@@ -78,8 +78,9 @@ def read(
 
     A measured line scan is returned as a Line of kind "profile"; one with uneven spacing is
     interpolated linearly to as many evenly spaced points. Points that the instrument could not
-    measure are filled, and the tilt of its stage is removed; the settings of the result record
-    both, and who read the file. Heights in files that roughline wrote are not changed.
+    measure are filled, and the tilt of its stage is removed, but for what its file calls periodic;
+    the settings of the result record both, and who read the file. Heights in files that roughline
+    wrote are not changed.
 
     Parameters
     ----------

@@ -176,7 +176,7 @@ def _length(unit: str) -> str | None:
 def _pixels(page: Any, stated: dict[str, str]) -> tuple[float, float, str] | None:
     """The sides of a pixel and their unit; None where they are those of a printer, or unknown."""
     x, y = (float(each) for each in page.resolution)
-    if not (0 < x < np.inf and 0 < y < np.inf):
+    if not {282, 283} <= {tag.code for tag in page.tags} or not (0 < x < np.inf and 0 < y < np.inf):
         return None
     if "unit" in stated:
         unit = _length(stated["unit"])
