@@ -52,7 +52,8 @@ def channel_of(
             )
         number = named[0]
     if channels[number].why_none:
-        raise InputError(f"channel {text!r} of {file} holds no heights; it has {known}")
+        why = channels[number].why_none
+        raise InputError(f"channel {text!r} of {file} holds no heights ({why}); it has {known}")
     return number
 
 

@@ -74,7 +74,7 @@ def _is_of_a_microscope(file: Any) -> bool:
 def _measurement_of(file: Any, path: Path, channel: int | str | None, name: str) -> Measurement:
     pages = list(file.pages)
     _refuse_programs(pages, name)
-    channels = [Channel(f"image {i}", _why_none(page)) for i, page in enumerate(pages)]
+    channels = [Channel("image", _why_none(page)) for page in pages]
     page = pages[_chosen(channels, channel, name)]
     stated = _imagej(pages[0].description)
     if len(pages) < int(stated.get("images", "1")):
