@@ -29,7 +29,7 @@ for branch, axis, name in ((nearer, axes[1], "approach"), (~nearer, axes[2], "re
     load = np.flatnonzero(branch)[np.abs(curve.depth[branch] - depth).argmin()]
     fields = curve.fields[load]
     shown = fields.contact + 0.4 * fields.pulling
-    axis.imshow(shown.T, origin="lower", cmap="Blues", vmin=0, vmax=1)
+    axis.imshow(shown.T, cmap="Blues", vmin=0, vmax=1)
     axis.set(xticks=[], yticks=[], title=f"{curve.depth[load] * 1e9:.1f} nm, {name}")
 
 # %%

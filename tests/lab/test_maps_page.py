@@ -1,10 +1,17 @@
 """Maps on the page: frames that are filled, what is told of a point, and profiles along a line."""
 
+import io
 import re
+from urllib.parse import parse_qsl
 
 import pytest
+from matplotlib import pyplot
 
+import roughline as rl
 from lab.explore_driven import SMALL, image, settled, typed
+from lab.test_measured_page import CONNECTED
+from roughline.lab.explore.reading import state_of
+from seen import is_upright, lay_of_45_degrees
 
 FRAME = """(name) => {
     const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
@@ -54,7 +61,7 @@ def test_maps_fill_their_frames_which_are_alike(pages, width, least):
     settled(page, points=64)
     first, second = (still(page, name) for name in MAPS)
     for frame in (first, second):
-        assert frame["ranges"] == [0, 1, 0, 1]
+        assert frame["ranges"] == [0, 1, 1, 0]  # y counts downwards
         assert frame["width"] == pytest.approx(frame["height"], abs=1)
         assert frame["width"] >= least
     assert first["width"] == second["width"]
@@ -70,9 +77,7 @@ def test_walk_over_a_map_which_tells_place_height_pressure_and_gap(small):
     for name in MAPS:
         frame = still(page, name)
         x, y = (column + 0.5) / 64, (row + 0.5) / 64
-        page.mouse.move(
-            frame["left"] + x * frame["width"], frame["top"] + (1 - y) * frame["height"]
-        )
+        page.mouse.move(frame["left"] + x * frame["width"], frame["top"] + y * frame["height"])
         told = page.locator(f"#{name} .point").inner_text()
         assert f"x {x:.3f}"[:5] in told
         assert re.search(rf"pressure {pressure[strongest]:#.3g} E\*", told)
@@ -83,13 +88,14 @@ def test_walk_over_a_map_which_tells_place_height_pressure_and_gap(small):
 
 
 def draw(page, name, start, end, button="[data-profile=explore-profile]"):
-    """Press the button, and drag across a map, from and to shares of its frame."""
-    page.click(button)
+    """Press the button if there is one, and drag across a map, from and to shares of its frame."""
+    if button:
+        page.click(button)
     frame = still(page, name)
     for act, (x, y) in ((page.mouse.down, start), (page.mouse.up, end)):
         page.mouse.move(
             frame["left"] + x * frame["width"],
-            frame["top"] + (1 - y) * frame["height"],
+            frame["top"] + y * frame["height"],
             steps=4,
         )
         act()
@@ -155,3 +161,41 @@ def test_the_scale_of_a_map_has_its_colours(pages, theme):
             assert drawn.startswith("linear-gradient")
             assert len(set(re.findall(r"rgba?\([^)]*\)", drawn))) > 9, shown
     page.context.close()
+
+
+def of_screen(page, name):
+    """Brightness of a map on the screen, rows from the top downwards."""
+    page.locator(f"#plot-{name}").scroll_into_view_if_needed()
+    frame = still(page, name)
+    page.mouse.move(1, 1)  # whose tools are hidden then
+    inside = {key: frame[key] + 2 for key in ("left", "top")}
+    clip = {"x": inside["left"], "y": inside["top"]}
+    clip |= {key: frame[key] - 4 for key in ("width", "height")}
+    return pyplot.imread(io.BytesIO(page.screenshot(clip=clip)))[..., :3].mean(axis=-1)
+
+
+def test_a_map_is_upright_on_the_screen_and_a_box_keeps_what_it_shows(pages, tmp_path):
+    surface = lay_of_45_degrees(48, "m")
+    rl.write(surface, tmp_path / "lay.nc")
+    page = pages.open("?view=measured")
+    page.wait_for_selector(CONNECTED)
+    page.set_input_files("#measured [data-file]", tmp_path / "lay.nc")
+    page.locator("#measured-step-preparation").evaluate("(each) => { each.open = true; }")
+    page.wait_for_selector('#measured [data-result="preparation"]')
+    assert is_upright(of_screen(page, "measured-before"), surface.heights)
+    draw(page, "measured-before", (0.0, 0.0), (0.5, 0.25), button="")  # upper left
+    page.wait_for_selector("#measured-crop-text:not(:placeholder-shown)")
+    ends = [float(each.split()[0]) for each in page.input_value("#measured-crop-text").split(",")]
+    assert ends == pytest.approx([0, 0.5, 0, 0.25], abs=0.008)  # mm
+    page.wait_for_selector('#measured [data-caption="measured-after"]:has-text("24 x 12")')
+    after = of_screen(page, "measured-after")
+    rows, columns = after.shape
+    kept = after[: rows // 4 - 2, : columns // 2 - 2]
+    assert is_upright(kept, surface.heights[:24, :12])
+    page.context.close()
+
+
+def test_a_lit_surface_and_its_contact_are_upright(small):
+    page = showing(small, "area", "0.2")
+    surface = state_of(dict(parse_qsl(SMALL[1:])), 64).surface(64)
+    assert is_upright(of_screen(page, "explore-topography"), surface.heights)

@@ -250,7 +250,7 @@ def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page, ro
     np.testing.assert_allclose(10 ** shown[flows], flux[flows], rtol=1e-5)
     place = [(i + 0.5) / n for i, n in zip(flow.constriction, flow.gap.shape, strict=True)]
     assert look["rings"] == [pytest.approx(place)]
-    direction = "from left to right" if flow.along == "x" else "upwards"
+    direction = "from left to right" if flow.along == "x" else "downwards"
     assert f"{direction}, the map repeated on all sides; corrected area" in look["caption"]
     without, arrays = page.ask("answer", said)
     assert "flux" not in without["maps"]

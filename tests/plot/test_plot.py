@@ -73,7 +73,7 @@ def test_axes_have_units_where_the_body_has():
         assert axes.figure.axes[1].get_ylabel() == height
         (image,) = axes.images
         assert image.get_extent() == pytest.approx(
-            [0, 1, 0, 2] if unit == "m" else [0, 1e-3, 0, 2e-3]
+            [0, 1, 2, 0] if unit == "m" else [0, 1e-3, 2e-3, 0]
         )
     line = rl.Line(SPECTRUM.line(64, 1).heights, 1e-3, "m")
     axes = rl.plot.topography(line)

@@ -496,7 +496,8 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_preparation(
         name="crop",
-        help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um".',
+        help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um"; y '
+        "counts from the top of the picture.",
         otherwise="all",
         is_of_file=True,
         read=_crop,

@@ -15,6 +15,7 @@ from matplotlib.gridspec import SubplotSpec
 from roughline.contact import scaling
 from roughline.paper.added_figures import added_drawings
 from roughline.paper.mean_curve import mean_curve
+from roughline.plot.pixels import show_map
 from roughline.plot.style import (
     COLUMN,
     FORCE_LABEL,
@@ -170,7 +171,7 @@ def _draw_body(
     A small picture shows the contact in blocks, those that have some of it in black.
     """
     body, deepest = gallery.isel(fractal_dimension=row), float(gallery.displacement.max())
-    image: Any = {"extent": (0, 1, 0, 1), "origin": "lower", "interpolation": "nearest"}
+    look: Any = {"sides": (1.0, 1.0), "interpolation": "nearest"}
     marks = LinearSegmentedColormap.from_list("", [mpl.rcParams["axes.facecolor"], ink()])
     line = figure.add_subplot(places[0])
     position = np.arange(body.sizes["s"]) / body.sizes["s"]
@@ -179,16 +180,16 @@ def _draw_body(
     line.set_title(body_name(gallery, row).replace("D_f", " $D_f$"), loc="left")
     _draw_topography(figure.add_subplot(places[1], projection="3d"), body.heights.values)
     contact = figure.add_subplot(places[2])
-    touched = body.contact.values.T
+    touched = body.contact.values
     if blocks and touched.shape[0] % blocks == 0:
         side = touched.shape[0] // blocks
         touched = touched.reshape(blocks, side, blocks, side).max(axis=(1, 3)) > 0
-    contact.imshow(touched, cmap=marks, **image)
+    show_map(contact, touched, cmap=marks, **look)
     fraction = float(body.contact.mean())
     contact.set_title(f"contact {fraction:.1%}", fontsize=8)
     deflection = figure.add_subplot(places[3])
-    shown = deflection.imshow(
-        body.displacement.values.T, cmap="cividis", vmin=0, vmax=deepest, **image
+    shown = show_map(
+        deflection, body.displacement.values, cmap="cividis", vmin=0, vmax=deepest, **look
     )
     figure.colorbar(shown, ax=deflection, label="deflection $u/h$", shrink=0.85)
     for axes in (contact, deflection):
@@ -337,7 +338,7 @@ def _draw_topography(axes: Any, heights: Real) -> None:
     shown = heights[::step, ::step]
     x, y = np.meshgrid(*(np.arange(n) / n for n in shown.shape), indexing="ij")
     axes.plot_surface(
-        x, y, shown, cmap="cividis", rcount=128, ccount=128, linewidth=0, rasterized=True
+        x, -y, shown, cmap="cividis", rcount=128, ccount=128, linewidth=0, rasterized=True
     )
     axes.set_box_aspect((1, 1, 0.45), zoom=1.35)
     axes.view_init(elev=38, azim=-60)

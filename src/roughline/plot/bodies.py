@@ -31,7 +31,8 @@ def topography(body: Body, axes: Axes | None = None) -> Axes:
     Parameters
     ----------
     body : Surface or Line
-        What is drawn; a surface from above, in colours.
+        What is drawn; a surface from above, in colours, x to the right and y from the top
+        downwards, as instruments' software shows it.
     axes : Axes, optional
         Where to draw; default: those of a new figure.
 

@@ -14,7 +14,7 @@ from matplotlib.patheffects import withStroke
 
 from roughline.errors.public import public
 from roughline.fluid.flow import Flow
-from roughline.plot.pixels import any_marked, draw_map
+from roughline.plot.pixels import any_marked, draw_map, sides_shown
 from roughline.plot.style import drawing_on
 from roughline.topography.heights import checked_unit
 from roughline.units import in_words
@@ -84,7 +84,7 @@ def draw_flow(axes: Axes, flow: Flow, unit: str | None) -> None:
         axes.figure.colorbar(
             image, ax=axes, label=r"flux over its mean, $|j|\,/\,\bar j$", shrink=0.85, extend="min"
         )
-        _mark_constriction(axes, flow, image.get_extent()[1::2])
+        _mark_constriction(axes, flow, sides_shown(image))
     _mark_direction(axes, flow)
     axes.set_title(_in_words(flow, unit), fontsize=_TITLE, pad=17 if flow.along == "x" else 6)
 
@@ -102,12 +102,15 @@ def _mark_constriction(axes: Axes, flow: Flow, sides: Sequence[float]) -> None:
     look: Any = {"color": "k", "path_effects": seen, "zorder": 4}
     at = place * sides
     axes.plot(*at[:, None], "o", markersize=11, markerfacecolor="none", **look)
-    across = 1 if flow.along == "x" else 0
-    length = 34 if place[across] < 0.5 else -34
+    length = 34  # [pt]
+    if flow.along == "x":  # from where there is more room
+        start = (0, -length if place[1] < 0.5 else length)
+    else:
+        start = (length if place[0] < 0.5 else -length, 0)
     axes.annotate(
         "",
         tuple(at),
-        (0, length) if flow.along == "x" else (length, 0),
+        start,
         textcoords="offset points",
         arrowprops={"arrowstyle": "-|>", "shrinkB": 7, **look},
     )
@@ -124,7 +127,7 @@ def _mark_direction(axes: Axes, flow: Flow) -> None:
         textcoords="offset points",
         ha="center" if along_x else "left",
         va="bottom" if along_x else "center",
-        rotation=0 if along_x else 90,
+        rotation=0 if along_x else 270,  # y counts downwards
         fontsize=_TITLE + 1,
     )
 

@@ -22,6 +22,7 @@ from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure
 from roughline.plot.bodies import draw_pressure
 from roughline.plot.flows import draw_flow
+from roughline.plot.pixels import show_map
 from roughline.plot.style import COLUMN, new_figure, styled
 from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.borders import whole_or_piece
@@ -250,7 +251,8 @@ def _thumbnail(heights: Real) -> bytes:
     axes.set_axis_off()
     if heights.ndim == 2:
         nx, ny = (max(1, n // _MOST_PIXELS) for n in heights.shape)
-        axes.imshow(heights[::nx, ::ny].T, origin="lower", cmap="cividis")
+        few = heights[::nx, ::ny]
+        show_map(axes, few, (few.shape[0], few.shape[1]), cmap="cividis")
     else:
         axes.plot(heights[:: max(1, heights.size // _MOST_POINTS)], linewidth=0.6)
     return png(figure, transparent=True)

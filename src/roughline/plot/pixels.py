@@ -1,4 +1,7 @@
-"""Maps from above, thinned to the number of points that a picture can show."""
+"""Maps from above, as instruments' software shows them: x to the right, y from the top downwards.
+
+They are thinned to the number of points that a picture can show.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +22,21 @@ def draw_map(
 ) -> AxesImage:
     """Draw values over sides that have a given unit."""
     size = label_sides(axes, sizes, unit)
-    extent = (0.0, sizes[0] * size, 0.0, sizes[1] * size)
-    return axes.imshow(values.T, origin="lower", extent=extent, **look)
+    return show_map(axes, values, (sizes[0] * size, sizes[1] * size), **look)
+
+
+def show_map(
+    axes: Axes, values: NDArray[Any], sides: tuple[float, float], **look: Any
+) -> AxesImage:
+    """Draw values over sides in the units of the axes."""
+    extent = (0.0, sides[0], sides[1], 0.0)  # left, right, bottom, top
+    return axes.imshow(values.T, origin="upper", extent=extent, **look)
+
+
+def sides_shown(image: AxesImage) -> tuple[float, float]:
+    """Sides of a map that was drawn, in the units of its axes."""
+    _, right, bottom, _ = image.get_extent()
+    return right, bottom
 
 
 def label_sides(axes: Axes, sizes: tuple[float, float], unit: str | None) -> float:

@@ -13,7 +13,7 @@ from matplotlib.ticker import EngFormatter, Formatter, ScalarFormatter
 from numpy.typing import NDArray
 
 from roughline.plot.bodies import draw_heights
-from roughline.plot.pixels import any_marked, thinned
+from roughline.plot.pixels import any_marked, show_map, thinned
 from roughline.plot.spectra import draw_spectrum
 from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.folder import make_folder
@@ -77,20 +77,18 @@ def _measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
             axes.set_title(share, fontsize=9)
         return figure
     left, right = figure.subplots(1, 2)
-    extent = (0.0, *heights.shape[:1], 0.0, *heights.shape[1:])
-    if sides:
-        extent = (0.0, sides[0], 0.0, sides[1])
-    shown = left.imshow(thinned(heights).T, origin="lower", extent=extent, cmap="cividis")
+    across = (sides[0], sides[1]) if sides else (heights.shape[0], heights.shape[1])
+    shown = show_map(left, thinned(heights), across, cmap="cividis")
     ticks = _ticks(content.unit is not None)
     bar = figure.colorbar(
         shown, ax=(left, right), orientation="horizontal", format=ticks, shrink=0.6, aspect=40
     )
     bar.ax.locator_params(nbins=5)
     bar.set_label("height" + _of(content))
-    right.imshow(
-        any_marked(unknown).T,
-        origin="lower",
-        extent=extent,
+    show_map(
+        right,
+        any_marked(unknown),
+        across,
         cmap=ListedColormap(["0.92", _MISSING]),
         vmin=0,
         vmax=1,

@@ -69,10 +69,11 @@ def _missing_map(description: Description) -> list[str]:
     missing = description.missing
     if missing.share < _MAPPED_FROM:
         return []
-    rows = np.atleast_2d(missing.cells.T)[::-1]
+    rows = np.atleast_2d(missing.cells.T)
     shades = np.where(rows == 0, 0, np.where(rows <= 0.5, 1, 2))
     return [
-        "missing points, x to the right" + (" and y upwards:" if missing.cells.ndim == 2 else ":"),
+        "missing points, x to the right"
+        + (" and y downwards:" if missing.cells.ndim == 2 else ":"),
         *("  " + "".join(_SHADES[shade] for shade in row) for row in shades),
         f"  {_SHADES[0]} none, {_SHADES[1]} up to half, {_SHADES[2]} more than half of a piece",
     ]

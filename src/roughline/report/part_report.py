@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from roughline.plot.pixels import thinned
+from roughline.plot.pixels import show_map, thinned
 from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.answers import (
     NO_MEAN,
@@ -185,11 +185,10 @@ def heights_figure(part: PartAssessment) -> Figure:
         heights = (body.heights - body.heights.mean()) * factor
         if isinstance(body, Surface):
             size, sides = prefix(max(body.sizes), "m", 3)
-            extent = (0.0, body.sizes[0] * size, 0.0, body.sizes[1] * size)
-            shown = axes.imshow(
-                thinned(heights).T,
-                origin="lower",
-                extent=extent,
+            shown = show_map(
+                axes,
+                thinned(heights),
+                (body.sizes[0] * size, body.sizes[1] * size),
                 cmap="cividis",
                 vmin=-spread * factor,
                 vmax=spread * factor,

@@ -1,4 +1,4 @@
-"""A topography as an image, lit from one side."""
+"""A topography as an image, lit from the upper left."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _RELIEF = 0.35  # rms slope to which a surface is scaled for the light, so that 
 def shaded(surface: Surface) -> NDArray[np.uint32]:
     """Return red, green, blue and opacity of every point in one number, as BokehJS reads them.
 
-    Colours are heights, as in the reports; the light shows slopes.
+    Colours are heights, as in the reports; the light shows slopes. Shape (nx, ny), as the heights.
     """
     from matplotlib import colormaps  # here because it loads slowly
     from matplotlib.colors import LightSource
@@ -25,11 +25,11 @@ def shaded(surface: Surface) -> NDArray[np.uint32]:
     slope = surface.rms_slope
     light: Any = LightSource(*_LIGHT)
     colours = light.shade(
-        surface.heights,
+        surface.heights.T,  # rows run along x, from the top downwards
         colormaps["cividis"],
         blend_mode="soft",
         vert_exag=_RELIEF / slope if slope else 1.0,
         dx=surface.spacing[0],
         dy=surface.spacing[1],
     )
-    return (255 * colours).astype(np.uint8).view(np.uint32)[..., 0]
+    return (255 * colours).astype(np.uint8).view(np.uint32)[..., 0].T

@@ -46,7 +46,8 @@ class Preparation:
     Parameters
     ----------
     crop : tuple of float, optional
-        (x0, x1, y0, y1) of a surface, (x0, x1) of a line; whole points are kept. [length]
+        (x0, x1, y0, y1) of a surface, y from the top of its picture; (x0, x1) of a line. Whole
+        points are kept. [length]
     remove_outliers : bool, optional
         Whether spikes are removed and filled like missing points. They are always counted.
     trend : {"tilt", "curvature", "mean", "none"}, optional

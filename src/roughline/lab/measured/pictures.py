@@ -125,7 +125,7 @@ def of_contact(result: Assessment) -> Maps:
     if result.flows:  # along the leakier of the directions that are asked
         flow = max(result.flows, key=lambda each: each.hydraulic_aperture)
         drawn, along_x = flux_map(flow), flow.along == "x"
-        caption = f"{drawn.caption}, {'from left to right' if along_x else 'upwards'}"
+        caption = f"{drawn.caption}, {'from left to right' if along_x else 'downwards'}"
         caption += ", the map repeated on all sides" if flow.sides == "periodic" else ""
         maps["flux"] = replace(drawn, caption=caption)
     spots = _shares(fields.contact, _MOST_SPOTS + 1)

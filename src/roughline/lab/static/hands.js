@@ -189,11 +189,12 @@ function keepBounded(range, {to, from}) {
     if (!range.is_valid) return;
     const whole = [range._reset_start, range._reset_end];
     const [[low, high], [start, end]] = [whole.map(to), [range.start, range.end].map(to)];
-    const length = high - low, beside = ((WIDEST - 1) / 2) * length;
-    const half = within(end - start, NARROWEST * length, WIDEST * length) / 2;
-    const middle = within((start + end) / 2, low - beside + half, high + beside - half);
-    const isBeyond = [[start, middle - half], [end, middle + half]].some(([is, may]) => Math.abs(is - may) > 1e-9 * length);
-    if (isBeyond) range.setv({start: from(middle - half), end: from(middle + half)});
+    const length = high - low, share = (at) => (at - low) / length; // some axes count downwards
+    const half = within(share(end) - share(start), NARROWEST, WIDEST) / 2, beside = (WIDEST - 1) / 2;
+    const middle = within((share(start) + share(end)) / 2, half - beside, 1 + beside - half);
+    const may = [middle - half, middle + half];
+    const isBeyond = [start, end].some((is, i) => Math.abs(share(is) - may[i]) > 1e-9);
+    if (isBeyond) range.setv({start: from(low + may[0] * length), end: from(low + may[1] * length)});
   };
   range.change.connect(keep);
   keep();

@@ -73,7 +73,8 @@ export class Maps {
     });
   }
 
-  // Lay the maps out for a surface with these sides, in a unit; all of it is shown when it is another one.
+  // Lay the maps out for a surface with these sides, in a unit; all of it is shown when it is another one. As in
+  // instruments' software y counts from the top downwards.
   frame(sizes, unit, corner = [0, 0]) {
     this.#sizes = sizes;
     this.#unit = unit;
@@ -82,7 +83,9 @@ export class Maps {
     this.#extent = extent;
     for (const name of this.#names) {
       this.#plots.label(this.#plot(name), withUnit("x", unit), withUnit("y", unit));
-      for (const [i, axis] of ["x", "y"].entries()) this.#plots.range(this.#plot(name), axis, corner[i], corner[i] + sizes[i]);
+      const [left, top] = corner, [width, height] = sizes;
+      this.#plots.range(this.#plot(name), "x", left, left + width);
+      this.#plots.range(this.#plot(name), "y", top + height, top);
     }
     this.#fit();
   }

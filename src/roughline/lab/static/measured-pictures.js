@@ -58,11 +58,11 @@ class Pictures {
       if (!(ends[0] < ends[1] && ends[2] < ends[3])) { box.setv(this.#kept); return; }
       drawn(ends.map((value) => `${Number(value.toPrecision(4))} ${along}`).join(", "));
     };
-    map.on_event("selectiongeometry", ({geometry: {type, x0, x1, y0, y1}}) => { if (type === "rect") keep(x0, x1, y0, y1); });
+    map.on_event("selectiongeometry", ({geometry: {type, x0, x1, y0, y1}}) => { if (type === "rect") keep(...rising(x0, x1), ...rising(y0, y1)); });
     onDraw(map, this.#view.find("[data-draw]"), (from, to, isLast) => {
-      const [left, right] = [from.x, to.x].sort((a, b) => a - b), [bottom, top] = [from.y, to.y].sort((a, b) => a - b);
-      if (isLast) keep(left, right, bottom, top);
-      else box.setv({visible: true, left, right, bottom, top});
+      const [left, right] = rising(from.x, to.x), [top, bottom] = rising(from.y, to.y);
+      if (isLast) keep(left, right, top, bottom);
+      else box.setv({visible: true, left, right, top, bottom});
     });
   }
 
@@ -83,9 +83,9 @@ class Pictures {
     this.#offer("contact", others, (look, chosen) => this.#draw(step, "contact", look, arrays[chosen]));
   }
 
-  #keep(before, {corner: [left, bottom], sizes: [width, height]}, visible) {
+  #keep(before, {corner: [left, top], sizes: [width, height]}, visible) {
     this.#before = before;
-    this.#kept = {visible, left, right: left + width, bottom, top: bottom + height};
+    this.#kept = {visible, left, right: left + width, top, bottom: top + height};
     this.#plots.model("crop box").setv(this.#kept);
   }
 
@@ -113,3 +113,5 @@ class Pictures {
     fillTable(`measured-${name}`, ...table);
   }
 }
+
+function rising(...ends) { return ends.sort((one, other) => one - other); }
