@@ -22,7 +22,8 @@ LENGTHS = """(name) => {
     const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
     return [[root.x_range, root.x_scale], [root.y_range, root.y_scale]]
         .filter(([range]) => range.type !== "FactorRange")
-        .map(([{start, end}, {type}]) => type === "LogScale" ? Math.log(end / start) : Math.abs(end - start));
+        .map(([{start, end}, {type}]) =>
+            type === "LogScale" ? Math.log(end / start) : Math.abs(end - start));
 }"""
 SAID = """(view) =>
     [...document.querySelectorAll(`#${view} :is(input, [data-point], [data-table^=fit], .strip)`)]

@@ -782,6 +782,18 @@ def test_layers_thinner_than_half_a_cell_are_refused_where_the_grid_is_known(pag
     assert at == "first"
 
 
+def test_what_a_crop_and_a_low_pass_keep_is_drawn_where_it_was(page, tmp_path):
+    heights = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, 7).heights
+    np.save(tmp_path / "map.npy", heights)
+    said = {**page.bring(tmp_path / "map.npy"), "unit": "m", "size": "1 mm"}
+    said |= {"crop": "250 um, 750 um, 0 um, 1 mm", "low_pass": "125 um"}
+    header, arrays = page.ask("prepare", said)
+    after = header["maps"]["after"]
+    assert after["corner"] == pytest.approx([0.25 + 4 / 64, 4 / 64])  # mm
+    assert after["sizes"] == pytest.approx([0.5 - 8 / 64, 1 - 8 / 64])
+    assert arrays["after"].shape == (64 - 8, 32 - 8)
+
+
 def test_a_crop_to_where_points_are_known_opens_a_file_that_is_refused_whole(page, tmp_path):
     heights = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, 7).heights.copy()
     heights[32:] = heights[3, 4] = np.nan

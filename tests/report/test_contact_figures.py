@@ -76,6 +76,25 @@ def test_filled_points_are_marked_where_they_were(holed):
     assert high == pytest.approx([3 * pixel, 25 * pixel], abs=pixel)
 
 
+def test_a_crop_and_what_a_low_pass_leaves_out_are_told_in_lengths_of_the_whole(holed, tmp_path):
+    file, *_ = holed
+    question = rl.Question(
+        file,
+        E_star=1e11,
+        loads="1 N",
+        reading=rl.Reading(unit="m", sizes=(1e-3,)),
+        preparation=rl.Preparation(crop=(1.5625e-4, 1e-3, 0, 1e-3), low_pass=1e-4),
+    )
+    pressed = rl.assess(question)
+    (part,) = pressed.topographies
+    assert pressed.body.shape == (54 - 6, 64 - 6)
+    assert (part.filled_region.heights == np.isnan(np.load(file))[13:-3, 3:-3]).all()
+    write_contact_report(pressed, tmp_path, "")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "x 156.2 µm to 1 mm and y 0 m to 1 mm (points x 10:64, y 0:64)" in page
+    assert "waves shorter than 100 µm (Gaussian, ISO 16610), half of it left out at borders" in page
+
+
 def test_theories_are_drawn_in_the_units_of_the_curve():
     spectrum = rl.SelfAffine(hurst=0.7, length=3e-3, rms_height=1e-6)
     surface = replace(spectrum.surface(32, 3), unit="m")

@@ -13,9 +13,10 @@ from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
-from roughline.topography.body import Body, Line, Surface
+from roughline.topography.body import Body, Line, Surface, within
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
+from roughline.topography.low_pass import points_kept
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation, as_prepared
 from roughline.topography.settings import MOUNTING, TILT
@@ -68,13 +69,16 @@ class Topography:
     def filled_region(self) -> Surface | None:
         """Where points were filled: 1 there, 0 elsewhere; None where that is not known.
 
-        It has the points of the file, or of the piece of it that is read.
+        It has the points of the file, or of the piece of it that is read, less those that a low
+        pass leaves out.
         """
         if self.measurement is None or self.measurement.kind != "surface":
             return None
         marked = replace(self.measurement, heights=self.measurement.unknown.astype(np.float64))
         marks = marked.body(self.reading.unit, self.reading.sizes, Missing(), "none")
         assert isinstance(marks, Surface)
+        if self.preparation is not None and self.preparation.low_pass is not None:
+            marks = within(marks, points_kept(marks, self.preparation.low_pass))
         return replace(marks, heights=np.sign(marks.heights))
 
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 _RANGE = re.compile(r"(?:([xy]) )?(\d+):(\d+)")
 
+_LESS = "low_pass_kept"  # setting: points that a low pass left of a piece
+
 _STEPS = (
     "cropped",
     "outliers_removed",
@@ -127,21 +129,25 @@ def _told(name: str, body: Body) -> str:
     if name == "cropped":
         return _crop(str(value), body)
     if name == "low_pass":
-        return f"waves shorter than {engineering(float(value), 'm')} (Gaussian, ISO 16610)"
+        text = f"waves shorter than {engineering(float(value), 'm')} (Gaussian, ISO 16610)"
+        return text + (", half of it left out at borders" if _LESS in body.settings else "")
     if name == "resampled_to":
         return f"{value} points"
     return str(value)
 
 
 def _crop(points: str, body: Body) -> str:
-    """The piece that was kept, in lengths from the corner of the whole.
+    """The piece that was kept, in lengths from the upper left corner of the whole.
 
-    Later steps keep the sides of the piece, so its points had the distance of side over points.
+    But for a low pass later steps keep its sides, so points had the distance of side over points.
     """
-    sides = sides_of(body)
+    counts = _RANGE.findall(str(body.settings.get(_LESS, points)))
     kept = []
-    for (axis, *ends), side in zip(_RANGE.findall(points), sides, strict=True):
+    for (axis, *ends), (_, *left), side in zip(
+        _RANGE.findall(points), counts, sides_of(body), strict=True
+    ):
         first, end = map(int, ends)
-        low, high = (engineering(each * side / (end - first), "m") for each in (first, end))
+        step = side / (int(left[1]) - int(left[0]))
+        low, high = (engineering(each * step, "m") for each in (first, end))
         kept.append(f"{axis} {low} to {high}".strip())
     return f"{' and '.join(kept)} (points {points})"

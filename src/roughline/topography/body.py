@@ -339,6 +339,12 @@ def with_heights(body: BodyType, heights: Real, **settings: Any) -> BodyType:
 
 
 def piece(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
+    """Return the points of a body that are kept along each side, with a record of that."""
+    settings = settings_of_piece(body.settings, kept, body.heights.shape)
+    return replace(within(body, kept), settings=settings)
+
+
+def within(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
     """Return the points of a body that are kept along each side."""
     heights = body.heights[kept]
     sizes = tuple(step * n for step, n in zip(spacings_of(body), heights.shape, strict=True))
@@ -346,7 +352,6 @@ def piece(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
     return replace(
         body,
         heights=heights,
-        settings=settings_of_piece(body.settings, kept, body.heights.shape),
         is_cut_out=body.is_cut_out or heights.size < body.heights.size,
         **sides,
     )

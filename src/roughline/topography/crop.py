@@ -17,7 +17,7 @@ Crop = tuple[float, ...]
 _OF_THE_WHOLE = (
     *("missing_points", "missing_share", "filled", "outliers_kept"),
     *("mask", "mask_of", "masked_share"),
-    *("border_step", "border_chance"),
+    *("border_step", "border_chance", "low_pass_kept"),
 )
 """What settings say of all points of a body, or of its borders."""
 
@@ -51,13 +51,17 @@ def settings_of_piece(
     settings: Settings, kept: tuple[slice, ...], shape: tuple[int, ...]
 ) -> Settings:
     """Return the settings of a piece: what was cropped, and nothing that is said of the whole."""
-    ranges = [f"{each.start}:{each.stop}" for each in kept]
-    cropped = ranges[0] if len(kept) == 1 else f"x {ranges[0]}, y {ranges[1]}"
     before = settings.get("missing_points", settings.get("filled_before_crop"))
     left = {key: value for key, value in settings.items() if key not in _OF_THE_WHOLE}
     filled = {"filled_before_crop": before} if before else {}
     share = math.prod(each.stop - each.start for each in kept) / math.prod(shape)
-    return {**left, **filled, "cropped": cropped, "cropped_share": share}
+    return {**left, **filled, "cropped": ranges_of(kept), "cropped_share": share}
+
+
+def ranges_of(kept: tuple[slice, ...]) -> str:
+    """Points that are kept along each side, in words that settings hold."""
+    ranges = [f"{each.start}:{each.stop}" for each in kept]
+    return ranges[0] if len(kept) == 1 else f"x {ranges[0]}, y {ranges[1]}"
 
 
 def _refuse_misplaced(crop: Crop, sides: tuple[float, ...], unit: str | None) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from roughline.topography.body import Body, BodyType
+from roughline.topography.body import Body, BodyType, sides_of
 from roughline.topography.settings import Settings
 from roughline.units import in_words
 
@@ -49,6 +49,14 @@ def effects(body: Body) -> list[_Effect]:
     for step, name in _NAMES.items():
         if f"{step}_{_LEFT}height" in body.settings:
             found.append(_effect(body, step, name(body)))
+    if "low_pass_kept" in body.settings:
+        sides = " x ".join(in_words(side, body.unit) for side in sides_of(body))
+        found.append(
+            _Effect(
+                "half a cutoff of the low pass is left out at each border, beyond which no heights "
+                f"are known: {sides} stay, and loads act on them"
+            )
+        )
     return found
 
 

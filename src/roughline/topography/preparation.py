@@ -21,21 +21,19 @@ from roughline.topography.body import (
     Surface,
     piece,
     sides_of,
-    spacings_of,
     with_heights,
 )
 from roughline.topography.crop import Crop, points_in
 from roughline.topography.effects import effects, with_effect
+from roughline.topography.low_pass import low_passed, refuse_long
 from roughline.topography.missing import Missing
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
-from roughline.units import in_words
 
 _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
 _SPIKE = 5.0  # times the scatter of neighbours
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _STEPS_NEED = {1: 14, 2: 9}  # heights at once for each, of lines and of surfaces, resampling aside
 _MOST = 10**9  # points along a side that are thought of
-_ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
 
 
 @public
@@ -56,7 +54,8 @@ class Preparation:
         spikes were removed; otherwise nothing is removed.
     low_pass : float, optional
         Cutoff wavelength of a Gaussian filter after ISO 16610-61 (half of the amplitude of a wave
-        of that length passes). [length]
+        of that length passes). Half a cutoff is left out at each border of a piece; periodic bodies
+        keep all points. [length]
     points : int or tuple of int, optional
         Points to resample to: (nx, ny), or one number for the longer side of a surface or a line.
 
@@ -100,7 +99,7 @@ class Preparation:
         if self.crop is not None:
             body = _cropped(body, self.crop)
         if self.low_pass is not None:
-            _refuse_long_low_pass(body, self.low_pass)
+            refuse_long(body, self.low_pass)
         self._refuse_beyond_memory(body)
         spikes = outliers(body)
         count = int(np.count_nonzero(spikes))
@@ -110,7 +109,7 @@ class Preparation:
             body = with_heights(body, body.heights, outliers_kept=count)
         body = self._without_trend(body, is_changed=bool(count) and self.remove_outliers)
         if self.low_pass is not None:
-            body = with_effect(body, _low_passed(body, self.low_pass), "low_pass")
+            body = low_passed(body, self.low_pass)
         if self.points is not None:
             body = with_effect(body, resampled(body, self.points), "resampled")
         return body
@@ -260,26 +259,6 @@ def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:
     known = np.ma.MaskedArray(body.heights, spikes)
     filled = Missing().filled(known, "the topography, without its outliers,")
     return with_effect(body, with_heights(body, filled, outliers_removed=count), "outliers")
-
-
-def _refuse_long_low_pass(body: Body, cutoff: float) -> None:
-    """Refuse a low pass that leaves no wave of a body."""
-    longest = max(sides_of(body))
-    if cutoff > longest:
-        raise InputError(
-            f"is {in_words(cutoff, body.unit)}, longer than the topography, "
-            f"{in_words(longest, body.unit)}: no wave of it would be left; give a shorter "
-            "wavelength, or remove a trend",
-            "low_pass",
-        )
-
-
-def _low_passed(body: BodyType, cutoff: float) -> BodyType:
-    from scipy import ndimage
-
-    deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / each for each in spacings_of(body)]
-    heights = ndimage.gaussian_filter(body.heights, deviations, mode="nearest")
-    return with_heights(body, heights, low_pass=cutoff)
 
 
 def resampled(body: BodyType, points: int | tuple[int, ...]) -> BodyType:

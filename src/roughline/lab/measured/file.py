@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 from roughline.assessment.description import Description, describe_measurement
@@ -26,9 +27,10 @@ from roughline.lab.measured.state import (
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.description_table import description_table
 from roughline.report.values import up_to_three_digits
-from roughline.topography.body import Body, Surface, sides_of
+from roughline.topography.body import Body, Surface, sides_of, spacings_of
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
+from roughline.topography.low_pass import points_kept
 from roughline.topography.preparation import Preparation
 
 
@@ -69,8 +71,15 @@ def prepare(arguments: Arguments, progress: Progress) -> bytes:
         "lists": obstacles | {"prepared-remarks": _remarks(found)},
         "tables": {"measured-prepared": [["", "before", "after"], rows]},
     }
+    whole = before.body or body
     corner = (crop or (0.0, 0.0, 0.0, 0.0))[::2]
-    return drawn(header, *of_preparation(before.body or body, body, corner))
+    if cutoff := body.settings.get("low_pass"):
+        inner = points_kept(replace(whole, is_cut_out=body.is_cut_out), float(cutoff))
+        corner = [
+            start + each.start * step
+            for start, each, step in zip(corner, inner, spacings_of(whole), strict=False)
+        ]
+    return drawn(header, *of_preparation(whole, body, corner))
 
 
 def _described(
