@@ -23,7 +23,17 @@ _UNUSED = (
     *("hardness_bar", "H", "theories", "rms", "h", "slope", "E", "roll_off", "cutoff", "view", "v"),
     *("t", "E_l", "nu_l", "nu_b", "w", "h0", "fluid", "shown"),
     *("crop", "low_pass", "resample", "hardness", "joint_area", "friction", "frequency", "bodies"),
-    *("trend", "outliers", "fill", "most_missing", "channel", "example", "elastic"),
+    *(
+        "trend",
+        "lines",
+        "scars",
+        "outliers",
+        "fill",
+        "most_missing",
+        "channel",
+        "example",
+        "elastic",
+    ),
 )
 _STRANGE = ("__proto__", "session", "crowded", "", "\ud800", "x" * 2000)
 _TEXTS = (

@@ -43,6 +43,17 @@ def test_files_that_can_be_pressed(topographies, invoke, name, points, told):
     assert answers["R"] == pytest.approx(whole / (2 * stiffness), rel=1e-12)
 
 
+def test_rows_of_a_probe_that_jump_are_told_of_and_levelled(topographies, invoke):
+    file, options = topographies / "di-1.di", ("--level-lines", "median", "--remove-scars")
+    _, as_measured, _ = invoke("info", file)
+    assert "rows jump: medians of neighbouring lines along x differ by 630 pm" in as_measured
+    assert "(--level-lines median)" in as_measured
+    _, levelled, _ = invoke("info", file, *options)
+    assert "rows jump" not in levelled
+    assert "levelling line by line (median), which takes steps between lines and tilt" in levelled
+    assert "the removal of scars (" in levelled
+
+
 @pytest.mark.parametrize(
     ("name", "told"),
     [

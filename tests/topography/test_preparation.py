@@ -196,8 +196,9 @@ def test_the_memory_of_a_preparation_is_known_before_the_work(monkeypatch, dimen
     n = {1: 2**16, 2: 200}[dimensions]
     heights = np.random.default_rng(3).normal(size=(n,) * dimensions)
     body = as_measured(heights) if dimensions == 2 else rl.Line(heights, 1e-3, "m", kind="profile")
+    lines = {"lines": "tilt", "remove_scars": True} if dimensions == 2 else {}
     steps = Preparation(
-        remove_outliers=True, trend="curvature", low_pass=1e-4, points=int(factor * n)
+        **lines, remove_outliers=True, trend="curvature", low_pass=1e-4, points=int(factor * n)
     )
     steps.applied(body)  # what is loaded on the way counts only once
     known = []

@@ -523,6 +523,29 @@ FIELDS: tuple[Field, ...] = (
         read=_whole,
     ),
     _of_preparation(
+        name="lines",
+        flag="--level-lines",
+        label="level lines",
+        help="What is taken from each line of a map along x where the instrument jumped from one "
+        "to the next: its median, a straight line, or the median of differences from the line "
+        "before. Steps between lines, and tilt and waves across them, go as well.",
+        otherwise="nothing; rows that jump are told of",
+        choices={
+            "keep": (None, "keep"),
+            "median": ("median", "median"),
+            "tilt": ("tilt", "tilt"),
+            "differences": ("differences", "differences"),
+        },
+    ),
+    _of_preparation(
+        name="remove_scars",
+        control="scars",
+        help="Remove scars and fill their points: short pieces of a line along x that stand off "
+        "both lines beside it by more than five times the scatter.",
+        otherwise="they stay",
+        choices={"keep": (False, "keep"), "remove": (True, "remove and fill")},
+    ),
+    _of_preparation(
         name="remove_outliers",
         control="outliers",
         label="spikes",

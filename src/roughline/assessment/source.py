@@ -105,7 +105,8 @@ def measured_body(
     """
     trend: Trend = "none" if preparation and preparation.trend else "tilt"
     removed = preparation.trend if preparation and preparation.trend else trend
-    filling = Missing(reading.missing, reading.most_missing, removed)
+    lines = preparation.lines if preparation else None
+    filling = Missing(reading.missing, reading.most_missing, removed, lines)
     if reading.tilt == MOUNTING:
         content = replace(content, settings={**content.settings, TILT: MOUNTING})
     content = replace(content, settings={**content.settings, **reading.of_instrument})

@@ -30,6 +30,8 @@ _LESS = "low_pass_kept"  # setting: points that a low pass left of a piece
 
 _STEPS = (
     "cropped",
+    "lines_levelled",
+    "scars_removed",
     "outliers_removed",
     "detrended",
     "low_pass",

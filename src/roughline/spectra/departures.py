@@ -313,6 +313,13 @@ def _of_long_waves(body: Body) -> list[Departure | None]:
 
 def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
+    if "lines_levelled" in body.settings:
+        text = (
+            f"the {what} was levelled line by line, which takes waves across its lines with their "
+            "jumps, so its heights do not tell whether it lies on waves longer than itself: "
+            "measure with less drift, or along both sides"
+        )
+        return Departure("longer waves", text, _LEVELLED)
     if grave := _grave_shapes(body, fit):
         worst = max(grave, key=lambda each: each.share)
         return Departure(

@@ -44,6 +44,8 @@ def effects(body: Body) -> list[_Effect]:
     found = []
     if body.settings.get("cropped_share") == 1:
         found.append(_Effect("the crop keeps all points: it changes nothing", is_idle=True))
+    if body.settings.get("scars_removed") == 0:
+        found.append(_Effect("no scars are found, so none is removed"))
     if body.settings.get("outliers_removed") == 0:
         found.append(_Effect("no spikes are found, so none is removed"))
     for step, name in _NAMES.items():
@@ -78,7 +80,7 @@ def _effect(body: Body, step: str, name: str) -> _Effect:
         return _Effect(f"{name} changes neither rms height nor rms slope", is_idle=True)
     changes = [f"{verb} {' and '.join(which)}" for verb, which in verbs.items()]
     said = f"{name} {' and '.join(changes)}"
-    if step == "detrended" or height >= 1 - _MOST:
+    if step in ("detrended", "levelled") or height >= 1 - _MOST:
         return _Effect(said)
     return _Effect(
         f"{said}: most of the roughness is gone, and answers are those of what is left",
@@ -98,6 +100,11 @@ def _per_cent(share: float) -> str:
 
 
 _NAMES: dict[str, Callable[[Body], str]] = {
+    "levelled": lambda body: (
+        f"levelling line by line ({body.settings['lines_levelled']}), which takes steps between "
+        "lines and tilt and waves across them, also where they are the surface's,"
+    ),
+    "scars": lambda body: f"the removal of scars ({body.settings['scars_removed']} points)",
     "outliers": lambda body: "the removal of spikes",
     "detrended": lambda body: f"the removal of the {body.settings['detrended']}",
     "low_pass": lambda body: (

@@ -12,6 +12,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.words import called
+from roughline.topography.line_levels import Levelling, line_levels
 from roughline.topography.trend import Trend, trend_of_known
 
 Filling = Literal["harmonic", "nearest"]
@@ -33,6 +34,8 @@ class Missing:
     most: float = 0.1  # largest share of missing points [1]
     # the trend that will be removed; points are filled about a plane at least
     removed: Trend = "tilt"
+    # how lines will be levelled; their departures from their levels are filled then
+    lines: Levelling | None = None
 
     def __post_init__(self) -> None:
         one_of("missing", self.method, ("harmonic", "nearest"))
@@ -79,6 +82,8 @@ class Missing:
         if too_many is not None:
             raise too_many
         trend = trend_of_known(heights, "curvature" if self.removed == "curvature" else "tilt")
+        if self.lines is not None and heights.ndim == 2:
+            trend = trend + line_levels(heights - trend, self.lines)
         rough = heights - trend
         if heights.ndim == 1:
             points = np.arange(mask.size)

@@ -12,7 +12,7 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
 from roughline.errors import InputError, PreparationWarning
-from roughline.errors.checks import as_number, flag, is_whole, positive, refuse, several
+from roughline.errors.checks import as_number, flag, is_whole, one_of, positive, refuse, several
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.body import (
@@ -25,8 +25,10 @@ from roughline.topography.body import (
 )
 from roughline.topography.crop import Crop, points_in
 from roughline.topography.effects import effects, with_effect
+from roughline.topography.line_levels import LEVELLINGS, Levelling
 from roughline.topography.low_pass import low_passed, refuse_long
 from roughline.topography.missing import Missing
+from roughline.topography.scan_lines import levelled, without_scars
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 
 _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
@@ -46,12 +48,19 @@ class Preparation:
     crop : tuple of float, optional
         (x0, x1, y0, y1) of a surface, y from the top of its picture; (x0, x1) of a line. Whole
         points are kept. [length]
+    lines : {"median", "tilt", "differences"}, optional
+        What is taken from each line of a map along x, as its level jumps from one to the next: its
+        median, a straight line, or the median of its differences from the line before. It takes
+        steps between lines, and tilt and waves across them, too.
+    remove_scars : bool, optional
+        Whether runs of points of a line that stand off both lines beside it are filled like missing
+        points.
     remove_outliers : bool, optional
         Whether spikes are removed and filled like missing points. They are always counted.
     trend : {"tilt", "curvature", "mean", "none"}, optional
         Least-squares polynomial that is removed. Default: the one that was removed from the body
-        before, for example by :func:`roughline.read`, is removed again after a crop or after
-        spikes were removed; otherwise nothing is removed.
+        before, for example by :func:`roughline.read`, is removed again after a crop or where lines,
+        scars or spikes were removed; otherwise nothing is removed.
     low_pass : float, optional
         Cutoff wavelength of a Gaussian filter after ISO 16610-61 (half of the amplitude of a wave
         of that length passes). Half a cutoff is left out at each border of a piece; periodic bodies
@@ -66,6 +75,8 @@ class Preparation:
     """
 
     crop: Crop | None = None
+    lines: Levelling | None = None
+    remove_scars: bool = False
     remove_outliers: bool = False
     trend: Trend | None = None
     low_pass: float | None = None
@@ -73,6 +84,9 @@ class Preparation:
 
     def __post_init__(self) -> None:
         flag("remove_outliers", self.remove_outliers)
+        flag("remove_scars", self.remove_scars)
+        if self.lines is not None:
+            one_of("lines", self.lines, LEVELLINGS)
         if self.trend is not None:
             refuse_unknown_trend(self.trend)
         if self.crop is not None:
@@ -101,6 +115,10 @@ class Preparation:
         if self.low_pass is not None:
             refuse_long(body, self.low_pass)
         self._refuse_beyond_memory(body)
+        if self.lines is not None:
+            body = levelled(body, self.lines)
+        if self.remove_scars:
+            body = without_scars(body)
         spikes = outliers(body)
         count = int(np.count_nonzero(spikes))
         if self.remove_outliers:
@@ -116,7 +134,7 @@ class Preparation:
 
     def _without_trend(self, body: BodyType, *, is_changed: bool) -> BodyType:
         """Remove the trend that is asked for, or again the one of a body that changed."""
-        is_changed |= self.crop is not None
+        is_changed |= self.crop is not None or self.lines is not None or self.remove_scars
         trend = self.trend or (body.removed_trend if is_changed else "none")
         if trend == "none":
             return body

@@ -37,6 +37,7 @@ from roughline.topography.files.tiff import read_tiff
 from roughline.topography.files.tmd import read_tmd
 from roughline.topography.files.x3p import read_x3p
 from roughline.topography.missing import Filling, Missing
+from roughline.topography.scan_lines import told_of_lines
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
 from roughline.units import engineering
@@ -236,7 +237,7 @@ def _read_array(path: Path, name: str) -> Measurement:
 
 
 def suspicions(body: Body) -> list[str]:
-    """List properties of a measured body that suggest a wrong unit or a wrong file."""
+    """List properties of a measured body that suggest a wrong unit, a wrong file or a slip."""
     doubts = [text] if (text := str(body.settings.get("doubts_of_file", ""))) else []
     rms, slope = body.rms_height, body.rms_slope
     if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
@@ -256,6 +257,8 @@ def suspicions(body: Body) -> list[str]:
         dx, dy = body.spacing
         if max(dx, dy) > 2 * min(dx, dy):
             doubts.append(f"pixels are {_by((dx, dy))}: check the sizes")
+    if jumps := told_of_lines(body):
+        doubts.append(jumps)
     return doubts
 
 
