@@ -64,6 +64,12 @@ def test_heights_that_were_levelled_before_do_not_tell_of_longer_waves():
     assert "levelled before" in found[0].text
 
 
+def test_a_map_that_was_levelled_line_by_line_does_not_tell_of_longer_waves():
+    body = rl.Preparation(lines="median").applied(piece("sharp roll-off", 1))
+    found = {each.assumption: each.text for each in departures(body)}
+    assert "was levelled line by line" in found["longer waves"]
+
+
 def test_flat_summits_and_steps_of_the_heights_are_told():
     heights = piece("sharp roll-off", 1).heights
     clipped = rl.Surface(np.minimum(heights, np.quantile(heights, 0.9)), (SIDE, SIDE), "m")
