@@ -13,6 +13,7 @@ import pandas
 import pytest
 import xarray
 from matplotlib import image
+from matplotlib.figure import Figure
 
 import roughline as rl
 from lab.unpacked import unpacked
@@ -23,7 +24,9 @@ from roughline.lab.explore.panels import BACK
 from roughline.lab.explore.reading import state_of
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
+from roughline.lab.maps import height_map
 from roughline.units import supported_digits
+from seen import is_upright, lay_of_45_degrees, seen
 
 SMALL = {"n": "64", "D_f": "2.4", "seed": "3", "F": "0.2", "cutoff": "0.0625"}
 LENGTH, E_STAR, HEIGHT = 1e-3, 110e9, 1e-6
@@ -421,6 +424,12 @@ def test_a_saved_picture_is_of_the_map_that_is_shown(shown, tmp_path, monkeypatc
     header, arrays = told[-1]
     wanted = shown if shown in header["maps"] else "area"
     np.testing.assert_allclose(drawn[0].values.T, arrays[wanted], rtol=1e-6)
+
+
+def test_a_saved_picture_is_upright():
+    axes, surface = Figure().subplots(), lay_of_45_degrees()
+    downloads._draw_map(axes, height_map(surface.heights, "m"), surface.sizes)
+    assert is_upright(seen(axes), surface.heights)
 
 
 @pytest.fixture(scope="module")

@@ -227,7 +227,7 @@ def test_the_saved_map_has_the_ring_and_the_scale_of_the_page(tmp_path, figures,
     look = answer(pictures.full, {**FLOWS, "shown": "flux"})[0]["maps"]["flux"]
     assert scale.get_ylabel() == "flux [of its mean]"
     assert scale.get_ylim() == pytest.approx((10 ** look["low"], 10 ** look["high"]))
-    sides = drawn.get_xlim()[1], drawn.get_ylim()[1]
+    sides = drawn.get_xlim()[1], drawn.get_ylim()[0]  # y counts downwards
     for ring in drawn.lines:
         np.testing.assert_allclose(ring.get_xydata()[0] / sides, look["rings"][0])
     assert len(drawn.lines) == 2
