@@ -12,7 +12,8 @@ from roughline.cli import app
 from roughline.lab.server import serve
 
 VALUES = ("text", "-1", "0", "nan", "inf", "1e400", "", "1 kg", "1,5 mm", "x" * 500, "a\nb")
-SKIPPED = ("--out", "--report", "--store", "--scheduler")  # any text is a name, or an address
+# any text is a name, or an address
+SKIPPED = ("--out", "--report", "--prepared", "--store", "--scheduler")
 INSTEAD_OF = {"--fractal-dimension": "--hurst", "--modulus": "--materials", "--depth": "--load"}
 PLAN = """
 [[ensemble]]
@@ -32,7 +33,7 @@ SENSIBLE = {
 }
 NEEDED = {
     "press": ("{array}", "--unit", "um", "--size", "1 mm", "--materials", "steel,copper", "--json"),
-    "info": ("{array}", "--unit", "um", "--size", "1 mm"),
+    "info": ("{array}", "--unit", "um", "--size", "1 mm", "--iso"),
     "compare": ("--hurst", "0.8", "--points", "16", "--surfaces", "2", "--length", "1 mm"),
     "generate": (
         *("--hurst", "0.8", "--out", "{folder}/made.nc"),
