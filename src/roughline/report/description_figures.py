@@ -76,6 +76,7 @@ def _measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
         if missing.count:
             axes.set_title(share, fontsize=9)
         return figure
+    figure.set_layout_engine("compressed")  # which knows where maps of equal scales end
     left, right = figure.subplots(1, 2)
     across = (sides[0], sides[1]) if sides else (heights.shape[0], heights.shape[1])
     shown = show_map(left, thinned(heights), across, cmap="cividis")
