@@ -2,7 +2,8 @@
 
 ``make intervals`` asks what users ask, and writes ``docs/intervals-table.md``; ``make coverage``,
 ``make grid-error``, ``make interface-stiffness`` and ``make part-coverage`` each count one study;
-``make leak-coverage`` counts what flows, and writes ``docs/leak-coverage-table.md``.
+``make leak-coverage`` counts what flows, and writes ``docs/leak-coverage-table.md``, and ``make
+seal-coverage`` the pressure that seals, in ``docs/seal-coverage-table.md``.
 The truth is the full model's answer for the parent, or for the finer surface that an instrument
 saw. An interval that is not printed counts as silent. Rows go to a file as they are made; what is
 there is not made again. ``--files`` takes measured maps, whose quarters are asked instead.
@@ -19,9 +20,10 @@ from trials_of_joints import LARGER, LEAK, MINE, PART, SEAL, TILED
 from trials_of_spectra import FIT, PIECE, SCAN
 
 OF_THE_PAGE = {"grid": GRID, "larger": LARGER, "part": PART, "scan": SCAN, "fit": FIT}
-OF_LEAKS = {"leak": LEAK, "seal": SEAL}
+OF_LEAKS = {"leak": LEAK}
+OF_SEALS = {"seal": SEAL}
 OTHERS = {"finer": FINER, "tiled": TILED, "mine": MINE, "pieces": PIECE}
-STUDIES = {**OF_THE_PAGE, **OF_LEAKS, **OTHERS}
+STUDIES = {**OF_THE_PAGE, **OF_LEAKS, **OF_SEALS, **OTHERS}
 PAGES = {
     (*OF_THE_PAGE,): (
         "intervals-table.md",
@@ -29,6 +31,7 @@ PAGES = {
         "intervals",
     ),
     (*OF_LEAKS,): ("leak-coverage-table.md", "Intervals of what flows", "leak-coverage"),
+    (*OF_SEALS,): ("seal-coverage-table.md", "Intervals of what seals", "seal-coverage"),
 }
 
 

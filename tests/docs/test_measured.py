@@ -311,3 +311,11 @@ def test_the_page_of_the_grid_quotes_how_often_intervals_of_measures_hold():
     assert f"On {gap['intervals']} loads of maps of all kinds of made surfaces" in page
     held = [row["held"].replace("%", " %") for row in (gap, aperture)]
     assert f"hold {held[0]} of the mean gaps and {held[1]} of the apertures" in page
+
+
+def test_the_page_of_the_flow_quotes_how_often_the_intervals_of_the_seal_hold():
+    page = " ".join((ROOT / "docs" / "flow.md").read_text("utf-8").split())
+    table = rows_of("seal-coverage", "The seal behind one map")
+    held = {(row["surfaces"], row["quantity"]): row["held"].rstrip("%") for row in table}
+    assert f"{held['all', 'p_s']} of 100 of its intervals hold that of the part" in page
+    assert f"{held['all', 'F_10/F']} of 100 those of the load that is left" in page
