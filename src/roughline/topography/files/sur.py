@@ -27,11 +27,12 @@ _PLACES = {  # of what the head states, and its types
     **{"comment": ("<H", 334), "private": ("<H", 336)},
 }
 _UNITS = {"x": 180, "y": 196, "z": 212}  # their places, in 16 bytes each
-_WITHOUT_MAP = {  # by the number of their type
+_WITH_HEIGHTS = (0, 1, 2, 5, 7, 8, 11, 13, 16)  # types: profiles and surfaces; 0 is not stated
+_OTHERS = {  # by the number of their type
     **{3: "a binary image", 4: "a series of profiles", 6: "a meridian disc", 9: "a parallel disc"},
     **{10: "an image of intensity", 12: "an image of colours", 14: "a force curve"},
     **{15: "a series of force curves", 17: "a parametric profile", 18: "a series of images"},
-    **{19: "a spectrum"},
+    **{19: "a spectrum", 20: "a spectrum", 21: "a map of spectra"},
 }
 _NUMBERS = {16: "<i2", 32: "<i4"}  # by their bits
 _INVERTED = (1, 2, 3)  # heights; by 2 and 3, the map is mirrored too, along x and along y
@@ -63,8 +64,9 @@ class _File:
     def measurement(self) -> Measurement:
         """The first layer of the file."""
         head = self._head
-        if head["type"] in _WITHOUT_MAP:
-            self._refuse(f"it holds {_WITHOUT_MAP[head['type']]}, and no map of heights")
+        if head["type"] not in _WITH_HEIGHTS:
+            found = _OTHERS.get(head["type"], f"an object of type {head['type']}")
+            self._refuse(f"it holds {found}, and no map of heights")
         nx, ny = points = head["nx"], head["ny"]
         if min(points) < 1 or head["bits"] not in _NUMBERS:
             self._refuse(f"its head states {nx} x {ny} points of {head['bits']} bits")
@@ -141,7 +143,8 @@ class _File:
         else:
             counts = self._unpacked(start, size)
         if len(counts) != size:
-            self._refuse(f"it holds {len(counts)} bytes of heights, and its head states {size}")
+            found = f"{len(counts)}" if len(counts) < size else f"more than {size}"
+            self._refuse(f"it holds {found} bytes of heights, and its head states {size}")
         return counts
 
     def _unpacked(self, start: int, size: int) -> bytes:
