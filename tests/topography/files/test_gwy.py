@@ -62,7 +62,7 @@ def test_channels_that_are_no_heights_are_named_and_not_taken(file):
     content = {"0_data": field(z="V"), "1_data": field(2 * HEIGHTS), "1_data_title": "Topo"}
     found = measurement(file(gwy(**content)))
     assert np.array_equal(found.heights, 2 * HEIGHTS)
-    assert found.channels == ("0  (no heights)", "1 Topo")
+    assert found.channels == ("0 one without a name (no heights)", "1 Topo")
     with pytest.raises(rl.InputError, match=r"holds no heights .in V.; it has"):
         rl.read(file(gwy(**content)), channel=0)
     with pytest.raises(rl.InputError, match=r"holds no heights; it has Phase \(in deg\)"):
@@ -112,6 +112,7 @@ def test_missing_points_of_surface_topography_come_back(tmp_path):
         ({"0_data": field(sides=(float("nan"), 1.0))}, "states sides of nan"),
         ({"0_data": field(), "0_mask": field(GRAINS[1:])}, "has other points than its channel"),
         ({"0_title": "x"}, "holds no heights; it has no channel"),
+        ({"0_data": field(z="V\nV")}, r"it has one without a name \(in V V\)"),
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(file, content, message):

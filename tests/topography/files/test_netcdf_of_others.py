@@ -202,6 +202,18 @@ def test_a_channel_of_another_quantity_is_refused(tmp_path):
         rl.read(path, channel=7)
 
 
+def test_numbers_that_are_no_lengths_are_not_offered_as_heights(tmp_path):
+    stored(tmp_path / "map.nc", units="arbitrary\nunits")
+    with pytest.raises(
+        rl.InputError, match=r"no heights; it has height \(its unit is arbitrary units\)"
+    ):
+        rl.read(tmp_path / "map.nc")
+    with pytest.raises(
+        rl.InputError, match="holds no heights .its unit is arbitrary units.; it has"
+    ):
+        rl.read(tmp_path / "map.nc", channel="height")
+
+
 def test_a_single_row_is_a_line_scan(tmp_path):
     found = rl.read(stored(tmp_path / "map.nc", ROWS[:1], y=Y[:1]), trend="none")
     assert isinstance(found, rl.Line)

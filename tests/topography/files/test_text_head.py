@@ -129,6 +129,7 @@ def test_a_wyko_text_is_in_waves_or_in_nm_and_its_lines_are_columns(
     [
         (wyko(X_Size="14"), "states 14 x 9 points and has 12 x 9: it was cut short"),
         (wyko(Mult="0"), 'states Mult = "0"'),
+        (wyko(Pixel_size="-0.001"), 'states Pixel_size = "-0.001"'),
         (wyko(Wavelength="x"), 'states Wavelength = "x"'),
         (wyko().replace("RAW_DATA", "Intensity"), "a Wyko text has a block of heights there"),
         (wyko().replace("Wyko ASCII", "Wyko"), "a Wyko text begins with"),
@@ -151,6 +152,13 @@ def test_a_head_that_agrees_with_no_map_is_refused(tmp_path, text, message):
         read(tmp_path, text)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_the_width_above_one_column_is_the_length_of_a_line_scan(tmp_path):
+    found = read(tmp_path, "# Width: 6.0 µm\n# Value units: nm\n" + table(ROWS[:, :1], " ", "."))
+    assert (found.kind, found.unit) == ("profile", "nm")
+    assert found.sizes == pytest.approx((6000,))
+    assert (found.heights == ROWS[:, 0]).all()
 
 
 def test_a_matrix_of_few_columns_is_one_if_its_head_states_two_sides(tmp_path):

@@ -169,11 +169,12 @@ def _chosen(data: Any, names: list[str], channel: int | str | None, file: str) -
             "over (y, x) at its top"
         )
     channels = _channels(data, names)
-    if channel is not None:
+    possible = [i for i, each in enumerate(channels) if not each.why_none]
+    if channel is not None or not possible:
         return channel_of(channels, channel, file)
-    likely = {name: likeness(data.variables[name], name) for name in names}
+    likely = {i: likeness(data.variables[names[i]], names[i]) for i in possible}
     best = max(likely.values())
-    found = [i for i, name in enumerate(names) if likely[name] == best]
+    found = [i for i in possible if likely[i] == best]
     if any(best) and len(found) == 1:
         return found[0]
     said = "several of them may be heights" if any(best) else "nothing says that it is heights"
@@ -259,7 +260,10 @@ def _with_sides(measured: Measurement, sides: list[Positions]) -> Measurement:
     stated = [side.unit for side in sides]
     for side in sides:
         if side.unit is None and any(stated):
-            raise InputError(f"{measured.file} states no unit of its positions along {side.name}")
+            raise InputError(
+                f"{measured.file} states the unit of its positions along one side, and none along "
+                f"{side.name}: state both, or leave positions out and give the sizes"
+            )
         if side.unit is not None and not is_length(side.unit):
             raise InputError(
                 f"{measured.file} has positions along {side.name} in {shortened(side.unit)}, no "

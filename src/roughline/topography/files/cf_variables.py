@@ -42,14 +42,11 @@ def candidates(data: Any) -> list[str]:
 
 def likeness(variable: Any, name: str) -> tuple[bool, bool, bool]:
     """What says that a variable is one of heights: its standard name, its name, its unit."""
-    stated = unit_of(variable)
-    if stated is not None and not is_length(stated):
-        return False, False, False
     names = (name, str(variable.attrs.get("long_name", "")).strip())
     return (
         bool(_STANDARD_NAMES.fullmatch(str(variable.attrs.get("standard_name", "")))),
         any(map(_NAMES.fullmatch, names)),
-        stated is not None,
+        unit_of(variable) is not None,
     )
 
 

@@ -20,7 +20,8 @@ class Channel:
     about: str = ""  # what tells it from another one of the same name, such as "retrace"
 
     def __str__(self) -> str:
-        return f"{self.name} ({self.about})" if self.about else self.name
+        name = shortened(self.name) or "one without a name"
+        return f"{name} ({self.about})" if self.about else name
 
 
 def channel_of(
@@ -32,7 +33,8 @@ def channel_of(
         order = [first, *range(len(channels))] if channels else []
         number = next((i for i in order if not channels[i].why_none), None)
         if number is None:
-            found = ", ".join(f"{each} ({each.why_none})" for each in channels) or "no channel"
+            each_one = (f"{each} ({shortened(each.why_none)})" for each in channels)
+            found = ", ".join(each_one) or "no channel"
             raise InputError(f"{file} holds no heights; it has {found}: export the heights")
         return number
     text = str(wanted)
@@ -45,15 +47,18 @@ def channel_of(
             if text.lower() in (each.name.lower(), str(each).lower())
         ]
         if not named:
-            raise InputError(f"{file} has no channel {text!r}; it has {known}")
+            raise InputError(f"{file} has no channel {shortened(text)!r}; it has {known}")
         if len(named) > 1:
             raise InputError(
-                f"{file} has {len(named)} channels {text!r}: choose one by its number: {known}"
+                f"{file} has {len(named)} channels {shortened(text)!r}: choose one by its number: "
+                f"{known}"
             )
         number = named[0]
     if channels[number].why_none:
-        why = channels[number].why_none
-        raise InputError(f"channel {text!r} of {file} holds no heights ({why}); it has {known}")
+        why = shortened(channels[number].why_none)
+        raise InputError(
+            f"channel {shortened(text)!r} of {file} holds no heights ({why}); it has {known}"
+        )
     return number
 
 

@@ -210,6 +210,8 @@ def _sides_of(stated: _Stated, table: Table) -> list[tuple[float, str | None]]:
             for each, n in zip(pixels, (columns, rows), strict=True)
         ]
     found = [side for side in sides if side]
+    if len(found) == 1 and columns == 1:  # of a line scan, whose heights stand below each other
+        return 2 * found
     if len(found) == 1:
         field = "width" if sides[0] else "height"
         raise stated.refused(field, "both sides are needed, or none")
@@ -260,12 +262,12 @@ def _head_of_wyko(lines: list[str], table: Table, name: str) -> Head:
         text = blocks.get(key, "")
         if otherwise is not None and key not in blocks:
             return otherwise
-        if not re.fullmatch(_NUMBER, text, re.ASCII) or not 0 < abs(float(text)) < math.inf:
+        if not re.fullmatch(_NUMBER, text, re.ASCII) or not 0 < float(text) < math.inf:
             raise InputError(
                 f'{name} states {key} = "{shortened(text)}" in its head and keeps {last}; a Wyko '
-                "text has a number there: export it again"
+                "text has a number above 0 there: export it again"
             )
-        return abs(float(text))
+        return float(text)
 
     pixel = number("Pixel_size") if "Pixel_size" in blocks else None  # [mm]
     aspect = number("Aspect", 1.0)
