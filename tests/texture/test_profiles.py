@@ -49,6 +49,18 @@ def test_without_two_crossings_there_is_no_spacing():
     assert found.undefined["RSm"].startswith("there are fewer than two hills")
 
 
+@pytest.mark.parametrize("points", [2, 5, 6, 39, 40, 43])
+def test_sections_of_few_points_have_no_peak_and_pit_of_their_own(points):
+    for seed in range(20):
+        found = rl.iso(profile(np.random.default_rng(seed).standard_normal(points)))
+        for name in ("Rp", "Rv", "Rz", "RSm"):
+            assert (found.undefined.get(name) == "a section has less than 8 points") == (
+                points < 40
+            )
+        if points >= 40:
+            assert 0 < found.Rz <= found.Rt
+
+
 def test_a_straight_profile_has_its_slope():
     found = rl.iso(profile(np.arange(50.0), spacing=10.0))
     assert found.Rdq == pytest.approx(0.1)

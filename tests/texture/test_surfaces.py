@@ -121,6 +121,14 @@ def test_a_lag_within_half_of_the_map_is_needed():
     assert found.undefined["Str"] == found.undefined["Std"] == found.undefined["Sal"]
 
 
+@pytest.mark.parametrize("ratio", [1.0, 1e6])
+@pytest.mark.parametrize("height", [1.0, 1e-300])
+def test_cells_of_any_shape_and_heights_of_any_unit_decay_alike(ratio, height):
+    heights = height * np.cos(2 * np.pi * np.arange(32) / 16)[:, None] * np.ones(24)
+    surface = rl.Surface(heights, (32.0, 24.0 * ratio), is_cut_out=False)
+    assert rl.iso(surface).Sal == pytest.approx(16 * np.arccos(0.2) / (2 * np.pi), rel=1e-3)
+
+
 def test_a_short_map_is_told():
     field = gaussian_field(256, 8.0, 5)
     assert rl.iso(surface(field)).remarks == ()

@@ -269,7 +269,9 @@ def _of_profile(line: Line, sections: Sections) -> Found:
     parted = section_parameters(heights, sections.count)
     gradient, length = gradient_and_length(heights, line.spacing, is_periodic=not line.is_cut_out)
     spacing: float | str = "all heights are equal"
-    if whole["Rz"]:
+    if whole["Rz"] and isinstance(parted["Rp"], str):
+        spacing = parted["Rp"]
+    elif whole["Rz"]:
         spacing = mean_spacing(heights, line.spacing, float(parted["Rp"]), float(parted["Rv"]))
     return {
         **whole,

@@ -14,6 +14,7 @@ from roughline.units import in_words
 SECTIONS = 5
 """Sections of the evaluation length that ISO 21920-3 takes by default."""
 
+_LEAST = 8  # points of a section, below which its peak and pit tell of where the points lie
 _ELEMENT = 0.1  # of Rp and of Rv, beyond which a hill and a dale count
 
 
@@ -48,8 +49,11 @@ class Sections:
 def section_parameters(heights: Real, count: int) -> Found:
     """Return Rp, Rv and Rz, means over sections, of mean-free heights."""
     sections = np.array_split(heights, count)
+    if heights.size < _LEAST * count:
+        cause = f"a section has less than {_LEAST} points"
+        return {"Rp": cause, "Rv": cause, "Rz": cause}
     peaks = float(np.mean([each.max() for each in sections]))
-    pits = -float(np.mean([each.min() for each in sections]))
+    pits = float(np.mean([0.0 - each.min() for each in sections]))
     return {"Rp": peaks, "Rv": pits, "Rz": peaks + pits}
 
 
@@ -59,7 +63,8 @@ def mean_spacing(heights: Real, spacing: float, peaks: float, pits: float) -> fl
     An element is a hill with the dale after it, or a dale with the hill after it: from one crossing
     of the mean line to the next but one. Hills and dales count beyond 10 % of Rp and of Rv.
     """
-    sides = np.where(heights > _ELEMENT * peaks, 1, np.where(heights < -_ELEMENT * pits, -1, 0))
+    hill, dale = max(0.0, _ELEMENT * peaks), max(0.0, _ELEMENT * pits)  # sections differ by a point
+    sides = np.where(heights > hill, 1, np.where(heights < -dale, -1, 0))
     told = np.flatnonzero(sides)
     turns = np.flatnonzero(np.diff(sides[told]))
     crossings = [_crossing(heights, told[turn], told[turn + 1]) for turn in turns]

@@ -50,6 +50,7 @@ def wave_parameters(heights: Real, spacings: tuple[float, float], *, is_periodic
     if min(heights.shape) < _LEAST:
         cause = f"a side has less than {_LEAST} points, which show no wave"
         return {"Sal": cause, "Str": cause, "Std": cause}
+    heights = heights / np.abs(heights).max()  # whose squares are numbers
     decay = _decay(heights, spacings, is_periodic=is_periodic)
     if math.isnan(decay.least):
         cause = f"the autocorrelation does not fall to {DECAYED} within half of the map"
@@ -120,16 +121,16 @@ def _decay(heights: Real, spacings: tuple[float, float], *, is_periodic: bool) -
         places = [end + lags * row for end, row in zip(middle, per_length, strict=True)]
         return np.asarray(ndimage.map_coordinates(spline, places, mode="mirror", prefilter=False))
 
-    step = min(spacings) / 2
+    step = 0.5 / np.abs(per_length).max(axis=0)  # half a point along one side, half or less on both
     inside = np.full(directions.size, math.inf)
-    for first in np.arange(0.0, float(known.max()), 64 * step):
+    for first in range(0, math.ceil(float((known / step).max())), 64):
         open_ones = np.isinf(inside)
         if not open_ones.any():
             break
-        lags = first + step * np.arange(1, 65)[:, None]
-        below = (at(lags * np.ones(directions.size)) < DECAYED) & (lags <= known)
+        lags = step * (first + np.arange(1, 65)[:, None])
+        below = (at(lags) < DECAYED) & (lags <= known)
         fell = open_ones & below.any(axis=0)
-        inside[fell] = lags[below.argmax(axis=0)[fell], 0] - step
+        inside[fell] = (lags[below.argmax(axis=0), np.arange(directions.size)] - step)[fell]
     decayed = np.isfinite(inside)
     low = np.where(decayed, inside, 0.0)
     high = low + step
