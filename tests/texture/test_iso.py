@@ -54,8 +54,11 @@ def test_it_travels_between_processes(found):
     assert dict(again.values) == pytest.approx(dict(found.values), nan_ok=True)
 
 
-def test_values_do_not_depend_on_the_unit():
+@pytest.mark.parametrize("steps", [0, 20, 40])  # of which the least hill is 1, 2
+def test_values_do_not_depend_on_the_unit(steps):
     heights = gaussian_field(64, 4.0, 2)
+    if steps:
+        heights = np.round(steps * (heights - heights.min()) / np.ptp(heights)) / 10 - 1
     in_um = rl.iso(rl.Surface(heights, (64.0, 64.0), "um", is_cut_out=True))
     in_m = rl.iso(rl.Surface(1e-6 * heights, (64e-6, 64e-6), "m", is_cut_out=True))
     powers = {"length": 1, "1/length": -1, "1/length²": -2}

@@ -401,8 +401,11 @@ def _of_steps(body: Body) -> Iterator[str]:
     """Tell heights in steps, which decide where the material ratio curve is cut."""
     rough, step = body.rms_height, step_of(material_ratio_curve(body.heights))
     if step > _COARSE_STEP * rough > 0:
-        letter = "S" if isinstance(body, Surface) else "R"
+        is_map = isinstance(body, Surface)
+        letter = "S" if is_map else "R"
+        of_peaks = ", and Spc on which point of a level top is its peak" if is_map else ""
         yield (
             f"heights stand in steps of {in_words(step, body.unit)}, {step / rough:.0%} of "
             f"{letter}q: {letter}pk, {letter}vk and the material ratios depend on where a step lies"
+            f"{of_peaks}"
         )

@@ -14,7 +14,7 @@ from roughline.computing.arrays import Real
 from roughline.texture.parameters import PEAKS, PITS
 
 _CORE = 0.4  # share of the points through which the line of the core is laid
-_ROUNDING = 1e-10  # of the maximum height, below which a point is not above or below the core
+_ROUNDING = 1e-10  # of the maximum height, within which heights and falls of the curve are alike
 
 
 @dataclass(frozen=True)
@@ -52,14 +52,15 @@ def layers_of(curve: Real) -> Layers:
     """
     n = curve.size
     span = min(max(1, round(_CORE * n)), n - 1)
-    start = int(np.argmin(curve[: n - span] - curve[span:]))
+    rounding = _ROUNDING * (curve[0] - curve[-1])
+    falls = curve[: n - span] - curve[span:]
+    start = int(np.argmax(falls <= falls.min() + rounding))  # of steps, many are alike
     heights = curve[start : start + span + 1]
     ratio = (np.arange(start, start + span + 1) + 0.5) / n
     apart = ratio - ratio.mean()
     middle = heights.mean()
     slope = float(apart @ (heights - middle) / (apart @ apart))
     top, bottom = middle - slope * ratio.mean(), middle + slope * (1 - ratio.mean())
-    rounding = _ROUNDING * (curve[0] - curve[-1])
     hills, dales = curve[curve > top + rounding] - top, bottom - curve[curve < bottom - rounding]
     first, second = hills.size / n, 1 - dales.size / n
     if abs(top - bottom) <= rounding and (hills.size > 0) != (dales.size > 0):  # crossed once
