@@ -25,6 +25,12 @@ def test_heights_follow_a_comment_of_any_length(tmp_path, comment):
     found = measurement(tmp_path / "a.tmd")
     assert np.array_equal(found.heights, HEIGHTS)
     assert (found.unit, found.sizes) == ("mm", pytest.approx((1.2, 0.9)))
+    assert found.doubts == ()
+
+
+def test_a_program_that_writes_other_units_is_doubted(tmp_path):
+    (tmp_path / "a.tmd").write_bytes(tmd(b"Exported by surfalize\r\n"))
+    assert "1000 times too large" in measurement(tmp_path / "a.tmd").doubts[0]
 
 
 @pytest.mark.parametrize(

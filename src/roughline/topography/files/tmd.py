@@ -17,6 +17,11 @@ _COMMENT = 32  # where it begins; it ends with a zero byte, after as many as its
 _LONGEST = 2**16  # of a comment
 _HEAD = "<2I4f"  # points, sides and the place of the map, along x and y
 _BYTES_PER_POINT = 24
+_BY_SURFALIZE = b"Exported by surfalize"
+_IN_UM = (
+    "surfalize wrote it, which up to version 0.19 has um where this format has mm: then the map is "
+    "1000 times too large, also in height; export it from there as X3P or SUR"
+)
 
 
 def read_tmd(path: Path, channel: int | str | None, name: str) -> Measurement | None:
@@ -47,5 +52,6 @@ def read_tmd(path: Path, channel: int | str | None, name: str) -> Measurement | 
         sizes=(x, y),
         kind="surface",
         format="TMD",
+        doubts=(_IN_UM,) if _BY_SURFALIZE in start[_COMMENT:place] else (),
         settings={"origin": MEASURED, "file": name},
     )
