@@ -174,6 +174,15 @@ def test_partial_slip_is_an_answer(rough, invoke):
     assert told["force"][-1] == pytest.approx(3.0)
 
 
+def test_line_scans_far_apart_are_pressed_without_moments_of_their_spectrum():
+    heights = 1e-7 * np.sin(np.arange(64.0))[:, None] * np.random.default_rng(0).random(12)
+    apart = rl.Surface(heights, (32e-6, 600e-6), "m", is_cut_out=True)
+    result = rl.assess(rl.Question(apart, PAIR, loads="1 MPa", grid_error=False))
+    assert result.answers["contact_stiffness"].values > 0
+    with pytest.raises(rl.InputError, match="whose pixels are nearly square"):
+        rl.assess(rl.Question(apart, PAIR, loads="1 MPa", ask=rl.Theories("persson")))
+
+
 def test_theories_stand_beside_the_loads_that_were_solved(rough):
     result = rl.assess(
         rl.Question(rough, E_star=1e9, loads=[1e-3, 1e-2], ask=rl.Theories("persson"))

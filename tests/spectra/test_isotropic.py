@@ -46,6 +46,17 @@ def test_a_cut_out_surface_is_windowed():
     assert found[20:60].mean() == pytest.approx(wanted[20:60].mean(), rel=0.1)
 
 
+@pytest.mark.parametrize("ratio", [100.0, 1e30])
+@pytest.mark.parametrize("is_cut_out", [True, False])
+def test_pixels_far_from_square_show_no_waves_along_both_sides(ratio, is_cut_out):
+    """A line scan beside the next, far from it: moments of all directions are not known."""
+    heights = np.random.default_rng(0).standard_normal((24, 20))
+    surface = rl.Surface(heights, (24e-6, 20e-6 * ratio), "m", is_cut_out=is_cut_out)
+    with pytest.raises(rl.InputError, match="times as long as wide.*resample the finer side"):
+        isotropic_spectrum(surface)
+    assert rl.roughness(surface).spectrum is None
+
+
 def test_bad_input():
     with pytest.raises(rl.InputError, match="a spectrum needs 8 x 8 or more"):
         isotropic_spectrum(rl.Surface(np.random.default_rng(0).random((4, 9)), (1.0, 1.0)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TypeGuard
 
 from roughline.engineering.formulas import ELASTIC_UP_TO
+from roughline.spectra.isotropic import has_rings
 from roughline.topography.body import Body, Surface
 
 WITHOUT_YIELD = (
@@ -20,8 +21,10 @@ def is_map(body: Body) -> TypeGuard[Surface]:
 
 
 def has_spectrum(body: Body) -> TypeGuard[Surface]:
-    """Whether it is a surface with enough points and some roughness."""
-    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
+    """Whether it is a surface with enough points along both sides and some roughness."""
+    if not isinstance(body, Surface) or min(body.shape) < 8 or body.rms_height == 0:
+        return False
+    return has_rings(body)
 
 
 def nominal_area(body: Body) -> float:

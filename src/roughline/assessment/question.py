@@ -421,7 +421,10 @@ class Question:
             if ratio > LARGEST_STRAIN:
                 raise InputError(f"{text}, and {BEYOND}: give a smaller one, and check its unit")
         if self.theories and not has_spectrum(body):
-            raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
+            raise InputError(
+                "theories are evaluated for a rough surface of 8 x 8 points or more, whose pixels "
+                "are nearly square"
+            )
 
     def _refuse_far_attraction(self, side: float) -> None:
         """Refuse bodies that pull each other farther, or more, than a body of a side [m] stands."""

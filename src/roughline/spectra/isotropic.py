@@ -20,6 +20,7 @@ from roughline.topography.body import Line, Surface
 from roughline.topography.settings import Settings
 
 _TENTHS = 10  # of a decade
+_LEAST_RINGS = 3  # of wavenumbers, as 8 x 8 square pixels have
 _LEAST_INDEPENDENT = 0.02
 
 
@@ -141,10 +142,17 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     level = surface.detrended() if surface.is_cut_out else surface
     q, power = waves_of(level)
     q_low = 2 * math.pi / surface.length
-    along = q.ravel() / q_low
+    last = _rings(surface)
+    if not has_rings(surface):
+        ratio = max(surface.spacing) / min(surface.spacing)
+        raise InputError(
+            f"the pixels are {ratio:.3g} times as long as wide, so that hardly a wave is seen "
+            "along both sides; a spectrum over all directions needs pixels that are nearly square: "
+            "resample the finer side, or fit line scans"
+        )
+    along = np.minimum(q.ravel() / q_low, last + 0.5)
     ring = np.rint(along).astype(np.intp)
     inside = np.abs(along - ring) <= RING_HALF_WIDTH
-    last = int(min(np.pi / spacing for spacing in surface.spacing) / q_low - 0.5)
     of_modes = power.ravel()[inside]
     counts, sums, squares = (
         np.bincount(ring[inside], weights, last + 1)[1 : last + 1].astype(np.float64)
@@ -167,6 +175,17 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
         independent=_independent(waves, counts, sums, squares),
         isotropy=isotropy(level),
     )
+
+
+def has_rings(surface: Surface) -> bool:
+    """Whether enough wavenumbers are seen along both sides of a surface; long pixels show none."""
+    return _rings(surface) >= _LEAST_RINGS
+
+
+def _rings(surface: Surface) -> int:
+    """How many multiples of the least wavenumber are seen along both sides."""
+    q_low = 2 * math.pi / surface.length
+    return int(min(np.pi / spacing for spacing in surface.spacing) / q_low - 0.5)
 
 
 def waves_of(surface: Surface) -> tuple[Real, Real]:

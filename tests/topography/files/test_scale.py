@@ -1,5 +1,7 @@
 """Unit and sides of a file: stated or given, metres in the end."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -38,6 +40,20 @@ def test_a_file_without_unit_is_refused_until_one_is_given(tmp_path):
     rl.write(found, path)
     with pytest.raises(rl.UnitError, match='states its unit, m; leave unit="nm" out'):
         rl.read(path, unit="nm")
+
+
+@pytest.mark.parametrize("side", ["1e-310", "1e-150", "1e200"])
+def test_a_side_that_is_no_length_is_refused_with_its_file(tmp_path, invoke, side):
+    heights = np.random.default_rng(0).normal(size=(12, 9)).astype("<f4")
+    head = f"Gwyddion Simple Field 1.0\nXRes = 9\nYRes = 12\nXReal = {side}\nYReal = 8e-06\n"
+    head = f"{head}XYUnits = m\nZUnits = m\n".encode()
+    path = tmp_path / "map.gsf"
+    path.write_bytes(head + bytes(4 - len(head) % 4) + heights.tobytes())
+    with pytest.raises(rl.InputError, match=re.escape(f"sides of {float(side):.6g} x 8e-06 m")):
+        rl.read(path)
+    code, out, errors = invoke("info", path)
+    assert (code, out) == (2, "")
+    assert len(errors.splitlines()) == 1
 
 
 def test_a_text_scan_without_unit_is_refused_until_one_is_given(tmp_path):

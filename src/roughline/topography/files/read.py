@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable
 from dataclasses import replace
@@ -44,6 +43,7 @@ from roughline.units import engineering
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 _SIDES = (1e-8, 1.0)  # that instruments measure [m]
+_NO_SIDE = 1e-100  # in any unit, nor its reciprocal
 _LARGEST_PIXEL = 1e-3  # of an optical instrument [m]
 _LEAST_SLOPE = 1e-6  # an rms slope below which no surface is known
 _BY_ROUGHLINE: tuple[Callable[[Path, int | str | None, str], Measurement | None], ...] = (
@@ -162,11 +162,11 @@ def measurement(
 def _measurement(path: Path, channel: int | str | None, name: str) -> Measurement:
     """Read a file that exists; sides that no map has are refused, whoever read them."""
     measured = _as_line_scan(_by_first_reader(path, channel, name))
-    sides = measured.sizes or ()
-    if not all(0 < side < math.inf for side in sides):
+    sides = () if measured.by_roughline else measured.sizes or ()
+    if not all(_NO_SIDE < side < 1 / _NO_SIDE for side in sides):
         stated = " x ".join(f"{side:.6g}" for side in sides)
         raise InputError(
-            f"{name} states sides of {stated} {measured.unit or ''}; sides are above 0 and finite: "
+            f"{name} states sides of {stated} {measured.unit or ''}; sides are lengths above 0: "
             "export it again, or write the heights as NPY or text and give the sizes"
         )
     return measured
