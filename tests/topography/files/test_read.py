@@ -30,6 +30,17 @@ from roughline.topography.trend import without_trend
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
 
 
+@pytest.mark.parametrize("name", ["map.npy", "map.sur", "map"])
+def test_what_a_file_holds_decides_its_format_not_its_name(tmp_path, name):
+    heights = np.random.default_rng(0).standard_normal((12, 9))
+    for write, stated in ((np.save, "NPY"), (np.savez, "NPZ")):
+        with (tmp_path / name).open("wb") as file:
+            write(file, heights)
+        found = measurement(tmp_path / name)
+        assert (found.format, found.unit) == (stated, None)
+        assert np.array_equal(found.heights, heights)
+
+
 @pytest.mark.parametrize("body", ["surface", "line"])
 def test_what_is_written_is_read_back(tmp_path, body):
     original = replace(getattr(SPECTRUM, body)(64, 7), unit="m")

@@ -43,6 +43,7 @@ from roughline.units import engineering
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 _SIDES = (1e-8, 1.0)  # that instruments measure [m]
+_NPY = b"\x93NUMPY"
 _NO_SIDE = 1e-100  # in any unit, nor its reciprocal
 _LARGEST_PIXEL = 1e-3  # of an optical instrument [m]
 _LEAST_SLOPE = 1e-6  # an rms slope below which no surface is known
@@ -183,7 +184,7 @@ def _by_first_reader(path: Path, channel: int | str | None, name: str) -> Measur
             f"{name} holds a curve that roughline wrote, and no topography: `roughline info` shows "
             "it, and xarray.open_dataset opens it"
         )
-    if measured is None and path.suffix == ".npy":
+    if measured is None:
         measured = _read_array(path, name)
     for reader in _BY_ROUGHLINE:
         if measured is None:
@@ -211,8 +212,11 @@ def _as_line_scan(measured: Measurement) -> Measurement:
     )
 
 
-def _read_array(path: Path, name: str) -> Measurement:
-    """Read an array in NumPy's format, x along the first axis."""
+def _read_array(path: Path, name: str) -> Measurement | None:
+    """Read an array in NumPy's format, x along the first axis; None if it has another format."""
+    with path.open("rb") as file:
+        if file.read(len(_NPY)) != _NPY:
+            return None
     try:
         with np.errstate(over="ignore"):  # of points that no file can hold
             stored = np.load(path, mmap_mode="r", allow_pickle=False)
