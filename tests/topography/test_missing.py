@@ -25,6 +25,13 @@ def test_harmonic_filling_is_exact_for_a_harmonic_surface_and_nearest_is_near():
     assert Missing(most=0.5).filled(line, "a line") == pytest.approx(np.arange(9.0))
 
 
+def test_a_missing_point_may_hold_any_number_even_one_that_a_processor_signals():
+    heights, masked = masked_wave()
+    bits = np.where(masked.mask, 0x7FF0000000000001, heights.view("i8"))  # a signalling NaN
+    masked = np.ma.MaskedArray(bits.view("f8"), masked.mask)
+    assert Missing().filled(masked, "a map") == pytest.approx(heights, abs=1e-12)
+
+
 def with_corner_missing(heights, share=0.28):
     mask = np.zeros(heights.shape, bool)
     mask[tuple(slice(0, round(share * n)) for n in heights.shape)] = True

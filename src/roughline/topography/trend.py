@@ -61,7 +61,7 @@ def trend_of_known(heights: np.ma.MaskedArray[Any, Any], trend: Trend) -> Real:
     """
     degree, known = _DEGREES[trend], ~np.ma.getmaskarray(heights)
     middle = float(heights.mean())
-    moments, shares = known.astype(np.float64), np.where(known, np.ma.getdata(heights) - middle, 0)
+    moments, shares = known.astype(np.float64), np.ma.filled(heights, middle) - middle
     bases = [polynomials(n, min(degree, n - 1)) for n in heights.shape]
     for basis in bases:
         products = np.einsum("ni,nj->nij", basis, basis).reshape(len(basis), -1)

@@ -603,6 +603,25 @@ def test_arrays_that_are_no_heights_are_refused(tmp_path):
             rl.read(path, "m", sizes=1e-3)
 
 
+def test_an_array_whose_head_is_damaged_is_refused(tmp_path):
+    path = tmp_path / "map.npy"
+    np.save(path, np.ones((5, 4)))
+    path.write_bytes(path.read_bytes().replace(b"(5, 4)", b"((5, 4"))
+    with pytest.raises(rl.InputError, match="map.npy holds no array of real heights"):
+        rl.read(path)
+
+
+def test_an_archive_whose_list_of_parts_is_damaged_is_refused_in_one_line(tmp_path):
+    path, part = tmp_path / "map.x3p", 300 * "n"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("main.xml", "<a/>")
+        archive.writestr(part, "")
+    path.write_bytes(path.read_bytes().replace(part.encode(), 300 * b"m", 1))
+    with pytest.raises(rl.InputError, match="map.x3p is a damaged archive") as caught:
+        rl.read(path)
+    assert len(str(caught.value)) < 200
+
+
 @pytest.mark.parametrize("shape", [(20000, 20000), (10**12, 10**9), (2000, 3000)])
 def test_points_that_are_declared_and_cannot_be_there_are_refused_before_they_are_read(
     tmp_path, shape

@@ -63,7 +63,8 @@ def _refuse_bombs(path: Path, name: str) -> None:
             rows = [[int(row) for row in _CELL.findall(archive.read(sheet))] for sheet in sheets]
             scans = [] if is_bomb else _scans_in(archive)
     except (zipfile.BadZipFile, zlib.error, *_OF_DAMAGED_PARTS) as error:
-        raise InputError(f"{name} is a damaged archive ({error}): export it again") from error
+        reason = shortened(str(error))
+        raise InputError(f"{name} is a damaged archive ({reason}): export it again") from error
     packed = path.stat().st_size
     if is_bomb:
         raise _unpacks_to_too_much(unpacked, packed, name)

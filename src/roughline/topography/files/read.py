@@ -222,8 +222,10 @@ def _read_array(path: Path, name: str) -> Measurement | None:
             stored = np.load(path, mmap_mode="r", allow_pickle=False)
         if stored.ndim not in (1, 2) or not np.can_cast(stored.dtype, np.float64, "same_kind"):
             raise ValueError(f"{stored.ndim} dimensions of type {stored.dtype}")
-    except (ValueError, OSError, EOFError, OverflowError) as error:
-        # NumPy's first sentence; what follows may advise to load what is not safe
+    except MemoryError:
+        raise
+    except Exception as error:  # of a damaged file NumPy raises errors of any type
+        # its first sentence; what follows may advise to load what is not safe
         reason = shortened(str(error).partition(". ")[0]) or type(error).__name__
         raise InputError(
             f"{name} holds no array of real heights ({reason}): save one or two dimensions"
