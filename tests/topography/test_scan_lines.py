@@ -5,6 +5,7 @@ import pytest
 
 import roughline as rl
 from roughline.assessment.description import describe
+from roughline.assessment.notes import what_was_prepared
 from roughline.topography.effects import effects
 from roughline.topography.files.read import suspicions
 from roughline.topography.line_levels import LEVELLINGS, line_levels
@@ -90,6 +91,20 @@ def test_a_missing_line_and_point_are_filled_at_the_level_of_their_lines(tmp_pat
     assert prepared.std() < 2 * surface.std()
     assert np.abs(prepared[20, 40]) < 4 * surface.std()
     assert np.abs(prepared[:, 10]).max() < 4 * surface.std()
+    assert not any("before lines were levelled" in note for note in found.notes)
+
+
+def test_points_that_were_filled_before_levelling_are_told_of(tmp_path, rng):
+    """Between lines on different levels they are on neither."""
+    heights = 0.1 * ROUGH.surface(64, 3).heights + 5 * rng.normal(size=64)
+    heights[20] = np.nan
+    np.save(tmp_path / "map.npy", heights)
+    read = rl.read(tmp_path / "map.npy", "um", sizes=1e-4)
+    with pytest.warns(rl.PreparationWarning) as caught:
+        level = rl.prepared(read, Preparation(lines="median"))
+    assert any("64 missing points were filled before lines" in str(each.message) for each in caught)
+    assert any("before lines were levelled" in note for note in what_was_prepared(level))
+    assert level.heights[20].std() > 2 * np.delete(level.heights, 20, 0).std()
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
+from roughline.topography.scan_lines import told_of_filled
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
 MOST_NAMED = 3
@@ -312,6 +313,8 @@ def _filled_spikes_and_effects(body: Body) -> list[str]:
     if body.settings.get("missing_points"):
         count, share = body.settings["missing_points"], float(body.settings["missing_share"])
         notes.append(f"{count} missing points ({share:.2%}) filled: {body.settings['filled']}")
+    if text := told_of_filled(body):
+        notes.append(text)
     if body.settings.get("filled_before_crop"):
         notes.append(
             f"{body.settings['filled_before_crop']} missing points had been filled before this "

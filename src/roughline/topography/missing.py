@@ -60,6 +60,7 @@ class Missing:
                 "missing_points": unknown,
                 "missing_share": unknown / heights.size,
                 "filled": self.method,
+                **({"filled_over_lines": self.lines} if self.lines else {}),
             }
         return np.array(heights, dtype=np.float64, copy=None), settings
 

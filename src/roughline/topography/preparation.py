@@ -28,7 +28,7 @@ from roughline.topography.effects import effects, with_effect
 from roughline.topography.line_levels import LEVELLINGS, Levelling
 from roughline.topography.low_pass import low_passed, refuse_long
 from roughline.topography.missing import Missing
-from roughline.topography.scan_lines import levelled, without_scars
+from roughline.topography.scan_lines import levelled, told_of_filled, without_scars
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 
 _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
@@ -173,8 +173,9 @@ def _allowed(body: Body, too_many: int, needed: int) -> str:
 def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     """Return a body prepared.
 
-    It warns (:class:`roughline.PreparationWarning`) of steps that change nothing, and of those that
-    take most of the rms height. The settings of the body record what each step did.
+    It warns (:class:`roughline.PreparationWarning`) of steps that change nothing, of those that
+    take most of the rms height, and of points that were filled before lines were levelled. The
+    settings of the body record what each step did.
 
     Parameters
     ----------
@@ -197,6 +198,8 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     (32, 32) True
     """
     found = as_prepared(body, preparation)
+    if preparation and preparation.lines and (text := told_of_filled(found)):
+        warnings.warn(text, PreparationWarning, stacklevel=2)
     for effect in effects(found) if preparation else ():
         if effect.is_grave or effect.is_idle:
             warnings.warn(effect.text, PreparationWarning, stacklevel=2)

@@ -36,7 +36,21 @@ def levelled(body: BodyType, how: Levelling) -> BodyType:
     """Return a map without the levels of its lines; its settings record what that did."""
     _refuse_others(body, "lines")
     heights = body.heights - line_levels(body.heights, how)
-    return with_effect(body, with_heights(body, heights, lines_levelled=how), "levelled")
+    filled = body.settings.get("missing_points", body.settings.get("filled_before_crop", 0))
+    late = {} if "filled_over_lines" in body.settings else {"filled_between_levels": filled}
+    level = with_heights(body, heights, lines_levelled=how, **(late if filled else {}))
+    return with_effect(body, level, "levelled")
+
+
+def told_of_filled(body: Body) -> str:
+    """Say that missing points were filled before lines were levelled; empty if they were not."""
+    if not (count := body.settings.get("filled_between_levels")):
+        return ""
+    return (
+        f"{count} missing points were filled before lines were levelled, between the levels of "
+        "neighbouring lines, and may stand off: fill and level in one step, by a question about "
+        "the file itself (rl.Question) or on the command line"
+    )
 
 
 def without_scars(body: BodyType) -> BodyType:
