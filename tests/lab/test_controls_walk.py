@@ -220,7 +220,9 @@ def test_edges_of_a_window_go_to_both_ends_and_are_refused_beyond_the_other(
         assert float(page.input_value(f"#published-{edge.key}-text")) == edge.default
         # the next slider moves up as a sentence above it goes
         page.wait_for_selector(f'#published [data-error="{edge.key}"]:empty', state="attached")
-    page.wait_for_function("() => !document.querySelector('#published .error:not(:empty)')")
+    # but for the text of the address, which another test mends
+    others = "#published .error:not(:empty, [data-error=tolerance])"
+    page.wait_for_function(f"() => !document.querySelector('{others}')")
 
 
 WRONG = {"crop": "1 m", "second": "3 GPa", "loads": "1,5", "low_pass": "1 km", "resample": "100000"}
