@@ -51,7 +51,8 @@ def choose(page, file):
 
 def fill(page, **texts):
     for key, text in texts.items():
-        if key == "low_pass" and not page.is_visible("#measured-low_pass-text"):
+        is_folded = not page.is_visible(f"#measured-{key}-text")
+        if key in ("low_pass", "resample") and is_folded:
             page.click("#measured-step-preparation > summary")
         page.fill(f"#measured-{key}-text", text)
         page.press(f"#measured-{key}-text", "Tab")
@@ -73,7 +74,9 @@ def answers(page):
 
 
 def begin_long_press(page):
-    """Press the whole curve, and wait until it is on its way."""
+    """Press the whole curve of points enough to be seen, and wait until it is on its way."""
+    fill(page, loads="", resample="64")
+    page.locator("[data-changed]").wait_for()
     page.click("[data-press]:not([disabled])")
     page.wait_for_selector("#measured [data-waiting] .cancel")
 
@@ -104,8 +107,6 @@ def pressed(pages, files):
 
 def test_walk_with_a_line_that_drops_and_a_press_that_goes_on(pressed, pages, relay):
     page, before = pressed
-    fill(page, loads="")
-    page.locator("[data-changed]").wait_for()
     begin_long_press(page)
     with dropped(pages, relay, page):
         assert page.is_visible("[data-prepared-numbers]")
@@ -117,7 +118,7 @@ def test_walk_with_a_line_that_drops_and_a_press_that_goes_on(pressed, pages, re
     page.wait_for_selector("#measured [data-waiting] .cancel", state="hidden")
     assert answers(page) != before
     assert said(page) == ""
-    fill(page, loads=SET["loads"])
+    fill(page, loads=SET["loads"], resample="")
     page.click("[data-press]:not([disabled])")
     page.wait_for_selector("[data-changed]", state="hidden")
     assert answers(page) == before
@@ -158,11 +159,10 @@ def test_a_page_that_is_loaded_again_in_another_view_shows_the_same(pressed):
 
 def test_a_page_that_is_loaded_again_in_the_middle_of_a_press_has_its_answer(pressed):
     page, before = pressed
-    fill(page, loads="")
     begin_long_press(page)
     page.reload()
     assert answers(page) != before
-    fill(page, loads=SET["loads"])
+    fill(page, loads=SET["loads"], resample="")
     page.click("[data-press]:not([disabled])")
     page.wait_for_selector("[data-changed]", state="hidden")
 
