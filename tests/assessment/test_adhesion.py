@@ -113,7 +113,9 @@ def test_a_pull_off_that_the_range_alone_sets_is_told(share, told):
     result = asked(body, rl.Adhesion(RANGE), periodic=True)
     assert any("set by the range alone" in each for each in result.warnings) == told
     largest = WORK / float(result.curve.settings["range"])
-    assert (value(result, "pull_off_pressure") >= 0.99 * largest) == told
+    pull = value(result, "pull_off_pressure")
+    assert pull <= largest * (1 + 1e-9)
+    assert (pull >= 0.99 * largest) == told
 
 
 @pytest.mark.parametrize("n", [16, 32])
