@@ -1,4 +1,4 @@
-"""What a gap lets through between two opposite sides: the entry point, and what it returns."""
+"""What a gap lets through, between two opposite sides or as it repeats: entry point and result."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args, overload
 
 import numpy as np
 
-from roughline.computing.arrays import Integers, Mask, Real
+from roughline.computing.arrays import Mask, Real
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
@@ -18,14 +18,15 @@ from roughline.contact.fields import Fields
 from roughline.errors import InputError
 from roughline.errors.checks import between, one_of, refuse
 from roughline.errors.public import public_names
+from roughline.fluid.winding import windings
 from roughline.topography.body import Line, Surface
 from roughline.topography.heights import checked_sides
 
 if TYPE_CHECKING:
-    from roughline.fluid.network import Network
+    from roughline.fluid.cell import CellFlow
 
 Along = Literal["x", "y"]
-Sides = Literal["periodic", "closed"]
+Sides = Literal["periodic", "closed", "x", "y"]
 
 _AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
 _NARROW = 0.25  # of the width: what is wider is no single channel
@@ -34,9 +35,21 @@ _STEEP = 0.3  # slope of the gap beyond which Reynolds' equation is no longer go
 _HIGH = 0.1  # hydraulic aperture over the shorter side beyond which it is not either
 
 
+_REPEATS: dict[Sides, tuple[bool, bool]] = {
+    "periodic": (True, True),
+    "closed": (False, False),
+    "x": (True, False),
+    "y": (False, True),
+}
+"""Whether a gap repeats along x and along y."""
+
+
 @dataclass(frozen=True, eq=False)
 class Flow:
     """Flow of a fluid through a gap, under a unit difference of pressure.
+
+    Where the gap ends along the flow, the pressure is 1 before it and 0 behind it. Where it repeats,
+    the pressure falls by 1 with each repetition.
 
     Attributes
     ----------
@@ -45,19 +58,27 @@ class Flow:
     sizes : tuple of float
         Sides of the rectangle, (Lx, Ly). [length]
     along : {"x", "y"}
-        Side along which the fluid flows; inlet and outlet are its two ends.
-    sides : {"periodic", "closed"}
-        Whether fluid that leaves at one of the other two borders enters at the opposite one.
+        Side along which the pressure falls.
+    sides : {"periodic", "closed", "x", "y"}
+        Along which sides the gap repeats: both, none, or one of them. Across the flow, a side along
+        which it does not repeat is closed.
     mean_free_path : float
         Of a gas, at the pressure for which this flow is; zero without slip. [length]
     pressure : ndarray, shape (nx, ny)
-        Pressure of the fluid: 1 at the inlet, 0 at the outlet; NaN where there is no fluid, or none
-        that is joined to either. [1]
+        Pressure of the fluid; NaN where there is no fluid, or none that is joined to an end. Of a
+        gap that repeats along the flow, 1 before it and 0 behind it in the mean of each part. [1]
     rates_x, rates_y : ndarray, shapes (nx + 1, ny) and (nx, ny + 1)
         Flow through the faces between cells, positive in the direction of x and y, times
         12 viscosity / pressure difference. [length³]
-    network : Network
-        The cells through which fluid flows, and their conductances.
+    conductances_x, conductances_y : ndarray, of these shapes
+        Flow through each face over the fall of the pressure between the cells beside it. [length³]
+    inflow, outflow : float
+        Flow through the inlet and through the outlet, times 12 viscosity / pressure difference.
+        Where the gap repeats along the flow, through the narrowest places, and through that row of
+        faces where it differs most from it. [length³]
+    tensor : ndarray, shape (2, 2), or None
+        Of a gap that repeats along both sides: permeance along x and y, the rows, under a gradient
+        along x and y, the columns; the same wherever the map is cut. [length³]
     """
 
     gap: Real
@@ -66,22 +87,16 @@ class Flow:
     sides: Sides
     mean_free_path: float
     pressure: Real
-    rates_x: Real
-    rates_y: Real
-    network: Network = field(repr=False)
+    rates_x: Real = field(repr=False)
+    rates_y: Real = field(repr=False)
+    conductances_x: Real = field(repr=False)
+    conductances_y: Real = field(repr=False)
+    inflow: float
+    outflow: float
+    tensor: Real | None = None
 
     __repr__ = summary
     _repr_html_ = in_notebook
-
-    @property
-    def inflow(self) -> float:
-        """Flow through the inlet, times 12 viscosity / pressure difference. [length³]"""
-        return float(self._forward[0].sum())
-
-    @property
-    def outflow(self) -> float:
-        """Flow through the outlet, times 12 viscosity / pressure difference. [length³]"""
-        return float(self._forward[-1].sum())
 
     @cached_property
     def dissipation(self) -> float:
@@ -89,16 +104,24 @@ class Flow:
 
         Pressure times flow is power, so that this is the flow once more.
         """
-        along, across = self._lost
-        return float(along.sum() + across[:, 1:].sum())
+        x, y = self._lost
+        repeats_x, repeats_y = _REPEATS[self.sides]
+        return float(x[int(repeats_x) :].sum() + y[:, int(repeats_y) :].sum())
 
     @property
     def imbalance(self) -> float:
-        """Largest difference of inflow, outflow and dissipation, over the inflow; 0 if sealed."""
+        """Largest difference of inflow, outflow and dissipation, over the inflow; 0 if sealed.
+
+        Of a tensor also that of both permeances across, over the larger one of both along.
+        """
         if self.is_sealed:
             return 0.0
         three = self.inflow, self.outflow, self.dissipation
-        return (max(three) - min(three)) / self.inflow
+        difference = (max(three) - min(three)) / self.inflow
+        if self.tensor is None:
+            return difference
+        across = abs(self.tensor[0, 1] - self.tensor[1, 0]) / self.tensor.diagonal().max()
+        return max(difference, float(across))
 
     @property
     def converged(self) -> bool:
@@ -108,13 +131,46 @@ class Flow:
     @property
     def is_sealed(self) -> bool:
         """Whether no path leads from the inlet to the outlet."""
-        return not self._forward[0].any()
+        return self.inflow == 0
 
     @property
     def permeance(self) -> float:
-        r"""Permeance Λ = 12 η ⟨j⟩ / \|⟨∇P⟩\| of the interface; exactly 0 if sealed. [length³]"""
+        r"""Permeance Λ = 12 η ⟨j⟩ / \|⟨∇P⟩\| along the flow; exactly 0 if sealed. [length³]"""
         length, width = self.sizes if self.along == "x" else self.sizes[::-1]
         return self.inflow * length / width
+
+    @property
+    def principal_permeances(self) -> tuple[float, float]:
+        """Largest and least permeance of a tensor, along its principal directions. [length³]
+
+        Raises
+        ------
+        InputError
+            If the gap does not repeat along both sides.
+        """
+        least, largest = np.linalg.eigvalsh(self._checked_tensor)
+        return float(largest), max(float(least), 0.0)
+
+    @property
+    def easiest_direction(self) -> float:
+        """Angle of the direction of the largest permeance, from x towards y, in (-90, 90]. [degrees]
+
+        Raises
+        ------
+        InputError
+            If the gap does not repeat along both sides.
+        """
+        (xx, xy), (yx, yy) = self._checked_tensor
+        return float(np.degrees(np.arctan2(xy + yx, xx - yy)) / 2)
+
+    @property
+    def _checked_tensor(self) -> Real:
+        if self.tensor is None:
+            raise InputError(
+                "the permeance has directions where the gap repeats along both sides: this one has "
+                f'sides="{self.sides}"'
+            )
+        return self.tensor
 
     @property
     def hydraulic_aperture(self) -> float:
@@ -124,7 +180,7 @@ class Flow:
     @property
     def flux(self) -> Real:
         """Flow per width at the cells along x and y, times 12 η / ΔP, (2, nx, ny). [length²]"""
-        dx, dy = (side / n for side, n in zip(self.sizes, self.gap.shape, strict=True))
+        dx, dy = self._spacing
         x = (self.rates_x[:-1] + self.rates_x[1:]) / (2 * dy)
         y = (self.rates_y[:, :-1] + self.rates_y[:, 1:]) / (2 * dx)
         return np.stack([x, y])
@@ -137,10 +193,10 @@ class Flow:
         """
         if self.is_sealed:
             return None
-        along, across = self._lost
-        lost = along[:-1] + along[1:] + across[:, :-1] + across[:, 1:]
+        x, y = self._lost
+        lost = x[:-1] + x[1:] + y[:, :-1] + y[:, 1:]
         i, j = np.unravel_index(int(lost.argmax()), lost.shape)
-        return (int(i), int(j)) if self.along == "x" else (int(j), int(i))
+        return int(i), int(j)
 
     @cached_property
     def largest_share(self) -> float:
@@ -151,21 +207,26 @@ class Flow:
         """
         if self.is_sealed:
             return 0.0
-        return max(map(self._largest_share_of_row, self._forward[1:-1])) / self.inflow
+        rows = self._forward[:-1] if self._repeats(self.along) else self._forward[1:-1]
+        return max(map(self._largest_share_of_row, rows)) / self.inflow
 
     @cached_property
     def slope(self) -> float:
         """Rms slope of the gap, weighted with the power that is lost there; 0 if sealed. [1]"""
         if self.is_sealed:
             return 0.0
-        gap = self.gap if self.along == "x" else self.gap.T
-        length, width = self.sizes if self.along == "x" else self.sizes[::-1]
-        along, across = self._lost
-        steep = (np.diff(gap, axis=0) * gap.shape[0] / length) ** 2
-        aside = (np.diff(gap, axis=1, prepend=gap[:, -1:]) * gap.shape[1] / width) ** 2
-        inside, beside = along[1:-1], across[:, :-1]  # nothing flows around where sides are closed
-        total = (inside * steep).sum() + (beside * aside).sum()
-        return float(np.sqrt(total / (inside.sum() + beside.sum())))
+        (dx, dy), (x, y) = self._spacing, self._lost
+        x, y = x[:-1], y[:, :-1]  # of the faces before cells; between these and an end, no slope
+        repeats_x, repeats_y = _REPEATS[self.sides]
+        inside = np.ones(self.gap.shape, bool), np.ones(self.gap.shape, bool)
+        inside[0][0], inside[1][:, 0] = repeats_x, repeats_y
+        steep = (
+            ((self.gap - np.roll(self.gap, 1, axis)) / step) ** 2
+            for axis, step in enumerate((dx, dy))
+        )
+        lost = [np.where(each, power, 0.0) for each, power in zip(inside, (x, y), strict=True)]
+        total = sum((power * each).sum() for power, each in zip(lost, steep, strict=True))
+        return float(np.sqrt(total / sum(power.sum() for power in lost)))
 
     @property
     def validity(self) -> str:
@@ -180,17 +241,26 @@ class Flow:
         return ""
 
     @property
+    def _spacing(self) -> tuple[float, float]:
+        """Distances of cells along x and along y. [length]"""
+        return self.sizes[0] / self.gap.shape[0], self.sizes[1] / self.gap.shape[1]
+
+    @property
     def _forward(self) -> Real:
         """Flow through the faces from the inlet to the outlet, row by row along the flow."""
         return self.rates_x if self.along == "x" else self.rates_y.T
 
+    def _repeats(self, side: Along) -> bool:
+        return _REPEATS[self.sides]["xy".index(side)]
+
     @cached_property
     def _lost(self) -> tuple[Real, Real]:
-        """Power that is lost between neighbours along the flow and across it. [length³]"""
-        across = self.rates_y if self.along == "x" else self.rates_x.T
-        rates, conductances = (self._forward, across), self.network.conductances()
+        """Power that is lost between neighbours along x and along y. [length³]"""
+        rates = self.rates_x, self.rates_y
         lost = []
-        for rate, conductance in zip(rates, conductances, strict=True):
+        for rate, conductance in zip(
+            rates, (self.conductances_x, self.conductances_y), strict=True
+        ):
             is_open = conductance > 0
             lost.append(np.divide(rate**2, conductance, out=np.zeros_like(rate), where=is_open))
         return lost[0], lost[1]
@@ -200,7 +270,9 @@ class Flow:
         flows = rates != 0
         if flows.all():
             return 0.0
-        if self.sides == "periodic":  # begin where nothing flows, so that no channel is cut
+        if self._repeats(
+            "y" if self.along == "x" else "x"
+        ):  # begin where nothing flows, so that no channel is cut
             rates = np.roll(rates, -int(np.flatnonzero(~flows)[0]))
             flows = rates != 0
         edges = np.flatnonzero(np.diff(flows, prepend=False, append=False))
@@ -251,11 +323,13 @@ def flow(
     sides: Sides | None = None,
     mean_free_path: float = 0.0,
 ) -> Flow | tuple[Flow, Flow]:
-    r"""Let a fluid through the gap between two bodies, from one side to the opposite one.
+    r"""Let a fluid through the gap between two bodies.
 
     Solves Reynolds' equation ∇·(u³ ∇P) = 0 in the gap u [1]_; where the bodies touch, nothing
-    flows. Every cell of the grid is joined to its four neighbours with the harmonic mean of u³, to
-    inlet and outlet by half a cell. The conductance of this network is found from sums of positive
+    flows. Every cell of the grid is joined to its four neighbours with the harmonic mean of u³.
+    Where the gap repeats along the flow, P is a mean fall and a periodic part, and what flows is
+    the same wherever the map is cut; where it ends, inlet and outlet are joined to the first and
+    the last cells by half a cell. The conductance of this network is found from sums of positive
     terms alone, so that it is as accurate near sealing as in an open gap.
 
     Parameters
@@ -266,10 +340,11 @@ def flow(
     sizes : tuple of float
         Sides of the rectangle, (Lx, Ly); fields know theirs. [length]
     along : {"x", "y", "both"}, optional
-        Side along which the fluid flows.
-    sides : {"periodic", "closed"}, optional
-        Whether fluid that leaves at one of the other two borders enters at the opposite one.
-        Default: periodic; closed for fields of a body that is not repeated along them.
+        Side along which the pressure falls.
+    sides : {"periodic", "closed", "x", "y"}, optional
+        Along which sides the gap repeats: both, none, or one of them. Where it does not, the two
+        borders are inlet and outlet if they are across the flow, and closed if not. Default: as the
+        body of the fields repeats; of an array, both.
     mean_free_path : float, optional
         Of a gas, at its mean pressure. It slips along the walls: u³ becomes u³ + 6 λ u². Default:
         0, a liquid. [length]
@@ -304,17 +379,26 @@ def flow(
     0.00163
     """
     one_of("along", along, (*get_args(Along), "both"))
-    one_of("sides", sides or "periodic", get_args(Sides))
     repeats = gap.repeats if isinstance(gap, Fields) else (True, True)
+    known = next(name for name, each in _REPEATS.items() if each == repeats)
+    sides = known if sides is None else one_of("sides", sides, get_args(Sides))
     sizes = sizes or (gap.sizes if isinstance(gap, Fields) else None)
     gap = _checked_gap(gap)
     if sizes is None:
         raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
-    given = gap, checked_sides(sizes), checked_free_path(mean_free_path)
-    of_x, of_y = (sides or ("periodic" if each else "closed") for each in repeats)
-    if along == "both":  # beside a flow along x are the sides of y
-        return _solved("x", of_y, *given), _solved("y", of_x, *given)
-    return _solved(along, of_y if along == "x" else of_x, *given)
+    sizes, path = checked_sides(sizes), checked_free_path(mean_free_path)
+    wanted = get_args(Along) if along == "both" else (along,)
+    cell = None
+    if any(_REPEATS[sides]["xy".index(each)] for each in wanted):
+        cell = _cell(gap, sizes, sides, path)
+    given = gap, sizes, sides, path
+    found = [
+        _through_cell(each, *given, cell)
+        if cell is not None and _REPEATS[sides]["xy".index(each)]
+        else _between_ends(each, *given)
+        for each in wanted
+    ]
+    return found[0] if len(found) == 1 else (found[0], found[1])
 
 
 def checked_free_path(given: Any) -> float:
@@ -323,30 +407,75 @@ def checked_free_path(given: Any) -> float:
     return between("mean_free_path", given, 0.0, sys.float_info.max, needed)
 
 
-def _solved(along: Along, sides: Sides, gap: Real, sizes: tuple[float, float], path: float) -> Flow:
-    """The flow along one side."""
+def _cell(gap: Real, sizes: tuple[float, float], sides: Sides, path: float) -> CellFlow:
+    """The flow through a gap that repeats, along both sides at once."""
+    from roughline.fluid.cell import cell_flow  # here because compiled loops load slowly
+    from roughline.fluid.network import Network
+
+    if sides == "y":  # a gap that ends is closed at its borders across the flow
+        return _cell(gap.T, (sizes[1], sizes[0]), "x", path).turned()
+    found = windings(gap > 0, _REPEATS[sides])
+    _refuse_beyond_memory(found.through)
+    ratio = sizes[0] / gap.shape[0] / (sizes[1] / gap.shape[1])
+    network = Network(_conducting(gap, found.through, path), 1 / ratio, ratio, *_REPEATS[sides])
+    return cell_flow(network, found)
+
+
+def _through_cell(
+    along: Along, gap: Real, sizes: tuple[float, float], sides: Sides, path: float, cell: CellFlow
+) -> Flow:
+    """The flow along a side along which the gap repeats."""
+    k = "xy".index(along)
+    rates = cell.rates[0][k], cell.rates[1][k]
+    inflow = float(cell.crossing[k, k])
+    sections = rates[k].sum(axis=1 - k)
+    outflow = float(sections[np.abs(sections - inflow).argmax()]) if inflow else 0.0
+    tensor = None
+    if sides == "periodic":
+        ratio = sizes[0] / sizes[1]
+        tensor = cell.crossing * np.array([[ratio, 1.0], [1.0, 1 / ratio]])
+    found = gap, sizes, along, sides, path, cell.pressures[k], *rates, *cell.conductances
+    return Flow(*found, inflow, outflow, tensor)
+
+
+def _between_ends(
+    along: Along, gap: Real, sizes: tuple[float, float], sides: Sides, path: float
+) -> Flow:
+    """The flow along a side at whose ends the gap ends."""
     from roughline.fluid.network import Network  # here because compiled loops load slowly
 
     turned, length, width = (gap, *sizes) if along == "x" else (gap.T, *sizes[::-1])
-    periodic = sides == "periodic"
-    from_inlet, from_outlet = components(turned > 0, periodic)
+    periodic = _REPEATS[sides][1 if along == "x" else 0]
+    from_inlet, from_outlet = joined_to_ends(turned > 0, periodic)
     through = from_inlet & from_outlet
-    points = int(through.sum())
-    refuse_beyond_memory(
-        int(_BYTES * points * np.log2(max(gap.shape))),
-        f"a flow through {gap.shape[0]} x {gap.shape[1]} cells",
-        "coarsen the gap",
-    )
-    cells = np.where(through, turned**2 * (turned + 6 * path), 0.0)
+    _refuse_beyond_memory(through)
     ratio = (length / turned.shape[0]) / (width / turned.shape[1])
-    network = Network(cells, 1 / ratio, ratio, periodic)
-    pressures = network.pressures() if points else np.zeros((2, *cells.shape))
-    forward, across = _rates(network, pressures)
+    network = Network(_conducting(turned, through, path), 1 / ratio, ratio, False, periodic)
+    pressures = network.pressures() if through.any() else np.zeros((2, *turned.shape))
+    conductances = network.conductances()
+    forward, across = _rates(conductances, pressures)
     pressure = np.where(through, pressures[0], np.where(from_inlet, 1.0, np.nan))
     pressure[from_outlet & ~through] = 0.0
+    ends = float(forward[0].sum()), float(forward[-1].sum())
+    arrays = [pressure, forward, across, *conductances]
     if along == "y":
-        forward, across, pressure = across.T, forward.T, pressure.T
-    return Flow(gap, sizes, along, sides, path, pressure, forward, across, network)
+        pressure, forward, across, *conductances = (each.T for each in arrays)
+        arrays = [pressure, across, forward, *conductances[::-1]]
+    return Flow(gap, sizes, along, sides, path, *arrays, *ends)
+
+
+def _conducting(gap: Real, through: Mask, path: float) -> Real:
+    """Conductances of the cells through which a fluid flows, were they square. [length³]"""
+    return np.where(through, gap**2 * (gap + 6 * path), 0.0)
+
+
+def _refuse_beyond_memory(through: Mask) -> None:
+    """Refuse a flow through so many cells that memory cannot hold it."""
+    refuse_beyond_memory(
+        int(_BYTES * through.sum() * np.log2(max(through.shape))),
+        f"a flow through {through.shape[0]} x {through.shape[1]} cells",
+        "coarsen the gap",
+    )
 
 
 def _checked_gap(given: Any) -> Real:
@@ -387,34 +516,23 @@ def _checked_gap(given: Any) -> Real:
     return gap
 
 
-def components(open_cells: Mask, periodic: bool) -> tuple[Mask, Mask]:
-    """Cells from which a path leads to the inlet, and cells from which one leads to the outlet."""
-    # here because it loads slowly
-    from scipy.ndimage import label
+def leads_through(open_cells: Mask, along: Along, repeats: tuple[bool, bool]) -> bool:
+    """Whether a path of open cells, each beside the next, leads through along a side."""
+    k = "xy".index(along)
+    if repeats[k]:
+        return windings(open_cells, repeats).leads(k)
+    from_inlet, from_outlet = joined_to_ends(open_cells if k == 0 else open_cells.T, repeats[1 - k])
+    return bool((from_inlet & from_outlet).any())
 
-    parts: Integers
-    parts, count = label(open_cells)
-    if periodic:
-        parts = _joined_across(parts, count)
-    inlet, outlet = (np.isin(parts, border[border > 0]) for border in (parts[0], parts[-1]))
+
+def joined_to_ends(open_cells: Mask, periodic: bool) -> tuple[Mask, Mask]:
+    """Cells from which a path leads to the inlet, and cells from which one leads to the outlet."""
+    parts = windings(open_cells, (False, periodic)).parts
+    inlet, outlet = (np.isin(parts, border[border >= 0]) for border in (parts[0], parts[-1]))
     return inlet, outlet
 
 
-def _joined_across(parts: Integers, count: int) -> Integers:
-    """Give parts that meet across the periodic border one number."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    first, last = parts[:, 0], parts[:, -1]
-    meet = (first > 0) & (last > 0)
-    links = coo_matrix(
-        (np.ones(meet.sum()), (first[meet], last[meet])), shape=(count + 1, count + 1)
-    )
-    numbers = connected_components(links, directed=False)[1] + 1
-    return np.where(parts > 0, numbers[parts], 0)
-
-
-def _rates(network: Network, pressures: Real) -> tuple[Real, Real]:
+def _rates(conductances: tuple[Real, Real], pressures: Real) -> tuple[Real, Real]:
     """Flow through the faces along and across, from pressures that are 1 at either end.
 
     Where one of them is small, its differences are accurate, and it is used.
@@ -427,7 +545,6 @@ def _rates(network: Network, pressures: Real) -> tuple[Real, Real]:
     across = np.empty((nx, ny + 1))
     across[:, 1:] = _falls(down, np.roll(down, -1, axis=1), up, np.roll(up, -1, axis=1))
     across[:, 0] = across[:, -1]
-    conductances = network.conductances()
     return along * conductances[0], across * conductances[1]
 
 

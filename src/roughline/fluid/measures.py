@@ -13,7 +13,7 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
-from roughline.fluid.flow import Along, checked_free_path, flow
+from roughline.fluid.flow import Along, Flow, checked_free_path, flow
 
 
 @dataclass(frozen=True)
@@ -34,21 +34,29 @@ def _found(fields: Fields, along: Along, path: float) -> _Found:
     """Let a fluid of some mean free path [length] through the gap under a load."""
     known = _FOUND.setdefault(fields, {})
     if (along, path) not in known:
-        through = flow(fields, along=along, mean_free_path=path)
-        known[along, path] = _Found()
-        if through.converged:
-            mean = float(through.gap.mean())
-            factor = through.permeance / mean**3 if mean > 0 else 0.0
-            aperture, share = through.hydraulic_aperture, through.largest_share
-            known[along, path] = _Found(aperture, factor, share, through.slope)
+        if fields.repeats == (True, True):  # one factorisation serves both directions
+            through = flow(fields, along="both", mean_free_path=path)
+        else:
+            through = (flow(fields, along=along, mean_free_path=path),)
+        known |= {(each.along, path): _kept(each) for each in through}
     return known[along, path]
+
+
+def _kept(through: Flow) -> _Found:
+    """What is kept of a flow."""
+    if not through.converged:
+        return _Found()
+    mean = float(through.gap.mean())
+    factor = through.permeance / mean**3 if mean > 0 else 0.0
+    return _Found(through.hydraulic_aperture, factor, through.largest_share, through.slope)
 
 
 @public
 def hydraulic_aperture(along: Along = "x", mean_free_path: float = 0.0) -> Measure:
     """Measure how much a gap lets through, under each load that is pressed.
 
-    A periodic half-space has periodic sides, a free one closed sides.
+    What a periodic half-space repeats has no ends: the pressure falls by its difference with each
+    repetition. A free body has an inlet, an outlet and closed sides.
 
     Parameters
     ----------

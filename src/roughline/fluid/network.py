@@ -1,8 +1,9 @@
 """The pressure in a network of conductances on a grid, by nested dissection.
 
 The plane is cut into small rectangles of cells. Each is condensed into conductances between the
-faces on its border, and two neighbours into those of their union, until nothing is left but inlet
-and outlet; their conductance is the answer. The way back gives the pressures [1].
+faces on its border, and two neighbours into those of their union, until nothing is left but faces
+whose pressure is known: inlet and outlet, or, of a network that repeats both ways, one face of each
+part. The way back gives the pressures [1].
 
 All conductances are sums of positive terms, and a pivot is the sum of a row, never a difference
 [2]. So the conductance of the whole, and the pressures, are accurate to the last digits however
@@ -18,13 +19,14 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import chain, pairwise, product
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Indices, Integers, Mask, Real
 from roughline.computing.compiled import compiled
 from roughline.computing.cores import available_cores
 from roughline.computing.linear_algebra import on_one_thread
@@ -43,30 +45,36 @@ class Network:
     Attributes
     ----------
     cells : ndarray, shape (nx, ny)
-        Conductance of a square cell; zero where it is closed. The inlet is before the first row,
-        the outlet behind the last.
+        Conductance of a square cell; zero where it is closed.
     along, across : float
         Conductance of a cell over that of a square one, along the flow and across it.
-    periodic : bool
+    repeats_along : bool
+        Whether the first and the last row are neighbours; if not, the inlet is before the first
+        row, and the outlet behind the last.
+    repeats_across : bool
         Whether the first and the last column are neighbours; if not, both borders are closed.
     """
 
     cells: Real
     along: float
     across: float
-    periodic: bool
+    repeats_along: bool
+    repeats_across: bool
 
     def conductances(self) -> tuple[Real, Real]:
         """Conductances between neighbours, (nx + 1, ny) along the flow and (nx, ny + 1) across.
 
-        The first and the last row join cells to the inlet and to the outlet, by half a cell.
+        The first and the last row join cells to the inlet and to the outlet, by half a cell, or are
+        one and the same.
         """
         k = self.cells
         along = np.empty((k.shape[0] + 1, k.shape[1]))
         along[0], along[1:-1], along[-1] = 2 * k[0], _in_series(k[:-1], k[1:]), 2 * k[-1]
+        if self.repeats_along:
+            along[0] = along[-1] = _in_series(k[-1], k[0])
         across = np.zeros((k.shape[0], k.shape[1] + 1))
         across[:, 1:-1] = _in_series(k[:, :-1], k[:, 1:])
-        if self.periodic:
+        if self.repeats_across:
             across[:, 0] = across[:, -1] = _in_series(k[:, -1], k[:, 0])
         return self.along * along, self.across * across
 
@@ -76,9 +84,54 @@ class Network:
         Their sum is 1 in open cells. Each is accurate relative to itself. All cells that are open
         have to be joined to inlet and outlet.
         """
-        dissection = _Dissection.of(self)
-        with on_one_thread(), ThreadPoolExecutor(available_cores()) as pool:
-            return dissection.pressures(pool)
+        ends = np.full((2, *self.cells.shape), -1)
+        dissection = _Dissection.of(self, ends[0], ends[1], kept=2)
+        return dissection.solved(np.zeros((*self.cells.shape, 2)), lambda _: np.eye(2))
+
+    def response(self, into: Real, grounds: tuple[Integers, Integers], parts: Integers) -> Real:
+        """Pressures of the cells under flows into them, (columns, nx, ny), if nothing ends.
+
+        What flows into a part, flows out of it. Positive and negative flows are followed apart, so
+        that each pressure is accurate relative to itself.
+
+        Parameters
+        ----------
+        into : ndarray, shape (columns, nx, ny)
+            Flow into each cell.
+        grounds : tuple of ndarray, shapes (nx, ny)
+            Numbers of faces before cells, along the flow and across, that are kept to the end; -1
+            of all others. They lie on the borders of rectangles (:meth:`borders`). One in each part
+            is enough; where a place that winds by itself hangs on others by a thread, what flows
+            within it is accurate only if it has one as well.
+        parts : ndarray, shape (grounds,)
+            Part of each of these. The pressure at the first one of a part is zero.
+        """
+        columns = into.shape[0]
+        signed = np.concatenate([np.maximum(into, 0.0), np.maximum(-into, 0.0)])
+
+        def of_grounds(last: _Block) -> Real:
+            """Pressures at the grounds, of which those of positive flows hold those of all."""
+            net = last.sources[:, :columns] - last.sources[:, columns:]
+            held = np.zeros((parts.size, 2 * columns))
+            of_faces = parts[last.faces]
+            free = np.ones(last.faces.size, bool)
+            free[np.unique(of_faces, return_index=True)[1]] = False
+            if free.any():
+                g = last.conductances
+                lower = _inverse_factor(g[np.ix_(free, free)], g[np.ix_(free, ~free)].sum(axis=1))
+                held[last.faces[free], :columns] = lower.T @ (lower @ net[free])
+            return held
+
+        dissection = _Dissection.of(self, *grounds, kept=parts.size)
+        found = dissection.solved(np.ascontiguousarray(np.moveaxis(signed, 0, 2)), of_grounds)
+        return found[:columns] - found[columns:]
+
+    def borders(self) -> tuple[Mask, Mask]:
+        """Faces before cells, along the flow and across, that are on the border of a rectangle."""
+        masks = np.zeros((2, *self.cells.shape), bool)
+        masks[0, _cuts(self.cells.shape[0], self.repeats_along)[:-1]] = True
+        masks[1, :, _cuts(self.cells.shape[1], self.repeats_across)[:-1]] = True
+        return masks[0], masks[1]
 
 
 def _in_series(first: Real, second: Real) -> Real:
@@ -93,6 +146,7 @@ class _Block:
 
     faces: Indices  # (m,), ascending
     conductances: Real  # (m, m); the diagonal means nothing
+    sources: Real  # flows into the faces, (m, columns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,10 +157,11 @@ class _Step:
     outer: Indices
     lower: Real  # inverse of the Cholesky factor of the inner faces
     upper: Real  # that times the conductances from inner to outer faces
+    driven: Real  # and times the flows into the inner faces
 
     def descend(self, pressures: Real) -> None:
         """Set the pressures of the inner faces."""
-        pressures[self.inner] = self.lower.T @ (self.upper @ pressures[self.outer])
+        pressures[self.inner] = self.lower.T @ (self.upper @ pressures[self.outer] + self.driven)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,34 +174,57 @@ class _Dissection:
     along: Indices  # numbers of faces along the flow, (nx + 1, ny); -1 where one is closed
     across: Indices  # and across it, (nx, ny + 1)
 
+    kept: int  # faces with smaller numbers are kept to the end
+
     @classmethod
-    def of(cls, network: Network) -> _Dissection:
-        """Cut a network, and number the faces between two open cells."""
+    def of(cls, network: Network, along: Indices, across: Indices, kept: int) -> _Dissection:
+        """Cut a network, and number the faces between two open cells.
+
+        Faces before cells that are kept have their numbers already, all others -1.
+        """
         nx, ny = network.cells.shape
         open_cells = network.cells > 0
-        along = np.arange((nx + 1) * ny).reshape(nx + 1, ny) + 2
-        along[0], along[-1] = _INLET, _OUTLET
-        across = np.arange(nx * (ny + 1)).reshape(nx, ny + 1) + 2 + along.size
-        across[:, -1] = across[:, 0]  # one and the same where the plane is periodic
-        open_along = np.ones(along.shape, bool)
+        of_along = np.arange((nx + 1) * ny).reshape(nx + 1, ny) + kept
+        of_across = np.arange(nx * (ny + 1)).reshape(nx, ny + 1) + kept + of_along.size
+        of_along[:-1][along >= 0] = along[along >= 0]
+        of_across[:, :-1][across >= 0] = across[across >= 0]
+        open_along = np.ones(of_along.shape, bool)
         open_along[:-1] &= open_cells
         open_along[1:] &= open_cells
-        open_across = np.empty(across.shape, bool)
+        open_across = np.zeros(of_across.shape, bool)
         open_across[:, 1:-1] = open_cells[:, 1:] & open_cells[:, :-1]
-        border = open_cells[:, 0] & open_cells[:, -1] & network.periodic
-        open_across[:, 0] = open_across[:, -1] = border
+        # one and the same where the plane repeats
+        if network.repeats_along:
+            of_along[-1] = of_along[0]
+            open_along[0] = open_along[-1] = open_cells[0] & open_cells[-1]
+        else:
+            of_along[0], of_along[-1] = _INLET, _OUTLET
+        if network.repeats_across:
+            of_across[:, -1] = of_across[:, 0]
+            open_across[:, 0] = open_across[:, -1] = open_cells[:, 0] & open_cells[:, -1]
         return cls(
             network,
-            _cuts(nx, 1),
-            _cuts(ny, 2 if network.periodic else 1),  # no rectangle is its own neighbour
-            np.where(open_along, along, -1),
-            np.where(open_across, across, -1),
+            _cuts(nx, network.repeats_along),
+            _cuts(ny, network.repeats_across),
+            np.where(open_along, of_along, -1),
+            np.where(open_across, of_across, -1),
+            kept,
         )
 
-    def pressures(self, pool: ThreadPoolExecutor) -> Real:
-        """Pressures of the cells with 1 at the inlet, and with 1 at the outlet, (2, nx, ny)."""
+    def solved(self, sources: Real, of_kept: Callable[[_Block], Real]) -> Real:
+        """Pressures of the cells, (columns, nx, ny), under flows into them.
+
+        The pressures at the faces that are kept follow from all, condensed into what is between
+        these.
+        """
+        with on_one_thread(), ThreadPoolExecutor(available_cores()) as pool:
+            return self._solved(sources, of_kept, pool)
+
+    def _solved(
+        self, sources: Real, of_kept: Callable[[_Block], Real], pool: ThreadPoolExecutor
+    ) -> Real:
         corners = list(product(pairwise(self.rows), pairwise(self.columns)))
-        blocks = list(pool.map(self._condensed, corners))
+        blocks = list(pool.map(lambda corner: self._condensed(corner, sources), corners))
         shape = self.rows.size - 1, self.columns.size - 1
         steps: list[_Step] = []
         while len(blocks) > 1:
@@ -159,14 +237,15 @@ class _Dissection:
             else:
                 pairs = zip(grid[:, ::2].ravel(), grid[:, 1::2].ravel(), strict=True)
                 shape = shape[0], shape[1] // 2
-            blocks, new = map(list, zip(*pool.map(_joined, pairs), strict=True))
+            joined = pool.map(lambda pair: _joined(*pair, self.kept), pairs)
+            blocks, new = map(list, zip(*joined, strict=True))
             steps += chain.from_iterable(new)
-        of_faces = np.zeros((2 + self.along.size + self.across.size, 2))
-        of_faces[_INLET, 0] = of_faces[_OUTLET, 1] = 1
+        of_faces = np.zeros((self.kept + self.along.size + self.across.size, sources.shape[2]))
+        of_faces[: self.kept] = of_kept(blocks[0])
         for step in reversed(steps):
             step.descend(of_faces)
-        pressures = np.zeros((2, *self.network.cells.shape))
-        list(pool.map(lambda corner: self._spread(corner, of_faces, pressures), corners))
+        pressures = np.empty((sources.shape[2], *self.network.cells.shape))
+        list(pool.map(lambda each: self._spread(each, sources, of_faces, pressures), corners))
         return pressures
 
     def _border(self, corner: _Corner) -> tuple[Indices, list[Indices]]:
@@ -183,48 +262,57 @@ class _Dissection:
         ends = np.cumsum([face.size for face in faces])[:-1]
         return numbers[closed:], np.split(places - closed, ends)
 
-    def _condensed(self, corner: _Corner) -> _Block:
+    def _condensed(self, corner: _Corner, sources: Real) -> _Block:
         """A rectangle, condensed."""
         numbers, places = self._border(corner)
-        return _Block(numbers, self._eliminated(corner, places, numbers.size, kept=1)[0])
+        found = self._eliminated(corner, sources, places, numbers.size, kept=1)
+        return _Block(numbers, *found[:2])
 
-    def _spread(self, corner: _Corner, of_faces: Real, pressures: Real) -> None:
+    def _spread(self, corner: _Corner, sources: Real, of_faces: Real, pressures: Real) -> None:
         """Set the pressures of the cells of a rectangle from those of its faces."""
         (i, i_end), (j, j_end) = corner
         numbers, places = self._border(corner)
         rows, columns = i_end - i, j_end - j
-        _, shares, slots = self._eliminated(corner, places, numbers.size, kept=rows * columns)
+        found = self._eliminated(corner, sources, places, numbers.size, kept=rows * columns)
         of_border = of_faces[numbers]
-        pressures[:, i:i_end, j:j_end] = _follow_cells(shares, slots, of_border, rows, columns)
+        pressures[:, i:i_end, j:j_end] = _follow_cells(*found[2:], of_border, rows, columns)
 
     def _eliminated(
-        self, corner: _Corner, places: list[Indices], faces: int, kept: int
-    ) -> tuple[Real, Real, Indices]:
+        self, corner: _Corner, sources: Real, places: list[Indices], faces: int, kept: int
+    ) -> tuple[Real, Real, Real, Real, Indices]:
         """What the elimination of the cells of a rectangle gives."""
         (i, i_end), (j, j_end) = corner
-        before, behind, left, right = places
         square = self.network.along, self.network.across
-        cells = self.network.cells[i:i_end, j:j_end]
-        return _eliminate_cells(cells, square, before, behind, left, right, faces, kept)
+        cells, into = self.network.cells[i:i_end, j:j_end], sources[i:i_end, j:j_end]
+        before, behind, left, right = places
+        return _eliminate_cells(cells, into, square, before, behind, left, right, faces, kept)
 
 
 _Corner = tuple[tuple[int, int], tuple[int, int]]
 """Rows and columns of a rectangle, each from its first to one more than its last."""
 
 
-def _cuts(n: int, least: int) -> Indices:
-    """Cut a side into a power of two of nearly equal pieces, at least so many, none too large."""
-    pieces = least
+def _cuts(n: int, repeats: bool) -> Indices:
+    """Cut a side into a power of two of nearly equal pieces, none too large.
+
+    They are two at least where the side repeats, so that no rectangle is its own neighbour.
+    """
+    pieces = 2 if repeats else 1
     while n > pieces * _LARGEST:
         pieces *= 2
     return np.arange(pieces + 1) * n // pieces
 
 
-def _joined(pair: tuple[_Block, _Block]) -> tuple[_Block, list[_Step]]:
+def _joined(first: _Block, second: _Block, kept: int) -> tuple[_Block, list[_Step]]:
     """Condense two blocks into one."""
-    first, second = pair
-    numbers, inner, conductances = _assembled(
-        first.faces, first.conductances, second.faces, second.conductances
+    numbers, inner, conductances, sources = _assembled(
+        first.faces,
+        first.conductances,
+        first.sources,
+        second.faces,
+        second.conductances,
+        second.sources,
+        kept,
     )
     steps = []
     for start in range(0, inner, _AT_ONCE):
@@ -232,19 +320,28 @@ def _joined(pair: tuple[_Block, _Block]) -> tuple[_Block, list[_Step]]:
         n = end - start
         to_others = conductances[:n, n:]
         lower = _inverse_factor(conductances[:n, :n].copy(), to_others.sum(axis=1))
-        upper = lower @ to_others
+        upper, driven = lower @ to_others, lower @ sources[:n]
         between_others = upper.T @ upper
         between_others += conductances[n:, n:]
-        conductances = between_others
-        steps.append(_Step(numbers[start:end], numbers[end:], lower, upper))
-    return _Block(numbers[inner:], conductances), steps
+        conductances, sources = between_others, sources[n:] + upper.T @ driven
+        steps.append(_Step(numbers[start:end], numbers[end:], lower, upper, driven))
+    return _Block(numbers[inner:], conductances, sources), steps
 
 
 @compiled
 def _assembled(
-    faces: Indices, conductances: Real, others: Indices, of_others: Real
-) -> tuple[Indices, int, Real]:
-    """Faces of two blocks, those between them first, how many these are, and all conductances."""
+    faces: Indices,
+    conductances: Real,
+    sources: Real,
+    others: Indices,
+    of_others: Real,
+    into_others: Real,
+    kept: int,
+) -> tuple[Indices, int, Real, Real]:
+    """Faces of two blocks, those between them first, and how many these are.
+
+    With the conductances between all of them, and the flows into them.
+    """
     between = both = 0
     j = 0
     for face in faces:
@@ -252,7 +349,7 @@ def _assembled(
             j += 1
         if j < others.size and others[j] == face:
             both += 1
-            between += face > _OUTLET
+            between += face >= kept
     numbers = np.empty(faces.size + others.size - both, faces.dtype)
     places, of_second = np.empty_like(faces), np.empty_like(others)
     i = j = inner = 0
@@ -262,7 +359,7 @@ def _assembled(
         in_second = i == faces.size or (j < others.size and others[j] <= faces[i])
         face = faces[i] if in_first else others[j]
         place = outer
-        if in_first and in_second and face > _OUTLET:
+        if in_first and in_second and face >= kept:
             place = inner
             inner += 1
         else:
@@ -275,34 +372,45 @@ def _assembled(
             of_second[j] = place
             j += 1
     total = np.zeros((numbers.size, numbers.size))
+    into = np.zeros((numbers.size, sources.shape[1]))
     for i, row in enumerate(places):
+        into[row] = sources[i]
         for j, column in enumerate(places):
             total[row, column] = conductances[i, j]
     for i, row in enumerate(of_second):
+        into[row] += into_others[i]
         for j, column in enumerate(of_second):
             total[row, column] += of_others[i, j]
-    return numbers, between, total
+    return numbers, between, total, into
 
 
 @compiled
-def _eliminate(g: Real, here: int, share: Real) -> None:
-    """Join the neighbours of a node in its place, and set the share of each in its pressure."""
+def _eliminate(g: Real, into: Real, here: int, share: Real, driven: Real) -> None:
+    """Join the neighbours of a node in its place.
+
+    Sets the share of each of them in its pressure, and what the flow into it adds to that.
+    """
     reach = share.size
     row = g[here]
-    share[:] = row[:reach] / row[:reach].sum()
+    pivot = row[:reach].sum()
+    share[:] = row[:reach] / pivot
+    driven[:] = into[here] / pivot
     for other in range(reach):
         part = share[other]
         if part > 0:
             g[other, here] = 0
+            into[other] += part * into[here]
             for each in range(reach):
                 g[other, each] += part * row[each]
             g[other, other] = 0
     row[:reach] = 0
+    into[here] = 0
 
 
 @compiled
 def _eliminate_cells(
     cells: Real,
+    sources: Real,
     square: tuple[float, float],
     before: Indices,
     behind: Indices,
@@ -310,11 +418,12 @@ def _eliminate_cells(
     right: Indices,
     faces: int,
     kept: int,
-) -> tuple[Real, Real, Indices]:
+) -> tuple[Real, Real, Real, Real, Indices]:
     """Condense a rectangle, cell by cell, and tell how the pressure of each cell follows.
 
-    Returns the conductances between faces, the share of each neighbour in the pressure of a cell,
-    of all cells or of one if no more are kept, and the places of the faces among these. Cells have
+    Returns the conductances between faces and the flows into them; the share of each neighbour in
+    the pressure of a cell, and what flows into cells add to it, of all cells or of one if no more
+    are kept; and the places of the faces among these. Cells have
     the first places, in turns, as long as they are not eliminated; each face has one from where the
     sweep meets it.
     """
@@ -324,7 +433,8 @@ def _eliminate_cells(
     reach = window
     slots = np.full(faces, -1)
     g = np.zeros((window + faces, window + faces))
-    shares = np.zeros((kept, window + faces))
+    into = np.zeros((window + faces, sources.shape[2]))
+    shares, driven = np.zeros((kept, window + faces)), np.zeros((kept, sources.shape[2]))
     for cell in range(nx * ny):
         i, j = cell // ny, cell % ny
         k = cells[i, j]
@@ -332,6 +442,7 @@ def _eliminate_cells(
             continue
         here = cell % window
         row = g[here]
+        into[here] += sources[i, j]
         for face, square_of in (
             (before[j] if i == 0 else -1, along),
             (behind[j] if i + 1 == nx else -1, along),
@@ -349,30 +460,33 @@ def _eliminate_cells(
         if j + 1 < ny and cells[i, j + 1] > 0:
             next_one = cells[i, j + 1]
             row[(cell + 1) % window] += 2 * across * k * (next_one / (k + next_one))
-        _eliminate(g, here, shares[cell % kept, :reach])
+        _eliminate(g, into, here, shares[cell % kept, :reach], driven[cell % kept])
     conductances = np.empty((faces, faces))
     for i in range(faces):
         for j in range(faces):
             conductances[i, j] = g[slots[i], slots[j]]
-    return conductances, shares, slots
+    return conductances, into[slots], shares, driven, slots
 
 
 @compiled
-def _follow_cells(shares: Real, slots: Indices, of_faces: Real, nx: int, ny: int) -> Real:
-    """Pressures of the cells of a rectangle from those of its faces, (2, nx, ny)."""
-    window = ny + 1
-    values = np.zeros((shares.shape[1], 2))
+def _follow_cells(
+    shares: Real, driven: Real, slots: Indices, of_faces: Real, nx: int, ny: int
+) -> Real:
+    """Pressures of the cells of a rectangle from those of its faces, (columns, nx, ny)."""
+    window, columns = ny + 1, of_faces.shape[1]
+    values = np.zeros((shares.shape[1], columns))
     for face in range(slots.size):
         values[slots[face]] = of_faces[face]
-    pressures = np.empty((2, nx, ny))
+    pressures = np.empty((columns, nx, ny))
+    total = np.empty(columns)
     for cell in range(nx * ny - 1, -1, -1):
-        first = second = 0.0
+        total[:] = driven[cell]
         for each in range(shares.shape[1]):
             share = shares[cell, each]
-            first += share * values[each, 0]
-            second += share * values[each, 1]
-        values[cell % window] = first, second
-        pressures[:, cell // ny, cell % ny] = first, second
+            for column in range(columns):
+                total[column] += share * values[each, column]
+        values[cell % window] = total
+        pressures[:, cell // ny, cell % ny] = total
     return pressures
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Literal
+from typing import Literal, get_args
 
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
@@ -19,7 +19,7 @@ from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
-from roughline.fluid.flow import Along, components
+from roughline.fluid.flow import Along, leads_through
 from roughline.fluid.one_map import (
     factor_left_open,
     is_judged,
@@ -97,8 +97,9 @@ def sealing_pressure(
     """Find the mean pressure at which the last channel through a contact closes.
 
     Loads are bisected; each of them is applied to the untouched surface, as on first loading. The
-    gap is open where a path of cells out of contact, each beside the next, joins two opposite
-    sides.
+    gap is open where a path of cells out of contact, each beside the next, leads from a place to
+    its next repetition along a side, be it in a diagonal; where the surface does not repeat, where
+    one joins two opposite sides.
 
     Parameters
     ----------
@@ -213,14 +214,8 @@ class _Search:
 
 def _percolates(fields: Fields, along: Along | Literal["both"]) -> float:
     """One where a path leads through the gap, else zero."""
-    is_open = ~fields.contact
-    for each in ("x", "y") if along == "both" else (along,):
-        rows = is_open if each == "x" else is_open.T
-        repeats_across = fields.repeats[1 if each == "x" else 0]
-        from_inlet, from_outlet = components(rows, repeats_across)
-        if (from_inlet & from_outlet).any():
-            return 1.0
-    return 0.0
+    sides: tuple[Along, ...] = get_args(Along) if along == "both" else (along,)
+    return float(any(leads_through(~fields.contact, each, fields.repeats) for each in sides))
 
 
 OPEN = {

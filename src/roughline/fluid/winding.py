@@ -1,0 +1,174 @@
+"""How the open parts of a gap that repeats wind round it, by union-find with displacements.
+
+Of two cells that are joined, one keeps by how many periods it lies from the other along the path
+between them. An edge that closes a loop of other than no periods shows that its part winds so: only
+such parts let a fluid through.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.computing.arrays import Integers, Mask, Real
+from roughline.computing.compiled import compiled
+
+
+@dataclass(frozen=True, eq=False)
+class Windings:
+    """Open parts of a gap, and how each of them winds."""
+
+    parts: Integers  # of each cell, (nx, ny); -1 where it is closed
+    rank: Integers  # of each part: 0 if it does not wind, 1 along one direction, 2 along all
+    direction: Integers  # of each part of rank 1: periods along both sides, (parts, 2)
+
+    @property
+    def through(self) -> Mask:
+        """Cells of parts that wind."""
+        return np.append(self.rank > 0, False)[self.parts]
+
+    def leads(self, axis: int) -> bool:
+        """Whether a part winds along a side, be it in a diagonal."""
+        return bool(((self.rank == 2) | (self.direction[:, axis] != 0)).any())
+
+
+def windings(open_cells: Mask, repeats: tuple[bool, bool]) -> Windings:
+    """Find the parts of open cells, each beside the next, and how they wind."""
+    from scipy.ndimage import label  # here because it loads slowly
+
+    pieces: Integers
+    pieces, count = label(open_cells)
+    pieces = pieces - 1
+    edges = [
+        _across_border(np.take(pieces, -1, axis), np.take(pieces, 0, axis), axis)
+        for axis in (0, 1)
+        if repeats[axis]
+    ]
+    joined = np.concatenate([np.empty((0, 4), np.int64), *edges])
+    roots, rank, direction = _wound(count, joined)
+    numbers, parts = np.unique(roots, return_inverse=True)
+    of_cells = np.where(pieces >= 0, np.append(parts, -1)[pieces], -1)
+    return Windings(of_cells, rank[numbers], direction[numbers])
+
+
+def _across_border(last: Integers, first: Integers, axis: int) -> Integers:
+    """Pieces that meet across a border, with the periods from one to the other."""
+    meet = (last >= 0) & (first >= 0)
+    pairs = np.unique(np.stack([last[meet], first[meet]], axis=1), axis=0)
+    period = np.zeros_like(pairs)
+    period[:, axis] = 1
+    return np.concatenate([pairs, period], axis=1)
+
+
+@compiled
+def _root(parent: Integers, shift: Integers, node: int) -> int:
+    """Root of a node; its shift is then that from the root, and all on the way hang on the root."""
+    root, x, y = node, 0, 0
+    while parent[root] != root:
+        x += shift[root, 0]
+        y += shift[root, 1]
+        root = parent[root]
+    while parent[node] != root and parent[node] >= 0 and node != root:
+        above, dx, dy = parent[node], shift[node, 0], shift[node, 1]
+        parent[node], shift[node, 0], shift[node, 1] = root, x, y
+        x, y, node = x - dx, y - dy, above
+    return root
+
+
+@compiled
+def _wound(count: int, edges: Integers) -> tuple[Integers, Integers, Integers]:
+    """Root of each node, and how the part of each root winds: its rank and its direction."""
+    parent, shift = np.arange(count), np.zeros((count, 2), np.int64)
+    rank, direction = np.zeros(count, np.int64), np.zeros((count, 2), np.int64)
+    for edge in range(edges.shape[0]):
+        a, b, x, y = edges[edge]
+        first, second = _root(parent, shift, a), _root(parent, shift, b)
+        x += shift[a, 0] - shift[b, 0]
+        y += shift[a, 1] - shift[b, 1]
+        if first != second:
+            parent[second], shift[second, 0], shift[second, 1] = first, x, y
+            x, y = direction[second]
+            if rank[second] == 2:
+                rank[first] = 2
+        if (x != 0 or y != 0) and rank[first] < 2:
+            if rank[first] == 0:
+                rank[first], direction[first, 0], direction[first, 1] = 1, x, y
+            elif direction[first, 0] * y != direction[first, 1] * x:
+                rank[first] = 2
+    for node in range(count):
+        parent[node] = _root(parent, shift, node)
+    return parent, rank, direction
+
+
+@compiled
+def _moved(order: Integers, nx: int, ny: int) -> tuple[Integers, Integers]:
+    """Periods by which each cell is moved, and a cell of the place that it belongs to.
+
+    Of the faces before cells, all along x come first.
+    """
+    cells = nx * ny
+    parent, shift = np.arange(cells), np.zeros((cells, 2), np.int64)
+    place, none = np.arange(cells), np.zeros((cells, 2), np.int64)
+    winds = np.zeros(cells, np.bool_)
+    for face in order:
+        cell = face % cells
+        i, j = cell // ny, cell % ny
+        x = y = 0
+        if face < cells:
+            other = (i - 1) % nx * ny + j
+            x = int(i == 0)
+        else:
+            other = i * ny + (j - 1) % ny
+            y = int(j == 0)
+        first, second = _root(parent, shift, other), _root(parent, shift, cell)
+        x += shift[other, 0] - shift[cell, 0]
+        y += shift[other, 1] - shift[cell, 1]
+        if first != second:
+            if not (winds[first] and winds[second]):
+                place[_root(place, none, cell)] = _root(place, none, other)
+            parent[second], shift[second, 0], shift[second, 1] = first, x, y
+            winds[first] |= winds[second]
+        elif x != 0 or y != 0:
+            winds[first] = True
+    for cell in range(cells):
+        _root(parent, shift, cell)
+        place[cell] = _root(place, none, cell)
+    return shift, place
+
+
+@dataclass(frozen=True, eq=False)
+class Gauge:
+    """Cells moved by whole periods along the strongest tree that joins them.
+
+    That is the tree whose weakest faces are as strong as they can be. So no face of it crosses a
+    border, and what crosses is the weakest of a loop: there the pressure of a period falls.
+
+    Attributes
+    ----------
+    shift : ndarray, shape (nx, ny, 2)
+        Periods by which each cell is moved along x and along y.
+    places : ndarray, shape (nx, ny)
+        Number of the place that a cell belongs to. Two places that wind, each by itself, and hang
+        together by weaker faces are two; what does not wind belongs to one that does.
+    """
+
+    shift: Integers
+    places: Integers
+
+    @classmethod
+    def of(cls, along: Real, across: Real) -> Gauge:
+        """Move cells by the conductances of the faces before them, (nx, ny) each."""
+        strength = np.concatenate([along.ravel(), across.ravel()])
+        order = np.flatnonzero(strength > 0)
+        order = order[np.argsort(-strength[order], kind="stable")]
+        shift, places = _moved(order, *along.shape)
+        return cls(shift.reshape(*along.shape, 2), places.reshape(along.shape))
+
+    def periods(self, along: Real, across: Real) -> tuple[Integers, Integers]:
+        """Periods by which open faces before cells lead on, (2, nx, ny) each."""
+        shift = np.moveaxis(self.shift, 2, 0)
+        x, y = np.roll(shift, 1, 1) - shift, np.roll(shift, 1, 2) - shift
+        x[0, 0] += 1
+        y[1, :, 0] += 1
+        return np.where(along > 0, x, 0), np.where(across > 0, y, 0)
