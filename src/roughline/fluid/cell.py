@@ -15,8 +15,9 @@ from roughline.computing.arrays import Integers, Real
 from roughline.fluid.network import Network
 from roughline.fluid.winding import Gauge, Windings
 
+_EPS = 64 * np.finfo(float).eps  # of pressures
 _SECTIONS = 1e-10  # within which what flows through all rows of faces agrees
-_MOST_TIMES = 3  # that flows are corrected
+_MOST_TIMES = 4  # that flows are corrected
 
 _Pair = tuple[Real, Real]
 """Of the faces before cells, along x and along y."""
@@ -38,19 +39,27 @@ class CellFlow:
     crossing : ndarray, shape (2, 2)
         Flow along a side, the rows, under a fall along a side, the columns, through the faces where
         it is throttled most.
+    sections : ndarray, shape (2,)
+        Flow along either side under a fall along it, as far from that as through any row of faces.
     """
 
     rates: _Pair
     conductances: _Pair
     pressures: Real
     crossing: Real
+    sections: Real
 
     def turned(self) -> CellFlow:
         """The same with x and y exchanged."""
         of_x, of_y = (each[::-1].swapaxes(1, 2) for each in self.rates)
         faces_x, faces_y = (each.T for each in self.conductances)
-        pressures = self.pressures[::-1].swapaxes(1, 2)
-        return CellFlow((of_y, of_x), (faces_y, faces_x), pressures, self.crossing[::-1, ::-1])
+        return CellFlow(
+            (of_y, of_x),
+            (faces_y, faces_x),
+            self.pressures[::-1].swapaxes(1, 2),
+            self.crossing[::-1, ::-1],
+            self.sections[::-1],
+        )
 
 
 def cell_flow(network: Network, found: Windings) -> CellFlow:
@@ -60,37 +69,48 @@ def cell_flow(network: Network, found: Windings) -> CellFlow:
     if not found.through.any():
         nothing = np.zeros((2, *conductances[0].shape)), np.zeros((2, *conductances[1].shape))
         unknown = np.full((2, *network.cells.shape), np.nan)
-        return CellFlow(nothing, conductances, unknown, np.zeros((2, 2)))
+        return CellFlow(nothing, conductances, unknown, np.zeros((2, 2)), np.zeros(2))
     gauge = Gauge.of(*faces)
     periods = gauge.periods(*faces)
     grounds, parts = _grounds(network, faces, periods, gauge, found)
     rates = [face * period for face, period in zip(faces, periods, strict=True)]
-    pressures = np.zeros((2, *network.cells.shape))
+    pressures, summed = np.zeros((2, 2, *network.cells.shape))
     for _ in range(_MOST_TIMES):
         into = sum(rate - np.roll(rate, -1, axis) for axis, rate in enumerate(rates, 1))
-        change = network.response(into, grounds, parts)
+        raised, lowered = network.response(into, grounds, parts)
+        change = raised - lowered
         pressures += change
+        summed += np.abs(raised) + lowered
         for axis, (rate, face) in enumerate(zip(rates, faces, strict=True), 1):
             rate += face * (np.roll(change, 1, axis) - change)
         crossing = sum(
             np.einsum("kij,lij->kl", period, rate)
             for period, rate in zip(periods, rates, strict=True)
         )
-        if _unequal(rates, crossing) <= _SECTIONS:
+        sections = _sections(rates, faces, summed, crossing)
+        if (sections - crossing.diagonal() <= _SECTIONS * crossing.diagonal()).all():
             break
     of_x, of_y = (
         np.concatenate([rate, np.take(rate, [0], axis)], axis) for axis, rate in enumerate(rates, 1)
     )
     of_map = _of_map(pressures + np.moveaxis(gauge.shift, 2, 0), found)
-    return CellFlow((of_x, of_y), conductances, of_map, crossing)
+    return CellFlow((of_x, of_y), conductances, of_map, crossing, sections)
 
 
-def _unequal(rates: list[Real], crossing: Real) -> float:
-    """How far what flows through a row of faces is from what flows in all, over that."""
-    return max(
-        float(np.abs(rate[k].sum(axis=1 - k) - crossing[k, k]).max() / (crossing[k, k] or 1.0))
-        for k, rate in enumerate(rates)
-    )
+def _sections(rates: list[Real], faces: _Pair, summed: Real, crossing: Real) -> Real:
+    """Flow along either side through that row of faces where it differs most from all that flows.
+
+    Within a wide place between narrow ones, pressures differ by less than they are rounded by; what
+    that may do to a sum is no difference.
+    """
+    found = np.zeros(2)
+    for k, (rate, face) in enumerate(zip(rates, faces, strict=True)):
+        sums = rate[k].sum(axis=1 - k)
+        beside = summed[k] + np.roll(summed[k], 1, k)
+        rounding = _EPS * (face * beside).sum(axis=1 - k)
+        beyond = np.maximum(np.abs(sums - crossing[k, k]) - rounding, 0.0)
+        found[k] = crossing[k, k] + beyond.max()
+    return found
 
 
 def _of_map(pressures: Real, found: Windings) -> Real:
@@ -115,22 +135,18 @@ def _grounds(
     gauge: Gauge,
     found: Windings,
 ) -> tuple[tuple[Integers, Integers], Integers]:
-    """Numbers of one face in each place that winds, on the border of a rectangle, and their parts."""
+    """Numbers of one face in each core, on the border of a rectangle, and their parts."""
+    cores = gauge.cores
     fits = np.stack(
         [
-            border
-            & (face > 0)
-            & ~period.any(axis=0)
-            & (np.roll(gauge.places, 1, axis) == gauge.places)
+            border & (face > 0) & ~period.any(axis=0) & (np.roll(cores, 1, axis) == cores)
             for axis, (border, face, period) in enumerate(
                 zip(network.borders(), faces, periods, strict=True)
             )
         ]
     )
-    candidates = np.flatnonzero(fits)
-    places = np.broadcast_to(gauge.places, fits.shape).ravel()[candidates]
-    chosen = candidates[np.unique(places, return_index=True)[1]]
+    candidates = np.flatnonzero(fits & (cores >= 0))
+    chosen = candidates[np.unique(cores.ravel()[candidates % cores.size], return_index=True)[1]]
     numbers = np.full(fits.shape, -1)
     numbers.ravel()[chosen] = np.arange(chosen.size)
-    parts = np.broadcast_to(found.parts, fits.shape).ravel()[chosen]
-    return (numbers[0], numbers[1]), parts
+    return (numbers[0], numbers[1]), found.parts.ravel()[chosen % cores.size]

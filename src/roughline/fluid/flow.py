@@ -74,8 +74,8 @@ class Flow:
         Flow through each face over the fall of the pressure between the cells beside it. [length³]
     inflow, outflow : float
         Flow through the inlet and through the outlet, times 12 viscosity / pressure difference.
-        Where the gap repeats along the flow, through the narrowest places, and through that row of
-        faces where it differs most from it. [length³]
+        Where the gap repeats along the flow, through the narrowest places, and as far from that as
+        through any row of faces. [length³]
     tensor : ndarray, shape (2, 2), or None
         Of a gap that repeats along both sides: permeance along x and y, the rows, under a gradient
         along x and y, the columns; the same wherever the map is cut. [length³]
@@ -428,14 +428,12 @@ def _through_cell(
     k = "xy".index(along)
     rates = cell.rates[0][k], cell.rates[1][k]
     inflow = float(cell.crossing[k, k])
-    sections = rates[k].sum(axis=1 - k)
-    outflow = float(sections[np.abs(sections - inflow).argmax()]) if inflow else 0.0
     tensor = None
     if sides == "periodic":
         ratio = sizes[0] / sizes[1]
         tensor = cell.crossing * np.array([[ratio, 1.0], [1.0, 1 / ratio]])
     found = gap, sizes, along, sides, path, cell.pressures[k], *rates, *cell.conductances
-    return Flow(*found, inflow, outflow, tensor)
+    return Flow(*found, inflow, float(cell.sections[k]), tensor)
 
 
 def _between_ends(

@@ -33,6 +33,8 @@ from roughline.computing.linear_algebra import on_one_thread
 
 _INLET, _OUTLET = 0, 1  # numbers of these two among the faces
 
+_ROUNDING = 64 * np.finfo(float).eps  # of a sum of flows, over that
+
 _LARGEST = 16  # cells a side of the rectangles that are condensed cell by cell
 
 _AT_ONCE = 256  # faces that are eliminated together
@@ -89,10 +91,10 @@ class Network:
         return dissection.solved(np.zeros((*self.cells.shape, 2)), lambda _: np.eye(2))
 
     def response(self, into: Real, grounds: tuple[Integers, Integers], parts: Integers) -> Real:
-        """Pressures of the cells under flows into them, (columns, nx, ny), if nothing ends.
+        """Pressures of the cells under flows into them and out of them, (2, columns, nx, ny).
 
-        What flows into a part, flows out of it. Positive and negative flows are followed apart, so
-        that each pressure is accurate relative to itself.
+        Nothing ends, and what flows into a part, flows out of it. The pressure is the difference of
+        both, of which each is accurate relative to itself.
 
         Parameters
         ----------
@@ -111,7 +113,9 @@ class Network:
 
         def of_grounds(last: _Block) -> Real:
             """Pressures at the grounds, of which those of positive flows hold those of all."""
-            net = last.sources[:, :columns] - last.sources[:, columns:]
+            inward, outward = last.sources[:, :columns], last.sources[:, columns:]
+            net = inward - outward
+            net[np.abs(net) <= _ROUNDING * (inward + outward)] = 0.0  # nothing but rounding
             held = np.zeros((parts.size, 2 * columns))
             of_faces = parts[last.faces]
             free = np.ones(last.faces.size, bool)
@@ -124,7 +128,7 @@ class Network:
 
         dissection = _Dissection.of(self, *grounds, kept=parts.size)
         found = dissection.solved(np.ascontiguousarray(np.moveaxis(signed, 0, 2)), of_grounds)
-        return found[:columns] - found[columns:]
+        return found.reshape(2, columns, *self.cells.shape)
 
     def borders(self) -> tuple[Mask, Mask]:
         """Faces before cells, along the flow and across, that are on the border of a rectangle."""

@@ -14,6 +14,9 @@ import numpy as np
 from roughline.computing.arrays import Integers, Mask, Real
 from roughline.computing.compiled import compiled
 
+_THREAD = 1e-3
+"""What joins two cores over what they are made of, below which they hang together by a thread."""
+
 
 @dataclass(frozen=True, eq=False)
 class Windings:
@@ -102,17 +105,17 @@ def _wound(count: int, edges: Integers) -> tuple[Integers, Integers, Integers]:
 
 
 @compiled
-def _moved(order: Integers, nx: int, ny: int) -> tuple[Integers, Integers]:
-    """Periods by which each cell is moved, and a cell of the place that it belongs to.
+def _moved(order: Integers, strengths: Real, nx: int, ny: int) -> tuple[Integers, Integers]:
+    """Periods by which each cell is moved, and a cell of the place that it belongs to, or -1.
 
     Of the faces before cells, all along x come first.
     """
     cells = nx * ny
     parent, shift = np.arange(cells), np.zeros((cells, 2), np.int64)
     place, none = np.arange(cells), np.zeros((cells, 2), np.int64)
-    winds = np.zeros(cells, np.bool_)
+    winds, core = np.zeros(cells), np.full(cells, -1)
     for face in order:
-        cell = face % cells
+        cell, strength = face % cells, strengths[face]
         i, j = cell // ny, cell % ny
         x = y = 0
         if face < cells:
@@ -125,16 +128,25 @@ def _moved(order: Integers, nx: int, ny: int) -> tuple[Integers, Integers]:
         x += shift[other, 0] - shift[cell, 0]
         y += shift[other, 1] - shift[cell, 1]
         if first != second:
-            if not (winds[first] and winds[second]):
-                place[_root(place, none, cell)] = _root(place, none, other)
             parent[second], shift[second, 0], shift[second, 1] = first, x, y
-            winds[first] |= winds[second]
-        elif x != 0 or y != 0:
-            winds[first] = True
+            if winds[first] == 0 and winds[second] == 0:
+                place[_root(place, none, cell)] = _root(place, none, other)
+            elif winds[first] == 0:
+                core[first] = core[second]
+            elif winds[second] > 0 and strength >= _THREAD * max(winds[first], winds[second]):
+                place[_root(place, none, core[second])] = _root(place, none, core[first])
+            winds[first] = max(winds[first], winds[second])
+        elif winds[first] == 0 and (x != 0 or y != 0):
+            winds[first], core[first] = strength, cell
+    is_core = np.zeros(cells, np.bool_)
+    for cell in core:
+        if cell >= 0:
+            is_core[_root(place, none, cell)] = True
     for cell in range(cells):
         _root(parent, shift, cell)
-        place[cell] = _root(place, none, cell)
-    return shift, place
+        root = _root(place, none, cell)
+        core[cell] = root if is_core[root] else -1
+    return shift, core
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,13 +160,14 @@ class Gauge:
     ----------
     shift : ndarray, shape (nx, ny, 2)
         Periods by which each cell is moved along x and along y.
-    places : ndarray, shape (nx, ny)
-        Number of the place that a cell belongs to. Two places that wind, each by itself, and hang
-        together by weaker faces are two; what does not wind belongs to one that does.
+    cores : ndarray, shape (nx, ny)
+        Number of the core that a cell belongs to, -1 of cells beside cores. A core is what winds by
+        itself; what joins it later, and more weakly, lies beside it. Two cores that hang together
+        by a thread are two, others are one.
     """
 
     shift: Integers
-    places: Integers
+    cores: Integers
 
     @classmethod
     def of(cls, along: Real, across: Real) -> Gauge:
@@ -162,8 +175,8 @@ class Gauge:
         strength = np.concatenate([along.ravel(), across.ravel()])
         order = np.flatnonzero(strength > 0)
         order = order[np.argsort(-strength[order], kind="stable")]
-        shift, places = _moved(order, *along.shape)
-        return cls(shift.reshape(*along.shape, 2), places.reshape(along.shape))
+        shift, cores = _moved(order, strength, *along.shape)
+        return cls(shift.reshape(*along.shape, 2), cores.reshape(along.shape))
 
     def periods(self, along: Real, across: Real) -> tuple[Integers, Integers]:
         """Periods by which open faces before cells lead on, (2, nx, ny) each."""
