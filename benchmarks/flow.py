@@ -43,13 +43,13 @@ def last_open(heights):
 
 
 def ours(given):
-    flow = rl.flow(given, (1.0, 1.0))
+    flow = rl.flow(given, (1.0, 1.0), sides="y")
     return flow.permeance, flow.imbalance
 
 
 def equations(given):
     """The equations for the pressures of the open cells, scaled to a diagonal of ones."""
-    through = ~np.isnan(rl.flow(given, (1.0, 1.0)).pressure)
+    through = ~np.isnan(rl.flow(given, (1.0, 1.0), sides="y").pressure)
     along, across = Network(np.where(through, given**3, 0.0), 1.0, 1.0, True).conductances()
     number = np.cumsum(through.ravel()).reshape(through.shape) - 1
     first = [number[:-1], number]
@@ -71,7 +71,7 @@ def balance(given, solve):
     """Permeance, from the outflow, and imbalance of a pressure that a solver of equations finds."""
     matrix, right, scale = equations(given)
     pressure = np.zeros(given.shape)
-    through = ~np.isnan(rl.flow(given, (1.0, 1.0)).pressure)
+    through = ~np.isnan(rl.flow(given, (1.0, 1.0), sides="y").pressure)
     pressure[through] = solve(matrix, right) * scale
     inflow = float((2 * given[0] ** 3 * (1 - pressure[0]))[through[0]].sum())
     outflow = float((2 * given[-1] ** 3 * pressure[-1]).sum())

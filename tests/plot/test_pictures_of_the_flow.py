@@ -101,12 +101,20 @@ def test_an_arrow_leads_from_inlet_to_outlet(gap, along):
 def test_a_sealed_gap_shows_how_far_the_fluid_comes():
     gap = np.ones((10, 10))
     gap[6], gap[3, 4] = 0, 0
-    axes = rl.plot.flow(rl.flow(gap, (1.0, 1.0)))
+    axes = rl.plot.flow(rl.flow(gap, (1.0, 1.0), sides="closed"))
     assert "sealed" in axes.get_title()
     reached = gap > 0
     reached[6:] = False
     assert np.array_equal(shown(axes.images[1]) == 1, reached)
     assert (len(axes.figure.axes), len(axes.lines)) == (1, 0)  # no scale, and no ring
+
+
+def test_a_sealed_gap_that_repeats_has_no_ends():
+    gap = np.ones((10, 10))
+    gap[6] = 0
+    axes = rl.plot.flow(rl.flow(gap, (1.0, 1.0)))
+    assert "from one repetition" in axes.get_title()
+    assert not any("inlet" in each.get_text() for each in axes.texts)
 
 
 def test_a_channel_of_one_cell_is_seen_on_a_large_map():

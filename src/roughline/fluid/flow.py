@@ -48,8 +48,8 @@ _REPEATS: dict[Sides, tuple[bool, bool]] = {
 class Flow:
     """Flow of a fluid through a gap, under a unit difference of pressure.
 
-    Where the gap ends along the flow, the pressure is 1 before it and 0 behind it. Where it repeats,
-    the pressure falls by 1 with each repetition.
+    Where the gap ends along the flow, the pressure is 1 before it and 0 behind it. Where it
+    repeats, the pressure falls by 1 with each repetition.
 
     Attributes
     ----------
@@ -129,8 +129,13 @@ class Flow:
         return bool(self.imbalance <= _AGREEMENT)
 
     @property
+    def has_ends(self) -> bool:
+        """Whether the gap ends along the flow, at an inlet and an outlet."""
+        return not self._repeats(self.along)
+
+    @property
     def is_sealed(self) -> bool:
-        """Whether no path leads from the inlet to the outlet."""
+        """Whether no path leads from the inlet to the outlet, or on from one repetition."""
         return self.inflow == 0
 
     @property
@@ -153,7 +158,7 @@ class Flow:
 
     @property
     def easiest_direction(self) -> float:
-        """Angle of the direction of the largest permeance, from x towards y, in (-90, 90]. [degrees]
+        """Angle of the direction of the largest permeance, from x towards y. [degrees]
 
         Raises
         ------
@@ -207,7 +212,7 @@ class Flow:
         """
         if self.is_sealed:
             return 0.0
-        rows = self._forward[:-1] if self._repeats(self.along) else self._forward[1:-1]
+        rows = self._forward[1:-1] if self.has_ends else self._forward[:-1]
         return max(map(self._largest_share_of_row, rows)) / self.inflow
 
     @cached_property

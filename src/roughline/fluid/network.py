@@ -218,8 +218,7 @@ class _Dissection:
     def solved(self, sources: Real, of_kept: Callable[[_Block], Real]) -> Real:
         """Pressures of the cells, (columns, nx, ny), under flows into them.
 
-        The pressures at the faces that are kept follow from all, condensed into what is between
-        these.
+        Those at the faces that are kept follow from all, condensed into what is between these.
         """
         with on_one_thread(), ThreadPoolExecutor(available_cores()) as pool:
             return self._solved(sources, of_kept, pool)

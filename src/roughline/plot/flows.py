@@ -120,7 +120,7 @@ def _mark_direction(axes: Axes, flow: Flow) -> None:
     """Write beside the map where inlet and outlet are."""
     along_x = flow.along == "x"
     axes.annotate(
-        r"inlet  $\Longrightarrow$  outlet",
+        r"inlet  $\Longrightarrow$  outlet" if flow.has_ends else r"flow  $\Longrightarrow$",
         (0.5, 1.0) if along_x else (1.0, 0.5),
         (0, 4) if along_x else (4, 0),
         xycoords="axes fraction",
@@ -134,8 +134,10 @@ def _mark_direction(axes: Axes, flow: Flow) -> None:
 
 def _in_words(flow: Flow, unit: str | None) -> str:
     """Say how much flows, and what the ring is."""
-    if flow.is_sealed:
+    if flow.is_sealed and flow.has_ends:
         return "sealed: no way from inlet to outlet\nblue: as far as the fluid comes"
+    if flow.is_sealed:
+        return "sealed: no way from one repetition\nof the map to the next"
     share = flow.largest_share
     one = f"; {100 * share:.0f}% in one channel" if share > _ONE_CHANNEL else ""
     aperture = in_words(flow.hydraulic_aperture, unit, 3)

@@ -22,8 +22,14 @@ if TYPE_CHECKING:
 _DIGITS = 3  # of statistics of one map
 _OF_FLOW = (
     "Flux over its mean, on the gap of the map; black: contact. A ring marks where the fluid is "
-    "throttled most, near sealing the last channel. The other two sides are"
+    "throttled most, near sealing the last channel."
 )
+_SIDES = {
+    "periodic": "The map repeats along both sides.",
+    "closed": "The other two sides are closed.",
+    "x": "The map repeats along x; along y it has an inlet and an outlet, or is closed.",
+    "y": "The map repeats along y; along x it has an inlet and an outlet, or is closed.",
+}
 _OF_DISTRIBUTIONS = (
     "Density of the gap over the nominal area, without the points in contact, and of the pressure "
     "in contact, without the points at the hardness (bins chosen by the data: Freedman and "
@@ -66,7 +72,7 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
 
 def _of_flow(assessment: Assessment, load: int) -> str:
     """Say what the pictures of the flow show."""
-    text = f"{_OF_FLOW} {assessment.flows[0].sides}."
+    text = f"{_OF_FLOW} {_SIDES[assessment.flows[0].sides]}"
     text += " Apertures are those of the map, to three digits whatever is open of them."
     sealing = assessment.question.sealing
     if sealing is not None and sealing.free_path:
