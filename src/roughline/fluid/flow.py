@@ -30,7 +30,7 @@ Sides = Literal["periodic", "closed", "x", "y"]
 
 _AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
 _NARROW = 0.25  # of the width: what is wider is no single channel
-_BYTES = 110  # that an open cell takes for each doubling of a side
+_BYTES = 130  # that an open cell takes for each doubling of a side
 _STEEP = 0.3  # slope of the gap beyond which Reynolds' equation is no longer good
 _HIGH = 0.1  # hydraulic aperture over the shorter side beyond which it is not either
 

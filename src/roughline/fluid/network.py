@@ -397,17 +397,20 @@ def _eliminate(g: Real, into: Real, here: int, share: Real, driven: Real) -> Non
     row = g[here]
     pivot = row[:reach].sum()
     share[:] = row[:reach] / pivot
-    driven[:] = into[here] / pivot
+    for column in range(driven.size):
+        driven[column] = into[here, column] / pivot
     for other in range(reach):
         part = share[other]
         if part > 0:
             g[other, here] = 0
-            into[other] += part * into[here]
+            for column in range(driven.size):
+                into[other, column] += part * into[here, column]
             for each in range(reach):
                 g[other, each] += part * row[each]
             g[other, other] = 0
     row[:reach] = 0
-    into[here] = 0
+    for column in range(driven.size):
+        into[here, column] = 0
 
 
 @compiled
@@ -445,7 +448,8 @@ def _eliminate_cells(
             continue
         here = cell % window
         row = g[here]
-        into[here] += sources[i, j]
+        for column in range(sources.shape[2]):
+            into[here, column] += sources[i, j, column]
         for face, square_of in (
             (before[j] if i == 0 else -1, along),
             (behind[j] if i + 1 == nx else -1, along),
