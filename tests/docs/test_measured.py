@@ -252,8 +252,9 @@ def test_the_page_of_the_flow_quotes_its_table():
     factors = [float(row["factor of the flow"]) for row in quarter]
     assert f"a factor of {factors[0]:.0f} of their middle" in page
     assert f"of {factors[1]:.1f} with four, and of {factors[2]:.0f} with eight" in page
-    closed = [100 * (1 - number(row["closed sides over periodic"])) for row in quarter]
-    assert f"by {min(closed):.0f} to {max(closed):.0f} % at a quarter in contact" in page
+    closed = [number(row["closed sides over periodic"]) for row in quarter]
+    assert max(abs(each - 1) for each in closed) < 0.0105
+    assert "in the middle, within 1 % of that of the cell up to a quarter in contact" in page
     (gas,) = rows_of("permeance", "A rare gas")
     near, one, two, rare = (float(gas[path]) for path in ("0.1", "1", "2", "20"))
     assert f"{near:.1f} times as much through" in page
