@@ -7,8 +7,9 @@ import math
 from fractions import Fraction
 
 import numpy as np
+from kinetic import kinetic
 from page import Page
-from scipy import integrate, sparse
+from scipy import sparse
 from scipy.sparse import linalg
 
 import roughline as rl
@@ -248,39 +249,18 @@ def luck(page):
             )
 
 
-def kinetic(path, cells=200):
-    """Flow of a gas between flat plates a gap of 1 apart, over that without slip.
-
-    The BGK equation with diffuse reflection, for the velocity over the gap; its kernel is the
-    integral of exp(-c² - |x - w| / c) / c, here over each cell (Cercignani and Daneri 1963).
-    """
-    width = math.sqrt(math.pi) / 2 / path  # gap over the thermal speed and the rate of collisions
-    ends = np.arange(2 * cells + 1) * width / cells / 2
-    tails = [
-        integrate.quad(lambda c, end=end: math.exp(-c * c - end / c) if c else 0.0, 0, 8)[0]
-        for end in ends
-    ]
-    distance = np.abs(np.subtract.outer(np.arange(cells), np.arange(cells)))
-    kernel = np.array(
-        [2 * (tails[0] - tails[1])] + [tails[2 * k - 1] - tails[2 * k + 1] for k in range(1, cells)]
-    )[distance]
-    source = np.linalg.solve(np.eye(cells) - kernel / math.sqrt(math.pi), np.ones(cells))
-    return 6 / width**2 * float((source - 1).mean())
-
-
 def a_rare_gas(page):
     page.say("\n## A rare gas\n")
     page.say(
-        "Flow between flat plates by kinetic theory (the BGK equation) over that of `rl.flow` with "
-        "the same mean free path.\n"
+        "Flow between flat plates by kinetic theory, the BGK equation solved, over that with slip of "
+        "the first order, and over that of `rl.flow`.\n"
     )
     page.table("mean free path over the gap", *FREE_PATHS)
-    plates = np.ones((2, 2))
-    ratios = [
-        kinetic(path) / rl.flow(plates, (1.0, 1.0), mean_free_path=path).permeance
-        for path in FREE_PATHS
-    ]
+    ratios = [kinetic(path) / (1 + 6 * path) for path in FREE_PATHS]
+    plates = [rl.flow(np.ones((2, 2)), (1.0, 1.0), mean_free_path=path) for path in FREE_PATHS]
     page.row("kinetic theory over slip", *(f"{ratio:.2f}" for ratio in ratios))
+    solved = [kinetic(path) / each.permeance for path, each in zip(FREE_PATHS, plates, strict=True)]
+    page.row("kinetic theory over `rl.flow`", *(f"{ratio:.3f}" for ratio in solved))
 
 
 def main():

@@ -142,9 +142,14 @@ def test_closed_pockets_change_nothing():
     assert after.permeance == before.permeance
 
 
-def test_slip_is_added_to_the_gap():
-    flat = rl.flow(np.full((8, 8), 2.0), (1.0, 1.0), mean_free_path=0.5)
-    assert flat.permeance == pytest.approx(2.0**3 + 6 * 0.5 * 2.0**2, rel=1e-14)
+def test_a_gas_flows_between_plates_as_kinetic_theory_says():
+    """Two gaps in series: each of its own rarefaction (Cercignani and Daneri 1963)."""
+    flat = rl.flow(np.full((8, 8), 2.0), (1.0, 1.0), mean_free_path=1.0)
+    assert flat.permeance == pytest.approx(1.332 * (2.0**3 + 6 * 2.0**2), rel=1e-12)
+    gap = np.full((8, 8), 2.0)
+    gap[:4] = 1.0
+    stepped = rl.flow(gap, (1.0, 1.0), mean_free_path=1.0).permeance
+    assert stepped == pytest.approx(2 / (1 / flat.permeance + 1 / (1.4919 * 7)), rel=1e-12)
 
 
 def test_the_same_bytes_every_time():

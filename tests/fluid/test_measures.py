@@ -9,6 +9,8 @@ import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of
 from roughline.fluid import measures
 from roughline.fluid.measures import (
+    LIQUID,
+    aperture_of,
     flow_factor,
     hydraulic_aperture,
     inverse_gap,
@@ -31,9 +33,9 @@ def test_they_are_those_of_the_flow_through_the_fields(surface, periodic, along)
     taken = [
         hydraulic_aperture(along),
         hydraulic_aperture(along, PATH),
-        flow_factor(along),
-        largest_share(along),
-        slope_of_flow(along),
+        flow_factor(LIQUID, along),
+        largest_share(LIQUID, along),
+        slope_of_flow(LIQUID, along),
         rl.MEAN_GAP,
     ]
     given = {"E_star": 1.0, "forces": FORCES, "periodic": periodic}
@@ -61,7 +63,7 @@ def test_several_measures_of_a_load_are_of_one_flow(surface, monkeypatch):
     monkeypatch.setattr(
         measures, "flow", lambda *given, **named: solved.append(1) or rl.flow(*given, **named)
     )
-    taken = [each("x") for each in (hydraulic_aperture, flow_factor, largest_share)]
+    taken = [each(LIQUID, "x") for each in (aperture_of, flow_factor, largest_share)]
     rl.press(surface, E_star=1.0, forces=FORCES, periodic=True, measures=taken)
     assert len(solved) == len(FORCES)
     gc.collect()
@@ -97,7 +99,7 @@ def test_a_gap_between_flat_plates_is_its_own_aperture():
     heights = np.zeros((32, 32))
     heights[:, 16:] = -0.01
     plates = rl.Surface(heights, (1.0, 1.0), is_cut_out=False)
-    taken = [hydraulic_aperture("x"), hydraulic_aperture("y"), largest_share("x")]
+    taken = [hydraulic_aperture("x"), hydraulic_aperture("y"), largest_share(LIQUID, "x")]
     curve = rl.press(plates, E_star=1e6, forces=[1e-6], periodic=True, measures=taken)
     aperture = curve.measured["hydraulic_aperture_x"].values[0]
     assert aperture == pytest.approx(0.01 / np.cbrt(2), rel=1e-6)

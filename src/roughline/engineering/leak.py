@@ -25,39 +25,16 @@ def liquid_leak(aperture: _Value, ratio: float, difference: float, liquid: Liqui
     return ratio * aperture**3 * difference / (12 * liquid.viscosity)
 
 
-def gas_throughput(aperture: _Value, ratio: float, inlet: float, outlet: float, gas: Gas) -> _Value:
+def gas_throughput(
+    permeance: _Value, ratio: float, inlet: float, outlet: float, gas: Gas
+) -> _Value:
     """Pressure times volume of a gas per time, (W/B) u_s³ (P_1² - P_2²) / (24 η). [Pa m³ / s]
 
     The flow is isothermal. Its density is that of the local pressure, P / (R_s T), so that P² takes
-    the place of the pressure of a liquid. The aperture u_s [m] is that with slip at the mean
-    pressure: the flux is (u³ P + 6 λ P u²) ∇P, and λ P is a constant of the gas, so that this is
-    exact between flat plates, down to vacuum. Where the gap varies, throats at the inlet have
-    less slip than this and those at the outlet more. Of two gaps in series, one twice as wide as
-    the other, it is off by 5 % at most, and by 15 % if it is ten times as wide, where the gas flows
-    into vacuum. It is off by a third of that if it flows into half of its pressure.
+    the place of the pressure of a liquid. The permeance u_s³ [m³] is the mean of P Λ(P) along the
+    seal over that of P (:class:`roughline.fluid.rarefied.Rarefied`).
     """
-    return ratio * aperture**3 * (inlet**2 - outlet**2) / (24 * gas.viscosity)
-
-
-def beyond_slip(path_over_gap: _Value) -> _Value:
-    """How much more than slip of the first order lets through kinetic theory does. [1]
-
-    It is that of flat plates, by the BGK equation [1]_, between mean free paths of a hundredth and
-    of twenty gaps, and goes on with the logarithm of the path from there.
-
-    References
-    ----------
-    .. [1] Cercignani, C., Daneri, A. Flow of a rarefied gas between two parallel plates. J. Appl.
-       Phys. 34, 3509-3513 (1963).
-    """
-    rare = np.log(np.maximum(path_over_gap, _PATHS[0]))
-    paths, more = np.log(_PATHS), np.array(_MORE)
-    rise = (more[-1] - more[-2]) / (paths[-1] - paths[-2])
-    return np.interp(rare, paths, more) + rise * np.maximum(rare - paths[-1], 0.0)
-
-
-_PATHS = (0.01, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0)  # mean free paths over the gap
-_MORE = (1.0, 1.09, 1.21, 1.33, 1.49, 1.69, 2.01, 2.63)  # flow at these over that with slip
+    return ratio * permeance * (inlet**2 - outlet**2) / (24 * gas.viscosity)
 
 
 def mass_of_throughput(throughput: _Value, gas: Gas) -> _Value:

@@ -13,6 +13,7 @@ from roughline.engineering.fluids import Gas, Liquid
 from roughline.engineering.leak import gas_throughput, liquid_leak
 from roughline.errors.checks import refuse
 from roughline.fluid.flow import Along
+from roughline.fluid.rarefied import Rarefied
 from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure
 from roughline.units import in_si
@@ -122,16 +123,24 @@ class Sealing:
             return 0.0
         return self.gas.mean_free_path(self.mean_pressure)
 
+    @property
+    def rarefied(self) -> Rarefied:
+        """How rare the fluid is on its way along the seal; a liquid is not. [m]"""
+        if self.free_path == 0 or self.inlet is None:
+            return Rarefied(self.free_path)
+        return Rarefied(self.free_path, abs(self.inlet - self.outlet) / (self.inlet + self.outlet))
+
     def leak(self, aperture: Real) -> Real | None:
         """Volume of a liquid, or pressure times volume of a gas, per time. [m³ / s, Pa m³ / s]
 
-        The aperture, of a gas that with slip, is in m. None where no seal is crossed.
+        The aperture is the gap of flat plates [m]. None where no seal is crossed.
         """
         if self.seal is None or self.inlet is None:
             return None
         ratio, fluid = self.seal.ratio, self.fluid
         if isinstance(fluid, Gas):
-            return gas_throughput(aperture, ratio, self.inlet, self.outlet, fluid)
+            permeance = self.rarefied.plates(aperture)
+            return gas_throughput(permeance, ratio, self.inlet, self.outlet, fluid)
         return liquid_leak(aperture, ratio, self.inlet - self.outlet, fluid)
 
 

@@ -18,6 +18,7 @@ from roughline.contact.fields import Fields
 from roughline.errors import InputError
 from roughline.errors.checks import between, one_of, refuse
 from roughline.errors.public import public_names
+from roughline.fluid.rarefied import conductance
 from roughline.fluid.winding import windings
 from roughline.topography.body import Line, Surface
 from roughline.topography.heights import checked_sides
@@ -63,7 +64,7 @@ class Flow:
         Along which sides the gap repeats: both, none, or one of them. Across the flow, a side along
         which it does not repeat is closed.
     mean_free_path : float
-        Of a gas, at the pressure for which this flow is; zero without slip. [length]
+        Of a gas, at the pressure for which this flow is; zero of a liquid. [length]
     pressure : ndarray, shape (nx, ny)
         Pressure of the fluid; NaN where there is no fluid, or none that is joined to an end. Of a
         gap that repeats along the flow, 1 before it and 0 behind it in the mean of each part. [1]
@@ -213,7 +214,18 @@ class Flow:
         if self.is_sealed:
             return 0.0
         rows = self._forward[1:-1] if self.has_ends else self._forward[:-1]
-        return max(map(self._largest_share_of_row, rows)) / self.inflow
+        rows = rows[(rows == 0).any(axis=1)]
+        if self._repeats("y" if self.along == "x" else "x"):  # no channel is cut where rows begin
+            closed = (rows == 0).argmax(axis=1)[:, np.newaxis]
+            rows = np.take_along_axis(rows, (closed + np.arange(rows.shape[1])) % rows.shape[1], 1)
+        width = _NARROW * rows.shape[1]
+        rates = np.pad(rows, ((0, 0), (0, 1))).ravel()  # a channel ends with its row
+        edges = np.flatnonzero(np.diff(rates != 0, prepend=False))
+        if edges.size == 0:
+            return 0.0
+        sums = np.add.reduceat(rates, edges)[::2]
+        narrow = edges[1::2] - edges[::2] <= width
+        return float(sums[narrow].max(initial=0.0)) / self.inflow
 
     @cached_property
     def slope(self) -> float:
@@ -263,28 +275,9 @@ class Flow:
         """Power that is lost between neighbours along x and along y. [length³]"""
         rates = self.rates_x, self.rates_y
         lost = []
-        for rate, conductance in zip(
-            rates, (self.conductances_x, self.conductances_y), strict=True
-        ):
-            is_open = conductance > 0
-            lost.append(np.divide(rate**2, conductance, out=np.zeros_like(rate), where=is_open))
+        for rate, face in zip(rates, (self.conductances_x, self.conductances_y), strict=True):
+            lost.append(np.divide(rate**2, face, out=np.zeros_like(rate), where=face > 0))
         return lost[0], lost[1]
-
-    def _largest_share_of_row(self, rates: Real) -> float:
-        """Largest flow of one channel through a row of faces."""
-        flows = rates != 0
-        if flows.all():
-            return 0.0
-        if self._repeats(
-            "y" if self.along == "x" else "x"
-        ):  # begin where nothing flows, so that no channel is cut
-            rates = np.roll(rates, -int(np.flatnonzero(~flows)[0]))
-            flows = rates != 0
-        edges = np.flatnonzero(np.diff(flows, prepend=False, append=False))
-        firsts, ends = edges[::2], edges[1::2]
-        narrow = ends - firsts <= _NARROW * rates.size
-        sums = np.concatenate([[0.0], np.cumsum(rates)])
-        return float((sums[ends] - sums[firsts])[narrow].max(initial=0.0))
 
 
 def why_too_steep(slope: float) -> str:
@@ -351,8 +344,9 @@ def flow(
         borders are inlet and outlet if they are across the flow, and closed if not. Default: as the
         body of the fields repeats; of an array, both.
     mean_free_path : float, optional
-        Of a gas, at its mean pressure. It slips along the walls: u³ becomes u³ + 6 λ u². Default:
-        0, a liquid. [length]
+        Of a gas, at its pressure there. Every cell lets through what kinetic theory lets through
+        plates as far apart [2]_, and where the path is short u³ + 6 λ u², as the gas slips.
+        Default: 0, a liquid. [length]
 
     Returns
     -------
@@ -369,6 +363,8 @@ def flow(
     ----------
     .. [1] Reynolds, O. On the theory of lubrication and its application. Phil. Trans. R. Soc. Lond.
        177, 157-234 (1886).
+    .. [2] Cercignani, C., Daneri, A. Flow of a rarefied gas between two parallel plates. J. Appl.
+       Phys. 34, 3509-3513 (1963).
 
     Examples
     --------
@@ -469,7 +465,9 @@ def _between_ends(
 
 def _conducting(gap: Real, through: Mask, path: float) -> Real:
     """Conductances of the cells through which a fluid flows, were they square. [length³]"""
-    return np.where(through, gap**2 * (gap + 6 * path), 0.0)
+    found = np.zeros(gap.shape)
+    found[through] = conductance(gap[through], path)
+    return found
 
 
 def _refuse_beyond_memory(through: Mask) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
@@ -14,41 +15,66 @@ from roughline.contact.measures import Measure
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
 from roughline.fluid.flow import Along, Flow, checked_free_path, flow
+from roughline.fluid.rarefied import Rarefied
+
+LIQUID = Rarefied()
+"""What has no mean free path."""
 
 
 @dataclass(frozen=True)
 class _Found:
     """What is kept of a flow; NaN where it did not converge."""
 
+    permeance: float = math.nan
     aperture: float = math.nan
     factor: float = math.nan
     share: float = math.nan
     slope: float = math.nan
 
 
-_FOUND: WeakKeyDictionary[Fields, dict[tuple[Along, float], _Found]] = WeakKeyDictionary()
+_FOUND: WeakKeyDictionary[Fields, dict[tuple[Along, Rarefied], _Found]] = WeakKeyDictionary()
 """By the fields of a load, as long as these are there: several measures are of one flow."""
 
 
-def _found(fields: Fields, along: Along, path: float) -> _Found:
-    """Let a fluid of some mean free path [length] through the gap under a load."""
+def _found(fields: Fields, along: Along, fluid: Rarefied) -> _Found:
+    """Let a fluid through the gap under a load."""
     known = _FOUND.setdefault(fields, {})
-    if (along, path) not in known:
-        if fields.repeats == (True, True):  # one factorisation serves both directions
-            through = flow(fields, along="both", mean_free_path=path)
-        else:
-            through = (flow(fields, along=along, mean_free_path=path),)
-        known |= {(each.along, path): _kept(each) for each in through}
-    return known[along, path]
+    if (along, fluid) not in known:
+        places = _along_seal(fields, along, fluid)
+        for through in zip(*(flows for _, flows in places), strict=True):
+            weights = [weight for weight, _ in places]
+            known[through[0].along, fluid] = _kept(weights, through, fluid)
+    return known[along, fluid]
 
 
-def _kept(through: Flow) -> _Found:
-    """What is kept of a flow."""
-    if not through.converged:
+def _along_seal(
+    fields: Fields, along: Along, fluid: Rarefied
+) -> list[tuple[float, tuple[Flow, ...]]]:
+    """Weights of places along the seal, and the flow at each of them."""
+    if fluid.is_even(fields.mean_gap):  # as a rule, more than the aperture
+        found = _flows(fields, along, fluid.path)
+        if fluid.is_even(min(each.hydraulic_aperture or math.inf for each in found)):
+            return [(1.0, found)]
+    return [(weight, _flows(fields, along, path)) for weight, path in fluid.stations]
+
+
+def _flows(fields: Fields, along: Along, path: float) -> tuple[Flow, ...]:
+    """The flow along a side; along both where one factorisation serves both."""
+    if fields.repeats == (True, True):
+        return flow(fields, along="both", mean_free_path=path)
+    return (flow(fields, along=along, mean_free_path=path),)
+
+
+def _kept(weights: Sequence[float], through: Sequence[Flow], fluid: Rarefied) -> _Found:
+    """What is kept of the flow at places along the seal; of channels, at the last of them."""
+    if not all(each.converged for each in through):
         return _Found()
-    mean = float(through.gap.mean())
-    factor = through.permeance / mean**3 if mean > 0 else 0.0
-    return _Found(through.hydraulic_aperture, factor, through.largest_share, through.slope)
+    last = through[-1]
+    permeance = sum(weight * each.permeance for weight, each in zip(weights, through, strict=True))
+    aperture, mean = fluid.gap_of_plates(permeance), float(last.gap.mean())
+    of_liquid = permeance if fluid == LIQUID else aperture**3
+    factor = of_liquid / mean**3 if mean > 0 else 0.0
+    return _Found(permeance, aperture, factor, last.largest_share, last.slope)
 
 
 @public
@@ -63,13 +89,14 @@ def hydraulic_aperture(along: Along = "x", mean_free_path: float = 0.0) -> Measu
     along : {"x", "y"}, optional
         Side along which the fluid flows.
     mean_free_path : float, optional
-        Of a gas, at its mean pressure; it slips. Default: 0, a liquid. [length]
+        Of a gas, at its pressure there. Default: 0, a liquid. [length]
 
     Returns
     -------
     Measure
-        The hydraulic aperture, with the name "hydraulic_aperture_x" or "hydraulic_aperture_y", of a
-        gas that slips "slip_aperture_x" or "slip_aperture_y"; 0 where the gap is sealed.
+        The hydraulic aperture, with the name "hydraulic_aperture_x" or "hydraulic_aperture_y"; of a
+        gas the gap of plates between which as much of a liquid would flow, "slip_aperture_x" or
+        "slip_aperture_y". It is 0 where the gap is sealed.
 
     Raises
     ------
@@ -93,20 +120,34 @@ def hydraulic_aperture(along: Along = "x", mean_free_path: float = 0.0) -> Measu
 
 @functools.cache
 def _hydraulic_aperture(along: Along, path: float) -> Measure:
-    slips = path > 0
+    if path == 0:
+        return aperture_of(LIQUID, along)
     return Measure(
-        f"{'slip_aperture' if slips else 'hydraulic_aperture'}_{along}",
-        "u_s" if slips else "u_h",
+        f"slip_aperture_{along}",
+        "u_s",
         "length",
-        f"gap of flat plates that let as much {'gas' if slips else ''} through along {along}",
-        lambda fields: _found(fields, along, path).aperture,
+        f"gap of flat plates that let as much gas through along {along}, were it a liquid",
+        lambda fields: float(np.cbrt(_found(fields, along, Rarefied(path)).permeance)),
         intensive=True,
     )
 
 
 @functools.cache
-def flow_factor(along: Along) -> Measure:
-    """Permeance over that of flat plates at the mean gap [1]_.
+def aperture_of(fluid: Rarefied, along: Along) -> Measure:
+    """Gap of flat plates that let as much through as a gap does, of a liquid or of a gas."""
+    return Measure(
+        f"hydraulic_aperture_{along}",
+        "u_h",
+        "length",
+        f"gap of flat plates that let as much through along {along}",
+        lambda fields: _found(fields, along, fluid).aperture,
+        intensive=True,
+    )
+
+
+@functools.cache
+def flow_factor(fluid: Rarefied, along: Along) -> Measure:
+    """Cube of the hydraulic aperture over the mean gap, a flow over that of flat plates [1]_.
 
     References
     ----------
@@ -119,32 +160,32 @@ def flow_factor(along: Along) -> Measure:
         r"\phi_p",
         "1",
         f"flow along {along} over that of flat plates at the mean gap",
-        lambda fields: _found(fields, along, 0.0).factor,
+        lambda fields: _found(fields, along, fluid).factor,
         intensive=True,
     )
 
 
 @functools.cache
-def largest_share(along: Along) -> Measure:
+def largest_share(fluid: Rarefied, along: Along) -> Measure:
     """Share of the flow that its strongest channel carries."""
     return Measure(
         f"largest_share_{along}",
         "s_1",
         "1",
         f"share of the flow along {along} in its strongest channel",
-        lambda fields: _found(fields, along, 0.0).share,
+        lambda fields: _found(fields, along, fluid).share,
     )
 
 
 @functools.cache
-def slope_of_flow(along: Along) -> Measure:
+def slope_of_flow(fluid: Rarefied, along: Along) -> Measure:
     """Slope of the gap where the flow is throttled, by which Reynolds' equation is judged."""
     return Measure(
         f"flow_slope_{along}",
         "",
         "1",
         f"slope of the gap where the flow along {along} is throttled",
-        lambda fields: _found(fields, along, 0.0).slope,
+        lambda fields: _found(fields, along, fluid).slope,
     )
 
 

@@ -12,7 +12,6 @@ from roughline.computing.arrays import Real
 from roughline.contact.measures import Measure
 from roughline.engineering.fluids import Gas
 from roughline.engineering.leak import (
-    beyond_slip,
     mass_of_throughput,
     reynolds_number,
     throughput_at_room,
@@ -24,12 +23,13 @@ from roughline.engineering.sealing import Closing, Sealing
 from roughline.errors.words import called
 from roughline.fluid.flow import Along, why_too_steep
 from roughline.fluid.measures import (
+    aperture_of,
     flow_factor,
-    hydraulic_aperture,
     inverse_gap,
     largest_share,
     slope_of_flow,
 )
+from roughline.fluid.rarefied import Rarefied
 from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure
 from roughline.units import decimal, engineering
@@ -37,7 +37,7 @@ from roughline.units import decimal, engineering
 _HALF = 0.5  # share of the flow from which on one channel is told
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
-_RARE = 0.1  # free path over the aperture beyond which slip is not all that a thin gas does
+_RARE = 0.1  # free path over the aperture beyond which how walls reflect molecules counts
 _CARRIES = 0.1  # pressure of the fluid over that of the contact from which on it is said
 _MOLECULES = 3e-9  # ten diameters of a molecule of water; those of oils are larger [m]
 _MBAR_LITRES = 10.0  # in a Pa m³
@@ -53,20 +53,17 @@ _Needed = Callable[[Sealing], Sequence[Measure]]
 """What is taken from the fields of every load, from what is asked."""
 
 
-def _along_each(*measures_of: Callable[[Along], Measure]) -> _Needed:
-    """Measures along each direction that is asked for."""
-    return lambda asked: [of(along) for along in asked.directions for of in measures_of]
+def _along_each(*measures_of: Callable[[Rarefied, Along], Measure]) -> _Needed:
+    """Measures of the fluid along each direction that is asked for."""
+    return lambda asked: [
+        of(asked.rarefied, along) for along in asked.directions for of in measures_of
+    ]
 
 
-_APERTURES = _along_each(hydraulic_aperture)
+_APERTURES = _along_each(aperture_of)
 _FACTORS = _along_each(flow_factor)
 _SHARES = _along_each(largest_share)
 _SLOPES = _along_each(slope_of_flow)
-
-
-def _apertures_with_slip(asked: Sealing) -> Sequence[Measure]:
-    """What a gas finds at its mean pressure; of a liquid the apertures themselves."""
-    return [hydraulic_aperture(along, asked.free_path) for along in asked.directions]
 
 
 def _inverse_gap(asked: Sealing) -> Sequence[Measure]:
@@ -77,9 +74,11 @@ def _inverse_gap(asked: Sealing) -> Sequence[Measure]:
 
 
 def _with_slip(pressed: Pressed) -> Real | None:
-    """Aperture that a gas finds, in rows; a liquid does not slip. [m]"""
-    is_gas = pressed.sealing is not None and pressed.sealing.gas is not None
-    return _largest(pressed, _apertures_with_slip) if is_gas else None
+    """Aperture of plates that let as much of a liquid through as a gas finds, in rows. [m]"""
+    asked, aperture = pressed.sealing, _largest(pressed, _APERTURES)
+    if asked is None or asked.free_path == 0 or aperture is None:
+        return None
+    return np.cbrt(asked.rarefied.plates(aperture))
 
 
 def _largest(pressed: Pressed, needed: _Needed) -> Real | None:
@@ -93,7 +92,7 @@ def _along(along: Along, pressed: Pressed) -> Real | None:
     """Aperture along one direction, where both are asked for."""
     if pressed.sealing is None or len(pressed.sealing.directions) == 1:
         return None
-    return pressed.measure(hydraulic_aperture(along).name)
+    return pressed.measure(aperture_of(pressed.sealing.rarefied, along).name)
 
 
 def _placed(pressed: Pressed) -> Mapping[str, str]:
@@ -111,19 +110,13 @@ def _with_direction(name: str, pressed: Pressed) -> Mapping[str, str]:
 def _leak(pressed: Pressed) -> Real | None:
     """Volume of a liquid, or pressure times volume of a gas, per time, in rows. [m³/s, Pa m³/s]"""
     asked, aperture = pressed.sealing, _largest(pressed, _APERTURES)
-    with_slip = _largest(pressed, _apertures_with_slip)
-    if asked is None or aperture is None or with_slip is None:
+    if asked is None or aperture is None:
         return None
-    found = asked.leak(with_slip)
+    found = asked.leak(aperture)
     if found is None:
         return None
     found = np.where(_lift(pressed) >= 1, np.nan, found)
-    if isinstance(asked.fluid, Gas):
-        widest = np.where(aperture[0] > 0, aperture[0], aperture[-1])
-        gap = np.where(widest > 0, widest, np.inf)  # nothing leaks, however rare the gas
-        kinetic = found * beyond_slip(asked.free_path / gap)  # of even gaps; slip is the least
-        return kinetic if len(found) == 1 else np.stack([kinetic[0], found[1], kinetic[2]])
-    if len(found) == 1:
+    if isinstance(asked.fluid, Gas) or len(found) == 1:
         return found
     factor = asked.fluid.viscosity_factor
     return np.stack([found[0], found[1] / factor, found[2] * factor])
@@ -189,7 +182,7 @@ def _through_seal(pressed: Pressed) -> Mapping[str, str]:
     known = "" if factor == 1 else f", viscosity known to a factor of {factor:g}"
     place = _placed(pressed).get("validity", _OF_THE_MAP)
     if asked.gas is not None:
-        place += "; where it is rare, times what lets more through an even gap (Cercignani 1963)"
+        place += "; kinetic theory at the local pressure and gap (Cercignani 1963)"
     return {
         "validity": f"{asked.fluid.name}{known}, {engineering(asked.inlet, 'Pa')} to "
         f"{engineering(asked.outlet, 'Pa')} absolute, seal {asked.seal.words}; {place}"
@@ -242,7 +235,7 @@ def _untold(pressed: Pressed) -> str:
 
 
 def _beyond_reynolds(pressed: Pressed) -> str:
-    """Say where the equation of thin gaps, or slip, is no longer good."""
+    """Say where the equation of thin gaps is no longer good, and where walls count."""
     asked, steep = pressed.sealing, _largest(pressed, _SLOPES)
     aperture = _largest(pressed, _APERTURES)
     if steep is None or asked is None or aperture is None:
@@ -261,7 +254,8 @@ def _beyond_reynolds(pressed: Pressed) -> str:
         if rare > _RARE:
             found.append(
                 f"the mean free path of {asked.fluid.name} is {decimal(rare, 2)} of the hydraulic "
-                f"aperture: beyond {_RARE:g}, leaks are those of kinetic theory for an even gap"
+                f"aperture: beyond {_RARE:g}, leaks are those of kinetic theory (the BGK "
+                "model) and of walls that reflect molecules diffusely: others let more through"
             )
     if asked.gas is None and is_open.any():
         narrow = float(np.nanmin(aperture[0][is_open]))
@@ -366,7 +360,6 @@ SEALING = (
         value=partial(_of_gas, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
         differing=_through_seal,
         answers_question=always,
-        measured_with=_apertures_with_slip,
     ),
     _rule(
         key="leak_mass",
@@ -378,7 +371,6 @@ SEALING = (
         value=partial(_of_gas, mass_of_throughput),
         unknown=_lifts,
         differing=_through_seal,
-        measured_with=_apertures_with_slip,
     ),
     _rule(
         key="hydraulic_aperture",
@@ -402,11 +394,10 @@ SEALING = (
         name="aperture with slip",
         symbol="u_s",
         unit="m",
-        formula="hydraulic aperture of u³ + 6 u² times the mean free path",
+        formula="gap of flat plates between which as much of a liquid would flow",
         is_of_interface=True,
         value=_with_slip,
         differing=partial(_with_direction, "aperture with slip"),
-        measured_with=_apertures_with_slip,
     ),
     *(
         _rule(
