@@ -252,8 +252,8 @@ def luck(page):
 def a_rare_gas(page):
     page.say("\n## A rare gas\n")
     page.say(
-        "Flow between flat plates by kinetic theory, the BGK equation solved, over that with slip of "
-        "the first order, and over that of `rl.flow`.\n"
+        "Flow between flat plates by kinetic theory, the BGK equation solved, over that with slip "
+        "of the first order, and over that of `rl.flow`.\n"
     )
     page.table("mean free path over the gap", *FREE_PATHS)
     ratios = [kinetic(path) / (1 + 6 * path) for path in FREE_PATHS]

@@ -170,10 +170,8 @@ class Assessment:
         fields, sealing = self.fields_of_gap, self.question.sealing
         if fields is None or sealing is None:
             return ()
-        return [
-            flow(fields, along=along, mean_free_path=sealing.free_path)
-            for along in sealing.directions
-        ]
+        through = flow(fields, along=sealing.along, mean_free_path=sealing.free_path)
+        return through if isinstance(through, tuple) else (through,)
 
     @property
     def curve_as_asked(self) -> Curve:

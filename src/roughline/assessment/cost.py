@@ -96,7 +96,7 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
 
 
 def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
-    """Return about how long all flows take: one for each load and direction, twice of a gas."""
+    """Return about how long all flows take: one for each load and direction, two of a rare gas."""
     sealing = case.question.sealing
     if sealing is None:
         return 0.0
@@ -106,7 +106,7 @@ def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
         for each in variants
         if each.periodic == is_repeated and each.purpose != "slip"
     ]
-    apertures = len(sealing.directions) * (2 if sealing.free_path > 0 else 1)
+    apertures = len(sealing.directions) * (1 if sealing.rarefied.is_even(0.0) else 2)
     return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)
 
 

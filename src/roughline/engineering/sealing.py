@@ -128,7 +128,7 @@ class Sealing:
         """How rare the fluid is on its way along the seal; a liquid is not. [m]"""
         if self.free_path == 0 or self.inlet is None:
             return Rarefied(self.free_path)
-        return Rarefied(self.free_path, abs(self.inlet - self.outlet) / (self.inlet + self.outlet))
+        return Rarefied(self.free_path, (self.inlet - self.outlet) / (self.inlet + self.outlet))
 
     def leak(self, aperture: Real) -> Real | None:
         """Volume of a liquid, or pressure times volume of a gas, per time. [m³ / s, Pa m³ / s]

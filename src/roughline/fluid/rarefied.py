@@ -15,6 +15,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
+
 _Value = TypeVar("_Value", float, NDArray[np.float64])
 
 # Flow between plates by the BGK equation over that of slip of the first order, found to 1e-4 by
@@ -92,15 +94,14 @@ class Rarefied:
             for node, pressure in zip(_NODES, pressures, strict=True)
         ]
 
-    def plates(self, gap: _Value) -> _Value:
+    def plates(self, gap: float | Real) -> Real:
         """Permeance between flat plates, the mean along the seal; zero without a gap. [length³]"""
-        if self.path == 0:
-            return gap**3
         gaps = np.asarray(gap, dtype=float)
-        is_open = gaps > 0
-        safe = np.where(is_open, gaps, 1.0)
-        through = sum(weight * conductance(safe, path) for weight, path in self.stations)
-        return np.where(is_open, through, np.where(np.isnan(gaps), np.nan, 0.0))
+        if self.path == 0:
+            return gaps**3
+        safe = np.where(gaps > 0, gaps, 1.0)
+        through = [weight * conductance(safe, path) for weight, path in self.stations]
+        return np.where(gaps > 0, sum(through), 0.0 * gaps)  # of what is unknown, unknown
 
     def gap_of_plates(self, permeance: float) -> float:
         """Gap of flat plates that let as much through along the seal. [length]"""

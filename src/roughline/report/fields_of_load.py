@@ -82,8 +82,9 @@ def _of_flow(assessment: Assessment, load: int) -> str:
         }
         told = [f"{engineering(u, 'm', _DIGITS)} along {along}" for along, u in of_map.items()]
         text += (
-            f" They hold the slip of {sealing.fluid.name} at its mean pressure; without it, u_h is "
-            f"{' and '.join(told)}."
+            f" They are those of {sealing.fluid.name} at its mean pressure: u_s is the gap of flat "
+            "plates between which as much of a liquid would flow; between which as much of the gas "
+            f"flows along the seal, it is {' and '.join(told)}."
         )
     if assessment.fields_of_gap is not assessment.fields:
         text += " The map is pressed repeated on all sides here, as for the answers about its gap."
