@@ -255,7 +255,7 @@ def test_the_page_of_the_flow_quotes_its_table():
     closed = [number(row["closed sides over periodic"]) for row in quarter]
     assert max(abs(each - 1) for each in closed) < 0.0105
     assert "in the middle, within 1 % of that of the cell up to a quarter in contact" in page
-    (gas,) = rows_of("permeance", "A rare gas")
+    gas, _ = rows_of("permeance", "A rare gas")
     near, one, two, rare = (float(gas[path]) for path in ("0.1", "1", "2", "20"))
     assert f"{near:.1f} times as much through" in page
     assert f"{one:.1f} times at 1, {two:.1f} times at 2 and {rare:.1f} times at 20" in page

@@ -377,7 +377,7 @@ def flow(
     >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
     >>> curve = rl.press(surface, E_star=1.0, forces=[0.05], periodic=True, fields=True)
     >>> print(round(rl.flow(curve.fields[0]).hydraulic_aperture, 5))
-    0.00163
+    0.00162
     """
     one_of("along", along, (*get_args(Along), "both"))
     repeats = gap.repeats if isinstance(gap, Fields) else (True, True)
