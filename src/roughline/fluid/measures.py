@@ -112,7 +112,7 @@ def hydraulic_aperture(along: Along = "x", mean_free_path: float = 0.0) -> Measu
     ...     surface, E_star=1.0, forces=[0.02, 0.05, 0.1], periodic=True, measures=[aperture]
     ... )
     >>> print(curve.measured["hydraulic_aperture_x"].values.round(5))
-    [0.00561 0.00163 0.     ]
+    [0.00555 0.00162 0.     ]
     """
     one_of("along", along, ("x", "y"))
     return _hydraulic_aperture(along, checked_free_path(mean_free_path))
