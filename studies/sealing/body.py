@@ -18,7 +18,7 @@ import numpy as np
 import roughline as rl
 from roughline.contact.curve import Curve
 from roughline.errors import ConvergenceError
-from roughline.fluid.flow import Along
+from roughline.fluid.gap import Along
 from roughline.fluid.sealing_pressure import OPEN
 
 SEED = 2012

@@ -92,7 +92,7 @@ def test_the_ring_is_around_the_constriction_and_the_axes_have_units(gap):
 
 @pytest.mark.parametrize("along", ["x", "y"])
 def test_an_arrow_leads_from_inlet_to_outlet(gap, along):
-    axes = rl.plot.flow(rl.flow(gap, gap.sizes, along=along))
+    axes = rl.plot.flow(rl.flow(gap, along=along, sides="closed"))
     (text,) = (each for each in axes.texts if each.get_text())
     assert text.get_text() == r"inlet  $\Longrightarrow$  outlet"
     assert text.get_rotation() == (0 if along == "x" else 270)

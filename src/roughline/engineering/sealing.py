@@ -12,7 +12,7 @@ from roughline.computing.arrays import Real
 from roughline.engineering.fluids import Gas, Liquid
 from roughline.engineering.leak import gas_throughput, liquid_leak
 from roughline.errors.checks import refuse
-from roughline.fluid.flow import Along
+from roughline.fluid.gap import Along
 from roughline.fluid.rarefied import Rarefied
 from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure

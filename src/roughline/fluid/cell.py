@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Integers, Real
+from roughline.computing.arrays import Indices, Real
 from roughline.fluid.network import Network
 from roughline.fluid.winding import Gauge, Windings
 
@@ -76,8 +76,8 @@ def cell_flow(network: Network, found: Windings) -> CellFlow:
     rates = [face * period for face, period in zip(faces, periods, strict=True)]
     pressures, summed = np.zeros((2, 2, *network.cells.shape))
     for _ in range(_MOST_TIMES):
-        into = sum(rate - np.roll(rate, -1, axis) for axis, rate in enumerate(rates, 1))
-        raised, lowered = network.response(into, grounds, parts)
+        x, y = (rate - np.roll(rate, -1, axis) for axis, rate in enumerate(rates, 1))
+        raised, lowered = network.response(x + y, grounds, parts)
         change = raised - lowered
         pressures += change
         summed += np.abs(raised) + lowered
@@ -131,10 +131,10 @@ def _of_map(pressures: Real, found: Windings) -> Real:
 def _grounds(
     network: Network,
     faces: _Pair,
-    periods: tuple[Integers, Integers],
+    periods: tuple[Indices, Indices],
     gauge: Gauge,
     found: Windings,
-) -> tuple[tuple[Integers, Integers], Integers]:
+) -> tuple[tuple[Indices, Indices], Indices]:
     """Numbers of one face in each core, on the border of a rectangle, and their parts."""
     cores = gauge.cores
     fits = np.stack(

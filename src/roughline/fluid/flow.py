@@ -2,47 +2,25 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, get_args, overload
+from typing import Any, Literal, get_args, overload
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
-from roughline.computing.memory import refuse_beyond_memory
+from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
-from roughline.contact.curve import Curve
-from roughline.contact.fields import Fields
 from roughline.errors import InputError
-from roughline.errors.checks import between, one_of, refuse
+from roughline.errors.checks import one_of
 from roughline.errors.public import public_names
-from roughline.fluid.rarefied import conductance
+from roughline.fluid.gap import REPEATS, Along, Gap, Sides
 from roughline.fluid.winding import windings
-from roughline.topography.body import Line, Surface
-from roughline.topography.heights import checked_sides
-
-if TYPE_CHECKING:
-    from roughline.fluid.cell import CellFlow
-
-Along = Literal["x", "y"]
-Sides = Literal["periodic", "closed", "x", "y"]
 
 _AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
 _NARROW = 0.25  # of the width: what is wider is no single channel
-_BYTES = 130  # that an open cell takes for each doubling of a side
 _STEEP = 0.3  # slope of the gap beyond which Reynolds' equation is no longer good
 _HIGH = 0.1  # hydraulic aperture over the shorter side beyond which it is not either
-
-
-_REPEATS: dict[Sides, tuple[bool, bool]] = {
-    "periodic": (True, True),
-    "closed": (False, False),
-    "x": (True, False),
-    "y": (False, True),
-}
-"""Whether a gap repeats along x and along y."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +84,7 @@ class Flow:
         Pressure times flow is power, so that this is the flow once more.
         """
         x, y = self._lost
-        repeats_x, repeats_y = _REPEATS[self.sides]
+        repeats_x, repeats_y = REPEATS[self.sides]
         return float(x[int(repeats_x) :].sum() + y[:, int(repeats_y) :].sum())
 
     @property
@@ -234,7 +212,7 @@ class Flow:
             return 0.0
         (dx, dy), (x, y) = self._spacing, self._lost
         x, y = x[:-1], y[:, :-1]  # of the faces before cells; between these and an end, no slope
-        repeats_x, repeats_y = _REPEATS[self.sides]
+        repeats_x, repeats_y = REPEATS[self.sides]
         inside = np.ones(self.gap.shape, bool), np.ones(self.gap.shape, bool)
         inside[0][0], inside[1][:, 0] = repeats_x, repeats_y
         steep = (
@@ -268,7 +246,7 @@ class Flow:
         return self.rates_x if self.along == "x" else self.rates_y.T
 
     def _repeats(self, side: Along) -> bool:
-        return _REPEATS[self.sides]["xy".index(side)]
+        return REPEATS[self.sides]["xy".index(side)]
 
     @cached_property
     def _lost(self) -> tuple[Real, Real]:
@@ -380,175 +358,56 @@ def flow(
     0.00162
     """
     one_of("along", along, (*get_args(Along), "both"))
-    repeats = gap.repeats if isinstance(gap, Fields) else (True, True)
-    known = next(name for name, each in _REPEATS.items() if each == repeats)
-    sides = known if sides is None else one_of("sides", sides, get_args(Sides))
-    sizes = sizes or (gap.sizes if isinstance(gap, Fields) else None)
-    gap = _checked_gap(gap)
-    if sizes is None:
-        raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
-    sizes, path = checked_sides(sizes), checked_free_path(mean_free_path)
-    wanted = get_args(Along) if along == "both" else (along,)
-    cell = None
-    if any(_REPEATS[sides]["xy".index(each)] for each in wanted):
-        cell = _cell(gap, sizes, sides, path)
-    given = gap, sizes, sides, path
-    found = [
-        _through_cell(each, *given, cell)
-        if cell is not None and _REPEATS[sides]["xy".index(each)]
-        else _between_ends(each, *given)
-        for each in wanted
-    ]
-    return found[0] if len(found) == 1 else (found[0], found[1])
-
-
-def checked_free_path(given: Any) -> float:
-    """A mean free path; refused where it is negative or not finite."""
-    needed = "a finite number of at least 0 is needed"
-    return between("mean_free_path", given, 0.0, sys.float_info.max, needed)
-
-
-def _cell(gap: Real, sizes: tuple[float, float], sides: Sides, path: float) -> CellFlow:
-    """The flow through a gap that repeats, along both sides at once."""
-    from roughline.fluid.cell import cell_flow  # here because compiled loops load slowly
-    from roughline.fluid.network import Network
-
-    if sides == "y":  # a gap that ends is closed at its borders across the flow
-        return _cell(gap.T, (sizes[1], sizes[0]), "x", path).turned()
-    found = windings(gap > 0, _REPEATS[sides])
-    _refuse_beyond_memory(found.through)
-    ratio = sizes[0] / gap.shape[0] / (sizes[1] / gap.shape[1])
-    network = Network(_conducting(gap, found.through, path), 1 / ratio, ratio, *_REPEATS[sides])
-    return cell_flow(network, found)
-
-
-def _through_cell(
-    along: Along, gap: Real, sizes: tuple[float, float], sides: Sides, path: float, cell: CellFlow
-) -> Flow:
-    """The flow along a side along which the gap repeats."""
-    k = "xy".index(along)
-    rates = cell.rates[0][k], cell.rates[1][k]
-    inflow = float(cell.crossing[k, k])
-    tensor = None
-    if sides == "periodic":
-        ratio = sizes[0] / sizes[1]
-        tensor = cell.crossing * np.array([[ratio, 1.0], [1.0, 1 / ratio]])
-    found = gap, sizes, along, sides, path, cell.pressures[k], *rates, *cell.conductances
-    return Flow(*found, inflow, float(cell.sections[k]), tensor)
-
-
-def _between_ends(
-    along: Along, gap: Real, sizes: tuple[float, float], sides: Sides, path: float
-) -> Flow:
-    """The flow along a side at whose ends the gap ends."""
-    from roughline.fluid.network import Network  # here because compiled loops load slowly
-
-    turned, length, width = (gap, *sizes) if along == "x" else (gap.T, *sizes[::-1])
-    periodic = _REPEATS[sides][1 if along == "x" else 0]
-    from_inlet, from_outlet = joined_to_ends(turned > 0, periodic)
-    through = from_inlet & from_outlet
-    _refuse_beyond_memory(through)
-    ratio = (length / turned.shape[0]) / (width / turned.shape[1])
-    network = Network(_conducting(turned, through, path), 1 / ratio, ratio, False, periodic)
-    pressures = network.pressures() if through.any() else np.zeros((2, *turned.shape))
-    conductances = network.conductances()
-    forward, across = _rates(conductances, pressures)
-    pressure = np.where(through, pressures[0], np.where(from_inlet, 1.0, np.nan))
-    pressure[from_outlet & ~through] = 0.0
-    ends = float(forward[0].sum()), float(forward[-1].sum())
-    arrays = [pressure, forward, across, *conductances]
-    if along == "y":
-        pressure, forward, across, *conductances = (each.T for each in arrays)
-        arrays = [pressure, across, forward, *conductances[::-1]]
-    return Flow(gap, sizes, along, sides, path, *arrays, *ends)
-
-
-def _conducting(gap: Real, through: Mask, path: float) -> Real:
-    """Conductances of the cells through which a fluid flows, were they square. [length³]"""
-    found = np.zeros(gap.shape)
-    found[through] = conductance(gap[through], path)
-    return found
-
-
-def _refuse_beyond_memory(through: Mask) -> None:
-    """Refuse a flow through so many cells that memory cannot hold it."""
-    refuse_beyond_memory(
-        int(_BYTES * through.sum() * np.log2(max(through.shape))),
-        f"a flow through {through.shape[0]} x {through.shape[1]} cells",
-        "coarsen the gap",
+    checked = Gap.of(gap, sizes, sides, mean_free_path)
+    if along == "both":
+        return _flow_along_both(checked)
+    return (
+        _through_cell(checked)[along] if checked.repeats(along) else _between_ends(checked, along)
     )
 
 
-def _checked_gap(given: Any) -> Real:
-    """The gap that is given, as an array of its own."""
-    if given is None or isinstance(given, Curve):
-        needed = "give the fields of a load, curve.fields[i], which rl.press keeps with fields=True"
-        refuse("gap", given, needed)
-    if isinstance(given, Line):
-        raise InputError(
-            "is a Line; along a line, in one dimension, any contact stops the flow: give "
-            "the gap under a surface",
-            "gap",
+def _flow_along_both(gap: Gap) -> tuple[Flow, Flow]:
+    """The flow along x, and along y."""
+    found = _through_cell(gap) if gap.sides != "closed" else {}
+    x, y = (found.get(along) or _between_ends(gap, along) for along in get_args(Along))
+    return x, y
+
+
+def _through_cell(gap: Gap) -> dict[Along, Flow]:
+    """The flow along each side along which a gap repeats, all from one factorisation."""
+    from roughline.fluid.cell import CellFlow, cell_flow  # here because compiled loops load slowly
+    from roughline.fluid.network import Network
+
+    def solved(turned: Gap) -> CellFlow:
+        if turned.sides == "y":  # a gap that ends is closed at its borders across the flow
+            return solved(turned.turned()).turned()
+        found = windings(turned.distances > 0, REPEATS[turned.sides])
+        ratio, cells = turned.ratio, turned.conducting(found.through)
+        return cell_flow(Network(cells, 1 / ratio, ratio, *REPEATS[turned.sides]), found)
+
+    cell, tensor = solved(gap), None
+    if gap.sides == "periodic":
+        shape = gap.sizes[0] / gap.sizes[1]
+        tensor = cell.crossing * np.array([[shape, 1.0], [1.0, 1 / shape]])
+    return {
+        along: Flow(
+            *(gap.distances, gap.sizes, along, gap.sides, gap.path),
+            *(cell.pressures[k], cell.rates[0][k], cell.rates[1][k], *cell.conductances),
+            *(float(cell.crossing[k, k]), float(cell.sections[k]), tensor),
         )
-    if isinstance(given, Surface):
-        raise InputError(
-            "is a Surface; press it, with fields=True, and give curve.fields[i]", "gap"
-        )
-    if isinstance(given, Fields):  # rounding leaves neither gaps in contact nor overlaps beside it
-        return np.where(given.contact, 0.0, np.maximum(given.gap, 0.0))
-    try:
-        gap = np.array(given, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        refuse("gap", given, "an array of numbers, shape (nx, ny), is needed")
-    if gap.ndim != 2 or min(gap.shape) < 2:
-        refuse(
-            "gap",
-            given,
-            "two dimensions of at least 2 cells are needed: in one, any contact stops the flow",
-        )
-    wrong = ~((gap >= 0) & (gap < np.inf))
-    if wrong.any():
-        i, j = np.argwhere(wrong)[0]
-        raise InputError(
-            f"has {int(wrong.sum())} negative or not finite values, the first {gap[i, j]} at "
-            f"({i}, {j}); a distance is at least 0, and 0 where the bodies touch",
-            "gap",
-        )
-    return gap
+        for k, along in enumerate(get_args(Along))
+        if gap.repeats(along)
+    }
 
 
-def leads_through(open_cells: Mask, along: Along, repeats: tuple[bool, bool]) -> bool:
-    """Whether a path of open cells, each beside the next, leads through along a side."""
-    k = "xy".index(along)
-    if repeats[k]:
-        return windings(open_cells, repeats).leads(k)
-    from_inlet, from_outlet = joined_to_ends(open_cells if k == 0 else open_cells.T, repeats[1 - k])
-    return bool((from_inlet & from_outlet).any())
+def _between_ends(gap: Gap, along: Along) -> Flow:
+    """The flow along a side at whose ends the gap ends."""
+    from roughline.fluid.ends import ended_flow  # here because compiled loops load slowly
 
-
-def joined_to_ends(open_cells: Mask, periodic: bool) -> tuple[Mask, Mask]:
-    """Cells from which a path leads to the inlet, and cells from which one leads to the outlet."""
-    parts = windings(open_cells, (False, periodic)).parts
-    inlet, outlet = (np.isin(parts, border[border >= 0]) for border in (parts[0], parts[-1]))
-    return inlet, outlet
-
-
-def _rates(conductances: tuple[Real, Real], pressures: Real) -> tuple[Real, Real]:
-    """Flow through the faces along and across, from pressures that are 1 at either end.
-
-    Where one of them is small, its differences are accurate, and it is used.
-    """
-    down, up = pressures
-    nx, ny = down.shape
-    along = np.empty((nx + 1, ny))
-    along[0], along[-1] = up[0], down[-1]
-    along[1:-1] = _falls(down[:-1], down[1:], up[:-1], up[1:])
-    across = np.empty((nx, ny + 1))
-    across[:, 1:] = _falls(down, np.roll(down, -1, axis=1), up, np.roll(up, -1, axis=1))
-    across[:, 0] = across[:, -1]
-    return along * conductances[0], across * conductances[1]
-
-
-def _falls(down: Real, down_next: Real, up: Real, up_next: Real) -> Real:
-    """Fall of the pressure from cells to their neighbours."""
-    return np.where(down + down_next < up + up_next, down - down_next, up_next - up)
+    found = ended_flow(gap) if along == "x" else ended_flow(gap.turned()).turned()
+    forward = found.rates[0] if along == "x" else found.rates[1].T
+    return Flow(
+        *(gap.distances, gap.sizes, along, gap.sides, gap.path),
+        *(found.pressure, *found.rates, *found.conductances),
+        *(float(forward[0].sum()), float(forward[-1].sum())),
+    )

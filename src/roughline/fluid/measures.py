@@ -14,7 +14,8 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
-from roughline.fluid.flow import Along, Flow, checked_free_path, flow
+from roughline.fluid.flow import Flow, flow
+from roughline.fluid.gap import Along, checked_free_path
 from roughline.fluid.rarefied import Rarefied
 
 LIQUID = Rarefied()

@@ -26,7 +26,7 @@ from itertools import chain, pairwise, product
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Integers, Mask, Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.computing.compiled import compiled
 from roughline.computing.cores import available_cores
 from roughline.computing.linear_algebra import on_one_thread
@@ -90,7 +90,7 @@ class Network:
         dissection = _Dissection.of(self, ends[0], ends[1], kept=2)
         return dissection.solved(np.zeros((*self.cells.shape, 2)), lambda _: np.eye(2))
 
-    def response(self, into: Real, grounds: tuple[Integers, Integers], parts: Integers) -> Real:
+    def response(self, into: Real, grounds: tuple[Indices, Indices], parts: Indices) -> Real:
         """Pressures of the cells under flows into them and out of them, (2, columns, nx, ny).
 
         Nothing ends, and what flows into a part, flows out of it. The pressure is the difference of
@@ -240,7 +240,7 @@ class _Dissection:
             else:
                 pairs = zip(grid[:, ::2].ravel(), grid[:, 1::2].ravel(), strict=True)
                 shape = shape[0], shape[1] // 2
-            joined = pool.map(lambda pair: _joined(*pair, self.kept), pairs)
+            joined = pool.map(lambda pair: _joined(pair[0], pair[1], self.kept), pairs)
             blocks, new = map(list, zip(*joined, strict=True))
             steps += chain.from_iterable(new)
         of_faces = np.zeros((self.kept + self.along.size + self.across.size, sources.shape[2]))
@@ -288,7 +288,8 @@ class _Dissection:
         square = self.network.along, self.network.across
         cells, into = self.network.cells[i:i_end, j:j_end], sources[i:i_end, j:j_end]
         before, behind, left, right = places
-        return _eliminate_cells(cells, into, square, before, behind, left, right, faces, kept)
+        borders = before, behind, left, right
+        return _eliminate_cells(cells, into, square, borders, faces, kept)
 
 
 _Corner = tuple[tuple[int, int], tuple[int, int]]
@@ -418,10 +419,7 @@ def _eliminate_cells(
     cells: Real,
     sources: Real,
     square: tuple[float, float],
-    before: Indices,
-    behind: Indices,
-    left: Indices,
-    right: Indices,
+    borders: tuple[Indices, Indices, Indices, Indices],
     faces: int,
     kept: int,
 ) -> tuple[Real, Real, Real, Real, Indices]:
@@ -429,11 +427,11 @@ def _eliminate_cells(
 
     Returns the conductances between faces and the flows into them; the share of each neighbour in
     the pressure of a cell, and what flows into cells add to it, of all cells or of one if no more
-    are kept; and the places of the faces among these. Cells have
-    the first places, in turns, as long as they are not eliminated; each face has one from where the
-    sweep meets it.
+    are kept; and the places of the faces among these. Cells have the first places, in turns, as
+    long as they are not eliminated; each face has one from where the sweep meets it.
     """
     along, across = square
+    before, behind, left, right = borders
     nx, ny = cells.shape
     window = ny + 1
     reach = window

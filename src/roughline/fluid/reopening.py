@@ -19,7 +19,7 @@ from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
-from roughline.fluid.flow import Along
+from roughline.fluid.gap import Along
 from roughline.fluid.measures import hydraulic_aperture
 from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
 from roughline.halfspace.elasticity.half_space import HalfSpace

@@ -19,7 +19,7 @@ from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
-from roughline.fluid.flow import Along, leads_through
+from roughline.fluid.gap import Along
 from roughline.fluid.one_map import (
     factor_left_open,
     is_judged,
@@ -27,6 +27,7 @@ from roughline.fluid.one_map import (
     quarters,
     tells_of_larger,
 )
+from roughline.fluid.winding import leads_through
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface

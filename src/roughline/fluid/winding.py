@@ -8,10 +8,11 @@ such parts let a fluid through.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
-from roughline.computing.arrays import Integers, Mask, Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.computing.compiled import compiled
 
 _THREAD = 1e-3
@@ -22,9 +23,9 @@ _THREAD = 1e-3
 class Windings:
     """Open parts of a gap, and how each of them winds."""
 
-    parts: Integers  # of each cell, (nx, ny); -1 where it is closed
-    rank: Integers  # of each part: 0 if it does not wind, 1 along one direction, 2 along all
-    direction: Integers  # of each part of rank 1: periods along both sides, (parts, 2)
+    parts: Indices  # of each cell, (nx, ny); -1 where it is closed
+    rank: Indices  # of each part: 0 if it does not wind, 1 along one direction, 2 along all
+    direction: Indices  # of each part of rank 1: periods along both sides, (parts, 2)
 
     @property
     def through(self) -> Mask:
@@ -40,7 +41,7 @@ def windings(open_cells: Mask, repeats: tuple[bool, bool]) -> Windings:
     """Find the parts of open cells, each beside the next, and how they wind."""
     from scipy.ndimage import label  # here because it loads slowly
 
-    pieces: Integers
+    pieces: Indices
     pieces, count = label(open_cells)
     pieces = pieces - 1
     edges = [
@@ -55,7 +56,23 @@ def windings(open_cells: Mask, repeats: tuple[bool, bool]) -> Windings:
     return Windings(of_cells, rank[numbers], direction[numbers])
 
 
-def _across_border(last: Integers, first: Integers, axis: int) -> Integers:
+def leads_through(open_cells: Mask, along: Literal["x", "y"], repeats: tuple[bool, bool]) -> bool:
+    """Whether a path of open cells, each beside the next, leads through along a side."""
+    k = "xy".index(along)
+    if repeats[k]:
+        return windings(open_cells, repeats).leads(k)
+    from_inlet, from_outlet = joined_to_ends(open_cells if k == 0 else open_cells.T, repeats[1 - k])
+    return bool((from_inlet & from_outlet).any())
+
+
+def joined_to_ends(open_cells: Mask, periodic: bool) -> tuple[Mask, Mask]:
+    """Cells from which a path leads to the inlet, and cells from which one leads to the outlet."""
+    parts = windings(open_cells, (False, periodic)).parts
+    inlet, outlet = (np.isin(parts, border[border >= 0]) for border in (parts[0], parts[-1]))
+    return inlet, outlet
+
+
+def _across_border(last: Indices, first: Indices, axis: int) -> Indices:
     """Pieces that meet across a border, with the periods from one to the other."""
     meet = (last >= 0) & (first >= 0)
     pairs = np.unique(np.stack([last[meet], first[meet]], axis=1), axis=0)
@@ -65,7 +82,7 @@ def _across_border(last: Integers, first: Integers, axis: int) -> Integers:
 
 
 @compiled
-def _root(parent: Integers, shift: Integers, node: int) -> int:
+def _root(parent: Indices, shift: Indices, node: int) -> int:
     """Root of a node; its shift is then that from the root, and all on the way hang on the root."""
     root, x, y = node, 0, 0
     while parent[root] != root:
@@ -80,7 +97,7 @@ def _root(parent: Integers, shift: Integers, node: int) -> int:
 
 
 @compiled
-def _wound(count: int, edges: Integers) -> tuple[Integers, Integers, Integers]:
+def _wound(count: int, edges: Indices) -> tuple[Indices, Indices, Indices]:
     """Root of each node, and how the part of each root winds: its rank and its direction."""
     parent, shift = np.arange(count), np.zeros((count, 2), np.int64)
     rank, direction = np.zeros(count, np.int64), np.zeros((count, 2), np.int64)
@@ -105,7 +122,7 @@ def _wound(count: int, edges: Integers) -> tuple[Integers, Integers, Integers]:
 
 
 @compiled
-def _moved(order: Integers, strengths: Real, nx: int, ny: int) -> tuple[Integers, Integers]:
+def _moved(order: Indices, strengths: Real, nx: int, ny: int) -> tuple[Indices, Indices]:
     """Periods by which each cell is moved, and a cell of the place that it belongs to, or -1.
 
     Of the faces before cells, all along x come first.
@@ -166,8 +183,8 @@ class Gauge:
         by a thread are two, others are one.
     """
 
-    shift: Integers
-    cores: Integers
+    shift: Indices
+    cores: Indices
 
     @classmethod
     def of(cls, along: Real, across: Real) -> Gauge:
@@ -178,7 +195,7 @@ class Gauge:
         shift, cores = _moved(order, strength, *along.shape)
         return cls(shift.reshape(*along.shape, 2), cores.reshape(along.shape))
 
-    def periods(self, along: Real, across: Real) -> tuple[Integers, Integers]:
+    def periods(self, along: Real, across: Real) -> tuple[Indices, Indices]:
         """Periods by which open faces before cells lead on, (2, nx, ny) each."""
         shift = np.moveaxis(self.shift, 2, 0)
         x, y = np.roll(shift, 1, 1) - shift, np.roll(shift, 1, 2) - shift

@@ -21,7 +21,8 @@ from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
 from roughline.engineering.sealing import Closing, Sealing
 from roughline.errors.words import called
-from roughline.fluid.flow import Along, why_too_steep
+from roughline.fluid.flow import why_too_steep
+from roughline.fluid.gap import Along
 from roughline.fluid.measures import (
     aperture_of,
     flow_factor,

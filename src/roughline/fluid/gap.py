@@ -1,0 +1,125 @@
+"""A gap to let a fluid through: distances, the sides of its rectangle, and how it repeats."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from roughline.computing.arrays import Mask, Real
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
+from roughline.errors import InputError
+from roughline.errors.checks import between, one_of, refuse
+from roughline.fluid.rarefied import conductance
+from roughline.topography.body import Line, Surface
+from roughline.topography.heights import checked_sides
+
+Along = Literal["x", "y"]
+Sides = Literal["periodic", "closed", "x", "y"]
+
+REPEATS: dict[Sides, tuple[bool, bool]] = {
+    "periodic": (True, True),
+    "closed": (False, False),
+    "x": (True, False),
+    "y": (False, True),
+}
+"""Whether a gap repeats along x and along y."""
+
+_BYTES = 130  # that an open cell takes for each doubling of a side
+
+
+@dataclass(frozen=True, eq=False)
+class Gap:
+    """Distances of two bodies on a rectangle, and along which of its sides they repeat."""
+
+    distances: Real  # (nx, ny) [length]
+    sizes: tuple[float, float]
+    sides: Sides
+    path: float  # mean free path of a gas; zero of a liquid [length]
+
+    @classmethod
+    def of(cls, given: Any, sizes: Any, sides: Any, mean_free_path: Any) -> Gap:
+        """Check distances, or the fields of a load, which know their sides."""
+        repeats = given.repeats if isinstance(given, Fields) else (True, True)
+        known = next(name for name, each in REPEATS.items() if each == repeats)
+        checked: Sides = known if sides is None else one_of("sides", sides, get_args(Sides))
+        sizes = sizes or (given.sizes if isinstance(given, Fields) else None)
+        distances = _checked(given)
+        if sizes is None:
+            raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
+        return cls(distances, checked_sides(sizes), checked, checked_free_path(mean_free_path))
+
+    def repeats(self, side: Along) -> bool:
+        """Whether it repeats along a side."""
+        return REPEATS[self.sides]["xy".index(side)]
+
+    @property
+    def ratio(self) -> float:
+        """Distance of cells along x over that along y. [1]"""
+        (lx, ly), (nx, ny) = self.sizes, self.distances.shape
+        return lx / nx / (ly / ny)
+
+    def turned(self) -> Gap:
+        """The same with x and y exchanged."""
+        other: dict[Sides, Sides] = {"x": "y", "y": "x"}
+        sides = other.get(self.sides, self.sides)
+        return Gap(self.distances.T, (self.sizes[1], self.sizes[0]), sides, self.path)
+
+    def conducting(self, through: Mask) -> Real:
+        """Conductances of the cells through which a fluid flows, were they square. [length³]"""
+        refuse_beyond_memory(
+            int(_BYTES * through.sum() * np.log2(max(through.shape))),
+            f"a flow through {through.shape[0]} x {through.shape[1]} cells",
+            "coarsen the gap",
+        )
+        found = np.zeros(through.shape)
+        found[through] = conductance(self.distances[through], self.path)
+        return found
+
+
+def checked_free_path(given: Any) -> float:
+    """A mean free path; refused where it is negative or not finite."""
+    needed = "a finite number of at least 0 is needed"
+    return between("mean_free_path", given, 0.0, sys.float_info.max, needed)
+
+
+def _checked(given: Any) -> Real:
+    """The distances that are given, as an array of their own."""
+    if given is None or isinstance(given, Curve):
+        needed = "give the fields of a load, curve.fields[i], which rl.press keeps with fields=True"
+        refuse("gap", given, needed)
+    if isinstance(given, Line):
+        raise InputError(
+            "is a Line; along a line, in one dimension, any contact stops the flow: give "
+            "the gap under a surface",
+            "gap",
+        )
+    if isinstance(given, Surface):
+        raise InputError(
+            "is a Surface; press it, with fields=True, and give curve.fields[i]", "gap"
+        )
+    if isinstance(given, Fields):  # rounding leaves neither gaps in contact nor overlaps beside it
+        return np.where(given.contact, 0.0, np.maximum(given.gap, 0.0))
+    try:
+        gap = np.array(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        refuse("gap", given, "an array of numbers, shape (nx, ny), is needed")
+    if gap.ndim != 2 or min(gap.shape) < 2:
+        refuse(
+            "gap",
+            given,
+            "two dimensions of at least 2 cells are needed: in one, any contact stops the flow",
+        )
+    wrong = ~((gap >= 0) & (gap < np.inf))
+    if wrong.any():
+        i, j = np.argwhere(wrong)[0]
+        raise InputError(
+            f"has {int(wrong.sum())} negative or not finite values, the first {gap[i, j]} at "
+            f"({i}, {j}); a distance is at least 0, and 0 where the bodies touch",
+            "gap",
+        )
+    return gap
