@@ -18,6 +18,7 @@ from roughline.topography.body import Surface
 _FEWEST_WAVES = 3.0  # of the roll-off along a side of a piece that tells of its whole
 _FEWEST_POINTS = 32  # along a side that is halved, or cut into quarters
 _STUDENT = 3.182  # of 95 %, with the three degrees of freedom of four quarters
+_FURTHER = 2.0  # times the step from the quarters to a piece, from there to its whole
 
 
 def is_judged(surface: Surface, half_space: HalfSpace) -> bool:
@@ -62,11 +63,17 @@ def tells_of_larger(surface: Surface) -> bool:
     return bool(fit.q_roll and fit.shows_roll_off and fit.q_roll >= _FEWEST_WAVES * fit.q_low)
 
 
-def factor_left_open(value: float, half: float, of_quarters: Sequence[float]) -> float:
+def factor_left_open(
+    value: float, half: float, of_quarters: Sequence[float], *, tells: bool
+) -> float:
     """Factor up and down that grid and size leave open.
 
     They combine, as independent, by how much the logarithm differs from that on half as many
-    points, and how uncertain the mean of the quarters is by their scatter, at 95 %.
+    points, and how uncertain the mean of the quarters is by their scatter, at 95 %. Where a piece
+    does not tell of its whole (:func:`tells_of_larger`), it may differ from that by twice as much
+    as its quarters do from the piece.
     """
-    of_size = _STUDENT * float(np.log(of_quarters).std(ddof=1)) / math.sqrt(len(of_quarters))
-    return math.exp(math.hypot(math.log(half / value), of_size))
+    logs = np.log(of_quarters)
+    of_size = _STUDENT * float(logs.std(ddof=1)) / math.sqrt(logs.size)
+    step = 0.0 if tells else _FURTHER * (float(logs.mean()) - math.log(value))
+    return math.exp(math.hypot(math.log(half / value), of_size, step))

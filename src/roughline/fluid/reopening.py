@@ -21,13 +21,20 @@ from roughline.errors.checks import between, flag, one_of
 from roughline.errors.public import public_names
 from roughline.fluid.gap import Along
 from roughline.fluid.measures import hydraulic_aperture
-from roughline.fluid.one_map import factor_left_open, is_judged, on_half, quarters
+from roughline.fluid.one_map import (
+    factor_left_open,
+    is_judged,
+    on_half,
+    quarters,
+    tells_of_larger,
+)
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
 _TIMES = math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
 _LEAST = 1e-4  # share of the load below which it counts as taken off
+_FLOOR = 3e-3  # below which an interval tells no shares apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +59,9 @@ class Reopening:
     interval : tuple of float
         Ends that grid and size leave open; NaN if not asked for. They combine, as independent, by
         how much the logarithm differs from that on half as many points, and how uncertain the mean
-        of the quarters is by their scatter, at 95 %. [1]
+        of the quarters is by their scatter, at 95 %; a piece that holds fewer than three waves of
+        the roll-off may differ from its whole by twice the step from the quarters to it. Shares
+        below 0.003 are not told apart. [1]
     """
 
     low: float
@@ -163,10 +172,11 @@ class _Search:
             self.after(forces * (each.area / surface.area), each, its_law)
             for each, its_law in quarters(surface, law)
         ]
-        value, *others = np.maximum([found.value, half, *of_quarters], _LEAST)
-        factor = factor_left_open(value, others[0], others[1:])
-        low, high = max(found.low, _LEAST) / factor, max(found.high, _LEAST) * factor
-        ends = low if low > _LEAST else 0.0, min(high, 1.0) if high > _LEAST else 0.0
+        value, *others = np.array([found.value, half, *of_quarters]) + _FLOOR
+        factor = factor_left_open(value, others[0], others[1:], tells=tells_of_larger(surface))
+        low = (found.low + _FLOOR) / factor - _FLOOR
+        high = (found.high + _FLOOR) * factor - _FLOOR
+        ends = low if low > _FLOOR else 0.0, min(max(high, _FLOOR), 1.0)
         return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
     def after(self, forces: Real, untouched: Surface, law: ContactLaw) -> float:

@@ -60,9 +60,10 @@ class SealingPressure:
         Ends that grid and size leave open; NaN if not asked for. They combine, as independent, by
         how much the logarithm differs from that on half as many points, and how uncertain the mean
         of the quarters is by their scatter, at 95 %. Waves that the grid does not have open the gap
-        further: the upper end is at least that of an elastic surface as steep as a grid four times
-        finer will be, as far as the hardness bears it. A piece that holds fewer than three waves of
-        the roll-off does not tell how early its whole seals: the lower end is zero. [pressure]
+        further: in the upper end there is also how much steeper a grid four times finer will be, as
+        of an elastic surface, as far as the hardness bears it. A piece that holds fewer than three
+        waves of the roll-off does not tell how early its whole seals: the lower end is zero, and
+        the upper one holds twice the step from the quarters to the piece. [pressure]
     """
 
     low: float
@@ -159,9 +160,11 @@ def sealing_pressure(
         return found
     half = search.middle(*on_half(surface, law), found.value)
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
-    factor = factor_left_open(found.value, half, of_quarters)
-    most = min(high * max(factor, steepening_of(full)), law.largest_force(1.0))
-    ends = low / factor if tells_of_larger(surface) else 0.0, max(high, most)
+    tells = tells_of_larger(surface)
+    factor = factor_left_open(found.value, half, of_quarters, tells=tells)
+    steeper = math.exp(math.hypot(math.log(factor), math.log(steepening_of(full))))
+    most = min(high * steeper, law.largest_force(1.0))
+    ends = low / factor if tells else 0.0, max(high, most)
     return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
 
