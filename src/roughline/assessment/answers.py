@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.films import hardness_ends
@@ -12,8 +14,10 @@ from roughline.assessment.kinds import has_spectrum, nominal_area
 from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
 from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.selection import at_loads
+from roughline.contact.status import Status
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Interface, Pressed
@@ -56,7 +60,10 @@ def answers_of(
         sought=solution.sought,
         fields=next((each for each in solution.curve.fields if each is not None), None),
     )
-    return rules.answers(found)
+    answers, left_out = rules.answers(found)
+    if found.lifted.all():  # what a fluid lifts has no answers of its contact
+        answers = {key: each for key, each in answers.items() if np.isfinite(each.values).any()}
+    return answers, left_out
 
 
 def ends_from_many(
@@ -117,5 +124,15 @@ def _pressed(
         hardest=ends[1] if ends and isinstance(body, Surface) else None,
         has_depths=bool(question.depths),
         sealing=question.sealing,
+        load_on_body=_load_on(question, curve, nominal_area(body)),
         attraction=question.attraction,
     )
+
+
+def _load_on(question: Question, curve: Curve, area: float) -> Real | None:
+    """Forces on a body of an area [m²]; of a body that a fluid lifts, those that were asked. [N]"""
+    sealing = question.sealing
+    if sealing is None:
+        return None
+    lifted, load = curve.status == Status.LIFTED, sealing.load_on(curve.force, area)
+    return np.where(lifted, question.forces(area), load) if lifted.any() else load

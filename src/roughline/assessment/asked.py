@@ -10,13 +10,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeVar, get_args
 
-from roughline.assessment.fields import FIELDS, asked_fields
+from roughline.assessment.fields import FIELDS, asked_fields, beside
 from roughline.assessment.given import Parsed, as_si, quantity, several
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.fluids import Gas, Liquid, fluid_of
 from roughline.engineering.sealing import SealShape
 from roughline.errors import InputError
-from roughline.errors.checks import number, one_of, refuse
+from roughline.errors.checks import flag, number, one_of, refuse
 from roughline.errors.public import public
 from roughline.errors.words import speaking
 
@@ -52,6 +52,11 @@ def _absolute(name: str) -> Callable[[Any], float]:
         return pressure
 
     return read
+
+
+def _carries(given: Any) -> bool | None:
+    """Whether a fluid carries load; None where that is left open."""
+    return None if given is None else flag("fluid_carries", given)
 
 
 def _fluid(given: Any) -> Liquid | Gas:
@@ -200,9 +205,13 @@ class Inlet:
     ----------
     pressure : float or str
         Such as "6 bar". [Pa]
+    carries : bool, optional
+        Whether the fluid carries its part of the load, so that the bodies press with the rest.
+        Default: where that is a twentieth of the load or more.
     """
 
     pressure: Parsed[float] = Parsed(_absolute("inlet"))
+    carries: Parsed[bool | None] = Parsed(_carries, default=None)
 
 
 @public
@@ -289,7 +298,7 @@ def asked_for(told: Mapping[str, Any]) -> tuple[Asked, ...]:
         elif each.separator:
             asked += [kind(*several(value))] if several(value) else []
         else:
-            asked.append(kind(value))
+            asked.append(kind(value, **beside(each, told)))
     return tuple(asked)
 
 

@@ -11,6 +11,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.cost import Announce, tell_cost
 from roughline.assessment.doubts import warnings_of
+from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.notes import notes_of
 from roughline.assessment.question import Question
@@ -64,7 +65,7 @@ def assess_body(
         question,
         case.parts,
         case.body,
-        _with_joint_recorded(solution.curve, question.joint),
+        _with_fluid_recorded(case, _with_joint_recorded(solution.curve, question.joint)),
         asked,
         intervals=intervals,
         interrupted=bool(curves.stopped),
@@ -125,6 +126,19 @@ def _with_joint_recorded(curve: Curve, joint: float | None) -> Curve:
         return curve
     settings = {**curve.settings, "joint_area": joint, "joint_area_units": "m^2"}
     return replace(curve, settings={**settings, "curve_of": "map"})
+
+
+def _with_fluid_recorded(case: Case, curve: Curve) -> Curve:
+    """Record that a fluid carries a part of loads; forces of the curve are the bodies' own."""
+    sealing = case.question.sealing
+    if sealing is None:
+        return curve
+    load = sealing.load_on(curve.force, nominal_area(case.body))
+    if not (load > curve.force).any():
+        return curve
+    settings = {**curve.settings, "fluid_pressure_above_outside": sealing.excess}
+    units = {"fluid_pressure_above_outside_units": "Pa", "force_of": "bodies alone"}
+    return replace(curve, settings={**settings, **units})
 
 
 def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[TheoryCurve], list[str]]:

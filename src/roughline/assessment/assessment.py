@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +20,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
 from roughline.contact.selection import at_loads
+from roughline.contact.status import Status
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pressed import Sought
 from roughline.engineering.rule import Answer
@@ -47,8 +48,8 @@ class Assessment:
     body : Surface or Line
         What was pressed: the sum of two surfaces, or the first body. [m]
     curve : Curve
-        Its curve; a load that did not converge is marked. One load has its fields, if they were
-        asked for.
+        Its curve, with the forces with which it presses; a load that did not converge is marked.
+        One load has its fields, if they were asked for.
     asked : ndarray of int
         Which loads of the curve were asked for, in the order in which they were.
     intervals : Intervals or None
@@ -172,6 +173,21 @@ class Assessment:
             return ()
         through = flow(fields, along=sealing.along, mean_free_path=sealing.free_path)
         return through if isinstance(through, tuple) else (through,)
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether all loads were solved, but for those under which a fluid lifts the bodies."""
+        return bool((self.curve.converged | (self.curve.status == Status.LIFTED)).all())
+
+    def load_on(self, force: Real) -> Real:
+        """Force on a body that presses with some: with what a fluid carries. [N]"""
+        sealing = self.question.sealing
+        return force if sealing is None else sealing.load_on(force, self.area)
+
+    @property
+    def curve_over_loads(self) -> Curve:
+        """The curve over forces on the body, of which a fluid may carry a part."""
+        return replace(self.curve, force=self.load_on(self.curve.force))
 
     @property
     def curve_as_asked(self) -> Curve:

@@ -75,6 +75,11 @@ class Field:
         return self.of not in ("Question", "Reading", "Preparation")
 
     @property
+    def is_beside(self) -> bool:
+        """Whether it is a further argument of what is asked, and asks for nothing by itself."""
+        return self.is_asked and self.argument != self.name
+
+    @property
     def first_flag(self) -> str:
         """The flag by which the command line calls it first."""
         return self.flag.partition(",")[0]
@@ -84,12 +89,18 @@ class Field:
         """Whether the command line has it as a flag without a value."""
         return any(value is True for value, _ in self.choices.values())
 
-    def in_python(self, value: Any) -> str:
+    @property
+    def can_be_left(self) -> bool:
+        """Whether nothing, which is neither yes nor no, may be chosen."""
+        return any(value is None for value, _ in self.choices.values())
+
+    def in_python(self, value: Any, **others: Any) -> str:
         """Write what is asked as Python: rl.Friction(0.3)."""
         inside = "" if self.is_switch else repr(value)
         if self.separator and not isinstance(value, str):
             inside = ", ".join(map(repr, value))
-        return f"rl.{self.of}({inside})"
+        further = "".join(f", {name}={each!r}" for name, each in others.items())
+        return f"rl.{self.of}({inside}{further})"
 
     def in_command(self, value: Any, text: str) -> list[str]:
         """Write a value, which was read from a text, as words of the command line."""
@@ -97,8 +108,7 @@ class Field:
         if not self.is_switch:
             texts = value if self.separator else [text]
             return [word for each in texts for word in (flag, each)]
-        can_be_left = any(each is None for each, _ in self.choices.values())
-        return [flag] if value else [flag.replace("--", "--no-")] * can_be_left
+        return [flag] if value else [flag.replace("--", "--no-")] * self.can_be_left
 
     def value(self, given: Any) -> Any:
         """Read what was given: texts are read, and all else is the value itself."""
@@ -337,6 +347,20 @@ FIELDS: tuple[Field, ...] = (
         help='Absolute pressure of the fluid where it enters, such as "6 bar".',
     ),
     _of_fluid(
+        name="fluid_carries",
+        of="Inlet",
+        argument="carries",
+        label="fluid carries load",
+        help="Whether the fluid carries its part of the load, so that the bodies press with the "
+        "rest.",
+        otherwise="from a twentieth of the load on",
+        choices={
+            "default": (None, "from a twentieth on"),
+            "yes": (True, "always"),
+            "no": (False, "never"),
+        },
+    ),
+    _of_fluid(
         name="outlet",
         of="Outlet",
         label="outlet pressure",
@@ -560,12 +584,20 @@ FIELDS: tuple[Field, ...] = (
 
 def asked_fields(told: Mapping[str, Any]) -> list[Field]:
     """Return the fields of what is asked, in their order."""
-    return [each for each in FIELDS if each.is_asked and told.get(each.name) is not None]
+    given = [each for each in FIELDS if each.is_asked and told.get(each.name) is not None]
+    return [each for each in given if not each.is_beside]
+
+
+def beside(field: Field, told: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is told of the further arguments of what a field asks."""
+    others = [each for each in FIELDS if each.is_beside and each.of == field.of]
+    return {each.argument: told[each.name] for each in others if told.get(each.name) is not None}
 
 
 def names_by(word_of: Callable[[Field], str]) -> dict[str, str]:
     """Return what a caller calls the arguments, and the classes of what is asked."""
     words = {each: word_of(each) for each in FIELDS}
     names = {each.name: word for each, word in words.items()}
-    names |= {f"rl.{each.of}": word for each, word in words.items() if each.is_asked}
+    asked = {each: word for each, word in words.items() if each.is_asked and not each.is_beside}
+    names |= {f"rl.{each.of}": word for each, word in asked.items()}
     return {name: word for name, word in names.items() if word}

@@ -17,7 +17,8 @@ from roughline.contact.elastic_pair import ElasticPair
 from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
-from roughline.contact.selection import among_loads
+from roughline.contact.selection import among_loads, at_loads
+from roughline.contact.status import Status
 from roughline.engineering.attraction import Attraction
 from roughline.errors import InputError
 from roughline.errors.words import called
@@ -30,6 +31,7 @@ LoadProgress = Callable[[int, int], None]
 _LIGHTEST = 1e-3  # of the largest load, where a whole curve begins
 _ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
 _CURVE_LOADS = 16  # of a whole curve
+_LIGHT = 1e-6  # over the contact modulus, of a pressure under which any body can be pressed
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,7 @@ class LoadCase:
 
     body: Body
     elasticity: ElasticPair
-    forces: list[float]  # in the order in which they are applied [N]
+    forces: list[float]  # with which it presses, in the order in which they are applied [N]
     depths: list[float]  # instead of forces [m]
     n_loads: int | None  # instead of both: forces spaced from first touch to saturation
     periodic: bool | Literal["x", "y"]
@@ -76,12 +78,14 @@ class LoadCase:
     measures: Sequence[Measure] = ()
     rtol: float = 1e-6
     among: Mask | None = None  # which loads of a curve that is known these are; None for all
+    lifted: Mask | None = None  # of forces, under which a fluid lifts the body; None for none
 
     @classmethod
     def of(cls, question: Question, body: Body) -> LoadCase:
         """The loads of a question on a body, spaced ones of a line scan included."""
         area = nominal_area(body)
-        forces, asked = _path(question, question.forces(area))
+        pressing = _pressing(question, area)
+        forces, asked = _path(question, pressing)
         depths, asked_depths = _path(question, question.heights())
         n_loads, hardness, attraction = question.n_loads, None, question.attraction
         if isinstance(body, Surface):
@@ -106,6 +110,7 @@ class LoadCase:
             levelled=question.joint is not None and is_map(body),
             hardness=hardness,
             attraction=attraction,
+            lifted=_lifted(question, forces) if pressing else None,
         )
 
     @property
@@ -136,7 +141,7 @@ class LoadCase:
         forces, numbers = curve.force[borne].tolist(), np.cumsum(borne) - 1
         fields = [int(numbers[load]) for load in self.fields if borne[load]]
         others = replace(self, forces=forces, depths=[], n_loads=None, fields=fields)
-        return replace(others, among=borne)
+        return replace(others, among=borne, lifted=None)
 
     def of_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
         """Some of the same loads on a body of another hardness, without the grid's errors.
@@ -146,14 +151,31 @@ class LoadCase:
         values = np.array(self.depths or self.forces or curve.force)[loads].tolist()
         forces, depths = ([], values) if self.depths else (values, [])
         others = replace(self, forces=forces, depths=depths, n_loads=None, grid_error=False)
-        return replace(others, hardness=hardness, among=loads)
+        return replace(others, hardness=hardness, among=loads, lifted=None)
 
     def spread(self, curve: Curve) -> Curve:
-        """A curve under these loads over all those that they are among."""
+        """A curve under these loads over all those that they are among, lifted ones included."""
+        if self.lifted is not None:
+            if self.lifted.all():
+                curve = at_loads(curve, np.array([], int))
+            curve = among_loads(curve, ~self.lifted, Status.LIFTED)
         return curve if self.among is None else among_loads(curve, self.among)
 
+    def _beside_lifted(self, lifted: Mask) -> LoadCase:
+        """The loads that press, or a light one where there is none, as a curve has one."""
+        numbers = np.flatnonzero(~lifted).tolist()
+        fields = [numbers.index(load) for load in self.fields if not lifted[load]]
+        light = _LIGHT * self.elasticity.softest * nominal_area(self.body)
+        forces = [self.forces[load] for load in numbers] or [light]
+        return replace(self, forces=forces, fields=fields, lifted=None)
+
     def press(self, progress: LoadProgress | None = None) -> Curve:
-        """Press the body; loads that fail are marked, and Ctrl-C raises Interrupted."""
+        """Press the body; loads that fail are marked, and Ctrl-C raises Interrupted.
+
+        A curve is over the loads that press the bodies together: `spread` adds the others.
+        """
+        if self.lifted is not None:
+            return self._beside_lifted(self.lifted).press(progress)
         pull, law = self.attraction, None
         if pull is not None and pull.range is not None:
             law = sticking_law(pull.law, pull.work, pull.range)
@@ -174,6 +196,26 @@ class LoadCase:
         )
 
 
+def _pressing(question: Question, area: float) -> list[float]:
+    """Forces with which a body presses, in the order of the loads: less what a fluid carries. [N]
+
+    Where they are not positive, the fluid lifts the body.
+    """
+    forces, sealing = question.forces(area), question.sealing
+    if sealing is None:
+        return forces
+    left: list[float] = sealing.left_of(np.array(forces), area).tolist()
+    return left
+
+
+def _lifted(question: Question, forces: Sequence[float]) -> Mask | None:
+    """Under which forces a fluid lifts a body; None where it does under none."""
+    if question.sealing is None or question.sealing.excess == 0:
+        return None  # without a fluid, a force of zero unloads
+    lifted = np.array(forces) <= 0
+    return lifted if question.sealing.carries is not False and lifted.any() else None
+
+
 def _path(question: Question, asked: list[float]) -> tuple[list[float], tuple[int, ...]]:
     """Return loads in the order in which they are applied, and where those asked for stand."""
     if not asked:
@@ -192,6 +234,8 @@ def _path(question: Question, asked: list[float]) -> tuple[list[float], tuple[in
 
 def _with_curve(asked: list[float]) -> list[float]:
     """Loads for a whole curve up to the largest, those asked for among them, rising."""
+    if max(asked) <= 0:  # a fluid lifts the body under all of them
+        return sorted({*asked})
     curve = np.geomspace(_LIGHTEST * max(asked), max(asked), _CURVE_LOADS)
     apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
     return sorted({*asked, *apart})
@@ -217,9 +261,11 @@ def _refuse_beyond_hardness(question: Question, area: float) -> None:
     if hardness is None:
         return
     bearer = "the softer body" if question.pair is None else question.pair.bearer
-    for heading, force in zip(question.headings, question.forces(area), strict=False):
-        if force >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
-            most = engineering(hardness.value * area * question.scale(area), "N")
+    loads = zip(question.headings, question.forces(area), _pressing(question, area), strict=False)
+    for heading, force, pressing in loads:
+        if pressing >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
+            carried = force - pressing
+            most = engineering((hardness.value * area + carried) * question.scale(area), "N")
             on, joint = "the joint", ""
             if question.joint is None:
                 joint = f"the area of the joint that carries them ({called('rl.Joint')}), "

@@ -238,12 +238,14 @@ class Question:
         if fluid is None:
             return None
         outlet = self._asked(Outlet, lambda asked: asked.pressure)
+        inlet = self._asked(Inlet, lambda asked: asked)
         return Sealing(
             fluid,
-            self._asked(Inlet, lambda asked: asked.pressure),
+            None if inlet is None else inlet.pressure,
             ATMOSPHERE if outlet is None else outlet,
             self._asked(Seal, lambda asked: asked.shape),
             self.flow_along,
+            None if inlet is None else inlet.carries,
         )
 
     @property

@@ -46,6 +46,11 @@ def preparation_of(told: Told) -> Preparation | None:
 
 def question_of(body: Any, told: Told, name: str | None = None, **others: Any) -> Question:
     """Return the question of a body or a file that is told, with arguments that have no control."""
+    for each in FIELDS:
+        of = next((f for f in FIELDS if f.of == each.of and not f.is_beside), each)
+        if each.is_beside and told.get(each.name) is not None and told.get(of.name) is None:
+            text = f"{called(each.name)} belongs to {called(of.name)}: give that too"
+            raise InputError(text, None, each.name, of.name)
     return Question(
         body,
         ask=asked_for(told),

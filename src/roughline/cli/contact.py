@@ -183,7 +183,7 @@ def _press_body(
         print_assessment(result, files, unfolded_by=unfolded_by)
     if result.interrupted:
         end_interrupted("the loads solved before are above")
-    if not result.curve.converged.all():
+    if not result.is_solved:
         raise typer.Exit(1)
 
 
@@ -213,7 +213,7 @@ def _press_part(
         print_part(part, files, unfolded_by=unfolded_by)
     if part.interrupted:
         end_interrupted("the maps done before are above")
-    if part.refused or not all(each.curve.converged.all() for each in part.assessments):
+    if part.refused or not all(each.is_solved for each in part.assessments):
         raise typer.Exit(1)
 
 

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve
-from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 
-_UNSOLVED = {"status": int(Status.INTERRUPTED)}  # of quantities that cannot be NaN; others are 0
+_Kept = TypeVar("_Kept")
 
 
 def at_loads(curve: Curve, loads: Indices) -> Curve:
@@ -22,19 +21,31 @@ def at_loads(curve: Curve, loads: Indices) -> Curve:
     return _at_others(curve, lambda _name, values: values[loads])
 
 
-def among_loads(curve: Curve, solved: Mask) -> Curve:
+def among_loads(curve: Curve, solved: Mask, others: Status = Status.INTERRUPTED) -> Curve:
     """Extend a curve to all loads, of which only these were solved: NaN at the others."""
-    kept: list[Fields | None] = [None] * solved.size
-    for load, fields_of_load in zip(np.flatnonzero(solved), curve.fields, strict=False):
-        kept[load] = fields_of_load
 
     def spread(name: str, values: Any) -> Any:
-        unknown = np.nan if values.dtype.kind == "f" else _UNSOLVED.get(name, 0)
-        found = np.full(solved.size, unknown, values.dtype)
+        unknown = np.nan if values.dtype.kind == "f" else 0  # of what cannot be NaN
+        found = np.full(solved.size, others if name == "status" else unknown, values.dtype)
         found[solved] = values
         return found
 
-    return replace(_at_others(curve, spread), fields=tuple(kept) if curve.fields else ())
+    return replace(
+        _at_others(curve, spread),
+        fields=_spread(curve.fields, solved, None),
+        dents=_spread(curve.dents, solved, None),
+        residual_of=_spread(curve.residual_of, solved, ""),
+    )
+
+
+def _spread(kept: Sequence[_Kept], solved: Mask, other: _Kept) -> tuple[_Kept, ...]:
+    """What is kept of each load that was solved, among all loads; nothing where nothing is kept."""
+    if not kept:
+        return ()
+    found = [other] * solved.size
+    for load, each in zip(np.flatnonzero(solved), kept, strict=False):
+        found[load] = each
+    return tuple(found)
 
 
 def _at_others(curve: Curve, taken: Callable[[str, Any], Any]) -> Curve:

@@ -15,6 +15,7 @@ class Status(enum.IntEnum):
     INTERRUPTED = 4
     UNKNOWN_SURFACE = 5
     PULLED_OFF = 6
+    LIFTED = 7
 
     @property
     def reason(self) -> str:
@@ -28,4 +29,5 @@ class Status(enum.IntEnum):
             Status.UNKNOWN_SURFACE: "not solved: the surface as a larger load before "
             "them left it is not known",
             Status.PULLED_OFF: "pulled off: no contact bears so large a pull",
+            Status.LIFTED: "open: the fluid between the bodies lifts them apart",
         }[self]

@@ -11,6 +11,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
+from roughline.contact.status import Status
 from roughline.engineering.attraction import Attraction, Separation
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
@@ -88,6 +89,9 @@ class Pressed:
         Which surface the intervals of measures are of; empty for that of the map alone.
     sealing : Sealing, optional
         What is asked of a fluid in the gap.
+    load_on_body : ndarray, shape (loads,), optional
+        Force on the body, of which a fluid carries what the body does not press with; known of
+        loads under which the fluid lifts it, too. Default: the force of the curve. [N]
     attraction : Attraction, optional
         How the bodies attract each other; None if they only push.
     sought : Sought, optional
@@ -111,6 +115,7 @@ class Pressed:
     is_repeated: bool = False
     place: str = ""
     sealing: Sealing | None = None
+    load_on_body: Real | None = None
     attraction: Attraction | None = None
     sought: Sought = field(default_factory=Sought)
     fields: Fields | None = None
@@ -132,13 +137,30 @@ class Pressed:
 
     @property
     def force(self) -> Real:
-        """Normal force F, (loads,). [N]"""
+        """Force with which the bodies press, (loads,). [N]"""
         return self.curve.force * self.scale
 
     @property
     def pressure(self) -> Real:
-        """Mean pressure over the nominal area, (loads,). [Pa]"""
+        """Mean pressure over the nominal area with which the bodies press, (loads,). [Pa]"""
         return self.curve.force / self.area
+
+    @property
+    def load(self) -> Real:
+        """Normal force F: what the bodies press with, and what a fluid carries, (loads,). [N]"""
+        on_body = self.curve.force if self.load_on_body is None else self.load_on_body
+        return on_body * self.scale
+
+    @property
+    def load_pressure(self) -> Real:
+        """The same as a mean pressure p over the nominal area, (loads,). [Pa]"""
+        on_body = self.curve.force if self.load_on_body is None else self.load_on_body
+        return on_body / self.area
+
+    @property
+    def lifted(self) -> Mask:
+        """Loads under which a fluid lifts the bodies apart, (loads,)."""
+        return self.curve.status == Status.LIFTED
 
     @property
     def loading(self) -> Real:

@@ -8,7 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
-from roughline.computing.arrays import Real
+import numpy as np
+
+from roughline.computing.arrays import Mask, Real
 from roughline.engineering.fluids import Gas, Liquid
 from roughline.engineering.leak import gas_throughput, liquid_leak
 from roughline.errors.checks import refuse
@@ -20,6 +22,9 @@ from roughline.units import in_si
 
 ATMOSPHERE = 101325.0
 """Pressure outside, where no other is given. [Pa]"""
+
+_CARRIES = 0.05  # of the load, from which share on the fluid is taken to carry it
+_ROUNDING = 1e-9  # of a load, by which it may miss that share
 
 _ACROSS = re.compile(r"\s+x\s+|\s*×\s*")
 _RING = re.compile(r"\s*\.\.+\s*")
@@ -80,6 +85,7 @@ class Sealing:
     outlet: float = ATMOSPHERE  # absolute [Pa]
     seal: SealShape | None = None
     along: Along | Literal["both"] = "both"  # over the map
+    carries: bool | None = None  # whether it carries load; None: from a twentieth of it on
 
     @property
     def directions(self) -> Sequence[Along]:
@@ -106,7 +112,8 @@ class Sealing:
     def excess(self) -> float:
         """By how much the mean pressure in the gap is above the outside; 0 where it is not. [Pa]
 
-        Along the way the pressure of a liquid falls evenly, and the square of that of a gas.
+        Along the way the pressure of a liquid falls evenly, and the square of that of a gas. That
+        of a rare gas falls more evenly, and its mean is less than this.
         """
         if self.inlet is None:
             return 0.0
@@ -115,6 +122,38 @@ class Sealing:
         if self.gas is not None and first + last > 0:
             mean = 2 / 3 * (first**2 + first * last + last**2) / (first + last)
         return max(mean - ATMOSPHERE, 0.0)
+
+    def _is_carried(self, load: Real, area: float) -> Mask:
+        """Whether the fluid carries a part of forces [N] on an area [m²] that counts."""
+        least = 0.0 if self.carries else _CARRIES * (1 - _ROUNDING)
+        counts = self.carries is not False and self.excess > 0
+        return counts & (self.excess * area >= least * np.asarray(load))
+
+    def left_of(self, load: Real, area: float) -> Real:
+        """Forces with which bodies of an area [m²] press under forces on them. [N]
+
+        A uniform pressure of the fluid moves nothing but the mean of a half-space, so that the
+        contact is that of what is left. Where that is zero or less, the fluid lifts the bodies.
+        """
+        return np.where(self._is_carried(load, area), load - self.excess * area, load)
+
+    def load_on(self, pressing: Real, area: float) -> Real:
+        """Forces on bodies of an area [m²] that press with some forces: the inverse. [N]"""
+        load = pressing + self.excess * area
+        return np.where(self._is_carried(load, area), load, pressing)
+
+    def opens_at(self, pressure: Real) -> Real:
+        """Absolute pressure at the inlet that lifts bodies under a mean pressure. [Pa]
+
+        The mean pressure in the gap is then as far above the outside. Where the pressure of the
+        outlet is enough, it is that.
+        """
+        mean, last = pressure + ATMOSPHERE, self.outlet
+        if self.gas is None:
+            return np.maximum(2 * mean - last, last)
+        # of 2/3 (P1² + P1 P2 + P2²) / (P1 + P2) = P_m, the larger root
+        beneath = np.maximum(9 * mean**2 + 12 * mean * last - 12 * last**2, 0.0)
+        return np.maximum((3 * mean - 2 * last + np.sqrt(beneath)) / 4, last)
 
     @property
     def free_path(self) -> float:

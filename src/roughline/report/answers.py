@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.contact.status import Status
 from roughline.errors.remark import grave_first
 from roughline.report.page import Headline, KeyFigure, sentence
 from roughline.report.values import Write, with_interval
@@ -245,14 +246,19 @@ def unit_shown(answer: Answer | PartAnswer) -> str:
 
 
 def starred(result: Assessment | PartAssessment) -> list[str]:
-    """What each load is called, with a star where the grid decides on any of the maps."""
+    """What each load is called, with a star where the grid decides on any of the maps.
+
+    Where a fluid lifts the bodies apart, it is called open.
+    """
     if isinstance(result, PartAssessment):
         of_maps = zip(*map(starred, result.assessments), strict=True)
         return [max(headings, key=len) for headings in of_maps]
-    stars = _is_decided_by_grid(result)
-    return [
-        f"{name} *" if star else name for name, star in zip(result.headings, stars, strict=True)
+    lifted = result.curve_as_asked.status == Status.LIFTED
+    names = [
+        f"{name}, open" if i else name for name, i in zip(result.headings, lifted, strict=True)
     ]
+    stars = _is_decided_by_grid(result)
+    return [f"{name} *" if star else name for name, star in zip(names, stars, strict=True)]
 
 
 def star_is_shown(result: Assessment | PartAssessment) -> bool:

@@ -140,7 +140,7 @@ def overview_in_words(assessment: Assessment) -> str:
 
 def _draw_force(axes: Axes, assessment: Assessment) -> None:
     """Force over depth; with falling loads on linear scales, which show loading and unloading."""
-    curve, falls = assessment.curve, _has_falling_loads(assessment)
+    curve, falls = assessment.curve_over_loads, _has_falling_loads(assessment)
     x_label, depth = in_unit("depth since touch $d$", curve.depth, "m")
     y_label, force = _force_axis(assessment)
     draw_loads(axes, curve.depth * depth, curve.force * force, curve, linear=falls)
@@ -173,7 +173,7 @@ def _draw_separation(axes: Axes, assessment: Assessment, drawn: Curve) -> None:
 
 def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     """Stiffness over force with its interval, and theories; for the joint, if one is given."""
-    curve, area = assessment.curve, assessment.area
+    curve, area = assessment.curve_over_loads, assessment.area
     x_label, force = _force_axis(assessment)
     symbol = "k"
     if assessment.question.joint is not None:
@@ -196,7 +196,7 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
 
 def _draw_area(axes: Axes, assessment: Assessment) -> None:
     """Contact area over force with its interval, and theories."""
-    curve = assessment.curve
+    curve = assessment.curve_over_loads
     assert curve.area_fraction_corrected is not None
     label, force = _force_axis(assessment)
     draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve)
@@ -207,7 +207,7 @@ def _draw_area(axes: Axes, assessment: Assessment) -> None:
 
 def _draw_apertures(axes: Axes, assessment: Assessment) -> None:
     """Hydraulic aperture over force with its interval, along each side, and theories."""
-    curve, found = assessment.curve, _apertures(assessment)
+    curve, found = assessment.curve_over_loads, _apertures(assessment)
     x_label, force = _force_axis(assessment)
     held = np.concatenate([each.values for each in found.values()])
     y_label, length = in_unit("hydraulic aperture $u_h$", held, "m")
@@ -246,7 +246,7 @@ def _draw_theories(
         values, of_flow = getattr(theory, quantity), theory.hydraulic_aperture is not None
         if values is not None and of_flow == (quantity == "hydraulic_aperture"):
             shown = np.where(values > 0, values, np.nan) * factors[1]
-            x = theory.pressure * assessment.area * factors[0]
+            x = assessment.load_on(theory.pressure * assessment.area) * factors[0]
             axes.plot(x, shown, linestyle=dashes, label=theory.name)
             axes.legend()
 
@@ -284,7 +284,7 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
 
 def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
     """Real contact area at the last load with stored fields; red where it yields."""
-    curve = assessment.curve
+    curve = assessment.curve_over_loads
     load = load_with_fields(curve)
     fields = None if load is None else curve.fields[load]
     if load is None or fields is None:
@@ -320,4 +320,5 @@ def _draw_interval(
 def _force_axis(assessment: Assessment) -> tuple[str, float]:
     """Return the label of the axis of the force, and the factor from the curve's force to it."""
     on = "" if assessment.question.joint is None else " on the joint"
-    return in_unit(f"force $F${on}", assessment.curve.force, "N", assessment.scale)
+    force = assessment.curve_over_loads.force
+    return in_unit(f"force $F${on}", force, "N", assessment.scale)

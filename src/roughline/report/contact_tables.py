@@ -34,6 +34,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     unloading takes the place of the raw area.
     """
     curve, scale, known = assessment.curve_as_asked, assessment.scale, assessment.intervals_as_asked
+    force = assessment.load_on(curve.force)
     loading: Ends | None = None
     unloading: Ends | None = None
     area: Ends | None = None
@@ -53,7 +54,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         row = [
             heading,
             engineering(curve.depth[i], _SI["depth"]),
-            engineering(scale * curve.force[i], _SI["force"]),
+            engineering(scale * force[i], _SI["force"]),
             _stiffness(curve.stiffness, loading, i, scale),
         ]
         if curve.hardness is not None and curve.unloading_stiffness is not None:

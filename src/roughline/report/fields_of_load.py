@@ -49,7 +49,7 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
         return [], []
     fields = assessment.curve.fields[load]
     assert fields is not None
-    force = engineering(assessment.curve.force[load] * assessment.scale, "N")
+    force = engineering(assessment.curve_over_loads.force[load] * assessment.scale, "N")
     files = save(fields_figure(fields), folder, "distributions")
     sections = [
         Section(

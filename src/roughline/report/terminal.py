@@ -211,7 +211,7 @@ def _ends_of_curve(assessment: Assessment) -> str:
         force, depth, stiffness = (
             " to ".join(engineering(values[end], unit) for end in solved[[0, -1]])
             for values, unit in (
-                (assessment.scale * curve.force, "N"),
+                (assessment.scale * assessment.load_on(curve.force), "N"),
                 (curve.depth, "m"),
                 (curve.stiffness, "N/m"),
             )
@@ -225,7 +225,7 @@ def _failures(assessment: Assessment) -> list[str]:
     curve = assessment.curve
     asked = dict(zip(assessment.asked.tolist(), assessment.headings, strict=True))
     failed: dict[str, list[str]] = {}
-    for i in np.flatnonzero(~curve.converged).tolist():
+    for i in np.flatnonzero(~curve.converged & (curve.status != Status.LIFTED)).tolist():
         failed.setdefault(Status(curve.status[i]).reason, []).append(asked.get(i, ""))
     lines = []
     for reason, loads in failed.items():

@@ -20,6 +20,7 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
 from roughline.engineering.sealing import Closing, Sealing
+from roughline.errors.remark import Remark
 from roughline.errors.words import called
 from roughline.fluid.flow import why_too_steep
 from roughline.fluid.gap import Along
@@ -39,7 +40,7 @@ _HALF = 0.5  # share of the flow from which on one channel is told
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
 _RARE = 0.1  # free path over the aperture beyond which how walls reflect molecules counts
-_CARRIES = 0.1  # pressure of the fluid over that of the contact from which on it is said
+_TOLD = 0.1  # pressure of the fluid over that of the load, from which on it is said if left out
 _MOLECULES = 3e-9  # ten diameters of a molecule of water; those of oils are larger [m]
 _MBAR_LITRES = 10.0  # in a Pa m³
 
@@ -48,6 +49,8 @@ _OF_THE_MAP = (
     "of the map, which is one place of the seal: near sealing, another place may leak far more or "
     f"less; {_THIN}"
 )
+_OF_QUARTERS = "of the map; the interval holds what its quarters and its grid leave open"
+_OF_STIFF_FACES = "stiff faces, which stay parallel; along a ring that is narrow beside its radius"
 _rule = partial(Rule, group="sealing", validity=_OF_THE_MAP, source="Reynolds 1886")
 
 _Needed = Callable[[Sealing], Sequence[Measure]]
@@ -124,35 +127,123 @@ def _leak(pressed: Pressed) -> Real | None:
 
 
 def _lift(pressed: Pressed) -> Real:
-    """Mean pressure of the fluid above the outside, over that of the contact, (loads,)."""
+    """Mean pressure of the fluid above the outside, over that of the load, (loads,)."""
     asked = pressed.sealing
     excess = 0.0 if asked is None else asked.excess
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(excess > 0, excess / pressed.pressure, 0.0)
+        return np.where(excess > 0, excess / pressed.load_pressure, 0.0)
+
+
+def _carried(pressed: Pressed) -> Real:
+    """Share of the load that the fluid carries, all of it where it lifts the bodies, (loads,)."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = 1 - pressed.force / pressed.load
+    return np.where(pressed.lifted, 1.0, np.nan_to_num(share))
+
+
+def _above_outside(asked: Sealing) -> str:
+    """The fluid, and how far its pressure is above the outside."""
+    excess = engineering(asked.excess, "Pa")
+    return f"{asked.fluid.name} at {excess} above the outside, in the mean of the gap,"
 
 
 def _lifts(pressed: Pressed) -> str:
-    """Say under which loads the fluid would lift the bodies apart."""
+    """Say under which loads the fluid would lift the bodies apart, if it is not to carry any."""
     asked, lift = pressed.sealing, _lift(pressed)
     if asked is None or not (lift >= 1).any():
         return ""
     return (
-        f"{asked.fluid.name} at {engineering(asked.excess, 'Pa')} above the outside, in the mean "
-        "of the gap, would lift bodies apart that press with no more than that: give a larger "
-        f"load, or smaller pressures ({called('rl.Inlet')})"
+        f"{_above_outside(asked)} would lift bodies apart that press with no more than that: give "
+        f"a larger load, or smaller pressures ({called('rl.Inlet')})"
     )
+
+
+def _loads_in_words(loads: Real) -> str:
+    """Mean pressures of loads: one, or the least and the largest."""
+    least, most = (engineering(float(end), "Pa") for end in (loads.min(), loads.max()))
+    return f"the load at {most}" if least == most else f"loads from {least} to {most}"
 
 
 def _carries(pressed: Pressed) -> str:
-    """Say where the fluid carries a part of the load."""
+    """Say which part of the load the fluid carries."""
+    asked = pressed.sealing
+    if asked is None:
+        return ""
+    share = _carried(pressed)
+    counts = (share > 0) & ~pressed.lifted
+    if not counts.any():
+        return ""
+    least, most = share[counts].min(), share[counts].max()
+    part = f"{most:.0%}" if f"{least:.0%}" == f"{most:.0%}" else f"{least:.0%} to {most:.0%}"
+    loads = _loads_in_words(pressed.load_pressure[counts])
+    text = f"{_above_outside(asked)} carries {part} of {loads}: the bodies press with the rest"
+    if pressed.yields:
+        text += (
+            ", as if the fluid came first; loaded before it comes, they keep the dents of all of "
+            "the load, and less leaks"
+        )
+    return text
+
+
+def _left_out(pressed: Pressed) -> str:
+    """Say where the fluid would carry a part of the load, but is not to."""
     asked, lift = pressed.sealing, _lift(pressed)
-    if asked is None or not (part := lift[(lift >= _CARRIES) & (lift < 1)]).size:
+    part = lift[(lift >= _TOLD) & (lift < 1)]
+    if asked is None or asked.carries is not False or not part.size:
         return ""
     return (
-        f"{asked.fluid.name} at {engineering(asked.excess, 'Pa')} above the outside, in the mean "
-        f"of the gap, carries up to {part.max():.0%} of the load, which no answer includes: the "
-        "bodies press with less, and more leaks"
+        f"{_above_outside(asked)} carries up to {part.max():.0%} of the load, which no answer "
+        "includes: the bodies press with less, and more leaks"
     )
+
+
+def _opens(pressed: Pressed) -> str:
+    """Say under which loads the fluid lifts the bodies apart."""
+    asked, lifted = pressed.sealing, pressed.lifted
+    if asked is None or not lifted.any():
+        return ""
+    text = (
+        f"{_above_outside(asked)} lifts the bodies apart under "
+        f"{_loads_in_words(pressed.load_pressure[lifted])}: the seal is open, and nothing else is "
+        "known there"
+    )
+    if pressed.attraction is not None:
+        text += "; bodies that stick may hold, which is not solved"
+    return Remark(text, is_grave=True)
+
+
+def _opening_pressure(pressed: Pressed) -> Real | None:
+    """Absolute pressure at the inlet from which on the fluid lifts the bodies. [Pa]"""
+    asked = pressed.sealing
+    return None if asked is None or asked.inlet is None else asked.opens_at(pressed.load_pressure)
+
+
+def _of_opening(pressed: Pressed) -> Mapping[str, str]:
+    """How the mean pressure follows along the way, and of which outlet."""
+    asked = pressed.sealing
+    if asked is None:
+        return {}
+    mean = "(P1 + P2) / 2" if asked.gas is None else "2/3 (P1² + P1 P2 + P2²) / (P1 + P2)"
+    texts = {"formula": f"P1 at which {mean} is p above the outside"}
+    if pressed.attraction is not None:
+        texts["validity"] = f"{_OF_STIFF_FACES}; bodies that stick hold out longer"
+    return texts
+
+
+def _of_bodies_alone(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
+    """What the fluid adds to pressures and loads that are of the contact alone."""
+    asked, closing = pressed.sealing, pressed.sought.closing
+    if asked is None or closing is None:
+        return {}
+    carried = float(asked.load_on(np.array([closing.pressure.value]), 1.0)[0])
+    carried -= closing.pressure.value
+    if share:
+        carried = asked.excess if (_carried(pressed) > 0).any() else 0.0
+    if not carried > 0:
+        return {}
+    excess = engineering(carried, "Pa")
+    own = f"of what the bodies press with, beside the {excess} that the fluid carries"
+    return {"validity": f"{own}; {_OF_QUARTERS}"}
 
 
 def _of_liquid(pressed: Pressed) -> Real | None:
@@ -201,8 +292,9 @@ def _one_channel(pressed: Pressed) -> str:
     worst = int(np.nanargmax(shares))
     return (
         f"a single channel of the map carries {100 * shares[worst]:.0f}% of the flow at a mean "
-        f"pressure of {engineering(pressed.pressure[worst], 'Pa')}: the leak hangs on one place, "
-        "and that of another map of the same part may differ by a large factor; press several"
+        f"pressure of {engineering(pressed.load_pressure[worst], 'Pa')}: the leak hangs on one "
+        "place, and that of another map of the same part may differ by a large factor; press "
+        "several"
     )
 
 
@@ -214,7 +306,7 @@ def _sealed(pressed: Pressed) -> str:
     sealed = (aperture[0] == 0) & (_lift(pressed) < 1)
     if not sealed.any():
         return ""
-    least = pressed.pressure[sealed].min()
+    least = pressed.load_pressure[sealed].min()
     text = (
         f"no path leads through the map from {engineering(least, 'Pa')} on: the leak is exactly "
         "zero on this map and its grid"
@@ -319,9 +411,10 @@ SEALING = (
         symbol="p_s",
         unit="Pa",
         formula="mean pressure at which the last channel closes on first loading, by bisection",
-        validity="of the map; the interval holds what its quarters and its grid leave open",
+        validity=_OF_QUARTERS,
         source="Dapp et al. 2012",
         value=partial(_bisected, lambda closing: closing.pressure),
+        differing=partial(_of_bodies_alone, share=False),
         answers_question=always,
     ),
     _rule(
@@ -330,9 +423,10 @@ SEALING = (
         symbol="F_10/F",
         unit="1",
         formula="share of the largest load down to which it may be taken off, by bisection",
-        validity="of the map; the interval holds what its quarters and its grid leave open",
+        validity=_OF_QUARTERS,
         source="Pérez-Ràfols, Larsson and Almqvist 2016",
         value=partial(_bisected, lambda closing: closing.reopening),
+        differing=partial(_of_bodies_alone, share=True),
         note=_stays_tight,
         answers_question=always,
         limits=lambda _pressed: (0.0, 1.0),
@@ -374,6 +468,33 @@ SEALING = (
         differing=_through_seal,
     ),
     _rule(
+        key="opening_pressure",
+        name="opens at",
+        symbol="P1_o",
+        unit="Pa",
+        formula="P1 at which the fluid is p above the outside, in the mean of the gap",
+        validity=_OF_STIFF_FACES,
+        source="",
+        value=_opening_pressure,
+        differing=_of_opening,
+        warning=_opens,
+        leads=lambda pressed: bool((_carried(pressed) > 0).any()),
+        is_given=True,
+    ),
+    _rule(
+        key="fluid_share",
+        name="share of the load that the fluid carries",
+        symbol="s_f",
+        unit="1",
+        formula="1 - F_b / F, F_b the force with which the bodies press",
+        validity="other answers are of what is left: their F and p are (1 - s_f) of the load",
+        source="",
+        value=lambda pressed: share if (share := _carried(pressed)).any() else None,
+        warning=_carries,
+        in_per_cent=True,
+        is_given=True,
+    ),
+    _rule(
         key="hydraulic_aperture",
         name="hydraulic aperture",
         symbol="u_h",
@@ -383,7 +504,7 @@ SEALING = (
         value=partial(_largest, needed=_APERTURES),
         differing=partial(_with_direction, "hydraulic aperture"),
         warning=lambda pressed: "; ".join(
-            filter(None, (_carries(pressed), _untold(pressed), _beyond_reynolds(pressed)))
+            filter(None, (_left_out(pressed), _untold(pressed), _beyond_reynolds(pressed)))
         ),
         note=_sealed,
         leads=always,

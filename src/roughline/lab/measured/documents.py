@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.fields import FIELDS, asked_fields
+from roughline.assessment.fields import FIELDS, asked_fields, beside
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.reading import Reading
 from roughline.assessment.told import told_of
@@ -40,6 +40,7 @@ _WRITTEN = (
     *("report.html", "report.pdf", "curve.nc", "curve.pdf", "contact.pdf"),
     *("answers.pdf", "maps.pdf", "all-maps.zip"),
 )
+_MAY_BE_LEFT = {each.name for each in FIELDS if each.can_be_left}  # whose False says something
 
 
 @speaking(CONTROLS)
@@ -136,11 +137,12 @@ def as_python(said: Said, names: Sequence[str]) -> str:
     written = {
         name: value
         for name, value in told.items()
-        if value is not None and value != [] and (value is not False or name == "grid_error")
+        if value is not None and value != [] and (value is not False or name in _MAY_BE_LEFT)
     }
     question = [f"[{', '.join(map(repr, names))}]" if is_part else repr(names[0])]
     question += [f"{name}={value!r}" for name, value in told_of("Question", written).items()]
-    if asked := [each.in_python(written[each.name]) for each in asked_fields(written)]:
+    fields = asked_fields(written)
+    if asked := [each.in_python(written[each.name], **beside(each, written)) for each in fields]:
         question.append(f"ask=[{', '.join(asked)}]")
     for kind in (Reading, Preparation):
         usual = vars(kind())

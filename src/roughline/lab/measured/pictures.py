@@ -107,7 +107,9 @@ def of_contact(result: Assessment) -> Maps:
     fields = None if shown is None else result.curve.fields[shown]
     if shown is None or fields is None:
         return {"height": topography}
-    force = up_to_three_digits(float(result.curve.force[shown]) * result.scale, None, "N")
+    force = up_to_three_digits(
+        float(result.curve_over_loads.force[shown]) * result.scale, None, "N"
+    )
     load = f"corrected area {area_in_words(result, shown, up_to_three_digits)} at {force}"
     maps = contact_maps(
         fields,
@@ -146,7 +148,7 @@ def of_contact(result: Assessment) -> Maps:
 
 def of_curve(result: Assessment) -> Panels:
     """Stiffness and area over force with their intervals, and theories beside them."""
-    curve, solved, scale = result.curve, result.curve.converged, result.scale
+    curve, solved, scale = result.curve_over_loads, result.curve.converged, result.scale
     per_newton, force_unit = prefix(scale * _largest(curve.force[solved]), "N")
     per_stiffness, unit = prefix(scale * _largest(curve.stiffness[solved]), "N/m")
     labels = {"stiffness": f"stiffness k [{unit}]", "area": "real contact area A / A₀"}
@@ -158,7 +160,7 @@ def of_curve(result: Assessment) -> Panels:
         unloading = _xy(curve.force[solved], curve.unloading_stiffness[solved])
         drawn["stiffness"]["unloading"] = unloading
     for each in result.theories:
-        name, forces = f"theory {each.name}", each.pressure * result.area
+        name, forces = f"theory {each.name}", result.load_on(each.pressure * result.area)
         drawn["area"][name] = _xy(forces, each.area_fraction)
         if each.stiffness is not None:
             drawn["stiffness"][name] = _xy(forces, each.stiffness * result.area)
@@ -178,7 +180,7 @@ def of_curve(result: Assessment) -> Panels:
 
 def _of_loads(result: Assessment, values: _Real, ends: Ends | None) -> dict[str, Points]:
     """A quantity over the loads that were solved, with its interval. [N, SI]"""
-    curve = result.curve
+    curve = result.curve_over_loads
     asked = np.isin(np.arange(curve.force.size), result.asked)
     kinds = {"loads": curve.resolved, "unsure": ~curve.resolved, "asked": asked}
     masks = {kind: curve.converged & some for kind, some in kinds.items()}
