@@ -130,7 +130,7 @@ def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
     if np.isinf(of_layers).any():
         return _OF_KEPT_VOLUME
     k_i = pressed.symbols["k_i"]
-    pressure = float(np.nanmax(pressed.pressure))
+    pressure = float(np.nanmax(pressed.load_pressure))  # a fluid compresses them as well
     compressed = engineering(pressure * pressed.pair.elasticity.layers_compliance, "m")
     added = engineering(float(np.nanmax(of_layers)), "N/m")
     return (

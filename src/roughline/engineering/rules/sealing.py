@@ -182,6 +182,8 @@ def _carries(pressed: Pressed) -> str:
             ", as if the fluid came first; loaded before it comes, they keep the dents of all of "
             "the load, and less leaks"
         )
+    if pressed.attraction is not None:
+        text += "; what draws them apart is of the bodies alone, without the fluid"
     return text
 
 
