@@ -155,6 +155,10 @@ class Sealing:
         beneath = np.maximum(9 * mean**2 + 12 * mean * last - 12 * last**2, 0.0)
         return np.maximum((3 * mean - 2 * last + np.sqrt(beneath)) / 4, last)
 
+    def opens_soft_faces(self, pressure: Real) -> Mask:
+        """Whether the fluid is above the outside by mean pressures of the load where it enters."""
+        return np.asarray((self.inlet or 0.0) - ATMOSPHERE >= pressure)
+
     @property
     def free_path(self) -> float:
         """Mean free path of the gas at the mean pressure; zero of a liquid, and in vacuum. [m]"""

@@ -50,7 +50,10 @@ _OF_THE_MAP = (
     f"less; {_THIN}"
 )
 _OF_QUARTERS = "of the map; the interval holds what its quarters and its grid leave open"
-_OF_STIFF_FACES = "stiff faces, which stay parallel; along a ring that is narrow beside its radius"
+_OF_STIFF_FACES = (
+    "stiff faces, which stay parallel, and a ring narrow beside its radius; soft ones open from "
+    "the inlet on, as soon as the fluid is p above the outside there"
+)
 _rule = partial(Rule, group="sealing", validity=_OF_THE_MAP, source="Reynolds 1886")
 
 _Needed = Callable[[Sealing], Sequence[Measure]]
@@ -177,10 +180,15 @@ def _carries(pressed: Pressed) -> str:
     part = f"{most:.0%}" if f"{least:.0%}" == f"{most:.0%}" else f"{least:.0%} to {most:.0%}"
     loads = _loads_in_words(pressed.load_pressure[counts])
     text = f"{_above_outside(asked)} carries {part} of {loads}: the bodies press with the rest"
+    if asked.opens_soft_faces(pressed.load_pressure[counts]).any():
+        text += (
+            "; where it enters, its pressure is above that of the load, and faces that are not "
+            "stiff open from there"
+        )
     if pressed.yields:
         text += (
-            ", as if the fluid came first; loaded before it comes, they keep the dents of all of "
-            "the load, and less leaks"
+            "; dents are those of the rest, as if the fluid came first: bodies that are loaded "
+            "before it comes keep deeper ones, and less leaks"
         )
     if pressed.attraction is not None:
         text += "; what draws them apart is of the bodies alone, without the fluid"
