@@ -35,7 +35,8 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
     """What pressing gave, in SI units, over the loads that were asked for, in their order.
 
     Of a joint the answers are the joint's; the curve and its intervals are those of the map, under
-    the map's part of the load. Answers are listed by their symbols; the key of each is that of
+    the map's part of the load. Forces of the curve are those with which the bodies press, without
+    what a fluid carries. Answers are listed by their symbols; the key of each is that of
     :attr:`Assessment.answers`.
     """
     intervals = assessment.intervals_as_asked
