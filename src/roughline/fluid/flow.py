@@ -156,6 +156,31 @@ class Flow:
             )
         return self.tensor
 
+    @cached_property
+    def border_permeances(self) -> tuple[float, float]:
+        """Permeances with the flow given along the border across it, and with the pressure held.
+
+        They are of a map that is cut out of a larger surface, of which the gap beyond the border is
+        not known. The flow is given there as flat plates share it. With the pressure held even,
+        more flows than if the map repeats. With the flow given, less does, as a rule: more may,
+        where both borders do not fit together. Both are zero where no path leads from one of them
+        to the other. [length³]
+
+        Raises
+        ------
+        InputError
+            If the gap does not repeat along the flow.
+        """
+        if self.has_ends:
+            raise InputError(
+                "what the border does is known of a gap that repeats along the flow: along "
+                f'{self.along} this one ends, sides="{self.sides}"'
+            )
+        from roughline.fluid.border import permeances_of_border  # here because it loads slowly
+
+        gap = Gap(self.gap, self.sizes, self.sides, self.mean_free_path)
+        return permeances_of_border(gap, self.along)
+
     @property
     def hydraulic_aperture(self) -> float:
         """Gap u_h = Λ^(1/3) of two flat plates that let as much through. [length]"""

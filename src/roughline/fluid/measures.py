@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -15,7 +15,7 @@ from roughline.contact.measures import Measure
 from roughline.errors.checks import one_of
 from roughline.errors.public import public
 from roughline.fluid.flow import Flow, flow
-from roughline.fluid.gap import Along, checked_free_path
+from roughline.fluid.gap import Along, Gap, checked_free_path
 from roughline.fluid.rarefied import Rarefied
 
 LIQUID = Rarefied()
@@ -31,10 +31,15 @@ class _Found:
     factor: float = math.nan
     share: float = math.nan
     slope: float = math.nan
+    places: Sequence[tuple[float, float]] = ()  # along the seal: their weights and free paths
 
 
 _FOUND: WeakKeyDictionary[Fields, dict[tuple[Along, Rarefied], _Found]] = WeakKeyDictionary()
 """By the fields of a load, as long as these are there: several measures are of one flow."""
+
+_AT_BORDER: WeakKeyDictionary[Fields, dict[tuple[Along, Rarefied], tuple[_Found, _Found]]] = (
+    WeakKeyDictionary()
+)
 
 
 def _found(fields: Fields, along: Along, fluid: Rarefied) -> _Found:
@@ -72,10 +77,33 @@ def _kept(weights: Sequence[float], through: Sequence[Flow], fluid: Rarefied) ->
         return _Found()
     last = through[-1]
     permeance = sum(weight * each.permeance for weight, each in zip(weights, through, strict=True))
-    aperture, mean = fluid.gap_of_plates(permeance), float(last.gap.mean())
+    found = _of_permeance(permeance, float(last.gap.mean()), fluid)
+    places = [(weight, each.mean_free_path) for weight, each in zip(weights, through, strict=True)]
+    return replace(found, share=last.largest_share, slope=last.slope, places=places)
+
+
+def _of_permeance(permeance: float, mean_gap: float, fluid: Rarefied) -> _Found:
+    """What follows from the permeance alone."""
+    aperture = fluid.gap_of_plates(permeance)
     of_liquid = permeance if fluid == LIQUID else aperture**3
-    factor = of_liquid / mean**3 if mean > 0 else 0.0
-    return _Found(permeance, aperture, factor, last.largest_share, last.slope)
+    return _Found(permeance, aperture, of_liquid / mean_gap**3 if mean_gap > 0 else 0.0)
+
+
+def _at_border(fields: Fields, along: Along, fluid: Rarefied) -> tuple[_Found, _Found]:
+    """The same with the flow given along the border across it, and with the pressure held even."""
+    from roughline.fluid.border import permeances_of_border  # here because it loads slowly
+
+    known = _AT_BORDER.setdefault(fields, {})
+    if (along, fluid) not in known:
+        places = _found(fields, along, fluid).places
+        sums = np.zeros(2) if places else np.full(2, np.nan)
+        for weight, path in places:
+            gap = Gap.of(fields, None, None, path)
+            sums += weight * np.array(permeances_of_border(gap, along))
+        mean = float(gap.distances.mean()) if places else math.nan
+        given, held = (_of_permeance(float(each), mean, fluid) for each in sums)
+        known[along, fluid] = given, held
+    return known[along, fluid]
 
 
 @public
@@ -164,6 +192,32 @@ def flow_factor(fluid: Rarefied, along: Along) -> Measure:
         lambda fields: _found(fields, along, fluid).factor,
         intensive=True,
     )
+
+
+def names_at_border(name: str) -> tuple[str, str]:
+    """Names of a measure with the flow given along the border across it, and with the pressure."""
+    return f"{name}_flow_given", f"{name}_pressure_held"
+
+
+@functools.cache
+def measures_at_border(fluid: Rarefied, along: Along) -> Sequence[Measure]:
+    """Aperture and flow factor with the flow given along the border across it, and the pressure.
+
+    They are of what repeats along the flow.
+    """
+    listed = []
+    for of, key in ((aperture_of(fluid, along), "aperture"), (flow_factor(fluid, along), "factor")):
+        for k, what in enumerate(("flow given", "pressure held even")):
+            value = functools.partial(_value_at_border, along, fluid, k, key)
+            meaning = f"{of.meaning}, with the {what} along the border"
+            name = names_at_border(of.name)[k]
+            listed.append(Measure(name, of.symbol, of.dimension, meaning, value))
+    return listed
+
+
+def _value_at_border(along: Along, fluid: Rarefied, k: int, key: str, fields: Fields) -> float:
+    """One number of what is found with the flow given, or with the pressure."""
+    return float(getattr(_at_border(fields, along, fluid)[k], key))
 
 
 @functools.cache
