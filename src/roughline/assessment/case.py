@@ -18,6 +18,7 @@ from roughline.computing.arrays import Mask
 from roughline.contact.measures import Measure
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.rules import rules
+from roughline.fluid.measures import measures_at_border
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Line, Surface
 
@@ -110,6 +111,16 @@ class Case:
         if self.pair is None or not isinstance(self.body, Surface):
             return ()
         return rules.measures(self.pair, self.question.sealing)
+
+    @property
+    def measures_at_border(self) -> Sequence[Measure]:
+        """What tells how the border of a map that was cut out moves what flows; none of others."""
+        asked = self.question.sealing
+        if asked is None or self.map is None or not is_map(self.body):
+            return ()
+        return [
+            each for along in asked.directions for each in measures_at_border(asked.rarefied, along)
+        ]
 
     @cached_property
     def judged(self) -> Body:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.assessment.tiles import Beyond, TiledCurves, Tiles
-from roughline.assessment.uncertainty import widened
+from roughline.assessment.uncertainty import combined, widened
 from roughline.computing.arrays import Real
 from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Ends
@@ -23,17 +23,43 @@ class LargerMeasure:
     of_map: Measured  # with what its grid and filled points leave open
     tiles: Tiles  # logarithms of the measure and the floor
     floor: Real  # added to the measure, (loads,); zero where the map and all its tiles are sealed
+    at_border: tuple[Real, Real] | None = None
+    """Differences of the same logarithm with the flow given along the border, and the pressure."""
 
     @classmethod
     def of(cls, of_map: Measured, curves: TiledCurves) -> LargerMeasure:
         """A measure with the tiles of its map."""
-        return cls(of_map, *curves.measure(of_map.quantity.name))
+        name = of_map.quantity.name
+        tiles, floor = curves.measure(name)
+        return cls(of_map, tiles, floor, curves.border_of(name, floor))
+
+    @property
+    def border(self) -> Ends:
+        """Ends of the same difference that the border leaves open, where the map was cut.
+
+        The map as it repeats is within them.
+        """
+        if self.at_border is None:
+            return np.zeros_like(self.floor), np.zeros_like(self.floor)
+        ends = np.minimum.reduce(self.at_border), np.maximum.reduce(self.at_border)
+        unknown = np.isnan(ends[0])
+        low, high = np.minimum(ends[0], 0.0), np.maximum(ends[1], 0.0)
+        return np.where(unknown, UNTOLD[0], low), np.where(unknown, UNTOLD[1], high)
+
+    @property
+    def values_at_border(self) -> tuple[Real, Real] | None:
+        """The measure with the flow given along the border, and with the pressure held."""
+        if self.at_border is None:
+            return None
+        values, floor = self.of_map.values, self.floor
+        given, held = (np.maximum((values + floor) * np.exp(d) - floor, 0) for d in self.at_border)
+        return given, held
 
     def of_larger(self, beyond: Beyond | None) -> Measured:
         """The same with an interval that holds a larger surface; none if the map tells of none."""
         if beyond is None or not beyond.is_told:
             return replace(self.of_map, low=None, high=None)
-        return self.widened(self.tiles.beyond(beyond), with_grid=True)
+        return self.widened(combined(self.tiles.beyond(beyond), self.border), with_grid=True)
 
     def widened(self, further: Ends, *, with_grid: bool) -> Measured:
         """The same with ends of the difference of its logarithm.

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.border_of_flow import what_borders_do
 from roughline.assessment.films import film_that_spots_exceed
 from roughline.assessment.given import has_forces, several
 from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
@@ -39,6 +40,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
         notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
         notes += of_unknown_hardness(pair)
         notes += remarks(_of_films(pair), INTERVALS)
+        notes += remarks(what_borders_do(result), INTERVALS)
         above = not_answered(result)
         notes += [each for each in result.left_out if each not in above]
         notes += _of_layers(result, pair)

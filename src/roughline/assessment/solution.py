@@ -199,7 +199,8 @@ def _tiled(curves: Curves, whole: Curve | None, body: Surface) -> TiledCurves | 
     )
     if whole is None or len(halves) < 4 or len(quarters) < 16:
         return None
-    return TiledCurves(whole, halves, quarters, shape[0] * shape[1])
+    border = curves.whole(Way.BORDER)
+    return TiledCurves(whole, halves, quarters, shape[0] * shape[1], border)
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

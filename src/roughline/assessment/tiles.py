@@ -13,6 +13,7 @@ from roughline.assessment.uncertainty import area_fraction, unloading_stiffness
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends
+from roughline.fluid.measures import names_at_border
 from roughline.topography.body import Surface
 
 FEWEST = 32
@@ -23,7 +24,12 @@ MOST_DOUBLINGS = 4
 
 _USUAL = 2.0  # doublings where the larger surface has no size
 
-_POINTS = 2**16  # of a map whose tiles are pressed; a finer one is coarsened before
+POINTS_OF_TILES = 2**16
+"""Points of a map whose tiles are pressed; a finer one is coarsened before."""
+
+POINTS_OF_BORDER = 2**14
+"""Points of a map whose border is judged: on four times as many, it does about an eighth less."""
+
 _STUDENT = 2.131  # of 95 %, with the 15 degrees of freedom of sixteen tiles
 _DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a border's share
 _FLOOR = 0.3  # of a measure, added before its logarithm is taken: what is sealed has none
@@ -161,6 +167,8 @@ class TiledCurves:
     halves: Sequence[Curve]  # 4, row by row
     quarters: Sequence[Curve]  # 16
     points: int  # of the whole map
+    border: Curve | None = None
+    """Of the whole map on few points, with measures that tell what its border does."""
 
     def stiffness_and_contact(self) -> tuple[Tiles, Tiles]:
         """Logarithms of the stiffness, and logits of the contact."""
@@ -171,16 +179,38 @@ class TiledCurves:
 
         The floor is a share of the measure's mean, so that what is sealed has a logarithm. Near
         sealing places scatter evenly in the aperture itself, and elsewhere in its logarithm. It is
-        zero where all is sealed.
+        zero where all is sealed, even with the pressure held along the border.
         """
         values = self._tiles(lambda curve, _points: curve.measured[name].values)
         means = [values.whole, _mean(values.halves), _mean(values.quarters)]
-        floor = _FLOOR * np.fmax.reduce(means)
+        largest = np.fmax.reduce(means)
+        if (border := self._at_border(name)) is not None:
+            largest = np.where(largest == 0, np.nan_to_num(border.max(axis=0)), largest)
+        floor = _FLOOR * largest
         with np.errstate(divide="ignore"):
             whole, halves, quarters = (
                 np.log(each + floor) for each in (values.whole, values.halves, values.quarters)
             )
         return Tiles(whole, halves, quarters, either_way=True), floor
+
+    def border_of(self, name: str, floor: Real) -> tuple[Real, Real] | None:
+        """By how much the logarithm of a measure and the floor differs as the border is held.
+
+        That is with the flow given along it, and with the pressure; None if that was not measured.
+        """
+        values = self._at_border(name)
+        if values is None:
+            return None
+        with np.errstate(divide="ignore", invalid="ignore"):
+            of_map, given, held = np.log(values + floor)
+            return given - of_map, held - of_map
+
+    def _at_border(self, name: str) -> Real | None:
+        """A measure of the map as it repeats, with the flow given, and the pressure, (3, loads)."""
+        names = (name, *names_at_border(name))
+        if self.border is None or any(each not in self.border.measured for each in names):
+            return None
+        return np.stack([self.border.measured[each].values for each in names])
 
     def _tiles(self, of: Callable[[Curve, int], Real]) -> Tiles:
         halves, quarters = (
@@ -209,16 +239,16 @@ def logit(share: Real) -> Real:
         return np.log(share) - np.log1p(-share)
 
 
-def coarse_shape(shape: tuple[int, int]) -> tuple[int, int]:
-    """Points along the sides of a map whose tiles are pressed."""
-    while shape[0] * shape[1] > _POINTS and min(shape) >= 4 * FEWEST:
+def coarse_shape(shape: tuple[int, int], points: int = POINTS_OF_TILES) -> tuple[int, int]:
+    """Points along the sides of a map whose tiles are pressed, or one of fewer points."""
+    while shape[0] * shape[1] > points and min(shape) >= 4 * FEWEST:
         shape = shape[0] // 2, shape[1] // 2
     return shape
 
 
-def coarsened(piece: Surface) -> Surface:
+def coarsened(piece: Surface, points: int = POINTS_OF_TILES) -> Surface:
     """Return a map of many points on fewer, where its tiles keep enough."""
-    shape = coarse_shape(piece.shape)
+    shape = coarse_shape(piece.shape, points)
     while piece.shape != shape:
         piece = piece.cropped(*((0, n - n % 2) for n in piece.shape)).coarsened()
     return piece

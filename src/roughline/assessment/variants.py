@@ -22,10 +22,17 @@ from roughline.assessment.films import SPOT_RADIUS, film_of, hardness_ends
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import pressed_body
-from roughline.assessment.tiles import FEWEST, coarse_shape, coarsened, tiles_of
+from roughline.assessment.tiles import (
+    FEWEST,
+    POINTS_OF_BORDER,
+    coarse_shape,
+    coarsened,
+    tiles_of,
+)
 from roughline.computing.arrays import Mask
 from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
+from roughline.contact.measures import Measure
 from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.pressed import Sought, yields
 from roughline.errors import Interrupted
@@ -43,6 +50,7 @@ class Way(StrEnum):
     HARDEST = "hardest"
     AS_HARD = "as hard on half as many points a side"  # for the softest and hardest of large bodies
     COARSE = "coarse map"  # of which the tiles are, where the map has many points
+    BORDER = "coarser map"  # that tells what its border does to what flows
 
 
 _UNLOADING_LOADS = 16
@@ -306,27 +314,22 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
     if not case.loads.grid_error or min(body.shape) < FEWEST or case.question.coated:
         return []
     shape = coarse_shape(body.shape)
+    measures = [each for each in case.measures if each.intensive]
 
     @cache
     def pieces(count: int) -> list[Surface]:
         return tiles_of(pieces(1)[0], count) if count > 1 else [coarsened(body.detrended())]
 
     def needed(count: int, i: int, curves: Curves) -> LoadCase | None:
-        curve = curves.get(whole)
-        if curve is None or curve.stiffness_error is None or broken("grid", body):
-            return None
-        loads = case.loads.under_forces_of(curve)
-        if not loads.forces:
-            return None
-        piece, attraction = pieces(count)[i], loads.attraction
-        if attraction and not attraction.is_resolved(max(piece.spacing), loads.elasticity.softest):
-            return None
-        forces = (np.array(loads.forces) / body.area * piece.area).tolist()
-        loads = replace(loads, body=piece, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
-        measures = [each for each in case.measures if each.intensive]
-        return replace(loads, measures=measures, levelled=False, grid_error=False)
+        return _alike(case, curves.get(whole), lambda: pieces(count)[i], measures)
 
-    return [
+    def needed_for_border(curves: Curves) -> LoadCase | None:
+        taken = [*measures, *case.measures_at_border]
+        return _alike(
+            case, curves.get(whole), lambda: coarsened(pieces(1)[0], POINTS_OF_BORDER), taken
+        )
+
+    listed = [
         Variant(
             tile(count, i) if count > 1 else Way.COARSE,
             "larger surface",
@@ -338,3 +341,25 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
         for count in ((2, 4) if shape == body.shape else (1, 2, 4))
         for i in range(count**2)
     ]
+    if case.measures_at_border:
+        coarser = coarse_shape(body.shape, POINTS_OF_BORDER)
+        listed.append(Variant(Way.BORDER, "larger surface", needed_for_border, coarser, True))
+    return listed
+
+
+def _alike(
+    case: Case, curve: Curve | None, piece: Callable[[], Surface], measures: Sequence[Measure]
+) -> LoadCase | None:
+    """Press a piece, or the map on fewer points, periodically as the map was: no better known."""
+    body = case.body
+    if curve is None or curve.stiffness_error is None or broken("grid", body):
+        return None
+    loads = case.loads.under_forces_of(curve)
+    if not loads.forces:
+        return None
+    pressed, attraction = piece(), loads.attraction
+    if attraction and not attraction.is_resolved(max(pressed.spacing), loads.elasticity.softest):
+        return None
+    forces = (np.array(loads.forces) / nominal_area(body) * pressed.area).tolist()
+    loads = replace(loads, body=pressed, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
+    return replace(loads, measures=measures, levelled=False, grid_error=False)

@@ -1,0 +1,77 @@
+"""What the border of a map does to what flows, where that outweighs the rest of an interval."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.assessment.assessment import Assessment
+from roughline.computing.arrays import Real
+from roughline.fluid.gap import Along
+from roughline.units import engineering
+
+_COUNTS = 1.2  # upper over lower aperture of what is said
+
+
+@dataclass(frozen=True, eq=False)
+class _Border:
+    """Apertures along one direction as the border across it is held, over the loads."""
+
+    along: Along
+    given: Real  # with the flow given there [m]
+    held: Real  # with the pressure held even [m]
+    over: Real  # by how much the logarithm of both outweighs the rest of an interval
+    has_interval: bool
+
+    def words(self, load: int) -> str:
+        """Both apertures under a load."""
+        held, given = (engineering(float(each[load]), "m", 3) for each in (self.held, self.given))
+        return (
+            f"along {self.along} u_h is {held} with the pressure held even there, and {given} with "
+            "the flow given"
+        )
+
+
+def what_borders_do(result: Assessment) -> list[str]:
+    """Say what flows with the pressure held along the border of a map, and with the flow given.
+
+    That is said of each direction in which it outweighs the rest of the interval, under the load
+    where it does most.
+    """
+    found = [each for each in _borders(result) if (each.over > 0).any()]
+    if not found:
+        return []
+    load = int(np.argmax(np.maximum.reduce([each.over for each in found])))
+    told = [each for each in found if each.over[load] > 0]
+    listed = "; ".join(each.words(load) for each in told)
+    rest = (
+        "further apart than the rest of the interval"
+        if all(each.has_interval for each in told)
+        else "no interval holds them"
+    )
+    return [f"the border of the map under {result.headings[load]}: {listed}: {rest}"]
+
+
+def _borders(result: Assessment) -> Iterator[_Border]:
+    """What the border does along each direction that is asked for."""
+    sealing, larger = result.question.sealing, result.larger
+    if sealing is None or larger is None:
+        return
+    for along in sealing.directions:
+        key = f"hydraulic_aperture_{along}"
+        answer = result.answers.get(key) or result.answers.get("hydraulic_aperture")
+        measure = larger.measures.get(key)
+        values = None if measure is None else measure.values_at_border
+        if values is None or answer is None:
+            continue
+        given, held = values
+        low, high = answer.ends or (np.ones_like(given), np.ones_like(given))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            of_border, of_all = np.log(held / given), np.log(high / low)
+            # independent ones combine in squares: the larger of two is over the sum over root two
+            over = np.nan_to_num(math.sqrt(2) * of_border - of_all, nan=0.0)
+        over = np.where(of_border > math.log(_COUNTS), over, 0.0)
+        yield _Border(along, given, held, over, answer.ends is not None)

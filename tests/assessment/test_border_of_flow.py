@@ -1,0 +1,178 @@
+"""What the border of a map that was cut out does to what flows: a part of the interval."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.assessment.behind_maps import behind_maps
+from roughline.assessment.border_of_flow import what_borders_do
+from roughline.assessment.larger_measure import LargerMeasure
+from roughline.assessment.tiles import POINTS_OF_BORDER, Beyond, TiledCurves, coarse_shape
+from roughline.contact.measures import Measured
+from roughline.fluid import border
+from roughline.fluid.measures import LIQUID, aperture_of, names_at_border
+
+SEEN = Beyond(6.0)
+APERTURE = "hydraulic_aperture_x"
+WATER = [rl.Fluid("water"), rl.Inlet("6 bar")]
+
+
+def measure_of(whole, tiles, at_border):
+    """An aperture of a map, of its tiles, all alike, and as its border is held; a load each."""
+    quantity = aperture_of(LIQUID, "x").quantity
+    names = APERTURE, *names_at_border(APERTURE)
+
+    def curve(*values):
+        of_each = zip(names[: len(values)], values, strict=True)
+        measured = {name: Measured(quantity, np.array(each, float)) for name, each in of_each}
+        return SimpleNamespace(measured=measured)
+
+    tiled = TiledCurves(curve(whole), [curve(tiles)] * 4, [curve(tiles)] * 16, 64)
+    values = np.array(whole, float)
+    of_map = Measured(quantity, values, values, values)
+    return LargerMeasure.of(of_map, replace(tiled, border=curve(*at_border)))
+
+
+def test_nothing_but_the_border_leaves_open_what_lies_between_both():
+    """Were map and tiles alike, and the grid exact; in the second load the flow given is more."""
+    found = measure_of([2, 2], [2, 2], ([2, 2], [1, 3], [4, 5])).of_larger(SEEN)
+    assert found.low == pytest.approx([1, 2])
+    assert found.high == pytest.approx([4, 5])
+
+
+def test_it_is_independent_of_the_rest():
+    alone = measure_of([2], [1.8], ([2], [2], [2])).of_larger(SEEN)
+    border_alone = measure_of([1.8], [1.8], ([2], [1], [4]))
+    measure = measure_of([2], [1.8], ([2], [1], [4]))
+    both, floor = measure.of_larger(SEEN), measure.floor
+    for k, end in enumerate(("low", "high")):
+        rest = np.log((getattr(alone, end) + floor) / (2 + floor))
+        total = np.log((getattr(both, end) + floor) / (2 + floor))
+        assert abs(total) == pytest.approx(np.hypot(rest, measure.border[k]))
+    assert np.isfinite(border_alone.border).all()
+
+
+def test_a_sealed_map_that_its_border_opens_may_leak_so_much():
+    found = measure_of([0, 0], [0, 0], ([0, 0], [0.4, 0], [0.5, 0])).of_larger(SEEN)
+    assert found.low.tolist() == found.values.tolist() == [0, 0]
+    assert found.high == pytest.approx([0.5, 0])
+
+
+def test_a_border_that_was_not_solved_leaves_all_open():
+    found = measure_of([2], [2], ([np.nan], [np.nan], [np.nan])).of_larger(SEEN)
+    assert (found.low, found.high) == (0, np.inf)
+
+
+def asked(body, seal="1 mm x 1 mm", load="50 MPa", ask=WATER, **more):
+    ask = [*ask, rl.Seal(seal)]
+    given = {"loads": load, "elastic": True, "grid_error": True, **more}
+    return rl.assess(rl.Question(body, "steel,steel", ask=ask, **given))
+
+
+@pytest.fixture(scope="module")
+def parent():
+    spectrum = rl.SelfAffine(hurst=0.8, length=6e-4, rms_height=1e-6, q_roll=1e5, q_high=6e5)
+    return spectrum.surface(96, rng=5)
+
+
+@pytest.fixture(scope="module")
+def piece(parent):
+    return parent.cropped((0, 48), (0, 32))
+
+
+@pytest.fixture(scope="module")
+def assessment(piece):
+    return asked(piece)
+
+
+def test_it_is_that_of_the_flow_through_the_map(piece, assessment):
+    """The map has few points, so that nothing is coarsened."""
+    level, E_star = piece.detrended(), assessment.curve.E_star
+    forces = [50e6 * piece.area]
+    fields = rl.press(level, E_star=E_star, forces=forces, periodic=True, fields=True).fields[0]
+    for flow in rl.flow(fields, along="both"):
+        measure = assessment.larger.measures[f"hydraulic_aperture_{flow.along}"]
+        expected = np.cbrt(flow.border_permeances)
+        assert np.ravel(measure.values_at_border) == pytest.approx(expected, rel=1e-3)
+        factor = assessment.larger.measures[f"pressure_flow_factor_{flow.along}"]
+        share = np.array(flow.border_permeances) / flow.permeance
+        of_map = factor.of_map.values
+        assert np.ravel(factor.values_at_border) == pytest.approx(of_map * share, rel=1e-2)
+
+
+def test_it_is_in_the_interval_of_the_leak(assessment):
+    for name in (APERTURE, "hydraulic_aperture_y"):
+        measure, answer = assessment.larger.measures[name], assessment.answers[name]
+        bare = replace(measure, at_border=None)
+        without, whole = (each.of_larger(Beyond(2.5)) for each in (bare, measure))
+        assert whole.low < without.low or whole.high > without.high
+        assert (answer.low <= measure.values_at_border[1]).all()
+
+
+def test_only_a_map_that_was_cut_out_has_such_a_border(parent, piece, monkeypatch):
+    """And only what flows asks for it, on few points, once for each load and direction."""
+    solved, real = [], border.permeances_of_border
+
+    def counted(gap, along):
+        solved.append((gap.distances.shape, along))
+        return real(gap, along)
+
+    monkeypatch.setattr(border, "permeances_of_border", counted)
+    whole = rl.Surface(piece.heights, piece.sizes, "m", is_cut_out=False)
+    asked(whole, periodic=True)
+    asked(piece, grid_error=False)
+    assert not solved
+    rl.assess(rl.Question(piece, "steel,steel", loads="50 MPa", elastic=True, grid_error=True))
+    assert not solved
+    asked(piece, ask=[*WATER, rl.FlowAlong("x")], elastic=False, hardness="5 GPa")
+    assert solved == [(piece.shape, "x")]
+
+
+def test_a_map_of_many_points_is_judged_on_few():
+    assert coarse_shape((200, 296), POINTS_OF_BORDER) == (100, 148)
+    assert coarse_shape((1024, 1024), POINTS_OF_BORDER) == (128, 128)
+    assert coarse_shape((64, 2048), POINTS_OF_BORDER) == (64, 2048)
+
+
+def test_both_are_told_where_they_outweigh_the_rest(assessment):
+    values = dict(zip("xy", ((0.8, 1.4), (0.99, 1.01)), strict=True))
+    measures, answers = dict(assessment.larger.measures), dict(assessment.answers)
+    for along, (given, held) in values.items():
+        name = f"hydraulic_aperture_{along}"
+        one = replace(measures[name].of_map, values=np.array([1e-6]))
+        logs = [np.log((np.array([each]) * 1e-6 + 1e-7) / 1.1e-6) for each in (given, held)]
+        measures[name] = replace(measures[name], of_map=one, floor=np.array([1e-7]), at_border=logs)
+        ends = {"low": np.array([0.75e-6]), "high": np.array([1.5e-6])}
+        answers[name] = replace(answers[name], values=np.array([1e-6]), **ends)
+    larger = replace(assessment.larger, measures=measures)
+    result = replace(assessment, larger=larger, answers=answers)
+    assert what_borders_do(result) == [
+        "the border of the map under 50 MPa: along x u_h is 1.4 µm with the pressure held even "
+        "there, and 800 nm with the flow given: further apart than the rest of the interval"
+    ]
+    wide = {APERTURE: replace(answers[APERTURE], low=np.array([0.5e-6]))}
+    assert what_borders_do(replace(result, answers={**answers, **wide})) == []
+    assert what_borders_do(assessment) == []
+    bare = {APERTURE: answers[APERTURE].bare}
+    (told,) = what_borders_do(replace(result, answers={**answers, **bare}))
+    assert told.endswith("with the flow given: no interval holds them")
+
+
+def test_of_many_maps_the_mean_of_their_borders_is_left_open(parent):
+    pieces = [parent.cropped((x, x + 32), (0, 32)) for x in (0, 64)]
+    maps = [asked(each, ask=[*WATER, rl.FlowAlong("x")]) for each in pieces]
+    without = []
+    for each in maps:
+        measures = {
+            name: replace(measure, at_border=None) for name, measure in each.larger.measures.items()
+        }
+        without.append(replace(each, larger=replace(each.larger, measures=measures)))
+    borders = [each.larger.measures[APERTURE].border for each in maps]
+    mean = np.mean(borders, axis=0)
+    found, bare = (behind_maps(each).alike.measures[APERTURE] for each in (maps, without))
+    for k in (0, 1):
+        assert abs(found[k]) == pytest.approx(np.hypot(bare[k], mean[k]))
+    assert abs(mean).max() > 0
