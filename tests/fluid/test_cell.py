@@ -156,6 +156,34 @@ def test_the_cell_lies_between_the_means_of_rows_and_of_columns(contact):
     assert (np.linalg.eigvalsh(tensor) <= np.mean(cubes)).all()
 
 
+@pytest.mark.parametrize("numbers", [range(30), range(30, 300)])
+def test_joined_rows_let_more_through_and_parted_columns_less(numbers):
+    """Rayleigh: rows of one pressure from above, columns without any flow across from below."""
+    for number in numbers:
+        gap = torus(number, largest=7)
+        for flow, length in zip(of(gap, along="both"), (gap.shape, gap.shape[::-1]), strict=True):
+            is_x = flow.along == "x"
+            faces = flow.conductances_x[1:] if is_x else flow.conductances_y[:, 1:].T
+            with np.errstate(divide="ignore"):
+                most = 1 / (1 / faces.sum(axis=1)).sum() * length[0] / length[1]
+                least = (1 / (1 / faces).sum(axis=0)).sum() * length[0] / length[1]
+            assert least * (1 - 1e-12) <= flow.permeance <= most * (1 + 1e-12), number
+
+
+@pytest.mark.parametrize("contrast", [0.1, 3.0, 10.0])
+def test_squares_in_a_square_cell_lie_between_the_bounds_of_hashin_and_shtrikman(contrast):
+    """They let as much through either way, and so any way; u³ inside over that outside."""
+    gap = np.ones((40, 40))
+    gap[10:30, 10:30] = np.cbrt(contrast)
+    tensor = rl.flow(gap, sizes=(1.0, 1.0)).tensor
+    assert tensor == pytest.approx(tensor[0, 0] * np.eye(2), rel=1e-12, abs=1e-12)
+    bounds = [
+        first + share / (1 / (second - first) + (1 - share) / (2 * first))
+        for first, second, share in ((1.0, contrast, 0.25), (contrast, 1.0, 0.75))
+    ]
+    assert min(bounds) < tensor[0, 0] < max(bounds)
+
+
 def test_duality_of_the_cell():
     """Keller: the tensor of one over the cube is the inverse, turned by a right angle."""
     errors = []
@@ -189,6 +217,58 @@ def test_waves_along_and_across():
     assert tensor == pytest.approx(np.diag([across, along]), rel=1e-9, abs=1e-12)
 
 
+@pytest.mark.parametrize(("times", "angle"), [((1, 1), -45.0), ((2, 1), np.degrees(-np.arctan(2)))])
+def test_waves_in_a_diagonal(times, angle):
+    """So many of them along either side of a square; of the second order in the spacing."""
+    errors, exact_ones = [], ((1 + 1.5 * 0.36), (1 - 0.36) ** 2.5 / 1.18)
+    for n in (16, 32, 64):
+        x, y = np.meshgrid(*[2 * np.pi * (np.arange(n) + 0.5) / n] * 2, indexing="ij")
+        flow = rl.flow(1 + 0.6 * np.cos(times[0] * x + times[1] * y), sizes=(1.0, 1.0))
+        errors.append(abs(np.divide(flow.principal_permeances, exact_ones) - 1).max())
+    assert flow.easiest_direction == pytest.approx(angle, abs=0.1)
+    assert np.log2(errors[0] / errors[1]) > 1.7
+    assert np.log2(errors[1] / errors[2]) > 1.8
+    assert errors[2] < 0.01
+
+
+def winding_channel(times, n):
+    """A channel of one cell that comes back to its beginning so many repetitions along x and y."""
+    gap, i, j = np.zeros((n, n)), 0, 0
+    total = times[0] * n, times[1] * n
+    while (i, j) != total:
+        gap[i % n, j % n] = 1
+        if (i + 1) * total[1] <= (j + 1) * total[0]:
+            i += 1
+        else:
+            j += 1
+    return gap
+
+
+@pytest.mark.parametrize("times", [(1, 1), (2, 1), (1, 2), (3, 2)])
+def test_a_channel_that_comes_back_further_on_leads_in_that_direction_alone(times):
+    """One loop, through which the pressure falls by as many periods as it leads on."""
+    n = 24
+    gap = winding_channel(times, n)
+    cells = n * sum(times)
+    assert gap.sum() == cells
+    for sign in (1, -1):
+        turned = gap if sign == 1 else gap[:, ::-1]
+        found = windings(turned > 0, (True, True))
+        assert found.rank.tolist() == [1]
+        direction = np.array([times[0], sign * times[1]])
+        assert abs(found.direction[0] @ direction) == direction @ direction
+        assert found.leads(0)
+        assert found.leads(1)
+        flow = rl.flow(turned, sizes=(1.0, 1.0))
+        assert flow.tensor == pytest.approx(np.outer(direction, direction) / cells, rel=1e-12)
+        assert flow.principal_permeances == pytest.approx((direction @ direction / cells, 0.0))
+        expected = np.degrees(np.arctan2(direction[1], direction[0]))
+        assert flow.easiest_direction == pytest.approx(expected)
+        for sides in ("x", "y"):  # where it repeats one way alone, the channel does not come back
+            along_x, along_y = rl.flow(turned, sizes=(1.0, 1.0), along="both", sides=sides)
+            assert (along_x if sides == "x" else along_y).is_sealed
+
+
 def test_a_channel_in_a_diagonal_leads_nowhere_else():
     steps = np.eye(10) + np.roll(np.eye(10), 1, axis=0)
     flow = rl.flow(steps, sizes=(1.0, 1.0))
@@ -220,6 +300,24 @@ def test_a_place_beyond_a_thread_flows_within_as_if_it_were_alone():
     thread = rl.flow(np.roll(gap, 20, 0), sizes=(1.0, 1.0)).permeance
     assert joined[0].permeance == pytest.approx(thread, rel=1e-12)
     assert 0 < thread < 1e-12
+
+
+@pytest.mark.parametrize("throat", [1e-4, 1e-6, 1e-8])
+def test_the_least_permeance_is_that_of_two_throats_in_series(throat):
+    """However wide the channels across are, which they part; each is half a throat long."""
+    gap = np.ones((24, 20))
+    gap[10] = gap[20] = 0
+    gap[10, 5], gap[20, 15] = throat, 2 * throat
+    flow = rl.flow(gap, sizes=(24.0, 20.0))
+    series = 1 / (1 / throat**3 + 1 / (2 * throat) ** 3) * 24 / 20
+    assert flow.principal_permeances[1] == pytest.approx(series, rel=1e-10 + 100 * throat**3)
+    assert flow.principal_permeances[0] == pytest.approx(22 / 24, rel=1e-9)
+
+
+def test_what_is_sealed_has_no_direction():
+    flow = rl.flow(np.zeros((4, 4)), sizes=(1.0, 1.0))
+    assert flow.principal_permeances == (0.0, 0.0)
+    assert np.isnan(flow.easiest_direction)
 
 
 def test_directions_are_those_of_a_tensor_alone():

@@ -132,12 +132,17 @@ class Flow:
         InputError
             If the gap does not repeat along both sides.
         """
-        least, largest = np.linalg.eigvalsh(self._checked_tensor)
-        return float(largest), max(float(least), 0.0)
+        (xx, xy), (yx, yy) = self._checked_tensor
+        across = xy if xx < yy else yx  # what flows along the tighter side, which is accurate
+        largest = (xx + yy) / 2 + np.hypot((xx - yy) / 2, across)
+        least = max(xx * yy - across**2, 0.0) / largest if largest > 0 else 0.0
+        return float(largest), float(least)
 
     @property
     def easiest_direction(self) -> float:
         """Angle of the direction of the largest permeance, from x towards y. [degrees]
+
+        NaN of a gap that is sealed along both sides.
 
         Raises
         ------
@@ -145,6 +150,8 @@ class Flow:
             If the gap does not repeat along both sides.
         """
         (xx, xy), (yx, yy) = self._checked_tensor
+        if xx == yy == 0:
+            return float("nan")
         return float(np.degrees(np.arctan2(xy + yx, xx - yy)) / 2)
 
     @property
