@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from random_cases import cases
-from roughline.fluid.one_map import is_judged
+from roughline.fluid.one_map import factor_left_open, is_judged
 from roughline.fluid.sealing_pressure import OPEN
 
 
@@ -236,3 +236,13 @@ def test_a_piece_without_waves_of_its_roll_off_does_not_tell_how_early_its_whole
     assert high > low
     whole = rl.Surface(piece.heights, piece.sizes, is_cut_out=False)
     assert rl.sealing_pressure(whole, E_star=1.0, along="x", rtol=0.1).interval[0] > 0
+
+
+def test_what_finer_grids_and_other_places_leave_open_combine_as_independent():
+    quarters = [0.5, 0.5, 2.0, 2.0]
+    assert factor_left_open(1.0, 1.0, [1.0] * 4) == 1
+    assert factor_left_open(1.0, 1.0, [1.0] * 4, 3.0) == pytest.approx(3)
+    assert factor_left_open(1.0, 5.0, [1.0] * 4, 3.0) == pytest.approx(5)
+    of_size = np.log(factor_left_open(1.0, 1.0, quarters))
+    both = np.log(factor_left_open(1.0, 1.0, quarters, 3.0))
+    assert both == pytest.approx(np.hypot(of_size, np.log(3)))

@@ -64,16 +64,17 @@ def tells_of_larger(surface: Surface) -> bool:
 
 
 def factor_left_open(
-    value: float, half: float, of_quarters: Sequence[float], *, tells: bool
+    value: float, half: float, of_quarters: Sequence[float], *, tells: bool, of_grid: float = 1.0
 ) -> float:
     """Factor up and down that grid and size leave open.
 
     They combine, as independent, by how much the logarithm differs from that on half as many
-    points, and how uncertain the mean of the quarters is by their scatter, at 95 %. Where a piece
-    does not tell of its whole (:func:`tells_of_larger`), it may differ from that by twice as much
-    as its quarters do from the piece.
+    points, and how uncertain the mean of the quarters is by their scatter, at 95 %. The grid leaves
+    open a factor `of_grid` at least. Where a piece does not tell of its whole
+    (:func:`tells_of_larger`), it may differ from that by twice as much as its quarters do from it.
     """
     logs = np.log(of_quarters)
+    finer = max(abs(math.log(half / value)), math.log(of_grid))
     of_size = _STUDENT * float(logs.std(ddof=1)) / math.sqrt(logs.size)
     step = 0.0 if tells else _FURTHER * (float(logs.mean()) - math.log(value))
-    return math.exp(math.hypot(math.log(half / value), of_size, step))
+    return math.exp(math.hypot(finer, of_size, step))

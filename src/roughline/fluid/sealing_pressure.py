@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal, get_args
 
+import numpy as np
+
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import given_half_space, given_law
@@ -60,10 +62,11 @@ class SealingPressure:
         Ends that grid and size leave open; NaN if not asked for. They combine, as independent, by
         how much the logarithm differs from that on half as many points, and how uncertain the mean
         of the quarters is by their scatter, at 95 %. Waves that the grid does not have open the gap
-        further: in the upper end there is also how much steeper a grid four times finer will be, as
-        of an elastic surface, as far as the hardness bears it. A piece that holds fewer than three
-        waves of the roll-off does not tell how early its whole seals: the lower end is zero, and
-        the upper one holds twice the step from the quarters to the piece. [pressure]
+        further: for the upper end, the grid leaves open at least what an elastic surface shows that
+        is as steep as a grid four times finer, as far as the hardness bears it. A piece that holds
+        fewer than three waves of the roll-off does not tell how early its whole seals: the lower
+        end is zero, and the upper one holds twice the step from the quarters to the piece.
+        [pressure]
     """
 
     low: float
@@ -151,8 +154,9 @@ def sealing_pressure(
     half_space = given_half_space(half_space, E_star, periodic)
     law = given_law(law, hardness, surface)
     full = in_full_contact(surface, half_space)
-    guess = _PERCOLATING * half_space.E_star * full.rms_slope
-    guess = min(guess, _OF_HARDNESS * law.largest_force(1.0))
+    # in round numbers, so that it is sought alike wherever a repeated surface is cut
+    share = float(f"{_PERCOLATING * _slope(full, half_space.repeats):.6g}")
+    guess = min(share * half_space.E_star, _OF_HARDNESS * law.largest_force(1.0))
     search = _Search(half_space, along, rtol)
     (low, open_area), (high, sealed_area) = search.bracket(surface, law, guess)
     found = SealingPressure(low, high, (open_area, sealed_area), along)
@@ -161,11 +165,21 @@ def sealing_pressure(
     half = search.middle(*on_half(surface, law), found.value)
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
     tells = tells_of_larger(surface)
-    factor = factor_left_open(found.value, half, of_quarters, tells=tells)
-    steeper = math.exp(math.hypot(math.log(factor), math.log(steepening_of(full))))
-    most = min(high * steeper, law.largest_force(1.0))
-    ends = low / factor if tells else 0.0, max(high, most)
+    left_open = partial(factor_left_open, found.value, half, of_quarters, tells=tells)
+    most = min(high * left_open(of_grid=steepening_of(full)), law.largest_force(1.0))
+    ends = low / left_open() if tells else 0.0, max(high, most)
     return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
+
+
+def _slope(surface: Surface, repeats: tuple[bool, bool]) -> float:
+    """Rms slope of a surface, over the borders as well across which it goes on. [1]"""
+    squares = 0.0
+    for axis, step in enumerate(surface.spacing):
+        beyond = np.take(surface.heights, [0] if repeats[axis] else [], axis)
+        squares += (
+            float(np.square(np.diff(surface.heights, axis=axis, append=beyond)).mean()) / step**2
+        )
+    return math.sqrt(squares)
 
 
 @dataclass(frozen=True)
