@@ -150,15 +150,23 @@ def test_both_are_told_where_they_outweigh_the_rest(assessment):
     larger = replace(assessment.larger, measures=measures)
     result = replace(assessment, larger=larger, answers=answers)
     assert what_borders_do(result) == [
-        "the border of the map under 50 MPa: along x u_h is 1.4 µm with the pressure held even "
-        "there, and 800 nm with the flow given: further apart than the rest of the interval"
+        "under 50 MPa the border of the map leaves more open than the rest of the interval: along "
+        "x u_h is 1 µm as the map repeats, 1.4 µm with the pressure held even along the border, "
+        "and 800 nm with the flow given there"
     ]
+    beside = replace(
+        measures[APERTURE], at_border=[np.log(np.array([each])) for each in (1.5, 1.6)]
+    )
+    (told,) = what_borders_do(
+        replace(result, larger=replace(larger, measures={**measures, APERTURE: beside}))
+    )
+    assert "1 µm as the map repeats, 1.66 µm with the pressure held" in told  # alike, and far off
     wide = {APERTURE: replace(answers[APERTURE], low=np.array([0.5e-6]))}
     assert what_borders_do(replace(result, answers={**answers, **wide})) == []
     assert what_borders_do(assessment) == []
     bare = {APERTURE: answers[APERTURE].bare}
     (told,) = what_borders_do(replace(result, answers={**answers, **bare}))
-    assert told.endswith("with the flow given: no interval holds them")
+    assert told.startswith("under 50 MPa the border of the map moves what flows, and no interval")
 
 
 def test_of_many_maps_the_mean_of_their_borders_is_left_open(parent):

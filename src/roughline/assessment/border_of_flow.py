@@ -13,7 +13,7 @@ from roughline.computing.arrays import Real
 from roughline.fluid.gap import Along
 from roughline.units import engineering
 
-_COUNTS = 1.2  # upper over lower aperture of what is said
+_COUNTS = 1.2  # largest over least aperture of what is said
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,17 +21,20 @@ class _Border:
     """Apertures along one direction as the border across it is held, over the loads."""
 
     along: Along
+    of_map: Real  # as it repeats [m]
     given: Real  # with the flow given there [m]
     held: Real  # with the pressure held even [m]
-    over: Real  # by how much the logarithm of both outweighs the rest of an interval
+    over: Real  # by how much their logarithms outweigh the rest of an interval, if above zero
     has_interval: bool
 
     def words(self, load: int) -> str:
-        """Both apertures under a load."""
-        held, given = (engineering(float(each[load]), "m", 3) for each in (self.held, self.given))
+        """All three under a load."""
+        of_map, given, held = (
+            engineering(float(each[load]), "m", 3) for each in (self.of_map, self.given, self.held)
+        )
         return (
-            f"along {self.along} u_h is {held} with the pressure held even there, and {given} with "
-            "the flow given"
+            f"along {self.along} u_h is {of_map} as the map repeats, {held} with the pressure held "
+            f"even along the border, and {given} with the flow given there"
         )
 
 
@@ -46,13 +49,13 @@ def what_borders_do(result: Assessment) -> list[str]:
         return []
     load = int(np.argmax(np.maximum.reduce([each.over for each in found])))
     told = [each for each in found if each.over[load] > 0]
-    listed = "; ".join(each.words(load) for each in told)
     rest = (
-        "further apart than the rest of the interval"
+        "leaves more open than the rest of the interval"
         if all(each.has_interval for each in told)
-        else "no interval holds them"
+        else "moves what flows, and no interval holds that"
     )
-    return [f"the border of the map under {result.headings[load]}: {listed}: {rest}"]
+    listed = "; ".join(each.words(load) for each in told)
+    return [f"under {result.headings[load]} the border of the map {rest}: {listed}"]
 
 
 def _borders(result: Assessment) -> Iterator[_Border]:
@@ -68,10 +71,11 @@ def _borders(result: Assessment) -> Iterator[_Border]:
         if values is None or answer is None:
             continue
         given, held = values
+        apertures = np.stack([answer.values, given, held])
         low, high = answer.ends or (np.ones_like(given), np.ones_like(given))
         with np.errstate(divide="ignore", invalid="ignore"):
-            of_border, of_all = np.log(held / given), np.log(high / low)
+            of_border = np.log(apertures.max(axis=0) / apertures.min(axis=0))
             # independent ones combine in squares: the larger of two is over the sum over root two
-            over = np.nan_to_num(math.sqrt(2) * of_border - of_all, nan=0.0)
+            over = np.nan_to_num(math.sqrt(2) * of_border - np.log(high / low), nan=0.0)
         over = np.where(of_border > math.log(_COUNTS), over, 0.0)
-        yield _Border(along, given, held, over, answer.ends is not None)
+        yield _Border(along, answer.values, given, held, over, answer.ends is not None)
