@@ -239,10 +239,15 @@ def test_a_piece_without_waves_of_its_roll_off_does_not_tell_how_early_its_whole
 
 
 def test_what_finer_grids_and_other_places_leave_open_combine_as_independent():
-    quarters = [0.5, 0.5, 2.0, 2.0]
-    assert factor_left_open(1.0, 1.0, [1.0] * 4) == 1
-    assert factor_left_open(1.0, 1.0, [1.0] * 4, 3.0) == pytest.approx(3)
-    assert factor_left_open(1.0, 5.0, [1.0] * 4, 3.0) == pytest.approx(5)
-    of_size = np.log(factor_left_open(1.0, 1.0, quarters))
-    both = np.log(factor_left_open(1.0, 1.0, quarters, 3.0))
+    def left_open(half, quarters, *, tells=True, of_grid=1.0):
+        return factor_left_open(1.0, half, quarters, tells=tells, of_grid=of_grid)
+
+    alike, unlike = [1.0] * 4, [0.5, 0.5, 2.0, 2.0]
+    assert left_open(1.0, alike) == 1
+    assert left_open(1.0, alike, of_grid=3.0) == pytest.approx(3)
+    assert left_open(5.0, alike, of_grid=3.0) == pytest.approx(5)
+    of_size = np.log(left_open(1.0, unlike))
+    both = np.log(left_open(1.0, unlike, of_grid=3.0))
     assert both == pytest.approx(np.hypot(of_size, np.log(3)))
+    assert left_open(1.0, [1.5] * 4) == 1
+    assert left_open(1.0, [1.5] * 4, tells=False) == pytest.approx(1.5**2)

@@ -140,7 +140,7 @@ def sealing_pressure(
     >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0, q_high=100.0)
     >>> found = rl.sealing_pressure(spectrum.surface(64, rng=7), E_star=1.0, along="x")
     >>> print(f"{found.low:.3g} to {found.high:.3g}: area {found.area_fractions[1]:.2f}")
-    0.0657 to 0.0661: area 0.40
+    0.0658 to 0.0662: area 0.40
     """
     one_of("along", along, ("both", "x", "y"))
     rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
