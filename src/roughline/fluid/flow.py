@@ -15,7 +15,6 @@ from roughline.errors import InputError
 from roughline.errors.checks import one_of
 from roughline.errors.public import public_names
 from roughline.fluid.gap import REPEATS, Along, Gap, Sides
-from roughline.fluid.winding import windings
 
 _AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
 _NARROW = 0.25  # of the width: what is wider is no single channel
@@ -409,6 +408,7 @@ def _through_cell(gap: Gap) -> dict[Along, Flow]:
     """The flow along each side along which a gap repeats, all from one factorisation."""
     from roughline.fluid.cell import CellFlow, cell_flow  # here because compiled loops load slowly
     from roughline.fluid.network import Network
+    from roughline.fluid.winding import windings
 
     def solved(turned: Gap) -> CellFlow:
         if turned.sides == "y":  # a gap that ends is closed at its borders across the flow

@@ -29,7 +29,6 @@ from roughline.fluid.one_map import (
     quarters,
     tells_of_larger,
 )
-from roughline.fluid.winding import leads_through
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
@@ -232,6 +231,8 @@ class _Search:
 
 def _percolates(fields: Fields, along: Along | Literal["both"]) -> float:
     """One where a path leads through the gap, else zero."""
+    from roughline.fluid.winding import leads_through  # here because compiled loops load slowly
+
     sides: tuple[Along, ...] = get_args(Along) if along == "both" else (along,)
     return float(any(leads_through(~fields.contact, each, fields.repeats) for each in sides))
 
