@@ -11,6 +11,7 @@ from dataclasses import fields, is_dataclass
 from itertools import repeat, takewhile
 from pathlib import Path
 
+import attrs
 import numpy as np
 
 import roughline as rl
@@ -32,7 +33,7 @@ _OF_A_MOMENT = (  # texts that differ from run to run
 
 def flat(value, place=""):
     """Name every number and text in a value by its place; gives arrays by name."""
-    if is_dataclass(value) and not isinstance(value, type):
+    if (is_dataclass(value) or attrs.has(type(value))) and not isinstance(value, type):
         value = _attributes(value)
     elif hasattr(value, "data_vars"):
         value = _of_dataset(value)
@@ -51,7 +52,8 @@ def flat(value, place=""):
 
 
 def _attributes(value):
-    names = [each.name for each in fields(value)]
+    kept_in = fields(value) if is_dataclass(value) else attrs.fields(type(value))
+    names = [each.name for each in kept_in]
     kinds = property | functools.cached_property
     names += [name for name, _ in inspect.getmembers(type(value), lambda m: isinstance(m, kinds))]
     found = {}

@@ -72,8 +72,7 @@ SECTIONS = {
     ),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
-        *("Joint", "Friction", "Ultrasound", "Theories", "History", "Unloading", "WholeCurve"),
-        *("Adhesion", "Fluid", "Inlet", "Outlet", "Seal", "FlowAlong", "Closure"),
+        *("Joint", "Friction", "Ultrasound", "Theories", "Adhesion", "Fluid"),
         *("export_table", "PartAssessment", "material", "Material", "Coated", "contact_modulus"),
         *("Rule", "rules"),
     ),

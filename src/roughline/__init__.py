@@ -19,6 +19,11 @@ filled_by(lambda: import_module("roughline.plot.notebook"))
 
 def __getattr__(name):
     if name not in _HOMES:
+        from roughline.errors import InputError
+        from roughline.errors.earlier import EARLIER
+
+        if f"rl.{name}" in EARLIER:
+            raise InputError(f"there is no rl.{name} any more; write {EARLIER[f'rl.{name}']}")
         raise AttributeError(f"module 'roughline' has no attribute {name!r}")
     if name == "plot":
         return import_module("roughline.plot")

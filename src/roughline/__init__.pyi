@@ -3,19 +3,10 @@
 from roughline import plot as plot
 from roughline._version import __version__ as __version__
 from roughline.assessment.asked import Adhesion as Adhesion
-from roughline.assessment.asked import Closure as Closure
-from roughline.assessment.asked import FlowAlong as FlowAlong
-from roughline.assessment.asked import Fluid as Fluid
 from roughline.assessment.asked import Friction as Friction
-from roughline.assessment.asked import History as History
-from roughline.assessment.asked import Inlet as Inlet
 from roughline.assessment.asked import Joint as Joint
-from roughline.assessment.asked import Outlet as Outlet
-from roughline.assessment.asked import Seal as Seal
 from roughline.assessment.asked import Theories as Theories
 from roughline.assessment.asked import Ultrasound as Ultrasound
-from roughline.assessment.asked import Unloading as Unloading
-from roughline.assessment.asked import WholeCurve as WholeCurve
 from roughline.assessment.assess import assess_body as assess_body
 from roughline.assessment.assess_part import assess as assess
 from roughline.assessment.assess_part import assess_part as assess_part
@@ -53,6 +44,7 @@ from roughline.engineering.materials import material as material
 from roughline.engineering.pair import contact_modulus as contact_modulus
 from roughline.engineering.rule import Rule as Rule
 from roughline.engineering.rules import rules as rules
+from roughline.engineering.sealing import Fluid as Fluid
 from roughline.errors import ClusterError as ClusterError
 from roughline.errors import ContinuumWarning as ContinuumWarning
 from roughline.errors import ConvergenceError as ConvergenceError

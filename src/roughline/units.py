@@ -9,7 +9,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from roughline.errors import UnitError
-from roughline.errors.checks import shown
+from roughline.errors.checks import number, shown
 
 if TYPE_CHECKING:
     import pint
@@ -101,6 +101,14 @@ def in_si(text: str, unit: str, name: str) -> float:
             f"{vickers}",
             name,
         ) from error
+
+
+def as_si(given: float | str, unit: str, name: str) -> float:
+    """Return a number in an SI unit, or read a text with a unit of its own."""
+    if isinstance(given, str):
+        return in_si(given, unit, name)
+    example = example_of(unit, name)
+    return number(name, given, f'a number in {unit}, or a text such as "{example}", is needed')
 
 
 def lengths(text: str, name: str) -> list[float]:

@@ -144,7 +144,7 @@ def test_depths_and_spaced_loads_may_be_asked_of_bodies_that_stick(n):
 @pytest.mark.parametrize("n", [16, 32, 64])
 def test_a_load_that_is_taken_off_leaves_bodies_together(n):
     attraction = rl.Adhesion(RANGE)
-    result = asked(rough(n), attraction, rl.Unloading(), loads=["20 kPa"], periodic=True)
+    result = asked(rough(n), attraction, unload=True, loads=["20 kPa"], periodic=True)
     assert result.curve.force[-1] == 0
     touching = result.curve.area_fraction_corrected[-1]
     assert touching == pytest.approx(value(result, "area_without_load"), rel=1e-3)
@@ -216,7 +216,7 @@ def test_the_table_has_sources():
         ({"materials": ("steel", "copper"), "elastic": False}, "also yield"),
         ({"hardness": "1 MPa", "elastic": False}, "also yield"),
         ({"ask": [rl.Friction(0.3)]}, "partial slip"),
-        ({"ask": [rl.Closure()]}, "bisects loads"),
+        ({"ask": [rl.Fluid(closure=True)]}, "bisects loads"),
         ({"body": rl.Line(np.arange(16.0) * 1e-9, length=1e-3, unit="m")}, "belongs to a surface"),
     ],
 )

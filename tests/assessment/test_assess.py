@@ -15,8 +15,8 @@ PAIR = ("steel", "copper")
 def test_messages_are_of_the_loads_that_are_shown(rough):
     """The lighter loads of a report's curve have other contact pressures."""
     alone, whole = (
-        rl.assess(rl.Question(rough, PAIR, loads="10 N", ask=ask, elastic=True))
-        for ask in ((), rl.WholeCurve())
+        rl.assess(rl.Question(rough, PAIR, loads="10 N", whole_curve=whole, elastic=True))
+        for whole in (False, True)
     )
     warnings = [
         [note for note in pressed.warnings if "times the softer body's hardness" in note]
@@ -160,7 +160,7 @@ def test_an_assessment_has_the_fields_of_the_largest_load(rough):
 
 @pytest.mark.usefixtures("loads_of_curve")
 def test_partial_slip_is_an_answer(rough, invoke):
-    question = rl.Question(rough, PAIR, loads="10 N", ask=[rl.Friction(0.3), rl.WholeCurve()])
+    question = rl.Question(rough, PAIR, loads="10 N", ask=rl.Friction(0.3), whole_curve=True)
     slip = rl.assess(question).partial_slip
     assert slip.force[-1] == pytest.approx(3.0)  # all of it slides: Q = mu F
     assert (np.diff(slip.displacement) > 0).all()

@@ -61,14 +61,14 @@ def differences(first, second):
         ({}, SURFACE),  # copper yields
         ({"periodic": True, "elastic": True, "loads": ("1 N", "20 N", "100 N")}, SURFACE),
         *(
-            ({"ask": [rl.Ultrasound("5 MHz"), rl.Fluid("helium"), rl.Closure()]}, body)
+            ({"ask": [rl.Ultrasound("5 MHz"), rl.Fluid("helium", closure=True)]}, body)
             for body in (SMALL, SURFACE)
         ),
         *(
             ({"ask": [rl.Adhesion("50 J/m^2")], "elastic": True, "loads": "0.1 N"}, body)
             for body in (SMALL, SURFACE)
         ),
-        ({"ask": [rl.Unloading()], "loads": "1 N"}, SURFACE),
+        ({"unload": True, "loads": "1 N"}, SURFACE),
     ],
 )
 @pytest.mark.usefixtures("_to_rounding")
@@ -385,7 +385,7 @@ def test_what_cannot_be_asked_of_layers_gets_one_line(asked, message):
 def test_thin_layers_have_no_bound_of_a_coarser_grid_where_they_are_sealed(surface, load, along):
     """Half as many points would not resolve the layer, so what they leave open is not known."""
     pair = ("E=3 MPa nu=0.4 12 um on steel", "rigid")
-    ask = [rl.Fluid("water"), rl.Closure(), rl.FlowAlong(along)]
+    ask = rl.Fluid("water", along=along, closure=True)
     found = assessed(pair, load, surface, ask=ask)
     sealing = found.answers["sealing_pressure"]
     assert np.isfinite(sealing.values).all()

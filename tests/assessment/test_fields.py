@@ -1,8 +1,8 @@
 """A field of a question stands once: all that is said of it is read from the table."""
 
+import inspect
 import subprocess
 import sys
-import warnings
 
 import pytest
 import typer
@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 import roughline as rl
 from roughline.assessment import fields
+from roughline.assessment.asked import KINDS, asked_for
 from roughline.assessment.fields import FIELDS, LOADS, Field, names_by
 from roughline.cli.flags import FLAGS
 from roughline.cli.options import with_fields
@@ -54,6 +55,7 @@ def test_an_entry_of_the_table_has_a_name_in_messages(monkeypatch):
 
 FOREIGN = """
 from roughline.assessment import fields
+from roughline.assessment.asked import KINDS, asked_for
 
 fields.FIELDS += (
     fields.Field(
@@ -90,30 +92,32 @@ def test_every_flag_of_the_table_is_a_name_of_its_own():
     flags = [flag for field in FIELDS for flag in field.flag.split(",") if flag]
     assert len({*flags}) == len(flags)
     assert FLAGS.names["rl.Joint"] == FLAGS.names["joint_area"] == "--joint-area"
+    assert FLAGS.names["rl.Fluid"] == FLAGS.names["fluid"] == "--fluid"
+
+
+def test_every_field_of_what_is_asked_is_an_argument_of_its_class():
+    for each in (field for field in FIELDS if field.is_asked and field.of != "Theories"):
+        assert each.argument in inspect.signature(KINDS[each.of]).parameters
+    for each in (field for field in FIELDS if field.of == "Question"):
+        assert each.argument in inspect.signature(rl.Question).parameters
 
 
 @pytest.mark.parametrize(
-    ("earlier", "asked"),
+    ("told", "asked"),
     [
-        ({"friction": 0.3}, rl.Friction(0.3)),
-        ({"frequency": "5 MHz"}, rl.Ultrasound(5e6)),
-        ({"joint_area": "2 cm^2"}, rl.Joint(2e-4)),
-        ({"theories": "persson"}, rl.Theories("persson")),
-        ({"theories": ["persson"]}, rl.Theories("persson")),
-        ({"history": True}, rl.History()),
-        ({"unload": True}, rl.Unloading()),
-        ({"whole_curve": True}, rl.WholeCurve()),
+        ({"friction": 0.3, "history": True}, [rl.Friction(0.3)]),
+        ({"theories": ["persson"]}, [rl.Theories("persson")]),
+        ({"fluid": "water", "closure": False}, [rl.Fluid("water")]),
+        ({"closure": True, "along": "x"}, [rl.Fluid(along="x", closure=True)]),
+        (
+            {"fluid": "water", "inlet": "6 bar", "seal": "1 mm x 1 mm", "carries": False},
+            [rl.Fluid("water", inlet="6 bar", seal="1 mm x 1 mm", carries=False)],
+        ),
+        ({"closure": False, "carries": None, "theories": []}, []),
     ],
 )
-def test_earlier_keywords_ask_the_same_and_say_what_to_write(earlier, asked):
-    (name,) = earlier
-    given = {"materials": "steel,copper", "loads": ["1 N", "2 N"]}
-    with pytest.warns(DeprecationWarning, match=f"{name}= .*write ask=.*{type(asked).__name__}"):
-        before = rl.Question("scan.x3p", **given, **earlier)
-    assert before == rl.Question("scan.x3p", **given, ask=asked)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        assert rl.Question("scan.x3p", **given, **dict.fromkeys(earlier, None)).ask == ()
+def test_what_is_told_of_fields_is_what_is_asked(told, asked):
+    assert asked_for(told) == tuple(asked)
 
 
 def test_what_is_asked_is_checked_when_it_is_made():

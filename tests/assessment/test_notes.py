@@ -57,12 +57,12 @@ def test_the_effect_of_filling_is_that_on_the_loads_that_were_asked_for(holed):
     file, *_ = holed
     reading = rl.Reading(unit="m", sizes=(1e-3,))
     changes = []
-    for ask in ((), rl.WholeCurve()):
+    for whole_curve in (False, True):
         result = said(
             file,
             loads="10 N",
             reading=reading,
-            ask=ask,
+            whole_curve=whole_curve,
             grid_error=False,
             elastic=True,
         )
@@ -184,7 +184,7 @@ def test_a_whole_curve_has_the_words_of_the_loads_that_were_asked_for(surface, p
     cut = rl.Surface(surface.heights, surface.sizes, "m", is_cut_out=True)
     given = {"loads": ["1 N"], "grid_error": False, "elastic": True}
     asked, whole = (
-        rl.assess(rl.Question(cut, pair, ask=ask, **given)) for ask in ((), (rl.WholeCurve(),))
+        rl.assess(rl.Question(cut, pair, whole_curve=each, **given)) for each in (False, True)
     )
     assert whole.curve.force.size > asked.curve.force.size
     assert whole.remarks == asked.remarks

@@ -1,11 +1,14 @@
 """A question is checked at birth: before any file is read, in terms of its arguments."""
 
+import inspect
 import re
 
+import attrs
 import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.errors.earlier import EARLIER
 
 NOWHERE = "no/such/file.x3p"
 
@@ -27,40 +30,67 @@ NOWHERE = "no/such/file.x3p"
         ({"E_star": 1.0, "loads": [-1.0]}, "loads is -1.0; give positive ones"),
         ({"E_star": 1.0, "loads": ["1,5 N"]}, "numbers take a decimal point"),
         ({"E_star": 1.0, "depths": ["5 N"]}, 'depths is "5 N"'),
-        ({"E_star": 1.0, "theories": ["hertz"]}, 'theories is "hertz"; allowed are'),
         (
             {"E_star": 1.0, "ask": rl.Ultrasound("5 MHz")},
-            "reflection and partial slip need two materials",
+            "rl.Ultrasound needs two materials (materials=)",
         ),
-        (
-            {"E_star": 1.0, "ask": rl.Friction(0.1)},
-            "reflection and partial slip need two materials",
-        ),
-        (
-            {"materials": "steel,copper", "frequency": "-5 MHz"},
-            'frequency is "-5 MHz"; a positive, finite one is needed',
-        ),
-        (
-            {"materials": "steel,copper", "friction": 0.0},
-            "friction is 0.0; a number above 0 and up to 5",
-        ),
-        *(
-            (
-                {"materials": "steel,copper", "friction": given},
-                "above 0 and up to 5 is needed",
-            )
-            for given in (30, -1, 5.1, float("nan"), float("inf"))
-        ),
-        *(
-            ({"materials": "steel,copper", "friction": given}, "a number")
-            for given in ("0.3", True)
-        ),
+        ({"E_star": 1.0, "ask": rl.Friction(0.1)}, "rl.Friction needs two materials (materials=)"),
+        ({"E_star": 1.0, "ask": rl.Joint(1e-4)}, "rl.Joint needs two materials (materials=)"),
     ],
 )
 def test_what_does_not_fit_together_is_refused_before_the_file(asked, message):
     with pytest.raises(rl.InputError, match=re.escape(message)) as refused:
         rl.Question(NOWHERE, **asked)
     assert "--" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: rl.Theories("hertz"), 'theories is "hertz"; allowed are'),
+        (lambda: rl.Ultrasound("-5 MHz"), 'frequency is "-5 MHz"; a positive, finite one is'),
+        *(
+            (lambda given=given: rl.Friction(given), "a number above 0 and up to 5 is needed")
+            for given in (0.0, 30, -1, 5.1, float("nan"), float("inf"), "0.3", True)
+        ),
+    ],
+)
+def test_what_cannot_be_is_refused_where_it_is_asked(ask, message):
+    with pytest.raises(rl.InputError, match=re.escape(message)):
+        ask()
+
+
+@pytest.mark.parametrize("spelling", EARLIER)
+def test_every_earlier_spelling_gets_one_line_with_the_new_one(spelling):
+    """And the new one is one that is taken."""
+    if spelling.startswith("rl."):
+        earlier = f'{spelling}("6 bar")'
+    else:
+        name = spelling.removeprefix("Question(").removesuffix("=)")
+        earlier = f'rl.Question("a.nc", "steel,copper", {name}=0.3)'
+    with pytest.raises(rl.InputError) as refused:
+        eval(earlier)
+    new = EARLIER[spelling]
+    assert str(refused.value).endswith(f" any more; write {new}")
+    assert "\n" not in str(refused.value)
+    if new.startswith("ask="):
+        new = f"rl.Question(..., {new})"
+    assert eval(new.replace("...", '"a.nc", "steel,copper", loads="1 N"'))
+
+
+def test_an_earlier_name_is_imported_no_more_and_listed_nowhere():
+    with pytest.raises(rl.InputError, match="write rl.Fluid"):
+        exec("from roughline import Inlet")
+    assert not {f"rl.{name}" for name in dir(rl)} & {*EARLIER}
+
+
+def test_a_signature_says_what_is_typed_and_an_attribute_what_was_read():
+    typed = inspect.signature(rl.Question).parameters
+    assert typed["E_star"].annotation == typed["hardness"].annotation == "float | str | None"
+    assert typed["loads"].annotation == "float | str | Iterable[float | str] | None"
+    assert inspect.signature(rl.Joint).parameters["area"].annotation == "float | str"
+    read = attrs.fields(rl.Question)
+    assert (read.E_star.type, read.loads.type) == ("float | None", "tuple[float | str, ...]")
 
 
 def test_bodies_in_memory():
@@ -82,9 +112,9 @@ def test_reading_belongs_to_files():
 
 def test_arrays_of_numbers():
     question = rl.Question(NOWHERE, E_star=np.float64(1e9), loads=np.array([1.0, 2.5]))
-    assert question.headings == ["1 N", "2.5 N"]
-    assert question.forces(1.0) == [1.0, 2.5]
-    assert rl.Question(NOWHERE, E_star=1e9, loads=np.float32(2)).headings == ["2 N"]
+    assert question.loading.headings == ["1 N", "2.5 N"]
+    assert question.loading.forces(1.0) == [1.0, 2.5]
+    assert rl.Question(NOWHERE, E_star=1e9, loads=np.float32(2)).loading.headings == ["2 N"]
     assert rl.Question(NOWHERE, E_star=1e9, n_loads=np.int64(5)).n_loads == 5
 
 
@@ -97,6 +127,6 @@ def test_a_question_is_a_value():
     first, second = (rl.Question(NOWHERE, "steel,copper", loads="10 N") for _ in range(2))
     assert first == second
     assert first.materials == (rl.material("steel"), rl.material("copper"))
-    assert rl.Question(NOWHERE, E_star=1.0).n_loads == 20
+    assert rl.Question(NOWHERE, E_star=1.0).loading.n_loads == 20
     with pytest.raises(AttributeError):
         first.loads = ()

@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import roughline as rl
 from roughline.assessment import cost
@@ -18,8 +19,8 @@ from roughline.report.typeset import formula_in_symbols
 from roughline.units import engineering
 
 LOADS = ["20 MPa", "60 MPa"]
-ASKED = [rl.Inlet("6 bar"), rl.Outlet("1 bar"), rl.Seal("100 mm x 2 mm")]
-WATER, HELIUM = [rl.Fluid("water"), *ASKED], [rl.Fluid("helium"), *ASKED]
+ASKED = {"inlet": "6 bar", "outlet": "1 bar", "seal": "100 mm x 2 mm"}
+WATER, HELIUM = rl.Fluid("water", **ASKED), rl.Fluid("helium", **ASKED)
 GAS_CONSTANT = 8.314462618
 
 
@@ -81,9 +82,9 @@ def test_a_gas_expands_and_slips(surface, kept):
 def test_a_rare_gas_leaks_as_plates_of_its_aperture_do(surface, outlet):
     """Value and ends are those of the aperture, into a vacuum too."""
     body = rl.Surface(surface.heights, surface.sizes, "m")
-    seal = [rl.Inlet("6 bar"), rl.Outlet(outlet), rl.Seal("100 mm x 2 mm"), rl.FlowAlong("x")]
-    found = asked(body, [rl.Fluid("helium"), *seal], grid_error=True, loads=["60 MPa"])
-    gas, second = rl.Fluid("helium").fluid, rl.Outlet(outlet).pressure
+    ask = rl.Fluid("helium", **ASKED | {"outlet": outlet}, along="x")
+    found = asked(body, ask, grid_error=True, loads=["60 MPa"])
+    gas, second = ask.fluid, ask.outlet
     mean = (6e5 + second) / 2
     along = Rarefied(gas.mean_free_path(mean), (6e5 - second) / (6e5 + second))
     through = along.plates(found.measured["hydraulic_aperture_x"].rows[:, 0])
@@ -94,10 +95,9 @@ def test_a_rare_gas_leaks_as_plates_of_its_aperture_do(surface, outlet):
     assert leak.low[0] < leak.values[0] < leak.high[0]
 
 
-def test_a_vacuum_on_both_sides_is_refused(surface):
-    vacuum = [rl.Inlet("0 bar"), rl.Outlet("0 bar"), rl.Seal("100 mm x 2 mm")]
+def test_a_vacuum_on_both_sides_is_refused():
     with pytest.raises(rl.InputError, match="enters where its pressure is higher"):
-        asked(surface, [rl.Fluid("helium"), *vacuum])
+        rl.Fluid("helium", inlet="0 bar", outlet="0 bar", seal="100 mm x 2 mm")
 
 
 def test_the_flow_of_a_gas_is_solved_once_for_each_load(surface, monkeypatch):
@@ -110,7 +110,7 @@ def test_the_flow_of_a_gas_is_solved_once_for_each_load(surface, monkeypatch):
 
 
 def test_the_flow_factor_is_that_of_patir_and_cheng(surface, kept):
-    answers = asked(surface, [rl.Fluid("water"), rl.FlowAlong("x")]).answers
+    answers = asked(surface, rl.Fluid("water", along="x")).answers
     factor = (answers["hydraulic_aperture"].values / answers["mean_gap"].values) ** 3
     assert answers["pressure_flow_factor"].values == pytest.approx(factor, rel=1e-9)
     assert (factor < 1).all()
@@ -176,7 +176,7 @@ def test_one_channel_that_carries_half_of_the_flow_is_told(surface):
     heights = np.zeros((64, 64))
     heights[:, 20:24] = -1e-5  # a groove along x through a flat plateau
     grooved = rl.Surface(heights, (1e-3, 1e-3), unit="m", is_cut_out=False)
-    result = asked(grooved, [rl.Fluid("water"), rl.FlowAlong("x")], loads=["10 MPa"])
+    result = asked(grooved, rl.Fluid("water", along="x"), loads=["10 MPa"])
     assert result.answers["largest_channel"].values == pytest.approx([1.0])
     (told,) = [each for each in result.warnings if "single channel" in each]
     assert "100% of the flow" in told
@@ -186,7 +186,7 @@ def test_of_a_map_it_is_that_of_the_map_that_goes_on(surface):
     """A joint's load on a map that was cut out: the gap is that of the periodic half-space."""
     piece = surface.cropped((0, 32), (0, 32))
     alone = asked(piece, WATER, periodic=False)
-    joint = asked(piece, [*WATER, rl.Joint("4 mm^2")], periodic=False)
+    joint = asked(piece, [WATER, rl.Joint("4 mm^2")], periodic=False)
     assert alone.answers["leak_rate"].values == pytest.approx(joint.answers["leak_rate"].values)
     assert not alone.curve.measured
 
@@ -220,9 +220,13 @@ def test_the_interval_of_one_map_holds_the_leak_of_the_part(points, shares):
 @pytest.mark.parametrize(("loads", "along"), [(LOADS[1:], "x"), (LOADS, "both")])
 def test_a_seal_much_longer_than_a_map_without_roll_off_has_no_interval(surface, loads, along):
     piece = surface.cropped((0, 32), (0, 32))
-    ask = [rl.Fluid("water"), *ASKED[:2], rl.FlowAlong(along)]
     short, long = (
-        asked(piece, [*ask, rl.Seal(seal)], loads=loads, grid_error=True)
+        asked(
+            piece,
+            rl.Fluid("water", **ASKED | {"seal": seal}, along=along),
+            loads=loads,
+            grid_error=True,
+        )
         for seal in ("4 mm x 4 mm", "100 mm x 10 mm")
     )
     assert (short.answers["leak_rate"].high > short.answers["leak_rate"].values).all()
@@ -250,7 +254,8 @@ def test_several_maps_have_one_leak(surface):
 
 @pytest.mark.parametrize(("points", "along"), [(32, "x"), (64, "both")])
 def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface, points, along):
-    surface, ask = surface.cropped((0, points), (0, points)), [rl.Closure(), rl.FlowAlong(along)]
+    surface = surface.cropped((0, points), (0, points))
+    ask = rl.Fluid(along=along, closure=True)
     result = asked(surface, ask, elastic=False, grid_error=True)
     seals = result.answers["sealing_pressure"]
     assert (seals.values == seals.values[0]).all()
@@ -273,7 +278,7 @@ def test_ctrl_c_while_it_is_sought_keeps_the_curve(surface, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("roughline.assessment.sought.sealing_pressure", stop)
-    result = asked(surface, rl.Closure())
+    result = asked(surface, rl.Fluid(closure=True))
     assert result.interrupted
     assert "sealing_pressure" not in result.answers
     assert np.isfinite(result.answers["contact_stiffness"].values).all()
@@ -283,14 +288,20 @@ def test_ctrl_c_while_it_is_sought_keeps_the_curve(surface, monkeypatch):
     ("ask", "said"),
     [
         (lambda: rl.Fluid("watr"), "water"),
-        (lambda: rl.Inlet("-1 bar"), "inlet is .*zero in vacuum"),
-        (lambda: rl.Inlet("6 m"), "inlet is .*no quantity in Pa"),
-        (lambda: rl.FlowAlong("z"), 'flow_along is "z"; allowed are "both", "x" and "y"'),
-        (lambda: [rl.Inlet("6 bar")], "belongs to a fluid"),
-        (lambda: [rl.Seal("1 mm x 1 mm")], "belongs to a fluid"),
-        (lambda: [rl.Fluid("water"), rl.Inlet("6 bar")], "a leak needs .*[sS]eal"),
-        (lambda: [rl.Fluid("water"), rl.Seal("1 mm x 1 mm")], "a leak needs .*[iI]nlet"),
-        (lambda: [rl.Fluid("water"), ASKED[2], rl.Inlet("1 bar")], "pressure is higher"),
+        (lambda: rl.Fluid("water", inlet="-1 bar"), "inlet is .*zero in vacuum"),
+        (lambda: rl.Fluid("water", inlet="6 m"), "inlet is .*no quantity in Pa"),
+        (lambda: rl.Fluid("water", inlet="6 barg"), "add that of the air"),
+        (lambda: rl.Fluid("water", along="z"), 'along is "z"; allowed are "both", "x" and "y"'),
+        (lambda: rl.Fluid(), "give one of fluid= and closure=True"),
+        (lambda: rl.Fluid(along="x"), "give one of fluid= and closure=True"),
+        *(
+            (lambda name=name: rl.Fluid(**{name: ASKED[name]}), f"{name}= belongs to a fluid")
+            for name in ASKED
+        ),
+        (lambda: rl.Fluid("water", inlet="6 bar"), "a leak needs seal= beside inlet="),
+        (lambda: rl.Fluid("water", seal="1 mm x 1 mm"), "a leak needs inlet= beside seal="),
+        (lambda: rl.Fluid("water", **ASKED | {"inlet": "1 bar"}), "pressure is higher"),
+        (lambda: rl.Fluid(closure=True).medium, "fluid is not named; give one"),
         (lambda: [rl.Fluid("water"), rl.Fluid("air")], "several"),
     ],
 )
@@ -300,7 +311,7 @@ def test_what_cannot_be_asked_is_refused_in_one_line(surface, ask, said):
     assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("ask", [rl.Fluid("water"), rl.Closure()])
+@pytest.mark.parametrize("ask", [rl.Fluid("water"), rl.Fluid(closure=True)])
 def test_it_needs_materials_and_a_surface(surface, ask):
     with pytest.raises(rl.InputError, match="needs two materials"):
         rl.Question(surface, E_star="100 GPa", loads=LOADS, ask=ask)
@@ -313,8 +324,7 @@ def sealed_by(inlet, loads, fluid="water", outlet="1.01325 bar"):
     """Rubber, which a fluid may lift, but is taken not to."""
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=2e-5, q_roll=5e4, q_high=2e5)
     body = spectrum.surface(32, rng=7)
-    enters = rl.Inlet(inlet, carries=False)
-    ask = [rl.Fluid(fluid), enters, rl.Outlet(outlet), rl.Seal("100 mm x 2 mm")]
+    ask = rl.Fluid(fluid, inlet=inlet, outlet=outlet, seal="100 mm x 2 mm", carries=False)
     given = {"loads": loads, "periodic": True, "grid_error": False}
     return rl.assess(rl.Question(body, "rubber,steel", ask=ask, **given))
 
@@ -384,7 +394,7 @@ def test_every_symbol_of_its_formulas_is_on_the_page(surface, ask):
     ],
 )
 def test_the_seal_of_its_formulas_has_its_values_on_the_page(surface, shape, expected):
-    ask = [rl.Fluid("water"), rl.Inlet("6 bar"), rl.Seal(shape)]
+    ask = rl.Fluid("water", inlet="6 bar", seal=shape)
     _, rows = symbol_table(asked(surface, ask, loads="20 MPa"))
     found = {symbol: value for symbol, _, value in rows}
     assert {each: found.get(each) for each in ("W", "B", "W/B") if each in found} == expected
@@ -416,9 +426,9 @@ def test_a_gas_in_the_gap_is_not_said_to_be_missing(surface):
 def test_a_surface_that_yielded_leaks_less_on_the_way_back(surface, points):
     """Its dents keep channels narrow: at each load less leaks than when the load rose."""
     surface = surface.cropped((0, points), (0, points))
-    ask = [*WATER, rl.FlowAlong("x")]
+    ask = evolve(WATER, along="x")
     given = {"elastic": False, "loads": ["60 MPa"]}
-    back = asked(surface, [*ask, rl.Unloading()], **given).answers["leak_rate"].values
+    back = asked(surface, ask, unload=True, **given).answers["leak_rate"].values
     assert (np.diff(back[:-1]) > 0).all()  # from the largest load down
     assert np.isnan(back[-1])  # without a load, water lifts the bodies
     rising = asked(surface, ask, **given | {"loads": ["45 MPa", "30 MPa", "15 MPa"]})
@@ -437,7 +447,7 @@ def test_what_flows_is_in_the_cost_that_is_told(monkeypatch, points):
         told.append(text)
         raise KeyboardInterrupt
 
-    for ask in ([], WATER, [*HELIUM, rl.Closure()]):
+    for ask in ([], WATER, evolve(HELIUM, closure=True)):
         question = rl.Question(large, "steel,steel", loads=LOADS, elastic=True, ask=ask)
         with pytest.raises(KeyboardInterrupt):
             rl.assess(question, announce=stop)

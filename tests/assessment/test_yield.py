@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import roughline as rl
 from roughline.assessment import case as cases
@@ -50,7 +51,7 @@ def test_the_softer_body_yields_at_the_hardness_of_the_table(surface, pressed):
 def test_intervals_hold_the_answers_of_the_softest_and_the_hardest_body(surface, pressed):
     """As pressed independently; each end by as much as the hardness moves it, and the grid."""
     question, E_star = pressed.question, pressed.curve.E_star
-    exact = rl.assess(replace(question, hardness=H))
+    exact = rl.assess(evolve(question, hardness=H))
     metals = [rl.material(name).resistivity for name in ("steel", "copper")]
     for value in (H / FACTOR, H * FACTOR):
         curve = rl.press(surface, E_star=E_star, hardness=value, forces=[2.0, 20.0])
@@ -96,7 +97,7 @@ def test_nothing_lies_beyond_what_can_be(pressed):
 
 
 def test_the_answers_of_elastic_bodies_stand_beside(surface, pressed):
-    elastic = rl.assess(replace(pressed.question, elastic=True))
+    elastic = rl.assess(evolve(pressed.question, elastic=True))
     for key, answer in elastic.answers.items():
         assert pressed.elastic[key].values.tolist() == answer.values.tolist(), key
     k = elastic.answers["contact_stiffness"].values
@@ -193,7 +194,7 @@ def test_loads_that_no_body_bears_are_refused_where_they_act(surface, asked):
 
 def test_a_history_is_that_of_the_surface_as_each_load_left_it(surface):
     forces = [2.0, 8.0, 4.0, 4.0, 0.0, 8.0, 12.0]
-    asked = {"ask": rl.History(), "grid_error": True, "fields": False}
+    asked = {"history": True, "grid_error": True, "fields": False}
     result = rl.assess(rl.Question(surface, PAIR, loads=forces, **asked))
     curve = rl.press(surface, E_star=result.curve.E_star, hardness=H, forces=forces)
     for name in ("force", "depth", "stiffness", "unloading_stiffness"):
@@ -212,7 +213,7 @@ def test_a_history_is_that_of_the_surface_as_each_load_left_it(surface):
 
 
 def test_unloading_takes_the_largest_load_off_in_steps(surface):
-    result = rl.assess(rl.Question(surface, PAIR, loads=["8 N", "2 N"], ask=rl.Unloading()))
+    result = rl.assess(rl.Question(surface, PAIR, loads=["8 N", "2 N"], unload=True))
     falling = [6.0, 4.0, 2.0, 0.8, 0.0]
     assert result.curve_as_asked.force == pytest.approx([8.0, 2.0, *falling])
     assert result.headings[2:] == [
@@ -230,9 +231,7 @@ def test_unloading_takes_the_largest_load_off_in_steps(surface):
 def test_theories_stand_beside_an_unloading(surface):
     """At each load once, rising, so that the last is the largest; none where nothing touches."""
     result = rl.assess(
-        rl.Question(
-            surface, PAIR, loads=["8 N", "2 N"], ask=[rl.Unloading(), rl.Theories("persson")]
-        )
+        rl.Question(surface, PAIR, loads=["8 N", "2 N"], ask=rl.Theories("persson"), unload=True)
     )
     (persson,) = result.theories
     assert persson.pressure * result.area == pytest.approx([0.8, 2.0, 4.0, 6.0, 8.0])
@@ -241,7 +240,7 @@ def test_theories_stand_beside_an_unloading(surface):
 
 def test_depths_rise_and_fall_too(surface):
     depths = ["0.5 um", "1 um", "0.9 um", "0.1 um"]
-    result = rl.assess(rl.Question(surface, PAIR, depths=depths, ask=rl.History()))
+    result = rl.assess(rl.Question(surface, PAIR, depths=depths, history=True))
     assert result.largest == 1
     force = result.answers["normal_force"].values
     assert force[2] < force[1]
@@ -251,9 +250,9 @@ def test_depths_rise_and_fall_too(surface):
 
 
 def test_the_curve_of_a_report_leads_up_to_the_history(surface):
-    question = rl.Question(surface, PAIR, loads=["4 N", "8 N", "1 N"], ask=rl.History())
+    question = rl.Question(surface, PAIR, loads=["4 N", "8 N", "1 N"], history=True)
     alone = rl.assess(question)
-    whole = rl.assess(replace(question, ask=[rl.History(), rl.WholeCurve()]))
+    whole = rl.assess(evolve(question, whole_curve=True))
     assert whole.curve.force.size > 3 + 10
     assert whole.curve.force[-3:].tolist() == [4.0, 8.0, 1.0]
     for key in ("unloading_stiffness", "contact_area"):
@@ -263,7 +262,7 @@ def test_the_curve_of_a_report_leads_up_to_the_history(surface):
 
 def test_a_contact_slides_back_as_it_unloads(surface):
     """Against the unloading branch itself, pressed as a dense history."""
-    question = rl.Question(surface, PAIR, loads="10 N", ask=[rl.Friction(0.3), rl.WholeCurve()])
+    question = rl.Question(surface, PAIR, loads="10 N", ask=rl.Friction(0.3), whole_curve=True)
     slip = rl.assess(question).partial_slip
     pair = question.pair
     back = 10.0 * np.append(np.geomspace(1, 1e-3, 40), 0.0)
@@ -277,7 +276,7 @@ def test_a_contact_slides_back_as_it_unloads(surface):
     # straight lines between the loads of both curves
     expected = np.interp(slip.displacement, displacement, force)
     assert slip.force == pytest.approx(expected, abs=0.01 * 3.0)
-    elastic = rl.assess(replace(question, elastic=True)).partial_slip
+    elastic = rl.assess(evolve(question, elastic=True)).partial_slip
     assert slip.displacement[-1] < 0.8 * elastic.displacement[-1]  # what yielded does not slide
 
 
@@ -360,7 +359,7 @@ def test_the_interface_of_a_map_springs_back_with_the_surface_around_it(n):
 def test_a_part_of_several_maps_is_unloaded(n):
     rough = rl.SelfAffine(hurst=0.7, length=n * 62.5e-6, rms_height=1e-6).surface(2 * n, 3)
     maps = [rough.cropped((0, n), (i, i + n)).detrended() for i in (0, n)]
-    asked = {"loads": ["2 MPa", f"{0.8 * H:g} Pa"], "ask": rl.Unloading(), "grid_error": True}
+    asked = {"loads": ["2 MPa", f"{0.8 * H:g} Pa"], "unload": True, "grid_error": True}
     part = rl.assess(rl.Question(maps, PAIR, fields=False, **asked))
     assert part.headings[-1] == "unloaded"
     assert part.largest == 1
@@ -456,13 +455,13 @@ def test_a_line_scan_has_no_yield_and_says_how_far_it_serves():
     result = rl.assess(rl.Question(smooth, PAIR, loads="1 N"))
     (said,) = (each for each in result.notes if "the reduced model has no yield" in each)
     assert said.endswith(f"the rms slope of the scan is {0.5 * most:.2g}")
-    for asked in ({"hardness": "1 GPa"}, {"ask": rl.History()}, {"ask": rl.Unloading()}):
+    for asked in ({"hardness": "1 GPa"}, {"history": True}, {"unload": True}):
         with pytest.raises(
             rl.InputError, match="belong to a surface; the reduced model"
         ) as refusal:
             rl.Question(scan, PAIR, loads="1 N", **asked)
-        name = f"rl.{type(asked['ask']).__name__}" if "ask" in asked else "hardness="
-        assert f"leave {name} out" in str(refusal.value)
+        (name,) = asked
+        assert f"leave {name}={'' if name == 'hardness' else True} out" in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -475,11 +474,11 @@ def test_a_line_scan_has_no_yield_and_says_how_far_it_serves():
         ({"hardness": "5"}, 'hardness is "5", without a unit'),
         ({"hardness": "1,5 GPa"}, "numbers take a decimal point"),
         ({"hardness": 1e9, "elastic": True}, "hardness= and elastic=True contradict each other"),
-        ({"loads": (), "ask": rl.History()}, "rl.History needs loads= or depths="),
-        ({"loads": [0, 1.0], "ask": rl.History()}, "and zero only to unload after others"),
+        ({"loads": (), "history": True}, "history=True needs loads= or depths="),
+        ({"loads": [0, 1.0], "history": True}, "and zero only to unload after others"),
         ({"loads": [1.0, 0]}, "loads is 0; give positive ones"),
-        ({"ask": [rl.Unloading(), rl.History()]}, "write the falling values yourself"),
-        ({"ask": rl.Unloading(), "loads": (), "depths": "1 um"}, "the falling values yourself"),
+        ({"unload": True, "history": True}, "write the falling values yourself"),
+        ({"unload": True, "loads": (), "depths": "1 um"}, "the falling values yourself"),
     ],
 )
 def test_hardness_and_histories_that_cannot_be_are_refused(asked, message):

@@ -2,11 +2,11 @@
 
 import json
 import re
-from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray
+from attrs import evolve
 from matplotlib.figure import Figure
 
 import roughline as rl
@@ -136,9 +136,7 @@ def unloaded():
     """Pressed, with a whole curve, and unloaded again."""
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
     body = rl.Surface(surface.heights, surface.sizes, "m")
-    question = rl.Question(
-        body, "steel,copper", loads="10 N", ask=[rl.Unloading(), rl.WholeCurve()]
-    )
+    question = rl.Question(body, "steel,copper", loads="10 N", unload=True, whole_curve=True)
     return rl.assess(question)
 
 
@@ -176,8 +174,7 @@ def test_both_branches_are_drawn(unloaded):
 
 
 def test_without_falling_loads_the_scales_are_logarithmic(unloaded):
-    others = [each for each in unloaded.question.ask if each != rl.Unloading()]
-    alone = rl.assess(replace(unloaded.question, ask=others))
+    alone = rl.assess(evolve(unloaded.question, unload=False))
     left, _ = curve_figure(alone).axes
     assert (left.get_xscale(), left.get_legend()) == ("log", None)
 

@@ -3,9 +3,9 @@
 import inspect
 import re
 import tomllib
-from dataclasses import fields
 from pathlib import Path
 
+import attrs
 import pytest
 import typer
 from typer.testing import CliRunner
@@ -82,5 +82,5 @@ def test_nothing_that_is_offered_is_called_missing():
         for param in command.params
         for option in param.opts
     ]
-    names = [*rl.__all__, *arguments, *options, *(each.name for each in fields(rl.Question))]
+    names = [*rl.__all__, *arguments, *options, *(each.name for each in attrs.fields(rl.Question))]
     assert not [name for name in names if OFFERED.search(name)]

@@ -21,7 +21,7 @@ from roughline.engineering.sealing import SealShape
 def test_a_seal_has_a_ratio(typed, ratio):
     assert SealShape.of(typed).ratio == pytest.approx(ratio, rel=1e-12)
     assert SealShape.of(typed).width in (0.1, 2 * math.pi * 20e-3)
-    assert rl.Seal(typed).shape == SealShape.of(typed)
+    assert rl.Fluid("water", inlet="6 bar", seal=typed).seal == SealShape.of(typed)
 
 
 @pytest.mark.parametrize("width", [1e-3, 1e-5])
@@ -48,5 +48,5 @@ def test_a_narrow_ring_is_a_strip_as_long_as_its_circumference(width):
 )
 def test_what_is_no_seal_is_refused_in_one_line(typed, said):
     with pytest.raises(rl.InputError, match=said) as refused:
-        rl.Seal(typed)
+        rl.Fluid("water", inlet="6 bar", seal=typed)
     assert "\n" not in str(refused.value)

@@ -134,7 +134,7 @@ def test_an_address_of_my_surface_asks_the_same_again(said):
 )
 def test_a_link_of_my_surface_of_an_older_lab_is_read(link):
     said = said_of({"state": {"first": "steel", "second": "copper"} | dict(parse_qsl(link))})
-    assert question_of(said, Source(Path("a.nc"), "a.nc", "key")).headings == (
+    assert question_of(said, Source(Path("a.nc"), "a.nc", "key")).loading.headings == (
         ["5 N"] if "loads" in link else []
     )
 
@@ -165,7 +165,7 @@ def test_links_of_version_0_2_0_are_read():
     assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&view")[0])).items()
     said = said_of({"state": dict(parse_qsl(OF_0_2_0["measured"]))})
     question = question_of(said, Source(Path("a.nc"), "a.nc", "key"))
-    assert question.headings == ["2 MPa"]
+    assert question.loading.headings == ["2 MPa"]
     assert question.friction == 0.3
     assert question.reading.channel == "0"
     assert question.preparation.points == 64

@@ -312,7 +312,7 @@ def test_measured_files_are_answered_for_as_by_the_library(measured_page, topogr
             topographies / name,
             materials=("steel", "copper"),
             loads=["10 uN"],
-            ask=rl.WholeCurve(),
+            whole_curve=True,
             preparation=rl.Preparation(points=96),
         )
     )
@@ -390,7 +390,7 @@ def test_an_array_needs_unit_and_size(page, loads_of_curve, tmp_path):
             tmp_path / "map.npy",
             materials=("steel", "copper"),
             loads=["2 MPa"],
-            ask=rl.WholeCurve(),
+            whole_curve=True,
             reading=rl.Reading(unit="um", sizes="1 mm"),
         )
     )
@@ -913,7 +913,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(
             paths,
             materials=("steel", "copper"),
             loads=["2 MPa", "20 MPa"],
-            ask=rl.WholeCurve(),
+            whole_curve=True,
             grid_error=False,
         )
     )

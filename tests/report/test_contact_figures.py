@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from attrs import evolve
 from matplotlib.figure import Figure
 
 import roughline as rl
@@ -40,9 +41,7 @@ def pressed():
     """What a report on a surface of 64 x 64 points shows."""
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
     loads = ["1 N", "10 N"]
-    return rl.assess(
-        rl.Question(replace(surface, unit="m"), PAIR, loads=loads, ask=rl.WholeCurve())
-    )
+    return rl.assess(rl.Question(replace(surface, unit="m"), PAIR, loads=loads, whole_curve=True))
 
 
 def test_one_area_is_told_everywhere(pressed):
@@ -146,7 +145,7 @@ def test_the_report_has_them_and_a_line_scan_has_none(rough, only_drawn, tmp_pat
 def test_the_flow_is_that_of_the_load_that_is_shown(small, only_drawn, tmp_path):
     only_drawn()
     asked = rl.Question(small, PAIR, loads=["0.3 N", "3 N"])
-    pressed = rl.assess(replace(asked, ask=[rl.Fluid("water")]))
+    pressed = rl.assess(evolve(asked, ask=[rl.Fluid("water")]))
     along_x, along_y = pressed.flows
     assert (along_x.along, along_y.along) == ("x", "y")
     assert along_x.permeance == rl.flow(pressed.fields_of_gap, along="x").permeance
@@ -157,11 +156,11 @@ def test_the_flow_is_that_of_the_load_that_is_shown(small, only_drawn, tmp_path)
     assert section.heading == "Where the fluid goes at 3 N"
     assert {each.name for each in files[2:]} == {"flow.png", "flow.pdf"}
     assert section.pictures[0].path.name == "flow.png"
-    without = rl.assess(replace(asked, ask=rl.WholeCurve()))
+    without = rl.assess(evolve(asked, whole_curve=True))
     (section,), files = write_fields(without, tmp_path)
     assert "patches" in section.heading
     assert {each.name for each in files} == {"distributions.png", "distributions.pdf"}
-    of_one = rl.assess(replace(asked, ask=[rl.Fluid("water"), rl.FlowAlong("y")]))
+    of_one = rl.assess(evolve(asked, ask=rl.Fluid("water", along="y")))
     assert [each.permeance for each in of_one.flows] == [along_y.permeance]
     assert len([axes for axes in flow_figure(of_one).axes if axes.axison]) == 2  # and its scale
 
@@ -172,7 +171,7 @@ def test_the_flow_that_is_shown_is_the_one_that_is_answered(small, only_drawn, t
     only_drawn()
     cut_out = replace(small, is_cut_out=True)
     asked = rl.Question(cut_out, PAIR, loads=["3 N", "0.3 N"])
-    pressed = rl.assess(replace(asked, ask=rl.Fluid("water")))
+    pressed = rl.assess(evolve(asked, ask=rl.Fluid("water")))
     assert pressed.fields_of_gap is not pressed.fields
     largest = pressed.asked[pressed.largest]
     for flow in pressed.flows:
@@ -181,7 +180,7 @@ def test_the_flow_that_is_shown_is_the_one_that_is_answered(small, only_drawn, t
         assert flow.hydraulic_aperture == answered
     (section, _), _ = write_fields(pressed, tmp_path)
     assert "repeated on all sides" in section.pictures[0].caption
-    repeated = rl.assess(replace(asked, ask=[rl.Fluid("water"), rl.Joint("1 cm^2")]))
+    repeated = rl.assess(evolve(asked, ask=[rl.Fluid("water"), rl.Joint("1 cm^2")]))
     assert repeated.fields_of_gap is repeated.fields
     (section, _), _ = write_fields(repeated, tmp_path)
     assert "repeated on all sides" not in section.pictures[0].caption
@@ -189,7 +188,7 @@ def test_the_flow_that_is_shown_is_the_one_that_is_answered(small, only_drawn, t
 
 def test_intervals_of_apertures_are_drawn_about_them():
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4, q_high=1e5)
-    asked = {"loads": ["20 MPa", "60 MPa"], "ask": [rl.Fluid("water"), rl.FlowAlong("x")]}
+    asked = {"loads": ["20 MPa", "60 MPa"], "ask": rl.Fluid("water", along="x")}
     body = spectrum.surface(32, rng=1)
     given = {"periodic": True, "elastic": True, "grid_error": True, "fields": False}
     found = rl.assess(rl.Question(body, materials="steel,copper", **asked, **given))

@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 
 import pytest
+from attrs import evolve
 
 import roughline as rl
 from roughline.report.answers import answer_table, star_is_shown
@@ -16,9 +17,9 @@ PAIR = ("steel", "copper")
 
 
 def test_no_star_is_explained_that_is_not_shown(rough, loads_of_curve, capsys):
-    asked = rl.Question(rough, PAIR, loads="10 N", ask=rl.WholeCurve())
+    asked = rl.Question(rough, PAIR, loads="10 N", whole_curve=True)
     if loads_of_curve == "few loads":
-        asked = replace(asked, grid_error=False)
+        asked = evolve(asked, grid_error=False)
     pressed = rl.assess(asked)
     assert not pressed.curve.resolved.all()  # lighter loads of a report's figure
     print_assessment(pressed)
@@ -94,7 +95,7 @@ def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rou
     assert k_i > k_load
     assert answers["stiffness_per_area"].values == pytest.approx(k_i / 2e-4)
     assert answers["constriction_resistance"].formula.endswith("(2 k_i)")
-    elastic = rl.assess(replace(asked, elastic=True))
+    elastic = rl.assess(evolve(asked, elastic=True))
     assert "contact_stiffness" not in elastic.answers  # equal to that on unloading
     assert elastic.answers["interface_stiffness"].name == "interface stiffness"
 

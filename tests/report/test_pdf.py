@@ -142,12 +142,14 @@ def test_no_sheet_holds_a_row_or_two_of_a_longer_table(rows):
         assert shown in (0, rows)  # nothing fits, or all of it is there
 
 
-@pytest.mark.parametrize("asked", [[rl.Joint("2 cm^2")], [rl.Unloading(), rl.Friction(0.3)]])
+@pytest.mark.parametrize(
+    "asked", [{"ask": rl.Joint("2 cm^2")}, {"ask": rl.Friction(0.3), "unload": True}]
+)
 def test_a_report_can_be_printed(rough, loads_of_curve, tmp_path, only_drawn, asked):
     only_drawn()
     loads = ["1 N", "2 N", "5 N", "10 N"]
     question = rl.Question(
-        rough, "steel,copper", loads=loads, ask=[rl.WholeCurve(), *asked], grid_error=False
+        rough, "steel,copper", loads=loads, grid_error=False, whole_curve=True, **asked
     )
     pressed = rl.assess(question)
     write_contact_report(pressed, tmp_path, "roughline press " + LONG)

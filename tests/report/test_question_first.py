@@ -12,25 +12,25 @@ from roughline.report.document import _sections
 from roughline.report.json_output import of_assessment, to_json
 from roughline.report.terminal import print_assessment, print_part
 
-SEAL = [rl.Inlet("6 bar"), rl.Outlet("1 bar"), rl.Seal("100 mm x 2 mm")]
+SEAL = {"inlet": "6 bar", "outlet": "1 bar", "seal": "100 mm x 2 mm"}
 METALS, GEL = "steel,copper", "E=5 MPa nu=0.49, rigid"
 OPTIONS = {
     "adhesion": (GEL, [rl.Adhesion("50 mJ/m^2 over 2 um")], ["pull_off_force"]),
     "friction": (METALS, [rl.Friction(0.3)], ["slip_displacement"]),
     "ultrasound": (METALS, [rl.Ultrasound("5 MHz")], ["reflection"]),
-    "closure": (METALS, [rl.Closure()], ["sealing_pressure", "reopening"]),
+    "closure": (METALS, [rl.Fluid(closure=True)], ["sealing_pressure", "reopening"]),
     "fluid": (METALS, [rl.Fluid("water")], ["hydraulic_aperture"]),
     "gas": (METALS, [rl.Fluid("air")], ["hydraulic_aperture", "joint_conductance"]),
-    "leak": (METALS, [rl.Fluid("water"), *SEAL], ["leak_rate"]),
-    "leak of a gas": (METALS, [rl.Fluid("helium"), *SEAL], ["leak_throughput"]),
+    "leak": (METALS, [rl.Fluid("water", **SEAL)], ["leak_rate"]),
+    "leak of a gas": (METALS, [rl.Fluid("helium", **SEAL)], ["leak_throughput"]),
     "seal": (
         METALS,
-        [rl.Fluid("water"), *SEAL, rl.Closure()],
+        [rl.Fluid("water", **SEAL, closure=True)],
         ["sealing_pressure", "reopening", "leak_rate"],
     ),
     "fluid and closure": (
         METALS,
-        [rl.Fluid("water"), rl.Closure()],
+        [rl.Fluid("water", closure=True)],
         ["sealing_pressure", "reopening"],
     ),
     "two things": (

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from attrs import evolve
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
@@ -36,7 +37,7 @@ def answers_of(
     """
     question, body = case.question, case.body if body is None else body
     if hardness is not None:
-        question = replace(question, hardness=hardness)
+        question = evolve(question, hardness=hardness)
     if question.pair is None:
         return {}, []
     asked = case.loads.asked_of(solution.curve)
@@ -135,4 +136,4 @@ def _load_on(question: Question, curve: Curve, area: float) -> Real | None:
     if sealing is None:
         return None
     lifted, load = curve.status == Status.LIFTED, sealing.load_on(curve.force, area)
-    return np.where(lifted, question.forces(area), load) if lifted.any() else load
+    return np.where(lifted, question.loading.forces(area), load) if lifted.any() else load

@@ -2,80 +2,56 @@
 
 from __future__ import annotations
 
-import functools
-import math
-import re
-import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeVar, get_args
+from typing import Any, get_args
 
-from roughline.assessment.fields import FIELDS, asked_fields, beside
-from roughline.assessment.given import Parsed, as_si, quantity, several
+from attrs import field, frozen
+
+from roughline.assessment.fields import asked_in
+from roughline.assessment.given import quantity, several
 from roughline.engineering.attraction import Attraction
-from roughline.engineering.fluids import Gas, Liquid, fluid_of
-from roughline.engineering.sealing import SealShape
+from roughline.engineering.coated import Coated
+from roughline.engineering.sealing import Fluid
 from roughline.errors import InputError
-from roughline.errors.checks import flag, number, one_of, refuse
+from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.public import public
-from roughline.errors.words import speaking
-
-_MARKED = re.compile(
-    r"(?P<pressure>.*(?:Pa|bar|psi|atm))\s*\(?(?P<mark>gauge|g|absolute|abs|a)\.?\)?\s*",
-    re.IGNORECASE,
-)
-"""A pressure that says whether it is above that of the air, such as "6 barg", or "7 bar abs"."""
+from roughline.errors.words import called
+from roughline.halfspace.laws.dugdale import Dugdale
+from roughline.halfspace.laws.exponential import Exponential
+from roughline.units import engineering
 
 _MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4
-_Class = TypeVar("_Class", bound=type)
+_LARGEST_JOINT = 1e6  # [m²]
+_ROUNDING = 1e-9  # of the area of a map, which is a product of its sides
 
 
-def _coefficient_of_friction(given: Any) -> float:
-    """Return a coefficient of friction that two bodies may have."""
+def _attraction(given: float | str | Dugdale | Exponential | Attraction) -> Attraction:
+    """How bodies attract each other."""
+    return Attraction.of(given)
+
+
+def _coefficient(given: float) -> float:
+    """A coefficient of friction that two bodies may have."""
     needed = f"a number above 0 and up to {_MOST_FRICTION:g} is needed, such as 0.3"
     if not 0 < number("friction", given, needed) <= _MOST_FRICTION:
         refuse("friction", given, needed)
     return float(given)
 
 
-def _absolute(name: str) -> Callable[[Any], float]:
-    """A reader of an absolute pressure; that of vacuum is zero. [Pa]"""
-
-    def read(given: Any) -> float:
-        marked = _MARKED.fullmatch(given) if isinstance(given, str) else None
-        if marked and marked["mark"].lower().startswith("g"):
-            needed = "an absolute pressure is needed: add that of the air, 1.013 bar"
-            refuse(name, given, needed)
-        pressure = as_si(marked["pressure"] if marked else given, "Pa", name)
-        if not 0 <= pressure < math.inf:
-            refuse(name, given, "an absolute pressure is needed, which is zero in vacuum")
-        return pressure
-
-    return read
+def _frequency(given: float | str) -> float:
+    """A frequency. [Hz]"""
+    return quantity(given, "Hz", "frequency", "a positive, finite one is needed")
 
 
-def _carries(given: Any) -> bool | None:
-    """Whether a fluid carries load; None where that is left open."""
-    return None if given is None else flag("fluid_carries", given)
-
-
-def _fluid(given: Any) -> Liquid | Gas:
-    """A fluid, from itself or from its description."""
-    try:
-        with speaking(None):  # a description calls its values the same for everyone
-            return fluid_of(given)
-    except InputError as error:
-        raise type(error)(f"cannot be used: {error}", "fluid") from error
-
-
-def _direction(given: Any) -> Literal["x", "y", "both"]:
-    """A direction over the map."""
-    directions: tuple[Literal["x", "y", "both"], ...] = ("both", "x", "y")
-    return one_of("flow_along", given, directions)
+def _area(given: float | str) -> float:
+    """Area of a joint. [m²]"""
+    needed = "a positive, finite area is needed, up to 1 km²"
+    return quantity(given, "m^2", "joint_area", needed, _LARGEST_JOINT)
 
 
 @public
-@dataclass(frozen=True)
+@frozen
 class Adhesion:
     """Bodies that stick, asked for what it takes to draw them apart after their largest load.
 
@@ -87,11 +63,36 @@ class Adhesion:
         Without a range, it is the shortest that the grid resolves; without a law, it is Dugdale's.
     """
 
-    attraction: Parsed[Attraction] = Parsed(Attraction.of)
+    attraction: Attraction = field(converter=_attraction)
+
+    def refuse_beside(self, others: Iterable[Asked], *, yields: bool) -> None:
+        """Refuse what is not known of bodies that stick."""
+        adhesion = called("rl.Adhesion")
+        if yields:
+            raise InputError(
+                f"bodies that stick ({adhesion}) and also yield are not solved: take them as "
+                f"elastic ({called('elastic', True)}), or leave {adhesion} out",
+                None,
+                *("adhesion", "elastic"),
+            )
+        if any(isinstance(each, Friction) for each in others):
+            raise InputError(
+                f"partial slip ({called('rl.Friction')}) of bodies that stick ({adhesion}) is not "
+                "known: leave one of them out",
+                None,
+                *("adhesion", "friction"),
+            )
+        if any(isinstance(each, Fluid) and each.closure for each in others):
+            raise InputError(
+                f"{called('closure', True)} bisects loads, and bodies that stick ({adhesion}) "
+                "depend on those before: leave one of them out",
+                None,
+                *("adhesion", "closure"),
+            )
 
 
 @public
-@dataclass(frozen=True)
+@frozen
 class Friction:
     """Coulomb friction between the bodies, asked for partial slip at the largest load.
 
@@ -101,11 +102,23 @@ class Friction:
         Coefficient of friction, above 0 and up to 5. [1]
     """
 
-    coefficient: Parsed[float] = Parsed(_coefficient_of_friction)
+    coefficient: float = field(converter=_coefficient)
+
+    def refuse_layers(self, coated: Sequence[Coated]) -> None:
+        """Refuse partial slip of coated bodies."""
+        for each in coated:
+            friction = called("rl.Friction")
+            raise InputError(
+                f"partial slip ({friction}) follows from the ratio of tangential and normal "
+                f"stiffness of bodies of one material each, and {each.name} is coated: leave "
+                f"{friction} out",
+                None,
+                *("friction", "materials"),
+            )
 
 
 @public
-@dataclass(frozen=True)
+@frozen
 class Ultrasound:
     """An ultrasonic wave, asked for its reflection by the interface.
 
@@ -115,13 +128,11 @@ class Ultrasound:
         Such as "5 MHz". [Hz]
     """
 
-    frequency: Parsed[float] = Parsed(
-        quantity("Hz", "frequency", "a positive, finite one is needed")
-    )
+    frequency: float = field(converter=_frequency)
 
 
 @public
-@dataclass(frozen=True)
+@frozen
 class Joint:
     """The joint that a surface is a map of, asked for its answers instead of the map's.
 
@@ -133,9 +144,16 @@ class Joint:
         Nominal area, such as "2 cm^2", not below that of the map and up to 1 km². [m²]
     """
 
-    area: Parsed[float] = Parsed(
-        quantity("m^2", "joint_area", "a positive, finite area is needed, up to 1 km²", 1e6)
-    )
+    area: float = field(converter=_area)
+
+    def refuse_map(self, area: float) -> None:
+        """Refuse a map with a larger area [m²] than the joint that it is a part of."""
+        if area > self.area * (1 + _ROUNDING):
+            raise InputError(
+                f"the joint has an area of {engineering(self.area, 'm²')}, less than the map, "
+                f"which has {engineering(area, 'm²')}: crop the map, or leave "
+                f"{called('rl.Joint')} out"
+            )
 
 
 @public
@@ -164,162 +182,83 @@ def known_theories() -> list[str]:
     return list(THEORIES)
 
 
-@public
-@dataclass(frozen=True)
-class History:
-    """Loads or depths applied in the order given, each to the surface as the last one left it."""
+Asked = Adhesion | Friction | Ultrasound | Joint | Theories | Fluid
+KINDS: Mapping[str, type[Asked]] = {each.__name__: each for each in get_args(Asked)}
+"""Classes of what is asked, by their names."""
+
+_OF_MATERIALS = {Friction: "friction", Ultrasound: "frequency", Joint: "joint_area", Fluid: "fluid"}
+"""What is answered of two materials alone, free or repeated both ways, and its first field."""
+
+_NOT_OF_LINES = {
+    Adhesion: "springs of a line stick as bodies of revolution do, which touch in one disc, and a "
+    "rough line in many; leave it out, or press a map",
+    Fluid: "along a line, in one dimension, any contact stops the flow; leave it out, or press a "
+    "map",
+    Joint: "a line stands for the square of its length alone, and what lies beyond is not known; "
+    "leave it out",
+}
+"""What belongs to a surface, and why."""
 
 
-@public
-@dataclass(frozen=True)
-class Unloading:
-    """The largest load taken off again, in steps down to zero."""
-
-
-@public
-@dataclass(frozen=True)
-class WholeCurve:
-    """Further loads, from a thousandth of the largest one up, solved too for figures."""
-
-
-@public
-@dataclass(frozen=True)
-class Fluid:
-    """A fluid in the gap, asked for what flows through, and for what a gas conducts.
-
-    Parameters
-    ----------
-    fluid : str, Liquid or Gas
-        Such as "water" or "helium", of the table of fluids.
-    """
-
-    fluid: Parsed[Liquid | Gas] = Parsed(_fluid)
-
-
-@public
-@dataclass(frozen=True)
-class Inlet:
-    """Absolute pressure of the fluid where it enters the seal.
-
-    Parameters
-    ----------
-    pressure : float or str
-        Such as "6 bar". [Pa]
-    carries : bool, optional
-        Whether the fluid carries its part of the load, so that the bodies press with the rest.
-        Default: where that is a twentieth of the load or more.
-    """
-
-    pressure: Parsed[float] = Parsed(_absolute("inlet"))
-    carries: Parsed[bool | None] = Parsed(_carries, default=None)
-
-
-@public
-@dataclass(frozen=True)
-class Outlet:
-    """Absolute pressure of the fluid where it leaves the seal; without it, that outside.
-
-    Parameters
-    ----------
-    pressure : float or str
-        Such as "1 bar", or zero for vacuum. [Pa]
-    """
-
-    pressure: Parsed[float] = Parsed(_absolute("outlet"))
-
-
-@public
-@dataclass(frozen=True)
-class Seal:
-    """The face that the fluid crosses, asked for its leak rate.
-
-    Parameters
-    ----------
-    shape : str
-        Length across the flow and width along it, such as "100 mm x 2 mm", or the inner and the
-        outer radius of a ring, such as "20 mm .. 24 mm".
-    """
-
-    shape: Parsed[SealShape] = Parsed(SealShape.of)
-
-
-@public
-@dataclass(frozen=True)
-class FlowAlong:
-    """Direction over the map in which the fluid flows; without it, the leakier one of both.
-
-    Parameters
-    ----------
-    direction : {"both", "x", "y"}
-        Along x or y of the map.
-    """
-
-    direction: Parsed[Literal["x", "y", "both"]] = Parsed(_direction)
-
-
-@public
-@dataclass(frozen=True)
-class Closure:
-    """The mean pressure at which the last channel closes, and how far the load may be taken off."""
-
-
-Asked = (
-    Adhesion
-    | Friction
-    | Ultrasound
-    | Joint
-    | Theories
-    | History
-    | Unloading
-    | WholeCurve
-    | Fluid
-    | Inlet
-    | Outlet
-    | Seal
-    | FlowAlong
-    | Closure
-)
-_EARLIER = (
-    *("friction", "frequency", "joint_area", "theories", "history", "unload", "whole_curve"),
-)
-"""What version 0.2 was told by keywords of its own."""
-_KINDS = {each.__name__: each for each in get_args(Asked)}
+def asked(given: Asked | Iterable[Asked] | None) -> tuple[Asked, ...]:
+    """Return what is asked, each of a kind of its own."""
+    found = several(given)
+    for each in found:
+        if not isinstance(each, get_args(Asked)):
+            refuse(
+                "ask", each, 'give what is asked, such as rl.Friction(0.3) or rl.Joint("2 cm^2")'
+            )
+    kinds = [type(each).__name__ for each in found]
+    for kind in kinds:
+        if kinds.count(kind) > 1:
+            raise InputError(f"holds several rl.{kind}; give one", "ask")
+    return found
 
 
 def asked_for(told: Mapping[str, Any]) -> tuple[Asked, ...]:
     """Return what is asked, from values by the names of fields; None and False ask nothing."""
-    asked = []
-    for each in asked_fields(told):
-        value, kind = told[each.name], _KINDS[each.of]
-        if each.is_switch:
-            if not isinstance(value, bool):
-                refuse(each.name, value, "True or False is needed")
-            asked += [kind()] if value else []
-        elif each.separator:
-            asked += [kind(*several(value))] if several(value) else []
-        else:
-            asked.append(kind(value, **beside(each, told)))
-    return tuple(asked)
+    return tuple(KINDS[of](*by_place, **by_name) for of, by_place, by_name in asked_in(told))
 
 
-def with_earlier_keywords(question: _Class) -> _Class:
-    """A class that takes the keywords of version 0.2 beside `ask` too, for one release."""
-    made: Callable[..., None] = question.__init__  # type: ignore[misc]
+def _fields_of(each: Asked) -> dict[str, str]:
+    """Fields by which something is asked, and what they are called."""
+    if not isinstance(each, Fluid):
+        name = f"rl.{type(each).__name__}"
+        return {_OF_MATERIALS.get(type(each), "ask"): called(name)}
+    fluid = {} if each.fluid is None else {"fluid": called("rl.Fluid")}
+    return fluid | ({"closure": called("closure", True)} if each.closure else {})
 
-    @functools.wraps(made)
-    def make(self: Any, *given: Any, **named: Any) -> None:
-        earlier = [each for each in FIELDS if each.name in _EARLIER and each.name in named]
-        if earlier:
-            told = {each.name: named.pop(each.name) for each in earlier}
-            named["ask"] = (*several(named.get("ask")), *asked_for(told))
-            words = [each.in_python(told[each.name]) for each in earlier if told[each.name]]
-            warnings.warn(
-                f"{', '.join(f'{name}=' for name in told)} will be gone in the next release: write "
-                f"ask=[{', '.join(words)}]",
-                DeprecationWarning,
-                stacklevel=2,
-            )
-        made(self, *given, **named)
 
-    question.__init__ = make  # type: ignore[misc]
-    return question
+def refuse_without_materials(ask: Iterable[Asked]) -> None:
+    """Refuse what is answered of two materials alone."""
+    for each in ask:
+        if type(each) in _OF_MATERIALS:
+            argument, name = next(iter(_fields_of(each).items()))
+            text = f"{name} needs two materials ({called('materials')})"
+            raise InputError(text, None, argument)
+
+
+def refuse_of_strip(ask: Iterable[Asked], along: str, *, has_materials: bool) -> None:
+    """Refuse answers of a body that is repeated along one side alone, all of them at once."""
+    fields = [_fields_of(each) for each in ask if type(each) in _OF_MATERIALS]
+    names = [name for each in fields for name in each.values()]
+    materials, take = called("materials"), []
+    if has_materials:
+        take.append(f"give a contact modulus ({called('E_star')}) in place of {materials}")
+    if names:
+        take.append(f"leave {' and '.join(names)} out")
+    if take:
+        raise InputError(
+            "answers are known of bodies that are free or repeated both ways, not of one that is "
+            f"repeated along {along} alone; for its curve, {' and '.join(take)}",
+            None,
+            *("periodic", "materials"),
+        )
+
+
+def refuse_of_line(ask: Iterable[Asked]) -> None:
+    """Refuse what is asked of a line and belongs to a surface."""
+    for each in ask:
+        if (why := _NOT_OF_LINES.get(type(each))) is not None:
+            name = next(iter(_fields_of(each).values()))
+            raise InputError(f"{name} belongs to a surface: {why}")

@@ -114,8 +114,9 @@ def _refuse_all_at_the_hardness(case: Case, curve: Curve) -> None:
     """Refuse depths at which all of the area is at the hardness; of forces it is known before."""
     beyond = np.flatnonzero((curve.converged & ~case.loads.borne(curve))[list(case.loads.asked)])
     if case.loads.depths and beyond.size:
+        heading = case.question.loading.headings[beyond[0]]
         raise InputError(
-            f"depth {case.question.headings[beyond[0]]} indents all of the body: its whole area "
+            f"depth {heading} indents all of the body: its whole area "
             "is at the hardness, and bears no more at any larger depth; give smaller ones"
         )
 

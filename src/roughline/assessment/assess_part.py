@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import attrs
 import numpy as np
 
 from roughline.assessment.assess import assess_body
@@ -263,9 +264,13 @@ def _refuse_unlike(questions: Sequence[Question]) -> None:
         refuse("questions", questions, "a list of Questions, one of each map, is needed")
     if not questions:
         raise InputError("there is no map; give at least one, better five")
-    for item in fields(Question):
-        if item.name not in ("body", "reading") and any(
-            getattr(each, item.name) != getattr(questions[0], item.name) for each in questions
+    for item in attrs.fields(Question):
+        if (
+            item.eq
+            and item.name not in ("body", "reading")
+            and any(
+                getattr(each, item.name) != getattr(questions[0], item.name) for each in questions
+            )
         ):
             raise InputError(
                 f"all maps of a part are asked the same question, but {item.name} differs between "

@@ -120,7 +120,7 @@ class Assessment:
     @property
     def scale(self) -> float:
         """Force and stiffness of the joint over those of the curve; 1 without a joint."""
-        return self.question.scale(self.area)
+        return self.question.loading.scale(self.area)
 
     @property
     def partial_slip(self) -> PartialSlip | None:
@@ -149,12 +149,12 @@ class Assessment:
     @property
     def headings(self) -> list[str]:
         """What each load that was asked for is called: as it was typed, or its number."""
-        return self.question.headings or [str(i + 1) for i in self.asked]
+        return self.question.loading.headings or [str(i + 1) for i in self.asked]
 
     @property
     def largest(self) -> int:
         """Which of the loads that were asked for is the largest, by its number among them."""
-        named = self.question.forces(self.area) or self.question.heights()
+        named = self.question.loading.forces(self.area) or self.question.loading.heights()
         return int(np.argmax(named)) if named else self.asked.size - 1
 
     @property

@@ -5,20 +5,19 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import numpy as np
+from attrs import field, frozen
 
 from roughline.assessment.given import (
-    Parsed,
-    as_si,
+    modulus,
     pair_of,
+    quantities,
     quantity,
     refuse_unless_one_modulus,
-    several,
 )
 from roughline.computing.arrays import Real
-from roughline.contact.arguments import LARGEST
 from roughline.contact.curve import Curve
 from roughline.contact.jkr import JKR
 from roughline.contact.press import press
@@ -30,7 +29,7 @@ from roughline.errors import InputError, UnitWarning
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
 from roughline.topography.profile import Profile
-from roughline.units import decimal, engineering
+from roughline.units import as_si, decimal, engineering
 
 _RADIUS = 1e-12, 1e6  # of balls [m]
 _RADII = 800  # of a profile: a sphere's force is right to 1e-5 where nine tenths of it touch
@@ -41,15 +40,27 @@ _YIELDS_FROM = 1.5 * ELASTIC_UP_TO  # largest pressure over hardness; Hertz's me
 _SHORT = 5.0  # Tabor's parameter, from which on the pull is as good as without a range
 
 
-def _radius(given: Any) -> float:
-    """Return the radius of a ball. [m]"""
+def _radius(given: float | str) -> float:
+    """Radius of a ball. [m]"""
     radius = as_si(given, "m", "radius")
     if not _RADIUS[0] <= radius <= _RADIUS[1]:
         refuse("radius", given, "a length from 1 pm to 1000 km is needed")
     return radius
 
 
-@dataclass(frozen=True)
+def _hardness(given: float | str | None) -> float | None:
+    """A hardness, if one is given. [Pa]"""
+    if given is None:
+        return None
+    return quantity(given, "Pa", "hardness", "a positive, finite pressure is needed")
+
+
+def _adhesion(given: float | str | Attraction | None) -> Attraction | None:
+    """How the ball sticks, if it does."""
+    return None if given is None else Attraction.of(given)
+
+
+@frozen
 class BallQuestion:
     """What is asked of a ball against a flat, or of two materials in either order.
 
@@ -81,21 +92,16 @@ class BallQuestion:
         If a text has no unit, or a wrong one.
     """
 
-    radius: Parsed[float] = Parsed(_radius)
-    materials: Parsed[tuple[Solid, Solid] | None] = Parsed(pair_of, default=None)
-    E_star: Parsed[float | None] = Parsed(
-        quantity("Pa", "E_star", "a positive, finite contact modulus is needed", most=LARGEST),
-        default=None,
-    )
-    hardness: Parsed[float | None] = Parsed(
-        quantity("Pa", "hardness", "a positive, finite pressure is needed"), default=None
-    )
-    adhesion: Parsed[Attraction | None] = Parsed(Attraction.of, default=None)
-    loads: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
-    depths: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
+    radius: float = field(converter=_radius)
+    materials: tuple[Solid, Solid] | None = field(default=None, converter=pair_of)
+    E_star: float | None = field(default=None, converter=modulus)
+    hardness: float | None = field(default=None, converter=_hardness)
+    adhesion: Attraction | None = field(default=None, converter=_adhesion)
+    loads: tuple[float | str, ...] = field(default=(), converter=quantities)
+    depths: tuple[float | str, ...] = field(default=(), converter=quantities)
     is_sphere: bool = False
 
-    def __post_init__(self) -> None:
+    def __attrs_post_init__(self) -> None:
         refuse_unless_one_modulus(self.E_star, self.materials)
         if bool(self.loads) == bool(self.depths):
             raise InputError(

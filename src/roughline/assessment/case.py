@@ -46,7 +46,8 @@ class Case:
         body = pressed_body([each.body for each in parts])
         question.refuse_misfit(body)
         if isinstance(body, Surface):
-            question.refuse_thin_layers(body)
+            for each in question.coated:
+                each.refuse_grid(body.spacing)
         loads = LoadCase.of(question, body)
         grid_error = _grid_error_is_estimated(question, loads)
         return cls(question, parts, replace(loads, grid_error=grid_error))

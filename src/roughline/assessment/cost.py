@@ -81,7 +81,7 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
         told += f", then {duration(of_interface)} for the interface"
     if of_flow := _seconds_of_flow(case, variants):
         told += f", {duration(of_flow)} for what flows"
-    if case.question.finds_closing:
+    if case.question.fluid is not None and case.question.fluid.closure:
         of_load = seconds("as asked") / case.loads.count
         told += f", {duration(_LOADS_TO_SEAL * of_load)} for the pressure that seals"
     if of_larger := seconds("larger surface"):

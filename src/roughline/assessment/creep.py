@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from attrs import field, frozen
 
 from roughline.assessment.given import (
-    Parsed,
-    as_si,
-    body_or_path,
+    modulus,
+    one_body,
     pair_of,
-    quantity,
+    quantities,
     refuse_unless_one_modulus,
     several,
 )
@@ -37,7 +37,14 @@ from roughline.topography.body import Body, Line, sides_of
 from roughline.topography.effects import grave_effects
 from roughline.topography.files.read import suspicions
 from roughline.topography.preparation import Preparation
-from roughline.units import decimal, engineering, in_si, load_in_newtons, refuse_decimal_comma
+from roughline.units import (
+    as_si,
+    decimal,
+    engineering,
+    in_si,
+    load_in_newtons,
+    refuse_decimal_comma,
+)
 
 _TERM = re.compile(
     r"\s*(?P<share>[\d.]+(e[-+]?\d+)?)\s*(?P<percent>%?)\s+(?P<time>[-+.\d].*)", re.IGNORECASE
@@ -52,7 +59,7 @@ _DEFAULT_TIMES = 12  # beside zero
 _AROUND = 10.0  # before the first relaxation time, and after the last one
 
 
-def _prony(given: Any) -> Creep:
+def _prony(given: str | Creep) -> Creep:
     """Read "0.3 10 ms, 0.4 1 s"; a relaxation function is itself."""
     if isinstance(given, Creep):
         return given
@@ -76,7 +83,7 @@ def _prony(given: Any) -> Creep:
         raise InputError(f"is {shown(given)}: {error}", "prony") from error
 
 
-def _times(given: Any) -> tuple[float | str, ...]:
+def _times(given: float | str | Iterable[float | str] | None) -> tuple[float | str, ...]:
     """Read "1 s, 1 min, 1 h", or times one by one; they stay as they were typed."""
     if not isinstance(given, str):
         return several(given)
@@ -84,7 +91,7 @@ def _times(given: Any) -> tuple[float | str, ...]:
     return tuple(each.strip() for each in given.split(","))
 
 
-@dataclass(frozen=True)
+@frozen
 class CreepQuestion:
     """What is asked of a rough body that is pressed into one that creeps.
 
@@ -123,21 +130,18 @@ class CreepQuestion:
         If a text has no unit, or a wrong one.
     """
 
-    body: Parsed[Body | Path] = Parsed(lambda given: body_or_path(given, "body"))
-    prony: Parsed[Creep] = Parsed(_prony)
-    materials: Parsed[tuple[Solid, Solid] | None] = Parsed(pair_of, default=None)
-    E_star: Parsed[float | None] = Parsed(
-        quantity("Pa", "E_star", "a positive, finite contact modulus is needed", most=LARGEST),
-        default=None,
-    )
-    times: Parsed[tuple[float | str, ...]] = Parsed(_times, default=())
-    loads: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
-    depths: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
+    body: Body | Path = field(converter=one_body)
+    prony: Creep = field(converter=_prony)
+    materials: tuple[Solid, Solid] | None = field(default=None, converter=pair_of)
+    E_star: float | None = field(default=None, converter=modulus)
+    times: tuple[float | str, ...] = field(default=(), converter=_times)
+    loads: tuple[float | str, ...] = field(default=(), converter=quantities)
+    depths: tuple[float | str, ...] = field(default=(), converter=quantities)
     periodic: bool = False
-    reading: Reading = field(default_factory=Reading)
+    reading: Reading = field(factory=Reading)
     preparation: Preparation | None = None
 
-    def __post_init__(self) -> None:
+    def __attrs_post_init__(self) -> None:
         refuse_unless_one_modulus(self.E_star, self.materials)
         if bool(self.loads) == bool(self.depths):
             raise InputError(

@@ -7,7 +7,7 @@ from this table. A new field is an entry here, an attribute, and the physics tha
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -49,7 +49,7 @@ class Field:
     control: str = "{}"  # key in the lab's form and addresses: its name, or another; empty for none
     label: str = ""  # what the form calls it
     word: str = ""  # what the lab's messages call it if that differs
-    argument: str = "{}"  # of what it is of: its name, or another's that it is a value of
+    argument: str = "{}"  # of what it is of, in Python: its name, or another
     help: str = ""  # one sentence with an example
     otherwise: str = ""  # what holds if it is not given, in words
     kind: type = str  # of one value on the command line
@@ -75,11 +75,6 @@ class Field:
         return self.of not in ("Question", "Reading", "Preparation")
 
     @property
-    def is_beside(self) -> bool:
-        """Whether it is a further argument of what is asked, and asks for nothing by itself."""
-        return self.is_asked and self.argument != self.name
-
-    @property
     def first_flag(self) -> str:
         """The flag by which the command line calls it first."""
         return self.flag.partition(",")[0]
@@ -94,13 +89,9 @@ class Field:
         """Whether nothing, which is neither yes nor no, may be chosen."""
         return any(value is None for value, _ in self.choices.values())
 
-    def in_python(self, value: Any, **others: Any) -> str:
-        """Write what is asked as Python: rl.Friction(0.3)."""
-        inside = "" if self.is_switch else repr(value)
-        if self.separator and not isinstance(value, str):
-            inside = ", ".join(map(repr, value))
-        further = "".join(f", {name}={each!r}" for name, each in others.items())
-        return f"rl.{self.of}({inside}{further})"
+    def says(self, value: Any) -> bool:
+        """Whether a value says something: None does not, nor does a switch that is off."""
+        return value is not None and value != [] and (value is not False or self.can_be_left)
 
     def in_command(self, value: Any, text: str) -> list[str]:
         """Write a value, which was read from a text, as words of the command line."""
@@ -185,7 +176,7 @@ def _crop(text: str) -> tuple[float, ...]:
 _of_bodies = partial(Field, group=BODIES)
 _of_loads = partial(Field, group=LOADS)
 _of_answers = partial(Field, group=ANSWERS)
-_of_fluid = partial(_of_answers, fold=_FLUID)
+_of_fluid = partial(_of_answers, of="Fluid", fold=_FLUID)
 _of_file = partial(Field, of="Reading", group=FILE)
 _of_preparation = partial(Field, of="Preparation", group=PREPARATION)
 
@@ -247,6 +238,7 @@ FIELDS: tuple[Field, ...] = (
     _of_bodies(
         name="adhesion",
         of="Adhesion",
+        argument="attraction",
         help="How the bodies attract each other: work of adhesion, range and law, such as "
         '"50 mJ/m^2", "50 mJ/m^2 over 2 nm, exponential" or "pdms"; adds what it takes to draw '
         "them apart after the largest load.",
@@ -270,6 +262,7 @@ FIELDS: tuple[Field, ...] = (
     _of_loads(
         name="joint_area",
         of="Joint",
+        argument="area",
         help='Area of the joint that the map is a part of, such as "2 cm^2": forces then act on '
         "the joint, and the answers are those of the joint.",
         otherwise="the map alone",
@@ -285,7 +278,6 @@ FIELDS: tuple[Field, ...] = (
     _of_loads(
         name="history",
         control="",
-        of="History",
         help="Apply several --load in the order given, rising and falling, each to the surface as "
         "the load before it left it.",
         choices={"no": (False, "rising"), "yes": (True, "in the order given")},
@@ -293,7 +285,6 @@ FIELDS: tuple[Field, ...] = (
     _of_loads(
         name="unload",
         control="",
-        of="Unloading",
         help="Remove the largest --load again, in steps down to zero.",
         choices={"no": (False, "no"), "yes": (True, "down to zero")},
     ),
@@ -317,6 +308,7 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="friction",
         of="Friction",
+        argument="coefficient",
         fold=_MORE,
         help="Coefficient of friction, above 0 and up to 5, such as 0.3: adds partial slip at the "
         "largest load, its curve in the report and in JSON.",
@@ -335,21 +327,19 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_fluid(
         name="fluid",
-        of="Fluid",
         help='Fluid in the gap, such as "water", "oil VG 46", "air" or "helium": adds what flows '
         "through, and of a gas what it conducts.",
         otherwise="none",
     ),
     _of_fluid(
         name="inlet",
-        of="Inlet",
         label="inlet pressure",
         help='Absolute pressure of the fluid where it enters, such as "6 bar".',
     ),
     _of_fluid(
-        name="fluid_carries",
-        of="Inlet",
-        argument="carries",
+        name="carries",
+        flag="--fluid-carries",
+        control="fluid_carries",
         label="fluid carries load",
         help="Whether the fluid carries its part of the load, so that the bodies press with the "
         "rest.",
@@ -362,20 +352,19 @@ FIELDS: tuple[Field, ...] = (
     ),
     _of_fluid(
         name="outlet",
-        of="Outlet",
         label="outlet pressure",
         help='Absolute pressure of the fluid where it leaves, such as "1 bar"; "0 bar" is vacuum.',
         otherwise="1 atm",
     ),
     _of_fluid(
         name="seal",
-        of="Seal",
         help="The face that the fluid crosses: length across the flow and width along it, such as "
         '"100 mm x 2 mm", or both radii of a ring, such as "20 mm .. 24 mm".',
     ),
     _of_fluid(
-        name="flow_along",
-        of="FlowAlong",
+        name="along",
+        flag="--flow-along",
+        control="flow_along",
         label="flow along",
         help="Direction over the map in which the fluid flows.",
         choices={
@@ -385,8 +374,9 @@ FIELDS: tuple[Field, ...] = (
         },
     ),
     _of_fluid(
-        name="sealing_pressure",
-        of="Closure",
+        name="closure",
+        flag="--sealing-pressure",
+        control="sealing_pressure",
         label="sealing",
         help="Find the mean pressure at which the last channel closes, and down to which load the "
         "leak stays below ten times that under the largest; it takes as long as some 45 loads.",
@@ -418,7 +408,6 @@ FIELDS: tuple[Field, ...] = (
         name="whole_curve",
         flag="",
         control="",
-        of="WholeCurve",
         choices={"no": (False, "no"), "yes": (True, "yes")},
     ),
     _of_file(
@@ -582,22 +571,25 @@ FIELDS: tuple[Field, ...] = (
 """All fields, in the order of their groups' panels and of the form."""
 
 
-def asked_fields(told: Mapping[str, Any]) -> list[Field]:
-    """Return the fields of what is asked, in their order."""
-    given = [each for each in FIELDS if each.is_asked and told.get(each.name) is not None]
-    return [each for each in given if not each.is_beside]
-
-
-def beside(field: Field, told: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what is told of the further arguments of what a field asks."""
-    others = [each for each in FIELDS if each.is_beside and each.of == field.of]
-    return {each.argument: told[each.name] for each in others if told.get(each.name) is not None}
+def asked_in(told: Mapping[str, Any]) -> Iterator[tuple[str, tuple[Any, ...], dict[str, Any]]]:
+    """Give the classes of what is asked, each with its arguments by place and by name."""
+    for of in dict.fromkeys(each.of for each in FIELDS if each.is_asked):
+        first, *others = (each for each in FIELDS if each.of == of)
+        value = told.get(first.name)
+        by_place = () if value is None else (value,)
+        if first.separator and isinstance(value, list | tuple):
+            by_place = tuple(value)
+        given = {each: told.get(each.name) for each in others}
+        by_name = {each.argument: value for each, value in given.items() if each.says(value)}
+        if by_place or by_name:
+            yield of, by_place, by_name
 
 
 def names_by(word_of: Callable[[Field], str]) -> dict[str, str]:
     """Return what a caller calls the arguments, and the classes of what is asked."""
-    words = {each: word_of(each) for each in FIELDS}
-    names = {each.name: word for each, word in words.items()}
-    asked = {each: word for each, word in words.items() if each.is_asked and not each.is_beside}
-    names |= {f"rl.{each.of}": word for each, word in asked.items()}
+    names: dict[str, str] = {}
+    for each in FIELDS:
+        names[each.name] = word_of(each)
+        if each.is_asked:
+            names.setdefault(f"rl.{each.of}", names[each.name])  # of several, the first
     return {name: word for name, word in names.items() if word}

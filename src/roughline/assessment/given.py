@@ -3,50 +3,23 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import numpy as np
 
+from roughline.contact.arguments import LARGEST
 from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.material import Material
 from roughline.engineering.materials import material
+from roughline.engineering.pair import contact_modulus
 from roughline.errors import InputError
-from roughline.errors.checks import number, refuse, shown
+from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called, speaking
 from roughline.topography.body import Body, Line, Surface
-from roughline.units import example_of, in_si, load_in_newtons, refuse_decimal_comma
-
-_Value = TypeVar("_Value")
-
-
-class Parsed(Generic[_Value]):
-    """An attribute of a frozen dataclass that is read, and checked, when it is given.
-
-    The default is what holds where nothing is given; without one, something has to be. A default of
-    None may be given as well.
-    """
-
-    def __init__(self, read: Callable[[Any], _Value], **default: Any) -> None:
-        self.read = read
-        self._default = default
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._name = name
-
-    def __get__(self, instance: object | None, owner: type) -> _Value:
-        # of the class, it is what the dataclass takes as the default
-        if instance is not None:
-            return instance.__dict__[self._name]
-        if not self._default:
-            raise AttributeError(self._name)
-        return self._default["default"]
-
-    def __set__(self, instance: object, given: Any) -> None:
-        is_none = given is None and self._default == {"default": None}
-        instance.__dict__[self._name] = None if is_none else self.read(given)
+from roughline.units import as_si, load_in_newtons, refuse_decimal_comma
 
 
 def several(given: Any) -> tuple[Any, ...]:
@@ -56,27 +29,26 @@ def several(given: Any) -> tuple[Any, ...]:
     return (given,) if np.ndim(given) == 0 else tuple(given)
 
 
-def as_si(given: float | str, unit: str, name: str) -> float:
-    """A number in an SI unit, or a text with a unit of its own, as a number in the SI unit."""
-    if isinstance(given, str):
-        return in_si(given, unit, name)
-    example = example_of(unit, name)
-    needed = f'a number in {unit}, or a text such as "{example}", is needed'
-    return number(name, given, needed)
+def quantities(given: float | str | Iterable[float | str] | None) -> tuple[float | str, ...]:
+    """Numbers, or texts with units, as they were typed."""
+    return several(given)
 
 
 def quantity(
-    unit: str, name: str, needed: str, most: float = sys.float_info.max
-) -> Callable[[Any], float]:
-    """A reader of a positive, finite quantity in an SI unit, up to the largest."""
+    given: float | str, unit: str, name: str, needed: str, most: float = sys.float_info.max
+) -> float:
+    """A positive, finite quantity in an SI unit, up to the largest."""
+    value = as_si(given, unit, name)
+    if not 0 < value <= most:
+        refuse(name, given, needed)
+    return value
 
-    def read(given: Any) -> float:
-        value = as_si(given, unit, name)
-        if not 0 < value <= most:
-            refuse(name, given, needed)
-        return value
 
-    return read
+def modulus(given: float | str | None) -> float | None:
+    """A contact modulus, if one is given. [Pa]"""
+    if given is None:
+        return None
+    return quantity(given, "Pa", "E_star", "a positive, finite contact modulus is needed", LARGEST)
 
 
 def has_forces(loads: Any) -> bool:
@@ -98,7 +70,19 @@ def body_or_path(given: Any, name: str) -> Body | Path:
     return replace(given, unit="m")
 
 
-def bodies_or_paths(given: Any) -> Body | Path | tuple[Body | Path, ...]:
+def one_body(given: Body | str | Path) -> Body | Path:
+    """One body, or the path of a file."""
+    return body_or_path(given, "body")
+
+
+def opposite(given: Body | str | Path | None) -> Body | Path | None:
+    """The second body, or the path of its file, if it is rough."""
+    return None if given is None else body_or_path(given, "against")
+
+
+def bodies(
+    given: Body | str | Path | Iterable[Body | str | Path],
+) -> Body | Path | tuple[Body | Path, ...]:
     """One body or path, or several of them; a file may not be named twice."""
     if isinstance(given, str | Path | np.ndarray) or not isinstance(given, Iterable):
         return body_or_path(given, "body")
@@ -121,9 +105,14 @@ def refuse_unless_one_modulus(E_star: Any, materials: Any) -> None:
         )
 
 
-def pair_of(given: Any) -> tuple[Solid, Solid]:
-    """Two materials, from themselves, their descriptions, or one text with a comma between."""
-    parts = given
+def pair_of(given: str | Sequence[Solid | str] | None) -> tuple[Solid, Solid] | None:
+    """Two materials, from themselves, their descriptions, or one text with a comma between.
+
+    One of them gives way.
+    """
+    if given is None:
+        return None
+    parts: Any = given
     if isinstance(given, str):
         refuse_decimal_comma(given, "materials")
         parts = [part.strip() for part in given.split(",")]
@@ -134,6 +123,7 @@ def pair_of(given: Any) -> tuple[Solid, Solid]:
             'give two with a comma between, such as "steel,copper" or "rubber 2 mm on steel,rigid"',
         )
     first, second = (_material_of(each) for each in parts)
+    contact_modulus(first.surface, second.surface)  # refuses two rigid ones
     return first, second
 
 

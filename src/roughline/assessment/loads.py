@@ -9,7 +9,8 @@ from typing import Literal
 import numpy as np
 
 from roughline.assessment.kinds import is_map, nominal_area
-from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
+from roughline.assessment.loading import DEFAULT_LOADS
+from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.arguments import law_of, sticking_law
 from roughline.contact.curve import Curve
@@ -28,9 +29,7 @@ from roughline.units import engineering
 LoadProgress = Callable[[int, int], None]
 """Called with (loads done, loads in all)."""
 
-_LIGHTEST = 1e-3  # of the largest load, where a whole curve begins
 _ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
-_CURVE_LOADS = 16  # of a whole curve
 _LIGHT = 1e-6  # over the contact modulus, of a pressure under which any body can be pressed
 
 
@@ -83,11 +82,11 @@ class LoadCase:
     @classmethod
     def of(cls, question: Question, body: Body) -> LoadCase:
         """The loads of a question on a body, spaced ones of a line scan included."""
-        area = nominal_area(body)
+        area, loading = nominal_area(body), question.loading
         pressing = _pressing(question, area)
-        forces, asked = _path(question, pressing)
-        depths, asked_depths = _path(question, question.heights())
-        n_loads, hardness, attraction = question.n_loads, None, question.attraction
+        forces, asked = loading.path(pressing)
+        depths, asked_depths = loading.path(loading.heights())
+        n_loads, hardness, attraction = loading.n_loads, None, question.attraction
         if isinstance(body, Surface):
             if attraction is not None:
                 attraction = attraction.on_grid(max(body.spacing), question.elasticity.softest)
@@ -201,7 +200,7 @@ def _pressing(question: Question, area: float) -> list[float]:
 
     Where they are not positive, the fluid lifts the body.
     """
-    forces, sealing = question.forces(area), question.sealing
+    forces, sealing = question.loading.forces(area), question.sealing
     if sealing is None:
         return forces
     left: list[float] = sealing.left_of(np.array(forces), area).tolist()
@@ -216,35 +215,10 @@ def _lifted(question: Question, forces: Sequence[float]) -> Mask | None:
     return lifted if question.sealing.carries is not False and lifted.any() else None
 
 
-def _path(question: Question, asked: list[float]) -> tuple[list[float], tuple[int, ...]]:
-    """Return loads in the order in which they are applied, and where those asked for stand."""
-    if not asked:
-        return [], ()
-    if question.history:
-        before = _with_curve(asked[:1])[:-1] if question.whole_curve and question.loads else []
-        return before + asked, tuple(range(len(before), len(before) + len(asked)))
-    typed = asked[: -len(UNLOADING)] if question.unload else asked
-    rising = sorted({*typed})
-    if question.whole_curve and question.loads:
-        rising = _with_curve(typed)
-    falling = asked[len(typed) :]
-    places = [rising.index(load) for load in typed]
-    return rising + falling, (*places, *range(len(rising), len(rising) + len(falling)))
-
-
-def _with_curve(asked: list[float]) -> list[float]:
-    """Loads for a whole curve up to the largest, those asked for among them, rising."""
-    if max(asked) <= 0:  # a fluid lifts the body under all of them
-        return sorted({*asked})
-    curve = np.geomspace(_LIGHTEST * max(asked), max(asked), _CURVE_LOADS)
-    apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
-    return sorted({*asked, *apart})
-
-
 def _spaced(question: Question, body: Surface) -> list[float]:
     """Forces for bodies that stick, those of the same ones if they only push. [N]"""
     half_space = question.elasticity.half_space(periodic=question.repeated_along)
-    given = GivenLoads(None, None, question.n_loads)
+    given = GivenLoads(None, None, question.loading.n_loads)
     loads = surface_loads(body, half_space, given, 1e-6, single=False, law=law_of(None))
     return [float(each) for each in loads.values]
 
@@ -261,11 +235,12 @@ def _refuse_beyond_hardness(question: Question, area: float) -> None:
     if hardness is None:
         return
     bearer = "the softer body" if question.pair is None else question.pair.bearer
-    loads = zip(question.headings, question.forces(area), _pressing(question, area), strict=False)
+    loading = question.loading
+    loads = zip(loading.headings, loading.forces(area), _pressing(question, area), strict=False)
     for heading, force, pressing in loads:
         if pressing >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
             carried = force - pressing
-            most = engineering((hardness.value * area + carried) * question.scale(area), "N")
+            most = engineering((hardness.value * area + carried) * loading.scale(area), "N")
             on, joint = "the joint", ""
             if question.joint is None:
                 joint = f"the area of the joint that carries them ({called('rl.Joint')}), "

@@ -61,7 +61,7 @@ def _pressures(question: Question) -> str:
     if asked is None or asked.inlet is None:
         return ""
     return (
-        f"{asked.fluid.name} enters at {engineering(asked.inlet, 'Pa')} and leaves at "
+        f"{asked.medium.name} enters at {engineering(asked.inlet, 'Pa')} and leaves at "
         f"{engineering(asked.outlet, 'Pa')}, both absolute pressures"
     )
 
@@ -356,9 +356,9 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
         nominal = f"the nominal area, {sides}"
     else:
         nominal = f"the square of the line's length, {engineering(body.length, 'm')}"
-    loads = question.headings[: len(several(question.loads))]  # unloading speaks for itself
+    loads = question.loading.headings[: len(several(question.loads))]  # unloading speaks for itself
     notes = []
-    for text, force in dict(zip(loads, question.forces(area), strict=False)).items():
+    for text, force in dict(zip(loads, question.loading.forces(area), strict=False)).items():
         if force == 0:
             continue
         pressure = engineering(force / area, "Pa")
@@ -367,7 +367,7 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
                 f"load {text}: {engineering(force, 'N')} in all, {pressure} over {nominal}"
             )
         else:
-            on_joint = engineering(force * question.scale(area), "N")
+            on_joint = engineering(force * question.loading.scale(area), "N")
             joint = engineering(question.joint, "m²")
             notes.append(
                 f"load {text}: {on_joint} on the joint of {joint}, {pressure} everywhere; "

@@ -151,7 +151,7 @@ class PartAssessment:
     @property
     def headings(self) -> list[str]:
         """What each load is called: as it was typed."""
-        return self.question.headings
+        return self.question.loading.headings
 
     @property
     def remarks(self) -> list[str]:

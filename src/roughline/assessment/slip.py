@@ -27,7 +27,7 @@ def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:
     force = float(curve.force[largest])
     rising = np.argsort(branch.force)
     rising = rising[(branch.converged & (branch.force <= force))[rising]]
-    scale = case.question.scale(nominal_area(case.body))
+    scale = case.question.loading.scale(nominal_area(case.body))
     found = partial_slip(
         branch.depth[rising], branch.force[rising] * scale, pair.E_star, pair.G_star, friction
     )

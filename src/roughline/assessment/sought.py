@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Literal
 
 from roughline.assessment.case import Case
 from roughline.assessment.separation import separation_of
@@ -11,6 +12,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.engineering.pressed import Sought
 from roughline.engineering.sealing import Closing
+from roughline.fluid.gap import Along
 from roughline.fluid.reopening import reopening
 from roughline.fluid.sealing_pressure import sealing_pressure
 
@@ -29,20 +31,20 @@ def sought_of(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]:
     try:
         if case.loads.attraction is not None:
             found[Way.AS_ASKED] = Sought(separation=separation_of(case, curves.as_asked))
-        elif case.question.finds_closing:
+        elif (fluid := case.question.fluid) is not None and fluid.closure:
             for name in _WAYS:
                 curve = curves.get(periodic(name) if case.is_repeated_for_interface else name)
                 if curve is not None and curve.surface is not None:
                     is_judged = name == Way.AS_ASKED
-                    found[name] = Sought(closing=_closing(case, curve, is_judged=is_judged))
+                    found[name] = Sought(closing=_closing(case, curve, fluid.along, is_judged))
     except KeyboardInterrupt:
         return found, True
     return found, False
 
 
-def _closing(case: Case, curve: Curve, *, is_judged: bool) -> Closing:
+def _closing(case: Case, curve: Curve, along: Along | Literal["both"], is_judged: bool) -> Closing:
     """Bisect the loads of the surface of a curve."""
-    surface, law, along = curve.surface, curve.law, case.question.flow_along
+    surface, law = curve.surface, curve.law
     assert surface is not None
     assert law is None or law.memory != "path"  # questions ask for no adhesion
     interval = is_judged and case.loads.grid_error

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from roughline.assessment.asked import asked_for
+import attrs
+
+from roughline.assessment.asked import KINDS, asked_for
 from roughline.assessment.fields import FIELDS, Field
-from roughline.assessment.given import Parsed
+from roughline.assessment.given import several
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.errors import InputError
@@ -46,11 +48,6 @@ def preparation_of(told: Told) -> Preparation | None:
 
 def question_of(body: Any, told: Told, name: str | None = None, **others: Any) -> Question:
     """Return the question of a body or a file that is told, with arguments that have no control."""
-    for each in FIELDS:
-        of = next((f for f in FIELDS if f.of == each.of and not f.is_beside), each)
-        if each.is_beside and told.get(each.name) is not None and told.get(of.name) is None:
-            text = f"{called(each.name)} belongs to {called(of.name)}: give that too"
-            raise InputError(text, None, each.name, of.name)
     return Question(
         body,
         ask=asked_for(told),
@@ -63,11 +60,13 @@ def question_of(body: Any, told: Told, name: str | None = None, **others: Any) -
 
 def refuse_alone(field: Field, value: Any) -> None:
     """Refuse a value of a field that could be used with no others, as what it is of does."""
-    if field.is_asked:
-        asked_for({field.name: value})
-    elif field.of == "Question":
-        parsed = vars(Question).get(field.name)
-        if isinstance(parsed, Parsed):
-            parsed.read(value)
-    else:
+    if field.of in ("Reading", "Preparation"):
         {"Reading": Reading, "Preparation": Preparation}[field.of](**{field.name: value})
+        return
+    kind = KINDS.get(field.of, Question)
+    if not attrs.has(kind):
+        kind(*several(value))
+        return
+    read: Any = getattr(attrs.fields_dict(kind).get(field.argument), "converter", None)
+    if read is not None:
+        read(value)

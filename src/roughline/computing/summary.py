@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+import attrs
 import numpy as np
 
 _LONGEST = 40  # letters of a part that is written as it is
@@ -25,7 +26,7 @@ def _part(value: Any) -> str:
         return f"<{' × '.join(map(str, value.shape))} values>"
     if isinstance(value, float):
         return f"{value:.6g}"
-    if dataclasses.is_dataclass(value):
+    if dataclasses.is_dataclass(value) or attrs.has(type(value)):
         return f"<{type(value).__name__}>"
     text = repr(value)
     if len(text) <= _LONGEST:

@@ -14,7 +14,9 @@ from roughline.computing.arrays import Real
 from roughline.contact.arguments import STICKING, sticking_law
 from roughline.contact.curve import Curve
 from roughline.engineering.described import rows_of
+from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
+from roughline.errors.words import called
 from roughline.units import engineering, in_si
 
 _OVER = re.compile(r"\s+over\s+", re.IGNORECASE)
@@ -89,6 +91,25 @@ class Attraction:
         if self.range is not None:
             return self
         return replace(self, range=math.sqrt(_CELLS * math.pi * self.work * spacing / E_star))
+
+    def refuse_beyond(self, side: float, E_star: float) -> None:
+        """Refuse bodies that pull each other farther, or more, than a body of a side [m] stands.
+
+        The contact modulus is in Pa.
+        """
+        adhesion, of_side = called("rl.Adhesion"), f"the shorter side, {engineering(side, 'm')}"
+        if self.range is not None and self.range > side:
+            reach = engineering(self.range, "m")
+            text = f"the range of {adhesion}, {reach}, is longer than {of_side}"
+        elif self.work > E_star * side:
+            work = engineering(self.work, "J")
+            text = (
+                f"the work of {adhesion}, {work}/m², is more than the contact modulus times "
+                f"{of_side}"
+            )
+        else:
+            return
+        raise InputError(f"{text}: give a smaller one, and check its unit", None, "adhesion")
 
     def is_resolved(self, spacing: float, E_star: float) -> bool:
         """Whether the zone that pulls has cells enough on a grid for a pull-off."""

@@ -101,6 +101,19 @@ class Coated:
             self.thicknesses,
         )
 
+    def refuse_grid(self, spacing: tuple[float, float]) -> None:
+        """Refuse cells of a grid [m] that do not resolve the layers."""
+        try:
+            self.elasticity.half_space.refuse(spacing)
+        except InputError:
+            top, thickness = self.layers[0]
+            raise InputError(
+                f"have a layer of {top.name}, {engineering(thickness, 'm')}, thinner than half "
+                f"a cell of {engineering(max(spacing), 'm')}: leave it out, as what lies below is "
+                "felt alone on such a grid, or press on a finer one",
+                "materials",
+            ) from None
+
     def with_hardness(self, hardness: float) -> Coated:
         """Return the same with a hardness of the top layer that is known exactly. [Pa]"""
         (top, thickness), *others = self.layers

@@ -15,7 +15,7 @@ from roughline.contact.status import Status
 from roughline.engineering.attraction import Attraction, Separation
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
-from roughline.engineering.sealing import Closing, Sealing
+from roughline.engineering.sealing import Closing, Fluid
 from roughline.engineering.slip import PartialSlip
 
 
@@ -87,7 +87,7 @@ class Pressed:
         Whether these are of a periodic contact.
     place : str, optional
         Which surface the intervals of measures are of; empty for that of the map alone.
-    sealing : Sealing, optional
+    sealing : Fluid, optional
         What is asked of a fluid in the gap.
     load_on_body : ndarray, shape (loads,), optional
         Force on the body, of which a fluid carries what the body does not press with; known of
@@ -114,7 +114,7 @@ class Pressed:
     measured: Mapping[str, Measured] = field(default_factory=dict)
     is_repeated: bool = False
     place: str = ""
-    sealing: Sealing | None = None
+    sealing: Fluid | None = None
     load_on_body: Real | None = None
     attraction: Attraction | None = None
     sought: Sought = field(default_factory=Sought)

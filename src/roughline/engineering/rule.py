@@ -14,7 +14,7 @@ from roughline.contact.measures import Measure
 from roughline.engineering.intervals import Ends
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
-from roughline.engineering.sealing import Sealing
+from roughline.engineering.sealing import Fluid
 from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse, several, shown
 from roughline.errors.public import are_numbers, public
@@ -158,7 +158,7 @@ class Rule:
     in_per_cent: bool = False
     may_be_infinite: bool = False
     measures: Sequence[Measure] = ()
-    measured_with: Callable[[Sealing], Sequence[Measure]] = lambda _sealing: ()
+    measured_with: Callable[[Fluid], Sequence[Measure]] = lambda _sealing: ()
     measured_of: Callable[[MaterialPair], Sequence[Measure]] = lambda _pair: ()
 
     def __post_init__(self) -> None:
@@ -346,7 +346,7 @@ class Rules:
         """
         del self._by_key[self[key].key]
 
-    def measures(self, pair: MaterialPair, sealing: Sealing | None) -> list[Measure]:
+    def measures(self, pair: MaterialPair, sealing: Fluid | None) -> list[Measure]:
         """What the rules need from the fields of every load, each once.
 
         Some of it only where a fluid in the gap is asked for, or of some materials.

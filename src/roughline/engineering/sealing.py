@@ -9,22 +9,32 @@ from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 import numpy as np
+from attrs import field, frozen
 
 from roughline.computing.arrays import Mask, Real
-from roughline.engineering.fluids import Gas, Liquid
+from roughline.engineering.fluids import Gas, Liquid, fluid_of
 from roughline.engineering.leak import gas_throughput, liquid_leak
-from roughline.errors.checks import refuse
+from roughline.errors import InputError
+from roughline.errors.checks import flag, one_of, refuse
+from roughline.errors.public import public
+from roughline.errors.words import called, speaking
 from roughline.fluid.gap import Along
 from roughline.fluid.rarefied import Rarefied
 from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure
-from roughline.units import in_si
+from roughline.units import as_si, engineering, in_si
 
 ATMOSPHERE = 101325.0
 """Pressure outside, where no other is given. [Pa]"""
 
 _CARRIES = 0.05  # of the load, from which share on the fluid is taken to carry it
 _ROUNDING = 1e-9  # of a load, by which it may miss that share
+
+_MARKED = re.compile(
+    r"(?P<pressure>.*(?:Pa|bar|psi|atm))\s*\(?(?P<mark>gauge|g|absolute|abs|a)\.?\)?\s*",
+    re.IGNORECASE,
+)
+"""A pressure that says whether it is above that of the air, such as "6 barg", or "7 bar abs"."""
 
 _ACROSS = re.compile(r"\s+x\s+|\s*×\s*")
 _RING = re.compile(r"\s*\.\.+\s*")
@@ -76,16 +86,139 @@ class SealShape:
         return cls(given.strip(), around / math.log(second / first), around * first, area, True)
 
 
-@dataclass(frozen=True)
-class Sealing:
-    """A fluid in the gap, the pressures on both sides of it, and the seal that it crosses."""
+def _fluid(given: str | Liquid | Gas | None) -> Liquid | Gas | None:
+    """A fluid, from itself or from its description."""
+    if given is None:
+        return None
+    try:
+        with speaking(None):  # a description calls its values the same for everyone
+            return fluid_of(given)
+    except InputError as error:
+        raise type(error)(f"cannot be used: {error}", "fluid") from error
 
-    fluid: Liquid | Gas
-    inlet: float | None = None  # absolute [Pa]
-    outlet: float = ATMOSPHERE  # absolute [Pa]
-    seal: SealShape | None = None
-    along: Along | Literal["both"] = "both"  # over the map
-    carries: bool | None = None  # whether it carries load; None: from a twentieth of it on
+
+def _absolute(given: float | str, name: str) -> float:
+    """An absolute pressure; that of vacuum is zero. [Pa]"""
+    marked = _MARKED.fullmatch(given) if isinstance(given, str) else None
+    if marked and marked["mark"].lower().startswith("g"):
+        refuse(name, given, "an absolute pressure is needed: add that of the air, 1.013 bar")
+    pressure = as_si(marked["pressure"] if marked else given, "Pa", name)
+    if not 0 <= pressure < math.inf:
+        refuse(name, given, "an absolute pressure is needed, which is zero in vacuum")
+    return pressure
+
+
+def _inlet(given: float | str | None) -> float | None:
+    return None if given is None else _absolute(given, "inlet")
+
+
+def _outlet(given: float | str | None) -> float:
+    return ATMOSPHERE if given is None else _absolute(given, "outlet")
+
+
+def _seal(given: str | SealShape | None) -> SealShape | None:
+    return None if given is None else SealShape.of(given)
+
+
+def _direction(given: Literal["x", "y", "both"]) -> Literal["x", "y", "both"]:
+    directions: tuple[Literal["x", "y", "both"], ...] = ("both", "x", "y")
+    return one_of("along", given, directions)
+
+
+def _carries(given: bool | None) -> bool | None:
+    return None if given is None else flag("carries", given)
+
+
+@public
+@frozen
+class Fluid:
+    """A fluid in the gap, the pressures on both sides of it, and the seal that it crosses.
+
+    Asked for what flows through, for what a gas conducts, and for where the gap closes.
+
+    Parameters
+    ----------
+    fluid : str, Liquid or Gas, optional
+        Such as "water" or "helium", of the table of fluids. Where the gap closes is known of any:
+        then it may be left out.
+    inlet : float or str, optional
+        Absolute pressure where it enters the seal, such as "6 bar". [Pa]
+    outlet : float or str, optional
+        Absolute pressure where it leaves the seal, such as "1 bar", or zero for vacuum; default:
+        that outside, 1 atm. [Pa]
+    seal : str, optional
+        The face that it crosses, asked for its leak rate: length across the flow and width along
+        it, such as "100 mm x 2 mm", or the inner and the outer radius of a ring, such as
+        "20 mm .. 24 mm".
+    along : {"both", "x", "y"}, optional
+        Direction over the map in which it flows; "both" stands for the leakier one.
+    closure : bool, optional
+        Whether the mean pressure is asked for at which the last channel closes, and how far the
+        load may then be taken off.
+    carries : bool, optional
+        Whether it carries its part of the load, so that the bodies press with the rest; default:
+        where that is a twentieth of the load or more.
+
+    Raises
+    ------
+    InputError
+        If what is given does not fit together, or no fluid and no closure is asked for.
+    UnitError
+        If a text has no unit, or a wrong one.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> ring = rl.Fluid("helium", inlet="6 bar", outlet="1 bar", seal="20 mm .. 24 mm", along="x")
+    >>> print(ring.inlet, round(ring.seal.ratio, 2))
+    600000.0 34.46
+    """
+
+    fluid: Liquid | Gas | None = field(default=None, converter=_fluid)
+    inlet: float | None = field(default=None, converter=_inlet, kw_only=True)
+    outlet: float = field(default=None, converter=_outlet, kw_only=True)
+    seal: SealShape | None = field(default=None, converter=_seal, kw_only=True)
+    along: Literal["x", "y", "both"] = field(default="both", converter=_direction, kw_only=True)
+    closure: bool = field(default=False, kw_only=True)
+    carries: bool | None = field(default=None, converter=_carries, kw_only=True)
+
+    def __attrs_post_init__(self) -> None:
+        inlet, seal = called("inlet"), called("seal")
+        if self.carries is not None and self.inlet is None:
+            text = f"{called('carries')} belongs to {inlet}: give that too"
+            raise InputError(text, None, "carries", "inlet")
+        if self.fluid is None:
+            self._refuse_without_fluid()
+        if (self.inlet is None) != (self.seal is None):
+            have, need = (inlet, seal) if self.seal is None else (seal, inlet)
+            raise InputError(f"a leak needs {need} beside {have}: give it", None, "inlet", "seal")
+        if self.inlet is not None and not self.inlet > self.outlet:
+            raise InputError(
+                f"the inlet ({inlet}) is at {engineering(self.inlet, 'Pa')}, and the outlet "
+                f"({called('outlet')}) at {engineering(self.outlet, 'Pa')}, both absolute: a fluid "
+                "enters where its pressure is higher",
+                None,
+                *("inlet", "outlet"),
+            )
+
+    def _refuse_without_fluid(self) -> None:
+        """Refuse what belongs to a fluid that is named."""
+        outlet = None if self.outlet == ATMOSPHERE else self.outlet
+        for name, value in (("inlet", self.inlet), ("outlet", outlet), ("seal", self.seal)):
+            if value is not None:
+                text = f"{called(name)} belongs to a fluid ({called('fluid')}): give that too"
+                raise InputError(text, None, name, "fluid")
+        if not self.closure:
+            asked = f"{called('fluid')} and {called('closure', True)}"
+            text = f"neither a fluid is named, nor its closure asked for: give one of {asked}"
+            raise InputError(text, None, "fluid", "closure")
+
+    @property
+    def medium(self) -> Liquid | Gas:
+        """The fluid that flows; of a gap that is asked for its closure alone, it is refused."""
+        if self.fluid is None:
+            raise InputError('is not named; give one, such as "water"', "fluid")
+        return self.fluid
 
     @property
     def directions(self) -> Sequence[Along]:
@@ -180,7 +313,7 @@ class Sealing:
         """
         if self.seal is None or self.inlet is None:
             return None
-        ratio, fluid = self.seal.ratio, self.fluid
+        ratio, fluid = self.seal.ratio, self.medium
         if isinstance(fluid, Gas):
             permeance = self.rarefied.plates(aperture)
             return gas_throughput(permeance, ratio, self.inlet, self.outlet, fluid)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from roughline.engineering.formulas import harmonic_conductivity
 from roughline.engineering.pair import MaterialPair
-from roughline.engineering.sealing import Sealing, SealShape
+from roughline.engineering.sealing import Fluid, SealShape
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ def symbols_of(
     hardness: float | None,
     area: float,
     rms_height: float,
-    sealing: Sealing | None = None,
+    sealing: Fluid | None = None,
 ) -> list[_Symbol]:
     """The symbols of formulas that are no answers, with their values.
 
@@ -76,14 +76,14 @@ _GREEK = {"rho", "kappa", "sigma", "omega", "nu", "eta"}
 _LETTERS = {*"ABEFGHKMPRTUWdikmptuwz"}
 
 
-def _of_fluid(sealing: Sealing) -> list[_Symbol]:
+def _of_fluid(sealing: Fluid) -> list[_Symbol]:
     """The symbols of a fluid and of the seal that it crosses."""
     gas = sealing.gas
     found = [
         *_of_seal(sealing.seal),
         _Symbol("P1", "absolute pressure at the inlet", "Pa", sealing.inlet),
         _Symbol("P2", "absolute pressure at the outlet", "Pa", sealing.outlet),
-        _Symbol("eta", f"viscosity of {sealing.fluid.name}", "Pa s", sealing.fluid.viscosity),
+        _Symbol("eta", f"viscosity of {sealing.medium.name}", "Pa s", sealing.medium.viscosity),
         _Symbol("u", "gap", "m"),
     ]
     if gas is None:

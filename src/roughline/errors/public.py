@@ -5,11 +5,12 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeVar
 
 from roughline.errors import InputError
 from roughline.errors.checks import as_number, is_whole, refuse
+from roughline.errors.earlier import EARLIER
 
 _Door = TypeVar("_Door", bound=Callable[..., Any])
 
@@ -103,14 +104,17 @@ def public(door: _Door) -> _Door:
     in the tables above; ranges are the function's own matter. Of a class, this holds for its making
     and for its public methods.
 
-    Annotations are texts, as ``from __future__ import annotations`` leaves them.
+    Annotations are texts, as ``from __future__ import annotations`` leaves them. What a converter
+    of attrs reads, it looks at itself.
     """
     if not inspect.isclass(door):
         return _held(door, door.__name__)  # type: ignore[return-value]
+    read = {each.name for each in getattr(door, "__attrs_attrs__", ()) if each.converter}
     for name, method in list(vars(door).items()):
-        if inspect.isfunction(method) and (name == "__init__" or not name.startswith("_")):
-            called = door.__name__ if name == "__init__" else name
-            setattr(door, name, _held(method, called))
+        if name == "__init__":
+            setattr(door, name, _held(method, door.__name__, read=read))
+        elif inspect.isfunction(method) and not name.startswith("_"):
+            setattr(door, name, _held(method, name))
     return door
 
 
@@ -132,9 +136,16 @@ def public_names(door: _Door) -> _Door:
 
 
 def _held(
-    function: Callable[..., Any], called: str, *, by_names: bool = False
+    function: Callable[..., Any],
+    called: str,
+    *,
+    by_names: bool = False,
+    read: Collection[str] = (),
 ) -> Callable[..., Any]:
-    """Return a function that looks at its arguments first, or at their names alone."""
+    """Return a function that looks at its arguments first, or at their names alone.
+
+    Of arguments that are `read` by others, it looks at the names alone.
+    """
 
     @functools.wraps(function)
     def held(*positional: Any, **named: Any) -> Any:
@@ -144,7 +155,8 @@ def _held(
         except TypeError:
             raise _misfit(called, signature, positional, named) from None
         for name, value in () if by_names else given.items():
-            _refuse_other_kinds(name, value, signature.parameters[name])
+            if name not in read:
+                _refuse_other_kinds(name, value, signature.parameters[name])
         return function(*positional, **named)
 
     return held
@@ -221,6 +233,8 @@ def _misfit(
     takes = f"it takes {', '.join(f'{name}=' for name in names) or 'no arguments'}"
     for name in named:
         if name not in names:
+            if new := EARLIER.get(f"{called}({name}=)"):
+                return InputError(f"{called} has no argument {name}= any more; write {new}")
             return InputError(f"{called} has no argument {name}=; {_meant(name, names) or takes}")
     first = len(signature.parameters) - len(names)  # "self"
     places = [each.name for each in parameters if each.kind != each.KEYWORD_ONLY]

@@ -81,8 +81,9 @@ def _of_flow(assessment: Assessment, load: int) -> str:
             for each in assessment.flows
         }
         told = [f"{engineering(u, 'm', _DIGITS)} along {along}" for along, u in of_map.items()]
+        gas = sealing.medium.name
         text += (
-            f" They are those of {sealing.fluid.name} at its mean pressure: u_s is the gap of flat "
+            f" They are those of {gas} at its mean pressure: u_s is the gap of flat "
             "plates between which as much of a liquid would flow; between which as much of the gas "
             f"flows along the seal, it is {' and '.join(told)}."
         )

@@ -110,7 +110,7 @@ def _print_answers(
     _print_headline(console, result)
     headings = starred(result)
     loads = list(range(len(headings)))
-    if unfolded_by and not result.question.headings:
+    if unfolded_by and not result.question.loading.headings:
         loads = sorted({0, result.largest})
     keys = list(result.answers)
     if unfolded_by:
@@ -139,7 +139,7 @@ def _folded_table(
     """What stands for each group, and how many more answers the group has."""
     shown = {key: group for group in groups(result) for key in group.shown}
     header, rows = answer_table(result, loads, list(shown))
-    if not result.question.headings:  # loads that nobody named are called by their numbers
+    if not result.question.loading.headings:  # loads that nobody named are called by their numbers
         force = result.answers["normal_force"]
         header[1:] = [
             heading.replace(str(i + 1), quantity(force, i), 1)

@@ -19,7 +19,7 @@ from roughline.engineering.leak import (
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
-from roughline.engineering.sealing import Closing, Sealing
+from roughline.engineering.sealing import Closing, Fluid
 from roughline.errors.remark import Remark
 from roughline.errors.words import called
 from roughline.fluid.flow import why_too_steep
@@ -56,7 +56,7 @@ _OF_STIFF_FACES = (
 )
 _rule = partial(Rule, group="sealing", validity=_OF_THE_MAP, source="Reynolds 1886")
 
-_Needed = Callable[[Sealing], Sequence[Measure]]
+_Needed = Callable[[Fluid], Sequence[Measure]]
 """What is taken from the fields of every load, from what is asked."""
 
 
@@ -73,7 +73,7 @@ _SHARES = _along_each(largest_share)
 _SLOPES = _along_each(slope_of_flow)
 
 
-def _inverse_gap(asked: Sealing) -> Sequence[Measure]:
+def _inverse_gap(asked: Fluid) -> Sequence[Measure]:
     """What a gas of known conductivity finds; in vacuum there is none."""
     if asked.gas is None or not asked.conductivity:
         return []
@@ -123,9 +123,10 @@ def _leak(pressed: Pressed) -> Real | None:
     if found is None:
         return None
     found = np.where(_lift(pressed) >= 1, np.nan, found)
-    if isinstance(asked.fluid, Gas) or len(found) == 1:
+    medium = asked.medium
+    if isinstance(medium, Gas) or len(found) == 1:
         return found
-    factor = asked.fluid.viscosity_factor
+    factor = medium.viscosity_factor
     return np.stack([found[0], found[1] / factor, found[2] * factor])
 
 
@@ -144,10 +145,10 @@ def _carried(pressed: Pressed) -> Real:
     return np.where(pressed.lifted, 1.0, np.nan_to_num(share))
 
 
-def _above_outside(asked: Sealing) -> str:
+def _above_outside(asked: Fluid) -> str:
     """The fluid, and how far its pressure is above the outside."""
     excess = engineering(asked.excess, "Pa")
-    return f"{asked.fluid.name} at {excess} above the outside, in the mean of the gap,"
+    return f"{asked.medium.name} at {excess} above the outside, in the mean of the gap,"
 
 
 def _lifts(pressed: Pressed) -> str:
@@ -157,7 +158,7 @@ def _lifts(pressed: Pressed) -> str:
         return ""
     return (
         f"{_above_outside(asked)} would lift bodies apart that press with no more than that: give "
-        f"a larger load, or smaller pressures ({called('rl.Inlet')})"
+        f"a larger load, or smaller pressures ({called('inlet')})"
     )
 
 
@@ -273,20 +274,21 @@ def _reynolds(pressed: Pressed) -> Real | float:
     if asked is None or asked.seal is None or leak is None:
         return 0.0
     mass = _DENSITY * leak[0] if asked.gas is None else mass_of_throughput(leak[0], asked.gas)
-    return np.abs(reynolds_number(mass, asked.seal.width, asked.fluid.viscosity))
+    return np.abs(reynolds_number(mass, asked.seal.width, asked.medium.viscosity))
 
 
 def _through_seal(pressed: Pressed) -> Mapping[str, str]:
     asked = pressed.sealing
     if asked is None or asked.seal is None or asked.inlet is None:
         return {}
-    factor = 1.0 if isinstance(asked.fluid, Gas) else asked.fluid.viscosity_factor
+    medium = asked.medium
+    factor = 1.0 if isinstance(medium, Gas) else medium.viscosity_factor
     known = "" if factor == 1 else f", viscosity known to a factor of {factor:g}"
     place = _placed(pressed).get("validity", _OF_THE_MAP)
     if asked.gas is not None:
         place += "; kinetic theory at the local pressure and gap (Cercignani 1963)"
     return {
-        "validity": f"{asked.fluid.name}{known}, {engineering(asked.inlet, 'Pa')} to "
+        "validity": f"{medium.name}{known}, {engineering(asked.inlet, 'Pa')} to "
         f"{engineering(asked.outlet, 'Pa')} absolute, seal {asked.seal.words}; {place}"
     }
 
@@ -356,7 +358,7 @@ def _beyond_reynolds(pressed: Pressed) -> str:
         rare = asked.free_path / float(np.nanmin(aperture[0][is_open]))
         if rare > _RARE:
             found.append(
-                f"the mean free path of {asked.fluid.name} is {decimal(rare, 2)} of the hydraulic "
+                f"the mean free path of {asked.medium.name} is {decimal(rare, 2)} of the hydraulic "
                 f"aperture: beyond {_RARE:g}, leaks are those of kinetic theory (the BGK "
                 "model) and of walls that reflect molecules diffusely: others let more through"
             )

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.assessment.question import UNLOADING
+from roughline.assessment.loading import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.assessment.question import UNLOADING
+from roughline.assessment.loading import UNLOADING
 from roughline.assessment.uncertainty import intervals_of
 from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import Quantity

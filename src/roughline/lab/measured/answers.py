@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assess_part import assess_part
@@ -137,7 +138,7 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
         if len(sources) == 1:
             return solve(questions[0])
         # what cannot be asked of a part is refused here
-        replace(questions[0], body=list(keys), reading=replace(questions[0].reading, name=None))
+        evolve(questions[0], body=list(keys), reading=replace(questions[0].reading, name=None))
         names = [each.name for each in sources]
         return assess_part(questions, names=names, map_progress=steps.of_map, answer=solve)
 

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 
 from roughline.assessment.asked import Theories
+from roughline.assessment.loading import DEFAULT_LOADS
 from roughline.assessment.loads import Hardness, hardness_of
 from roughline.assessment.notes import meaning_of_loads, of_unknown_hardness
-from roughline.assessment.question import DEFAULT_LOADS, Question
+from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
@@ -42,7 +43,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         with at("joint_area" if "joint_area" in said else ""):
             if body is not None:
                 asked = [each for each in question.ask if not isinstance(each, Theories)]
-                question = replace(question, body=body, reading=Reading(), ask=asked)
+                question = evolve(question, body=body, reading=Reading(), ask=asked)
         return question, said
 
     (question, said), refused = used_in(arguments, read)
@@ -86,7 +87,7 @@ def _line_of_bodies(question: Question, said: Said) -> str:
     pressed = f"E* = {up_to_three_digits(question.modulus, None, 'Pa')}"
     if pair is not None:
         pressed = f"{pair.first.name} {'against' if pair.coated else 'on'} {pair.second.name}"
-    loads = ", ".join(question.headings) or f"{DEFAULT_LOADS} loads"
+    loads = ", ".join(question.loading.headings) or f"{DEFAULT_LOADS} loads"
     return ", ".join([pressed, loads, *_others(said, "bodies", "loads")])
 
 

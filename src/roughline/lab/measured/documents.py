@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import shlex
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.fields import FIELDS, asked_fields, beside
+from roughline.assessment.fields import FIELDS, asked_in
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.reading import Reading
 from roughline.assessment.told import told_of
@@ -40,7 +40,6 @@ _WRITTEN = (
     *("report.html", "report.pdf", "curve.nc", "curve.pdf", "contact.pdf"),
     *("answers.pdf", "maps.pdf", "all-maps.zip"),
 )
-_MAY_BE_LEFT = {each.name for each in FIELDS if each.can_be_left}  # whose False says something
 
 
 @speaking(CONTROLS)
@@ -130,19 +129,20 @@ def as_command(said: Said, names: Sequence[str]) -> str:
     return shlex.join(words)
 
 
+def _in_python(of: str, by_place: Sequence[Any], by_name: Mapping[str, Any]) -> str:
+    """What is asked, as Python: rl.Friction(0.3)."""
+    given = [*map(repr, by_place), *(f"{name}={value!r}" for name, value in by_name.items())]
+    return f"rl.{of}({', '.join(given)})"
+
+
 def as_python(said: Said, names: Sequence[str]) -> str:
     """Lines that answer the same question."""
     is_part = len(names) > 1
     told = _told(said) | {"whole_curve": bool(loads_of(said))}
-    written = {
-        name: value
-        for name, value in told.items()
-        if value is not None and value != [] and (value is not False or name in _MAY_BE_LEFT)
-    }
+    written = {each.name: told[each.name] for each in FIELDS if each.says(told.get(each.name))}
     question = [f"[{', '.join(map(repr, names))}]" if is_part else repr(names[0])]
     question += [f"{name}={value!r}" for name, value in told_of("Question", written).items()]
-    fields = asked_fields(written)
-    if asked := [each.in_python(written[each.name], **beside(each, written)) for each in fields]:
+    if asked := [_in_python(*each) for each in asked_in(written)]:
         question.append(f"ask=[{', '.join(asked)}]")
     for kind in (Reading, Preparation):
         usual = vars(kind())

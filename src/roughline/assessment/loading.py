@@ -1,0 +1,151 @@
+"""How bodies are loaded: by forces, depths or a number of loads, and in which order."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from attrs import frozen
+
+from roughline.assessment.kinds import nominal_area
+from roughline.contact.elastic_pair import ElasticPair
+from roughline.errors import InputError
+from roughline.errors.checks import number, refuse, whole
+from roughline.errors.words import called
+from roughline.topography.body import Body, sides_of
+from roughline.units import as_si, decimal, engineering, load_in_newtons
+
+DEFAULT_LOADS = 20
+
+UNLOADING = (0.75, 0.5, 0.25, 0.1, 0.0)
+"""Loads over the largest one, on the way back to none."""
+
+_LIGHTEST = 1e-3  # of the largest load, where a whole curve begins
+_CURVE_LOADS = 16  # of a whole curve
+
+
+@frozen
+class Loading:
+    """Loads or depths as they were typed, or how many; and in which order they are applied."""
+
+    loads: tuple[float | str, ...] = ()
+    depths: tuple[float | str, ...] = ()
+    given_n_loads: int | None = None
+    history: bool = False
+    unload: bool = False
+    whole_curve: bool = False
+    joint: float | None = None  # nominal area of what forces act on; None: on the body [m²]
+
+    def __attrs_post_init__(self) -> None:
+        loads, depths = called("loads"), called("depths")
+        given = (self.given_n_loads, self.loads or None, self.depths or None)
+        if sum(each is not None for each in given) > 1:
+            raise InputError(f"give one of {loads}, {depths} and {called('n_loads')}")
+        if self.joint is not None and self.depths:
+            raise InputError(
+                f"a joint ({called('rl.Joint')}) is pressed by loads ({loads}): its depth counts "
+                "from the touch of its highest point, which a map does not show"
+            )
+        if self.given_n_loads is not None:
+            whole("n_loads", self.given_n_loads, 2, "a whole number of at least 2 is needed")
+        if self.unload and (not self.loads or self.history):
+            raise InputError(
+                f"{called('unload', True)} takes off the largest of the loads ({loads}); in a "
+                "history, and for depths, write the falling values yourself"
+            )
+        if self.history and not (self.loads or self.depths):
+            text = f"needs {loads} or {depths} in the order of the history"
+            raise InputError(f"{called('history', True)} {text}")
+        self.forces(1.0)  # reads and checks them; a pressure waits for its area
+        self.heights()
+
+    @property
+    def n_loads(self) -> int | None:
+        """How many loads there are from first touch to saturation; None where they are given."""
+        return self.given_n_loads or (None if self.loads or self.depths else DEFAULT_LOADS)
+
+    @property
+    def headings(self) -> list[str]:
+        """What each load or depth is called, in its order: as it was typed, or with its unit."""
+        named = [(each, "N") for each in self.loads]
+        named += [(each, "m") for each in self.depths]
+        headings = [
+            each if isinstance(each, str) else engineering(each, unit) for each, unit in named
+        ]
+        falling = UNLOADING if self.unload else ()
+        return headings + [f"unloaded to {each:.0%}" if each else "unloaded" for each in falling]
+
+    def scale(self, area: float) -> float:
+        """How many times larger the joint is than a body of a nominal area [m²]; 1 without one."""
+        return 1.0 if self.joint is None else self.joint / area
+
+    def forces(self, area: float) -> list[float]:
+        """Total forces on a body of a nominal area, in the order of the loads. [N]
+
+        Of a joint the body carries as much as its share of the area.
+        """
+        scale = self.scale(area)
+        forces = [
+            load_in_newtons(load, area * scale)
+            if isinstance(load, str)
+            else number("loads", load, 'a force in N, or a text such as "2 MPa", is needed')
+            for load in self.loads
+        ]
+        for i, (load, force) in enumerate(zip(self.loads, forces, strict=True)):
+            if not (0 < force < math.inf or (force == 0 and self.history and i)):
+                to_unload = ", and zero only to unload after others" if self.history else ""
+                refuse("loads", load, f"give positive ones{to_unload}")
+        if self.unload:
+            forces += [share * max(forces) for share in UNLOADING]
+        return [force / scale for force in forces]
+
+    def heights(self) -> list[float]:
+        """Depths, in their order. [m]"""
+        return [as_si(depth, "m", "depths") for depth in self.depths]
+
+    def path(self, values: Sequence[float]) -> tuple[list[float], tuple[int, ...]]:
+        """Forces or depths in the order in which they are applied, and where those asked stand.
+
+        Forces may be less than those that were asked for, by what a fluid carries.
+        """
+        asked = list(values)
+        if not asked:
+            return [], ()
+        has_curve = self.whole_curve and bool(self.loads)
+        if self.history:
+            before = _with_curve(asked[:1])[:-1] if has_curve else []
+            return before + asked, tuple(range(len(before), len(before) + len(asked)))
+        typed = asked[: -len(UNLOADING)] if self.unload else asked
+        rising = _with_curve(typed) if has_curve else sorted({*typed})
+        falling = asked[len(typed) :]
+        places = [rising.index(load) for load in typed]
+        return rising + falling, (*places, *range(len(rising), len(rising) + len(falling)))
+
+    def strains(
+        self, body: Body, elasticity: ElasticPair, *, is_repeated: bool
+    ) -> list[tuple[float, str]]:
+        """Return how far each load strains a body: as a ratio, and in words."""
+        area, side = nominal_area(body), min(sides_of(body))
+        if depths := self.heights():
+            what = "depth {} is {} times the shorter side of the body"
+            ratios = [depth / side for depth in depths]
+        else:
+            what = "the mean pressure of load {} is {} times the contact modulus"
+            if elasticity.is_layered:
+                what = "the mean pressure of load {} strains the layers or their base by about {}"
+            side = math.inf if is_repeated else side
+            ratios = [elasticity.strain(force / area, side) for force in self.forces(area)]
+        return [
+            (ratio, what.format(heading, decimal(ratio, 2)))
+            for heading, ratio in zip(self.headings, ratios, strict=False)
+        ]
+
+
+def _with_curve(asked: list[float]) -> list[float]:
+    """Loads for a whole curve up to the largest, those asked for among them, rising."""
+    if max(asked) <= 0:  # a fluid lifts the body under all of them
+        return sorted({*asked})
+    curve = np.geomspace(_LIGHTEST * max(asked), max(asked), _CURVE_LOADS)
+    apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
+    return sorted({*asked, *apart})

@@ -1,0 +1,19 @@
+"""Spellings of version 0.3 that are gone, each with the one that says the same now."""
+
+from __future__ import annotations
+
+EARLIER = {
+    "rl.Inlet": 'rl.Fluid("water", inlet="6 bar", seal="100 mm x 2 mm")',
+    "rl.Outlet": 'rl.Fluid("water", inlet="6 bar", outlet="2 bar", seal="100 mm x 2 mm")',
+    "rl.Seal": 'rl.Fluid("water", inlet="6 bar", seal="20 mm .. 24 mm")',
+    "rl.FlowAlong": 'rl.Fluid("water", along="x")',
+    "rl.Closure": "rl.Fluid(closure=True)",
+    "rl.History": "rl.Question(..., history=True)",
+    "rl.Unloading": "rl.Question(..., unload=True)",
+    "rl.WholeCurve": "rl.Question(..., whole_curve=True)",
+    "Question(friction=)": "ask=rl.Friction(0.3)",
+    "Question(frequency=)": 'ask=rl.Ultrasound("5 MHz")',
+    "Question(joint_area=)": 'ask=rl.Joint("2 cm^2")',
+    "Question(theories=)": 'ask=rl.Theories("persson")',
+}
+"""Names of the package, and keywords of what it offers, with what is to be written."""
