@@ -522,7 +522,7 @@ FURTHER = (
         ),
         (
             (*("--modulus", "1 GPa", "--load", "1 N", "--periodic-along", "x"), *FURTHER),
-            "for its curve, leave --friction and --frequency and --joint-area and "
+            "for its curve, leave --joint-area and --friction and --frequency and "
             "--sealing-pressure out",
         ),
         (

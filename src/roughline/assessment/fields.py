@@ -378,6 +378,7 @@ FIELDS: tuple[Field, ...] = (
         flag="--sealing-pressure",
         control="sealing_pressure",
         label="sealing",
+        word='sealing "where it seals"',
         help="Find the mean pressure at which the last channel closes, and down to which load the "
         "leak stays below ten times that under the largest; it takes as long as some 45 loads.",
         choices={"no": (False, "as loaded"), "yes": (True, "where it seals")},

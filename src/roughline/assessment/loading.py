@@ -31,24 +31,24 @@ class Loading:
 
     loads: tuple[float | str, ...] = ()
     depths: tuple[float | str, ...] = ()
-    given_n_loads: int | None = None
+    count: int | None = None  # of loads from first touch to saturation
     history: bool = False
     unload: bool = False
     whole_curve: bool = False
-    joint: float | None = None  # nominal area of what forces act on; None: on the body [m²]
+    joint: float | None = None  # nominal area that forces act on; None for the body's own [m²]
 
     def __attrs_post_init__(self) -> None:
         loads, depths = called("loads"), called("depths")
-        given = (self.given_n_loads, self.loads or None, self.depths or None)
-        if sum(each is not None for each in given) > 1:
-            raise InputError(f"give one of {loads}, {depths} and {called('n_loads')}")
         if self.joint is not None and self.depths:
             raise InputError(
                 f"a joint ({called('rl.Joint')}) is pressed by loads ({loads}): its depth counts "
                 "from the touch of its highest point, which a map does not show"
             )
-        if self.given_n_loads is not None:
-            whole("n_loads", self.given_n_loads, 2, "a whole number of at least 2 is needed")
+        given = (self.count, self.loads or None, self.depths or None)
+        if sum(each is not None for each in given) > 1:
+            raise InputError(f"give one of {loads}, {depths} and {called('n_loads')}")
+        if self.count is not None:
+            whole("n_loads", self.count, 2, "a whole number of at least 2 is needed")
         if self.unload and (not self.loads or self.history):
             raise InputError(
                 f"{called('unload', True)} takes off the largest of the loads ({loads}); in a "
@@ -63,7 +63,7 @@ class Loading:
     @property
     def n_loads(self) -> int | None:
         """How many loads there are from first touch to saturation; None where they are given."""
-        return self.given_n_loads or (None if self.loads or self.depths else DEFAULT_LOADS)
+        return self.count or (None if self.loads or self.depths else DEFAULT_LOADS)
 
     @property
     def headings(self) -> list[str]:
