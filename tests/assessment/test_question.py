@@ -63,19 +63,22 @@ def test_what_cannot_be_is_refused_where_it_is_asked(ask, message):
 @pytest.mark.parametrize("spelling", EARLIER)
 def test_every_earlier_spelling_gets_one_line_with_the_new_one(spelling):
     """And the new one is one that is taken."""
+    question = rl.Question("a.nc", "steel,copper", loads="1 N", ask=rl.Fluid("water"))
+    earlier = spelling
     if spelling.startswith("rl."):
         earlier = f'{spelling}("6 bar")'
-    else:
+    elif spelling.startswith("Question("):
         name = spelling.removeprefix("Question(").removesuffix("=)")
         earlier = f'rl.Question("a.nc", "steel,copper", {name}=0.3)'
     with pytest.raises(rl.InputError) as refused:
-        eval(earlier)
+        eval(earlier, {"rl": rl, "question": question})
     new = EARLIER[spelling]
     assert str(refused.value).endswith(f" any more; write {new}")
     assert "\n" not in str(refused.value)
     if new.startswith("ask="):
         new = f"rl.Question(..., {new})"
-    assert eval(new.replace("...", '"a.nc", "steel,copper", loads="1 N"'))
+    new = new.replace("...", '"a.nc", "steel,copper", loads="1 N"')
+    assert eval(new, {"rl": rl, "question": question}) is not None
 
 
 def test_an_earlier_name_is_imported_no_more_and_listed_nowhere():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from attrs import evolve, field, frozen
 
@@ -41,6 +41,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Fluid
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
+from roughline.errors.earlier import EARLIER
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import Periodic
@@ -212,6 +213,13 @@ class Question:
         for body in (*self.bodies, self.against):
             if isinstance(body, Surface | Line):
                 self.refuse_misfit(body)
+
+    if not TYPE_CHECKING:  # checkers know what there is
+
+        def __getattr__(self, name):
+            if new := EARLIER.get(f"question.{name}"):
+                raise InputError(f"there is no question.{name} any more; write {new}")
+            raise AttributeError(f"'Question' object has no attribute {name!r}")
 
     def _asked(self, kind: type[_Kind], of: Callable[[_Kind], _Value]) -> _Value | None:
         """A value of what is asked of a kind, if it is."""

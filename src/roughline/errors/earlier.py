@@ -11,9 +11,15 @@ EARLIER = {
     "rl.History": "rl.Question(..., history=True)",
     "rl.Unloading": "rl.Question(..., unload=True)",
     "rl.WholeCurve": "rl.Question(..., whole_curve=True)",
+    "question.headings": "question.loading.headings",
+    "question.forces": "question.loading.forces",
+    "question.heights": "question.loading.heights",
+    "question.scale": "question.loading.scale",
+    "question.flow_along": "question.fluid.along",
+    "question.finds_closing": "question.fluid.closure",
     "Question(friction=)": "ask=rl.Friction(0.3)",
     "Question(frequency=)": 'ask=rl.Ultrasound("5 MHz")',
     "Question(joint_area=)": 'ask=rl.Joint("2 cm^2")',
     "Question(theories=)": 'ask=rl.Theories("persson")',
 }
-"""Names of the package, and keywords of what it offers, with what is to be written."""
+"""Names of the package, and parts and keywords of what it offers, with what is to be written."""
