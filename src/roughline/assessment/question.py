@@ -53,7 +53,7 @@ _Kind = TypeVar("_Kind")
 _Value = TypeVar("_Value")
 
 
-def _periodic(given: Periodic) -> Periodic:
+def _periodic(given: bool | Literal["x", "y"]) -> Periodic:
     """Along which axes a body is repeated, as those that are pressed are."""
     return given_half_space(None, 1.0, given).periodic
 
