@@ -17,7 +17,9 @@ from roughline.fluid.measures import LIQUID, aperture_of, names_at_border
 
 SEEN = Beyond(6.0)
 APERTURE = "hydraulic_aperture_x"
-WATER = [rl.Fluid("water"), rl.Inlet("6 bar")]
+SEALED = {"inlet": "6 bar", "seal": "1 mm x 1 mm"}
+WATER = rl.Fluid("water", **SEALED)
+ALONG_X = rl.Fluid("water", along="x", **SEALED)
 
 
 def measure_of(whole, tiles, at_border):
@@ -66,8 +68,7 @@ def test_a_border_that_was_not_solved_leaves_all_open():
     assert (found.low, found.high) == (0, np.inf)
 
 
-def asked(body, seal="1 mm x 1 mm", load="50 MPa", ask=WATER, **more):
-    ask = [*ask, rl.Seal(seal)]
+def asked(body, load="50 MPa", ask=WATER, **more):
     given = {"loads": load, "elastic": True, "grid_error": True, **more}
     return rl.assess(rl.Question(body, "steel,steel", ask=ask, **given))
 
@@ -127,7 +128,7 @@ def test_only_a_map_that_was_cut_out_has_such_a_border(parent, piece, monkeypatc
     assert not solved
     rl.assess(rl.Question(piece, "steel,steel", loads="50 MPa", elastic=True, grid_error=True))
     assert not solved
-    asked(piece, ask=[*WATER, rl.FlowAlong("x")], elastic=False, hardness="5 GPa")
+    asked(piece, ask=ALONG_X, elastic=False, hardness="5 GPa")
     assert solved == [(piece.shape, "x")]
 
 
@@ -171,7 +172,7 @@ def test_both_are_told_where_they_outweigh_the_rest(assessment):
 
 def test_of_many_maps_the_mean_of_their_borders_is_left_open(parent):
     pieces = [parent.cropped((x, x + 32), (0, 32)) for x in (0, 64)]
-    maps = [asked(each, ask=[*WATER, rl.FlowAlong("x")]) for each in pieces]
+    maps = [asked(each, ask=ALONG_X) for each in pieces]
     without = []
     for each in maps:
         measures = {
