@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 import roughline as rl
 from lab.unpacked import unpacked
-from roughline.assessment.question import UNLOADING
+from roughline.assessment.loading import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, physics, pictures
 from roughline.lab.explore.panels import BACK

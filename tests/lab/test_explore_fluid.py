@@ -20,7 +20,7 @@ from lab.test_explore import (
     saved_is_shown,
 )
 from lab.unpacked import unpacked
-from roughline.assessment.question import UNLOADING
+from roughline.assessment.loading import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.reading import state_of

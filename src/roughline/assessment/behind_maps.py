@@ -33,7 +33,6 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.larger_measure import UNTOLD
 from roughline.assessment.larger_surface import Differences, LargerSurface, roll_offs_of
 from roughline.assessment.tiles import FEWEST, MOST_DOUBLINGS, Beyond, Tiles, logit
-from roughline.assessment.uncertainty import combined
 from roughline.computing.arrays import Real
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
@@ -118,7 +117,8 @@ def _of_measures(larger: Sequence[LargerSurface], beyond: Beyond) -> Mapping[str
             measures = [each.measures[name] for each in larger]
             mean = Tiles.mean([each.tiles for each in measures]).beyond(beyond, mean=True)
             border = np.mean([each.border for each in measures], axis=0)
-            found[name] = combined(mean, (border[0], border[1])) if beyond.is_told else UNTOLD
+            both = np.minimum(mean[0], border[0]), np.maximum(mean[1], border[1])
+            found[name] = both if beyond.is_told else UNTOLD
     return found
 
 

@@ -1,4 +1,4 @@
-"""What the border of a map does to what flows, where that outweighs the rest of an interval."""
+"""What the border of a map does to what flows, where no more than that holds an interval open."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from roughline.fluid.gap import Along
 from roughline.units import engineering
 
 _COUNTS = 1.2  # largest over least aperture of what is said
+_ALMOST = 1 - 1e-9  # of an end of an interval, to rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +25,7 @@ class _Border:
     of_map: Real  # as it repeats [m]
     given: Real  # with the flow given there [m]
     held: Real  # with the pressure held even [m]
-    over: Real  # by how much their logarithms outweigh the rest of an interval, if above zero
+    over: Real  # by how much their logarithms differ where they are an end of the interval, else 0
     has_interval: bool
 
     def words(self, load: int) -> str:
@@ -41,8 +42,8 @@ class _Border:
 def what_borders_do(result: Assessment) -> list[str]:
     """Say what flows with the pressure held along the border of a map, and with the flow given.
 
-    That is said of each direction in which it outweighs the rest of the interval, under the load
-    where it does most.
+    That is said of each direction in which one of them is an end of the interval, or there is none,
+    under the load where they differ most.
     """
     found = [each for each in _borders(result) if (each.over > 0).any()]
     if not found:
@@ -50,7 +51,7 @@ def what_borders_do(result: Assessment) -> list[str]:
     load = int(np.argmax(np.maximum.reduce([each.over for each in found])))
     told = [each for each in found if each.over[load] > 0]
     rest = (
-        "leaves more open than the rest of the interval"
+        "leaves open more than all else does"
         if all(each.has_interval for each in told)
         else "moves what flows, and no interval holds that"
     )
@@ -72,10 +73,10 @@ def _borders(result: Assessment) -> Iterator[_Border]:
             continue
         given, held = values
         apertures = np.stack([answer.values, given, held])
-        low, high = answer.ends or (np.ones_like(given), np.ones_like(given))
+        least, most = apertures.min(axis=0), apertures.max(axis=0)
+        low, high = answer.ends or (least, most)
         with np.errstate(divide="ignore", invalid="ignore"):
-            of_border = np.log(apertures.max(axis=0) / apertures.min(axis=0))
-            # independent ones combine in squares: the larger of two is over the sum over root two
-            over = np.nan_to_num(math.sqrt(2) * of_border - np.log(high / low), nan=0.0)
-        over = np.where(of_border > math.log(_COUNTS), over, 0.0)
+            of_border = np.nan_to_num(np.log(most / least), nan=0.0)
+        is_end = (low >= least * _ALMOST) | (high <= most / _ALMOST)
+        over = np.where(is_end & (of_border > math.log(_COUNTS)), of_border, 0.0)
         yield _Border(along, answer.values, given, held, over, answer.ends is not None)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.assessment.tiles import Beyond, TiledCurves, Tiles
-from roughline.assessment.uncertainty import combined, widened
+from roughline.assessment.uncertainty import widened
 from roughline.computing.arrays import Real
 from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Ends
@@ -51,15 +51,27 @@ class LargerMeasure:
         """The measure with the flow given along the border, and with the pressure held."""
         if self.at_border is None:
             return None
-        values, floor = self.of_map.values, self.floor
-        given, held = (np.maximum((values + floor) * np.exp(d) - floor, 0) for d in self.at_border)
+        given, held = (self._moved(each) for each in self.at_border)
         return given, held
 
+    def _moved(self, difference: Real) -> Real:
+        """The measure whose logarithm, with the floor, differs from that of the map."""
+        with np.errstate(invalid="ignore"):  # without a floor, nothing times what is not known
+            moved = (self.of_map.values + self.floor) * np.exp(difference) - self.floor
+        return np.where(self.floor > 0, np.maximum(moved, 0.0), self.of_map.values)
+
     def of_larger(self, beyond: Beyond | None) -> Measured:
-        """The same with an interval that holds a larger surface; none if the map tells of none."""
+        """The same with an interval that holds a larger surface; none if the map tells of none.
+
+        What the border leaves open lies within it. Tiles have borders, too, so that both are not
+        independent.
+        """
         if beyond is None or not beyond.is_told:
             return replace(self.of_map, low=None, high=None)
-        return self.widened(combined(self.tiles.beyond(beyond), self.border), with_grid=True)
+        found = self.widened(self.tiles.beyond(beyond), with_grid=True)
+        least, most = (self._moved(end) for end in self.border)
+        _, low, high = found.rows
+        return replace(found, low=np.minimum(low, least), high=np.maximum(high, most))
 
     def widened(self, further: Ends, *, with_grid: bool) -> Measured:
         """The same with ends of the difference of its logarithm.
