@@ -96,6 +96,8 @@ def test_an_arrow_leads_from_inlet_to_outlet(gap, along):
     (text,) = (each for each in axes.texts if each.get_text())
     assert text.get_text() == r"inlet  $\Longrightarrow$  outlet"
     assert text.get_rotation() == (0 if along == "x" else 270)
+    repeated = rl.plot.flow(rl.flow(gap, along=along)).texts
+    assert r"flow  $\Longrightarrow$" in [each.get_text() for each in repeated]
 
 
 def test_a_sealed_gap_shows_how_far_the_fluid_comes():
