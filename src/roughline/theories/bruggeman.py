@@ -55,8 +55,8 @@ def bruggeman(
         hydraulic_aperture=aperture,
         validity="Gaussian random surfaces, isotropic, gaps of neighbouring places unrelated; the "
         f"medium seals at {100 * threshold:.4g} % contact; aperture 15 % too large at 2 % "
-        "contact, 20 % at 6 %, 30 to 40 % at 13 % and about twice at 28 %, in the mean over "
-        "surfaces; area and mean gap are those of Persson's theory",
+        "contact, 20 to 25 % at 6 %, 30 to 45 % at 13 % and 1.8 to 2.8 times as large at 28 %, in "
+        "the mean over surfaces; area and mean gap are those of Persson's theory",
     )
 
 
