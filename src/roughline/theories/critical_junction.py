@@ -41,7 +41,7 @@ def critical_junction(
         stiffness=None,
         hydraulic_aperture=aperture,
         validity=f"Gaussian random surfaces, isotropic, that seal at {100 * threshold:.4g} % "
-        "contact; aperture 20 % too large at 2 % contact, a third at 6 %, half at 13 % and 2 to 2.7 "
-        "times as large at 28 %, in the mean over surfaces; area and mean gap are those of "
+        "contact; aperture 20 % too large at 2 % contact, a third at 6 %, half at 13 % and 2 to "
+        "2.7 times as large at 28 %, in the mean over surfaces; area and mean gap are those of "
         "Persson's theory",
     )
