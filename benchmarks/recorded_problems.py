@@ -74,6 +74,11 @@ _HISTORY = [0.1, 0.3, 1.0, 0.4, 0.1, 0.7, 1.3]
 _NEARLY = [2.3, 2.5, 2.558]
 _STEEL = {"E_star": 1.1e11}
 
+_NEARER_AND_APART = [-0.5, 0.0, 0.5, 1.0, 0.6, 0.1, -0.4, -1.0, -2.0, 0.3]
+_PUSHES_AND_PULLS = [0.3, 1.0, 0.1, 0.0, -0.01, 0.5, -10.0, 0.2]
+_DUGDALE = {"law": rl.Dugdale(work_of_adhesion=0.1, range=0.3), "throw": False}
+_EXPONENTIAL = {"law": rl.Exponential(work_of_adhesion=0.1, range=0.2), "throw": False}
+
 PERIODIC = {"forces": LOADS, "periodic": True}
 
 PRESSED = {
@@ -135,6 +140,22 @@ PRESSED = {
         {"forces": _HISTORY, "hardness": 4.0, "periodic": True},
     ),
     "yielding everywhere": (of(rough, 32, 127), {"forces": [0.1, 0.5], "hardness": 0.6}),
+    "sticking": (of(rough, 32, 131), {"depths": _NEARER_AND_APART, **_DUGDALE, "fields": True}),
+    "sticking by force": (of(rough, 32, 132), {"forces": _PUSHES_AND_PULLS, **_DUGDALE}),
+    "sticking periodic": (
+        of(rough, 96, 133, cut=12),
+        {"depths": _NEARER_AND_APART, **_DUGDALE, "periodic": True, "fields": [4]},
+    ),
+    "sticking strip": (
+        of(strip, (48, 16), (1.0, 0.5), 134),
+        {"depths": _NEARER_AND_APART, **_DUGDALE, "periodic": "y"},
+    ),
+    "sticking cycle": (of(rough, 32, 135, cut=6), {"n_loads": 16, **_EXPONENTIAL}),
+    "sticking exponentially": (
+        of(rough, 64, 136),
+        {"depths": _NEARER_AND_APART, **_EXPONENTIAL, "grid_error": True},
+    ),
+    "sticking, unresolved": (of(rough, 64, 137), {"depths": [0.1], "law": rl.Dugdale(2.0, 0.1)}),
     "strip 16 x 64": (of(strip, (16, 64), (0.25, 1.0), 41), {"n_loads": 8}),
     "strip 128 x 8": (of(strip, (128, 8), (4.0, 0.25), 42), {"forces": LOADS, "fields": True}),
     "strip 48 x 32, cells not square": (
