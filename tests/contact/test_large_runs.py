@@ -19,7 +19,12 @@ from reference import patience
 from roughline.computing import fft, memory
 from roughline.computing.cores import available_cores
 from roughline.contact.curve import Curve
-from roughline.contact.estimates import bytes_of_layers, expected_area_fraction, memory_for
+from roughline.contact.estimates import (
+    bytes_of_layers,
+    bytes_of_pull,
+    expected_area_fraction,
+    memory_for,
+)
 from roughline.contact.loads import Loads
 
 FRACTAL = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 1)
@@ -125,6 +130,43 @@ def test_what_layers_take_in_addition_is_known_before(kind, periodic, n, shares)
             # two threads at most hold a block of half a field each, at the same time or not
             block = surface.heights.nbytes / 2
             assert held + block > told - 1.15 * beside * surface.heights.size
+
+
+def held_by(press):
+    """Bytes of all arrays that a press holds at once; it starts with no memory of earlier ones."""
+    tracemalloc.start()
+    alone = threading.Thread(target=press)
+    alone.start()
+    alone.join()
+    held = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return held
+
+
+@pytest.mark.parametrize(
+    ("law", "deepest", "most"), [(rl.Dugdale, 0.6, 80), (rl.Exponential, 0.4, 400)]
+)
+def test_a_pull_takes_what_nodes_within_reach_do(law, deepest, most):
+    """Beside the plain press under the same depths, per point."""
+    n = 256
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0, q_high=2 * np.pi * n / 8)
+    surface = spectrum.surface(n, 3)
+    reach = 0.1 * surface.rms_height
+    sticking = law(reach**2 * n / (8 * np.pi), reach)
+    depths = np.array([0.9, 1.0, 0.8]) * deepest * float(surface.heights.max())
+    held = {}
+    for each in (rl.Unilateral(), sticking):
+        press = partial(rl.press, surface, E_star=1.0, periodic=True, law=each, depths=depths)
+        press()  # compiles
+        held[each] = held_by(press) / n**2
+    more = held[sticking] - held[rl.Unilateral()]
+    loads, half_space = Loads("depths", depths), rl.Homogeneous(1.0, periodic=True)
+    share = expected_area_fraction(surface, half_space, loads, sticking)
+    assert 0 < more < most
+    assert more < 1.1 * bytes_of_pull(sticking, share)
+    plain = rl.estimate((n, n), 3, periodic=True)
+    told = rl.estimate((n, n), 3, periodic=True, law=sticking)
+    assert told.memory - plain.memory >= more * n**2
 
 
 def test_an_estimate_counts_the_loads_whose_fields_are_kept():

@@ -5,7 +5,7 @@ import pytest
 
 import roughline as rl
 from halfspace.test_foreign_half_space import Coating, OnRigidBase
-from halfspace.test_foreign_law import RangedPull, UnevenHardness
+from halfspace.test_foreign_law import PowerLawPull, UnevenHardness
 
 STIFF_COATING = Coating(1.0, -1.5, 0.02, periodic=True)
 SOFT_COATING = Coating(1.0, 0.7, 0.02, periodic=True)
@@ -90,12 +90,13 @@ def test_the_half_grid_is_left_by_the_largest_load_before(surface, rtol):
     assert after.on_half != alone.on_half
 
 
-def test_a_pull_is_refused_in_words_of_the_law_or_of_what_to_do(surface):
-    law = RangedPull(0.01, 0.001)
-    with pytest.raises(rl.InputError, match="a pulled contact has two depths under a force"):
-        rl.sealing_pressure(surface, E_star=1.0, law=law)
+def test_a_pull_seals_sooner_and_its_reopening_is_told_what_to_do(surface):
+    law = PowerLawPull(0.01, 0.001, 0.002)
+    asked = {"E_star": 1.0, "rtol": 0.01, "interval": False}
+    alone, pulled = (rl.sealing_pressure(surface, law=each, **asked) for each in (None, law))
+    assert pulled.high < alone.low
     curve = rl.press(surface, E_star=1.0, law=law, depths=[0.02])
-    with pytest.raises(rl.InputError, match="RangedPull, which remembers its path .* measures="):
+    with pytest.raises(rl.InputError, match="PowerLawPull, which remembers its path .* measures="):
         rl.reopening(curve)
 
 

@@ -8,6 +8,7 @@ import pytest
 import roughline as rl
 from random_cases import cases, seeds
 from roughline.contact.loads import depth_apart, even_cycle
+from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM, remarks
 
 FORCE = 1e-5  # over the largest: rounds end where gaps are right to the tolerance
 LAWS = [rl.Dugdale, rl.Exponential]
@@ -329,9 +330,9 @@ def test_a_range_that_is_a_little_too_short_is_told_to_be_so():
     """Never that one times as much is needed, nor that four cells are fewer than four."""
     for zone in (3.999999, 3.9, 1.0, 0.5):
         law = rl.Dugdale(1.0, (np.pi * zone) ** 0.5)  # h_0² / (pi w) cells
-        (remark,) = law.remarks(np.full((2, 2), 1e3))
+        (remark,) = remarks(law, np.full((2, 2), 1e3))
         wider = float(remark.split("range ")[1].split(" times")[0])
         cells = float(remark.split("is ")[1].split(" cells")[0])
         assert wider > 1
-        assert wider**2 * zone >= law.resolved_zone
+        assert wider**2 * zone >= RESOLVED_FROM
         assert cells < 4

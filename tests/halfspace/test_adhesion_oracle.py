@@ -45,9 +45,12 @@ class DenseSticking:
     def __init__(self, body, law):
         self.body = body
         self._dense = DenseContact(body)
-        self._pull = law.work_of_adhesion / law.range
-        self._share_at = share_of(body, law, self._dense.K)
+        self._pull, self._share_at = self.pull_of(law)
         self._share = np.zeros(body.heights.size)
+
+    def pull_of(self, law):
+        """The largest pull, and the share of it across gaps."""
+        return law.work_of_adhesion / law.range, share_of(self.body, law, self._dense.K)
 
     def press(self, depth):
         separation, before = self.body.separation, np.inf
@@ -79,6 +82,12 @@ def share_of(body, law, matrix):
     """The share of the largest pull across a gap, of the nodes of a body."""
     if isinstance(law, rl.Exponential):
         return lambda gap: np.exp(-np.maximum(gap, 0) / law.range)
+    ramp = ramps(body, law.work_of_adhesion / law.range, law.range, matrix)
+    return lambda gap: np.clip((law.range + ramp - gap) / (2 * ramp), 0, 1)
+
+
+def ramps(body, pull, cutoff, matrix):
+    """Half of the width over which a pull ends that jumps to zero at a cutoff, at each node."""
     # a node's own displacement; even pressure moves a periodic body as its longest wave does
     own = matrix[0, 0]
     if body.periodic:
@@ -92,9 +101,7 @@ def share_of(body, law, matrix):
         beyond = {"mode": "wrap"} if repeats[axis] else {"mode": "reflect", "reflect_type": "odd"}
         heights = np.moveaxis(np.pad(body.heights, beside, **beyond), axis, 0)
         steps.append(np.moveaxis(np.abs(heights[2:] - heights[:-2]) / 2, 0, axis).ravel())
-    pull = law.work_of_adhesion / law.range
-    ramp = np.minimum(np.maximum(sum(steps) / 2, 4 * pull * own), law.range)
-    return lambda gap: np.clip((law.range + ramp - gap) / (2 * ramp), 0, 1)
+    return np.minimum(np.maximum(sum(steps) / 2, 4 * pull * own), cutoff)
 
 
 def posed(seed, law):

@@ -6,17 +6,16 @@ They are defined here, in the public words of a law alone, and held against dens
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq, minimize_scalar
 from threadpoolctl import threadpool_limits
 
 import roughline as rl
-from halfspace.dense_contact import Body, DenseContact
+from halfspace.dense_contact import Body
 from halfspace.dense_hardness import History
 from halfspace.small_bodies import needle, rough
+from halfspace.test_adhesion_oracle import DenseSticking, ramps
 
 E_STAR = 2.0
 RTOL = 1e-9  # a pressure answers a gap with the grid's stiffness, so gaps must be smaller
@@ -40,31 +39,13 @@ class UnevenHardness(rl.ContactLaw):
     ----------
     hardness : ndarray, shape (nx, ny)
         The most that each node bears. [pressure]
-    elastic_first : bool
-        Whether loads are tried without the hardness first.
-    elastic : bool
-        Whether this one is now.
     """
 
     hardness: np.ndarray
-    elastic_first: bool = False
-    elastic: bool = False
-    memory: ClassVar = "dents"
 
     def bounds(self, nodes):
         """Return zero and the hardness of each node."""
-        if self.elastic:
-            return 0.0, np.inf
         return 0.0, self.hardness.ravel() if nodes is None else self.hardness.ravel()[nodes]
-
-    def refuse(self, control, values, heights, area, mean_is_free):
-        """Refuse forces that all nodes together cannot bear."""
-        super().refuse(control, values, heights, area, mean_is_free)
-        if control == "forces" and values.max() >= self.largest_force(area):
-            raise rl.InputError(
-                f"forces reach {values.max():g}; all nodes together bear less than "
-                f"{self.largest_force(area):g}: give smaller forces"
-            )
 
     def scaled(self, pressure, length):
         """Return the law in other units."""
@@ -74,88 +55,52 @@ class UnevenHardness(rl.ContactLaw):
         """Return the law on another grid."""
         return replace(self, hardness=take(self.hardness))
 
-    def start(self, value, last, largest):
-        """Begin a load without the hardness, if so asked."""
-        return replace(self, elastic=self.elastic_first)
 
-    def then(self, contact):
-        """Take the hardness into account where a node bears more."""
-        over = contact.pressure > self.hardness.ravel()[contact.nodes]
-        return self.bounded() if self.elastic and over.any() else None
-
-    def bounded(self):
-        """Return the law with its hardness."""
-        return replace(self, elastic=False)
-
-
-@dataclass(frozen=True, eq=False)
-class RangedPull(rl.ContactLaw):
-    """Surfaces pull each other evenly across gaps up to a range (Dugdale).
-
-    Which nodes are within reach is found in rounds: bodies that come nearer add the nodes whose gap
-    is within the range until none is added, bodies that go apart drop those beyond it. At fixed
-    reach more pull closes more gap, so these rounds lead to where slow bodies would come.
+@dataclass(frozen=True)
+class PowerLawPull(rl.ContactLaw):
+    """Surfaces pull each other with sigma_0 / (1 + g / rho)³ across gaps g up to an end.
 
     Attributes
     ----------
     pull : float
-        Tension at gaps up to the range. [pressure]
-    range : float
+        Tension of nodes that all but touch, sigma_0. [pressure]
+    length : float
+        Gap across which it falls to an eighth, rho. [length]
+    end : float
         Largest gap that is pulled. [length]
-    held : ndarray of bool, shape (nx, ny), or None
-        Nodes within reach; None if there are none.
-    comes_nearer : bool
-        Direction of the path.
     """
 
     pull: float
-    range: float | None = None
-    held: np.ndarray | None = None
-    comes_nearer: bool = True
-    memory: ClassVar = "path"
-    only_pushes: ClassVar = False
+    length: float
+    end: float
 
     @property
-    def reach(self):
-        """Return the range, beyond which nothing is pulled."""
-        return self.range
+    def cutoff(self):
+        """Return the end, at which the pull jumps to zero."""
+        return self.end
 
     def bounds(self, nodes):
-        """Return the pull within reach and zero elsewhere, and that nodes bear any pressure."""
-        if self.held is None:
-            return 0.0, np.inf
-        low = np.where(self.held.ravel(), -self.pull, 0.0)
-        return low if nodes is None else low[nodes], np.inf
-
-    def refuse(self, control, values, heights, area, mean_is_free):
-        """Refuse forces, under which a pulled contact has two depths or none."""
-        if self.range is None:
-            raise rl.InputError("this pull has no range; the largest gap that it crosses is needed")
-        if control == "forces":
-            raise rl.InputError("a pulled contact has two depths under a force: give depths")
+        """Return the largest pull, and that nodes bear any pressure."""
+        return -self.pull, np.inf
 
     def scaled(self, pressure, length):
         """Return the law in other units."""
-        return replace(self, pull=self.pull / pressure, range=self.range / length)
+        pull, rho, end = self.pull / pressure, self.length / length, self.end / length
+        return replace(self, pull=pull, length=rho, end=end)
 
-    def on(self, take):
-        """Return the law on another grid."""
-        return self if self.held is None else replace(self, held=take(self.held * 1.0) > 0.5)
+    def share_at(self, gap):
+        """Return the share of the largest pull across a gap."""
+        return (1 + gap / self.length) ** -3
 
-    def start(self, value, last, largest):
-        """Turn where the path turns; nodes within reach are kept."""
-        return replace(self, comes_nearer=last is None or value >= last)
+    def gap_at(self, share):
+        """Return the gap that leaves a share."""
+        return self.length * (share ** (-1 / 3) - 1)
 
-    def then(self, contact):
-        """Add nodes that have come within reach, or drop those that have left it."""
-        within = contact.gap <= self.range
-        held = np.zeros_like(within) if self.held is None else self.held
-        changed = held | within if self.comes_nearer else held & within
-        return None if (changed == held).all() else replace(self, held=changed)
-
-    def scales(self, pressure, displacement):
-        """Compare gaps with the range; bodies that pull may displace each other by nothing."""
-        return float(np.abs(pressure).mean()), self.range
+    def work_beyond(self, gap):
+        """Return the integral of the share from a gap to the end."""
+        return (
+            self.length / 2 * ((1 + gap / self.length) ** -2 - (1 + self.end / self.length) ** -2)
+        )
 
 
 BODIES = {
@@ -189,10 +134,9 @@ def pressed(body, law, **changed):
 HISTORY = np.array([0.2, 0.5, 0.3, 1.0, 0.4, 0.0, 0.8, 1.3, 0.7])
 
 
-@pytest.mark.parametrize("elastic_first", [False, True])
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("name", BODIES)
-def test_a_hardness_of_each_node_is_the_dense_solutions(name, periodic, elastic_first):
+def test_a_hardness_of_each_node_is_the_dense_solutions(name, periodic):
     body, pressure = posed(name, periodic)
     factors = np.random.default_rng(5).uniform(0.4, 1.6, body.heights.shape)
     hardness = 0.2 * pressure * factors
@@ -200,7 +144,7 @@ def test_a_hardness_of_each_node_is_the_dense_solutions(name, periodic, elastic_
     history = History(body, hardness.ravel())
     states = [history.press(force) for force in forces]
     assert any(0 < each.plastic.sum() < each.contact.sum() for each in states)
-    law = UnevenHardness(hardness, elastic_first)
+    law = UnevenHardness(hardness)
     depths = np.array([each.depth for each in states])
     by_force = pressed(body, law, forces=forces)
     assert by_force.depth == pytest.approx(depths, rel=LOAD)
@@ -229,8 +173,7 @@ def assert_same_dents(curve, i, state):
     assert curve.area_fraction[i] == state.contact.mean()
 
 
-@pytest.mark.parametrize("elastic_first", [False, True])
-def test_depths_that_elastic_bodies_do_not_reach_are_the_dense_solutions(elastic_first):
+def test_depths_that_elastic_bodies_do_not_reach_are_the_dense_solutions():
     body, pressure = posed("H = 0.8", periodic=True)
     hardness = 0.05 * pressure * np.random.default_rng(5).uniform(0.4, 1.6, body.heights.shape)
     history = History(body, hardness.ravel())
@@ -238,7 +181,7 @@ def test_depths_that_elastic_bodies_do_not_reach_are_the_dense_solutions(elastic
     states = [history.press(share * body.cell * hardness.sum()) for share in shares]
     depths = np.array([each.depth for each in states])
     assert depths[1] > float(np.mean(body.separation))  # full contact, if it did not yield
-    curve = pressed(body, UnevenHardness(hardness, elastic_first), depths=depths)
+    curve = pressed(body, UnevenHardness(hardness), depths=depths)
     assert curve.force == pytest.approx([each.force for each in states], rel=LOAD)
     for i, state in enumerate(states):
         assert_same_dents(curve, i, state)
@@ -274,150 +217,137 @@ def test_bounds_of_another_grid_are_refused():
         rl.press(body, E_star=1.0, forces=[1e-6], law=law)
 
 
-@dataclass(frozen=True)
-class Pulled:
-    """A contact with pull as dense matrices give it; fields are flat."""
+class DensePull(DenseSticking):
+    """Depths one after another, where the shares of a pull follow gaps over dense solutions."""
 
-    force: float
-    pressure: np.ndarray
-    touching: np.ndarray
-    held: np.ndarray
-    stiffness: float
+    def pull_of(self, law):
+        """The largest pull of each node, and the share of it, whose jump ends over a ramp."""
+        pull = np.ravel(law.pull)
+        ramp = ramps(self.body, pull.max(), law.end, self._dense.K)
 
+        def share_at(gap):
+            fallen = [(1 + at / law.length) ** -3 for at in (np.clip(gap, 0, law.end), law.end)]
+            within = np.clip((law.end + ramp - gap) / (2 * ramp), 0, 1)
+            return fallen[0] - fallen[1] * (1 - within)
 
-class DensePull:
-    """Depths one after another, the nodes within reach found in rounds over dense solutions."""
-
-    def __init__(self, body, pull, most):
-        self.body, self.pull, self.most = body, pull, most
-        self._dense = DenseContact(body)
-        self._reach = np.zeros(body.heights.size, bool)
-        self._depth = -np.inf
-        self.rounds = 0
-
-    def press(self, depth):
-        nearer, self._depth = depth >= self._depth, depth
-        separation = self.body.separation
-        while True:
-            low = np.where(self._reach, -self.pull, 0.0)
-            _, pressure = self._dense.at_depth(separation, depth, low, np.inf)
-            within = self._dense.K @ pressure + separation - depth <= self.most
-            reach = self._reach | within if nearer else self._reach & within
-            if (reach == self._reach).all():
-                break
-            self._reach, self.rounds = reach, self.rounds + 1
-        touching = self._dense.between
-        return Pulled(
-            force=self.body.cell * float(pressure.sum()),
-            pressure=pressure,
-            touching=touching,
-            held=reach & ~touching,
-            stiffness=self._dense.stiffness(touching),
-        )
+        return pull, share_at
 
 
-def cycle(nearest, farthest, count=9):
-    """Depths to the nearest and back to the farthest, not the same ones, and nearer once more."""
+def power_law_pull(body, zone=6.0, length=0.1):
+    """A pull that ends at twice its length, with a zone of so many cells about a contact."""
+    rho = length * float(body.heights.std())
+    work = 4 / 9 * rho  # over the largest pull
+    return PowerLawPull(body.E_star * work / (np.pi * zone * np.sqrt(body.cell)), rho, 2 * rho)
+
+
+def there_and_back(body, law, count=7):
+    """Depths to the nearest and back to where bodies come off, not the same ones, and nearer."""
+    farthest, nearest = -4 * law.end, 0.4 * float(np.mean(body.separation))
     nearer = np.linspace(farthest, nearest, count)
     apart = np.linspace(nearest, farthest, count + 2)[1:]
     return np.concatenate([nearer, apart, [nearest / 3, 0.9 * nearest]])
 
 
-@pytest.mark.parametrize("strength", [0.1, 0.4])
+@dataclass(frozen=True, eq=False)
+class UnevenPull(PowerLawPull):
+    """The same where the largest pull differs from node to node."""
+
+    def bounds(self, nodes):
+        """Return the largest pull of each node."""
+        return -(self.pull.ravel() if nodes is None else self.pull.ravel()[nodes]), np.inf
+
+    def on(self, take):
+        """Return the law on another grid."""
+        return replace(self, pull=take(self.pull))
+
+
+@pytest.mark.parametrize("uneven", [False, True])
 @pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("name", ["H = 0", "H = 0.8", "white noise", "large"])
-def test_a_pull_that_ends_at_a_range_is_the_dense_solutions(name, periodic, strength):
-    body, pressure = posed(name, periodic)
-    pull, most = strength * pressure, 0.1 * float(body.heights.std())
-    nearest = 0.4 * float(np.mean(body.separation))
-    depths = cycle(nearest, -4 * most)
-    dense = DensePull(body, pull, most)
+@pytest.mark.parametrize("name", ["H = 0.8", "white noise", "large"])
+def test_a_pull_by_a_power_law_is_the_dense_solutions(name, periodic, uneven):
+    body, _ = posed(name, periodic)
+    law = power_law_pull(body)
+    if uneven:
+        factors = np.random.default_rng(6).uniform(0.3, 1.0, body.heights.shape)
+        law = UnevenPull(law.pull * factors, law.length, law.end)
+    depths = there_and_back(body, law)
+    dense = DensePull(body, law)
     states = [dense.press(depth) for depth in depths]
-    curve = pressed(body, RangedPull(pull, most), depths=depths)
-    assert dense.rounds > 5
-    assert any(each.held.any() and each.touching.any() for each in states)
-    largest = max(np.abs(each.force) for each in states)
-    assert curve.force == pytest.approx(
-        [each.force for each in states], rel=LOAD, abs=LOAD * largest
-    )
-    assert (curve.depth == depths).all()
+    curve = pressed(body, law, depths=depths)
+    assert any(each.pulling.any() and each.touching.any() for each in states)
+    largest = max(np.abs(each.pressure).sum() * body.cell for each in states)
+    most = max(np.abs(each.pressure).max() for each in states)
     for i, state in enumerate(states):
         fields = curve.fields[i]
         assert (fields.contact.ravel() == state.touching).all(), i
-        held = ~fields.contact & (fields.pressure < 0)
-        assert (held.ravel() == state.held).all(), i
-        off = np.abs(fields.pressure.ravel() - state.pressure).max()
-        assert off <= PRESSURE * np.abs(state.pressure).max(), i
-        assert curve.stiffness[i] == pytest.approx(state.stiffness, rel=STIFFNESS), i
-        assert curve.unloading_stiffness[i] == pytest.approx(state.stiffness, rel=STIFFNESS), i
-        assert curve.area_fraction[i] == state.touching.mean()
+        assert abs(curve.force[i] - state.force) <= LOAD * largest, i
+        assert np.abs(fields.pressure.ravel() - state.pressure).max() <= PRESSURE * most, i
+        assert curve.stiffness[i] == pytest.approx(state.stiffness, rel=1e-5), i
+    forces = np.array([0.5, 0.2, 0.0]) * curve.force.max()
+    by_force = pressed(body, law, forces=forces)
+    by_depth = pressed(body, law, depths=by_force.depth)
+    assert by_depth.force == pytest.approx(forces, abs=1e-6 * largest)
 
 
-def test_a_cycle_of_pull_takes_work():
+@pytest.mark.parametrize("uneven", [False, True])
+def test_a_cycle_of_a_pull_takes_work_that_is_none_where_nothing_jumps(uneven):
     """On the way back bodies hold each other where they did not pull yet on the way in."""
-    body, pressure = posed("H = 0.8", periodic=False)
-    most = 0.1 * float(body.heights.std())
-    steps = np.linspace(-6 * most, 0.3 * float(np.mean(body.separation)), 25)
-    curve = pressed(body, RangedPull(0.4 * pressure, most), depths=[*steps, *steps[::-1]])
+    body, _ = posed("H = 0.8", periodic=False)
+    strong, weak = power_law_pull(body, zone=4.0), power_law_pull(body, zone=60.0, length=1.0)
+    if uneven:
+        factors = np.random.default_rng(6).uniform(0.3, 1.0, body.heights.shape)
+        strong, weak = (UnevenPull(x.pull * factors, x.length, x.end) for x in (strong, weak))
+    deepest = 0.3 * float(np.mean(body.separation))
+    steps = np.linspace(-6 * strong.end, deepest, 25)
+    curve = pressed(body, strong, depths=[*steps, *steps[::-1]])
     nearer, apart = curve.force[:25], curve.force[:24:-1]
-    assert nearer[-1] == pytest.approx(apart[-1], rel=LOAD)  # the same load again
     assert (apart <= nearer + LOAD * np.abs(curve.force).max()).all()
     assert np.trapezoid(nearer - apart, steps) > 0
     assert curve.force.min() < 0
-    assert curve.force[-1] == 0  # it lets go
-    touched = curve.area_fraction > 0
-    assert touched[25:].sum() > touched[:25].sum()
+    assert curve.settings["law"] == type(strong).__name__
+    slowly = pressed(body, weak, depths=np.linspace(0.0, deepest, 100), fields=False)
+    assert np.abs(slowly.dissipated_work).max() < 2e-4 * slowly.work.max()
 
 
 def test_beyond_full_contact_elastic_bodies_show_infinite_pressures():
-    """No finite pressures are so deep, so the law that follows is the one with a hardness."""
+    """No finite pressures are so deep, so bodies yield there at once."""
     body, pressure = posed("H = 0.8", periodic=True)
     hardness = pressure * np.linspace(0.5, 2.0, body.heights.size).reshape(body.heights.shape)
     depths = np.array([1.2, 0.5, 1.5]) * float(np.mean(body.separation))
-    at_once, elastic_first = (
-        pressed(body, UnevenHardness(hardness, first), depths=depths) for first in (False, True)
-    )
-    for name in ("force", "stiffness", "unloading_stiffness", "indentation"):
-        assert getattr(elastic_first, name) == pytest.approx(getattr(at_once, name), rel=1e-6), name
+    curve = pressed(body, UnevenHardness(hardness), depths=depths)
+    history = History(body, hardness.ravel())
+    states = [history.press(force) for force in curve.force]
+    assert curve.depth == pytest.approx([each.depth for each in states], rel=1e-6)
+    for i, state in enumerate(states):
+        assert_same_dents(curve, i, state)
 
 
-def maugis_pull_off(strength):
-    """Least force on a sphere over pi w R (Maugis 1992, eqs. 6.10-6.13)."""
+class EvenPull(PowerLawPull):
+    """Dugdale's law in the words of another."""
 
-    def force(m):
-        mu, angle = np.sqrt(m**2 - 1), np.arctan(np.sqrt(m**2 - 1))
+    def share_at(self, gap):
+        """Return one."""
+        return np.ones_like(gap)
 
-        def excess(a):
-            bent = strength * a**2 / 2 * (mu + (m**2 - 2) * angle)
-            return bent + 4 / 3 * strength**2 * a * (mu * angle - m + 1) - 1
+    def gap_at(self, share):
+        """Return the end."""
+        return np.full_like(share, self.end)
 
-        a = brentq(excess, 1e-6, 10.0)
-        return a**3 - strength * a**2 * (mu + m**2 * angle)
-
-    return minimize_scalar(force, bounds=(1.01, 20), method="bounded", options={"xatol": 1e-9}).fun
-
-
-def pull_off(n, strength=1.0):
-    """Least force on a sphere as it is taken away, over pi w R.
-
-    Lengths in the plane are over (pi w R² / K)^(1/3), K = 4 E* / 3.
-    """
-    x = 1.7 * (2 * np.arange(n) + 1 - n) / n
-    body = Body(-(x[:, None] ** 2 + x**2) / 2, (3.4, 3.4), 0.75, periodic=False)
-    pull = strength / 2
-    law = RangedPull(pull, 1 / (np.pi * pull))
-    depths = np.concatenate([[-0.5, 0.0], np.linspace(-0.3, -0.7, 9)])
-    curve = pressed(body, law, depths=depths, rtol=1e-6, fields=False)
-    assert curve.force.argmin() not in (0, 1, 2, depths.size - 1)
-    return curve.force.min()
+    def work_beyond(self, gap):
+        """Return what is left to the end."""
+        return self.end - gap
 
 
-def test_a_sphere_is_pulled_off_as_maugis_has_it():
-    exact = maugis_pull_off(1.0)
-    assert exact == pytest.approx(-1.60073, abs=5e-6)
-    errors = [pull_off(n) / exact - 1 for n in (36, 72)]
-    assert 0 < errors[1] < 0.04
-    assert errors[0] / errors[1] == pytest.approx(2, rel=0.35)  # the error is as large as a cell
+def test_an_even_pull_is_the_packages_own():
+    body, _ = posed("large", periodic=True)
+    law = power_law_pull(body)
+    depths = there_and_back(body, law)
+    ours = pressed(body, EvenPull(law.pull, law.length, law.end), depths=depths)
+    own = pressed(body, rl.Dugdale(law.pull * law.end, law.end), depths=depths)
+    for name in ("force", "stiffness", "work", "pulling_fraction"):
+        expected = getattr(own, name)
+        most = np.abs(expected).max()
+        assert getattr(ours, name) == pytest.approx(expected, rel=LOAD, abs=LOAD * most), name
 
 
 @dataclass(frozen=True)
@@ -436,20 +366,12 @@ class Lost(rl.ContactLaw):
         """Have no units."""
         return self
 
-    def scales(self, pressure, displacement):
-        """Compare with the pressure's and the length's scale."""
-        ours = super().scales(pressure, displacement)
-        return tuple(
-            np.nan if self.lost == name else each for name, each in zip(SCALES, ours, strict=True)
-        )
 
-
-SCALES = ("pressures", "lengths")
 HIGHEST = int(posed("H = 0.8", periodic=False)[0].heights.argmax())
 LOST_NODES = {"the highest node's bound": HIGHEST, "all bounds": slice(None)}
 
 
-@pytest.mark.parametrize("lost", [*LOST_NODES, *SCALES])
+@pytest.mark.parametrize("lost", LOST_NODES)
 @pytest.mark.parametrize("load", [{"forces": [0.01]}, {"depths": [0.05]}])
 def test_what_is_not_finite_is_never_certified(lost, load):
     body, _ = posed("H = 0.8", periodic=False)
@@ -470,7 +392,6 @@ SURFACE = rl.Surface(rough((14, 10), 0.8), (1.0, 1.3))
         ({"law": rl.Yielding(hardness=1.0), "hardness": 1.0}, r"law.*hardness.*"),
         ({"law": "yielding"}, "law is .*yielding.*ContactLaw"),
         ({"law": rl.Unilateral}, "law is .*Unilateral.*ContactLaw"),
-        ({"law": RangedPull(0.1)}, "this pull has no range"),
     ],
 )
 def test_what_is_no_law_is_refused(given, said):
@@ -487,12 +408,12 @@ class Multiplied(UnevenHardness):
         return replace(self, hardness=self.hardness * pressure)
 
 
-class FarReaching(RangedPull):
+class FarReaching(PowerLawPull):
     """A law that forgets to bring its length to other units."""
 
     def scaled(self, pressure, length):
-        """Bring the pull to other units, and not the range."""
-        return replace(super().scaled(pressure, length), range=self.range)
+        """Bring the pull to other units, and not the end."""
+        return replace(super().scaled(pressure, length), end=self.end)
 
 
 def test_a_law_that_is_another_one_in_other_units_is_refused():
@@ -502,7 +423,7 @@ def test_a_law_that_is_another_one_in_other_units_is_refused():
         rl.press(SURFACE, E_star=1.0, law=hard, depths=[0.05])
     assert "\n" not in str(refused.value)
     with pytest.raises(rl.InputError, match=r"makes the reach .* is right"):
-        rl.press(SURFACE, E_star=1.0, law=FarReaching(0.1, 0.01), depths=[0.05])
+        rl.press(SURFACE, E_star=1.0, law=FarReaching(0.1, 0.01, 0.02), depths=[0.05])
 
 
 class Swapped(UnevenHardness):
@@ -518,13 +439,48 @@ def test_bounds_in_the_wrong_order_are_refused():
         rl.press(SURFACE, E_star=1.0, law=Swapped(np.ones((14, 10))), depths=[0.05])
 
 
-def test_a_law_refuses_loads_in_its_own_words():
-    with pytest.raises(rl.InputError, match="a pulled contact has two depths under a force"):
-        rl.press(SURFACE, E_star=1.0, law=RangedPull(0.1, 0.01), forces=[0.1])
-    with pytest.raises(rl.InputError, match="all nodes together bear less than 1.3"):
-        rl.press(SURFACE, E_star=1.0, law=UnevenHardness(np.ones((14, 10))), forces=[2.0])
+def test_loads_are_refused_that_the_bounds_of_a_law_never_bear():
+    hard = UnevenHardness(np.linspace(0.5, 1.5, 140).reshape(14, 10))
+    with pytest.raises(rl.InputError, match=r"forces\[0\] is 2; a body of mean hardness 1 .* 1.3"):
+        rl.press(SURFACE, E_star=1.0, law=hard, forces=[2.0])
     with pytest.raises(rl.InputError, match=r"depths\[0\] is -0.1, negative"):
-        rl.press(SURFACE, E_star=1.0, law=UnevenHardness(np.ones((14, 10))), depths=[-0.1])
+        rl.press(SURFACE, E_star=1.0, law=hard, depths=[-0.1])
+    pull = PowerLawPull(0.1, 0.1, 0.2)
+    with pytest.raises(rl.InputError, match="depth 10 is beyond reach: the periodic half-space"):
+        rl.press(SURFACE, E_star=1.0, law=pull, depths=[10.0], periodic=True)
+
+
+class Tacky(PowerLawPull):
+    """A law with one formula that another does not fit."""
+
+    def __init__(self, **wrong):
+        super().__init__(0.1, 0.1, 0.2)
+        vars(self).update(wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"bounds": lambda nodes: (-0.1, 1.0)}, "is Tacky, whose bounds both pull and yield"),
+        ({"share_at": lambda gap: 0.5 + 0 * gap}, "Tacky.share_at that is 0.5 at a gap of zero"),
+        ({"share_at": lambda gap: 1 + gap}, "Tacky.share_at that rises, or is negative"),
+        ({"gap_at": lambda share: share}, "Tacky.gap_at that is not the inverse"),
+        ({"work_beyond": lambda gap: 1 - gap}, "Tacky.work_beyond that is not the integral"),
+    ],
+)
+def test_formulas_that_do_not_go_together_are_refused(wrong, said):
+    with pytest.raises(rl.InputError, match=said) as refused:
+        rl.press(SURFACE, E_star=1.0, law=Tacky(**wrong), depths=[0.05])
+    assert "\n" not in str(refused.value)
+
+
+def test_a_pull_without_shares_is_refused():
+    class Shareless(UnevenHardness):
+        def bounds(self, nodes):
+            return -1.0, np.inf
+
+    with pytest.raises(rl.InputError, match="Shareless.share_at that is 0 at a gap of zero"):
+        rl.press(SURFACE, E_star=1.0, law=Shareless(np.ones((14, 10))), depths=[0.05])
 
 
 def test_a_line_has_no_law():

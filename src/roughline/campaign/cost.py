@@ -17,6 +17,7 @@ from roughline.computing import fft
 from roughline.computing.cores import available_cores
 from roughline.computing.memory import free_memory
 from roughline.contact import estimates
+from roughline.contact.arguments import sticking_law
 from roughline.errors import InputError, StoreError
 
 _BATCH_SECONDS = 1.0  # sending, receiving and writing a batch takes some ten milliseconds
@@ -81,9 +82,12 @@ def _memory_of(ensemble: Ensemble) -> int:
     shape = (ensemble.n, ensemble.n)
     periodic, yielding = ensemble.boundary == "periodic", ensemble.hardness_bar is not None
     share = 1.0 if max(ensemble.force_bars) > _SATURATED else None
-    sticking = ensemble.work_bar is not None
+    of_pull = 0.0
+    if ensemble.work_bar is not None and ensemble.range_bar is not None:
+        law = sticking_law(ensemble.attraction, ensemble.work_bar, ensemble.range_bar)
+        of_pull = estimates.bytes_of_pull(law, 1.0)
     pressing = estimates.memory_for(
-        shape, periodic, 0, yielding=yielding, sticking=sticking, area_fraction=share
+        shape, periodic, 0, yielding=yielding, area_fraction=share, of_pull=of_pull
     )
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)

@@ -12,6 +12,7 @@ import numpy as np
 from roughline.contact.arguments import STICKING, sticking_law
 from roughline.errors import InputError
 from roughline.errors.checks import one_of
+from roughline.halfspace.laws.pulling_zone import resolves_pull_off, zone
 from roughline.spectra.self_affine import SelfAffine
 
 _Model = Literal["full", "reduced"]
@@ -175,10 +176,10 @@ class Ensemble:
         assert self.work_bar is not None
         assert self.range_bar is not None
         law = sticking_law(self.attraction, self.work_bar, self.range_bar).scaled(1.0, 1 / self.n)
-        if not law.resolves_pull_off:
+        if not resolves_pull_off(law):
             self._refuse(
                 f"the zone that pulls about a contact, n range_bar² / (pi work_bar), is "
-                f"{law.resolution['pulling_zone_cells']:.2g} cells wide, which resolves no "
+                f"{zone(law):.2g} cells wide, which resolves no "
                 "pull-off: give a larger range_bar, or more points"
             )
 

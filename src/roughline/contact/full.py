@@ -26,7 +26,9 @@ from roughline.errors import Interrupted
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.kept import working_memory
+from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.pulling_zone import remarks, resolution, resolves_pull_off
 from roughline.halfspace.search.outline import overstated_cells
 from roughline.halfspace.search.path import solve_path
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
@@ -125,14 +127,14 @@ def _results(
 def _problem(scaled: ScaledSurface, law: ContactLaw, method: Method) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
     grid = Grid(scaled.half_space, scaled.surface.shape, scaled.spacing)
-    separation, law = scaled.separation(), scaled.law(law)
-    return Problem(
+    bodies = Problem(
         grid,
-        separation,
+        scaled.separation(),
         scaled.surface.rms_height / scaled.height,
         method.resolution(grid),
-        law.between(separation, grid.inverse.diagonal, scaled.half_space.repeats),
+        scaled.law(law),
     )
+    return replace(bodies, law=bodies.pull.at_hand())
 
 
 def _curve(
@@ -173,7 +175,7 @@ def _curve(
             "precision": method.precision,
             **({} if isinstance(half_space, Homogeneous) else {"half_space": repr(half_space)}),
             **law.settings,
-            **law_there.resolution,
+            **resolution(law_there),
             **as_body(surface.settings),
         },
         warnings=(
@@ -181,7 +183,7 @@ def _curve(
             *grave_effects(surface),
             *tilt_warnings(surface),
             *at_the_border,
-            *law_there.remarks(scaled.separation()),
+            *remarks(law_there, scaled.separation()),
         ),
         pull_off_depth=pull_off_depth,
         pull_off_force=pull_off_force,
@@ -350,7 +352,7 @@ def _pull_off(
     Bodies come off at a load on retreat after which they pull less, or between two forces.
     """
     unknown = math.nan, math.nan
-    if law.only_pushes or not law.resolves_pull_off:
+    if law.only_pushes or not resolves_pull_off(law):
         return unknown
     pulls = [each.pull_off for each in results if each.pull_off is not None]
     known = np.flatnonzero(np.isfinite(values["depth"]))
@@ -388,16 +390,17 @@ def _elastic_energy(contact: Contact) -> float:
 
 def _energy_of_pull(contact: Contact) -> float:
     """Energy of the pull across gaps, in the units of the contact."""
-    law = contact.problem.law
-    if law.only_pushes:
+    problem = contact.problem
+    if problem.law.only_pushes:
         return 0.0
-    return law.energy(contact) * contact.problem.operator.cell_area * contact.separation.size
+    return problem.pull.energy(contact.gap.ravel()) * problem.operator.cell_area
 
 
 def _pulling_nodes(contact: Contact) -> float:
     """Number of the nodes that pull, each as the share of the largest pull that it bears."""
     pulling = contact.pressure[contact.pulling]
-    return float(pulling.sum()) / -contact.problem.law.largest_pull if pulling.size else 0.0
+    largest = Bounds.of(contact.problem.law).largest_pull
+    return float(pulling.sum()) / -largest if pulling.size else 0.0
 
 
 def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:

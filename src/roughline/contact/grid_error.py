@@ -16,6 +16,7 @@ from roughline.contact.measures import Measured
 from roughline.contact.selection import among_loads
 from roughline.contact.terraces import with_whole_plateaus
 from roughline.errors import InputError
+from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
@@ -250,7 +251,7 @@ def _of_area(
     values = np.array([each.area_fraction_corrected for each in coarser])
     between = _between(np.log(np.where(values == area, 1.0, values / area)), 0.0)
     opened = np.hypot(_steeper(steepening**_OF_STEEPENING, area), _OF_AREA * between)
-    most = law.largest_force(curve.length**2)
+    most = Bounds.of(law).largest_force(curve.length**2)
     if np.isfinite(most):
         least = curve.force / most
         opened = np.minimum(opened, np.maximum(np.log(area / least), 0.0))
@@ -276,7 +277,7 @@ def _softer(
     Where pressures have no upper bound, or where no slope is added, both are the curve of n / 2
     points.
     """
-    if steepening == 1 or law.largest_force(1.0) == np.inf:
+    if steepening == 1 or Bounds.of(law).largest_force(1.0) == np.inf:
         return curve, curve
     # pressures and gaps of a surface so many times steeper, in units so many times larger
     steeper = (law.scaled(times, times) for times in (grids.step, grids.step * steepening))
@@ -291,7 +292,9 @@ def _pressed_again(
     known = np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
     if not known.any():
         return curve
-    forces = np.minimum(share * curve.force[known], _NEARLY_ALL * law.largest_force(surface.area))
+    forces = np.minimum(
+        share * curve.force[known], _NEARLY_ALL * Bounds.of(law).largest_force(surface.area)
+    )
     return among_loads(press(surface, Loads("forces", forces), law), known)
 
 

@@ -19,7 +19,8 @@ from roughline.errors.checks import shown
 from roughline.errors.words import called, named
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.halfspace.laws.law import ContactLaw, refuse_pulls
+from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.reduction.revolution import Revolution
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
@@ -114,8 +115,8 @@ def surface_loads(
             'best: give a larger rtol, or precision="mixed"'
         )
     if given.n_loads is None:
-        loads, free = _checked_loads(given), half_space.mean_is_free
-        law.refuse(loads.control, loads.values, surface.heights, surface.area, free)
+        loads = _checked_loads(given)
+        _refuse_by_law(law, surface, loads, mean_is_free=half_space.mean_is_free)
     else:
         _refuse_constant(surface, given)
         if law.only_pushes:
@@ -131,7 +132,8 @@ def _range_of_forces(
 ) -> tuple[float, float]:
     """Return the forces from about ten cells in contact to saturation."""
     highest = min(
-        _saturated(surface, half_space), _LARGEST_YIELDING * law.largest_force(surface.area)
+        _saturated(surface, half_space),
+        _LARGEST_YIELDING * Bounds.of(law).largest_force(surface.area),
     )
     separation = np.sort(surface.heights.max() - surface.heights, axis=None)
     few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
@@ -197,6 +199,49 @@ def even_cycle(first: float, deepest: float, last: float, n_loads: int) -> Loads
     return Loads("depths", np.append(there, np.linspace(deepest, last, n_loads - nearer + 1)[1:]))
 
 
+def _refuse_by_law(law: ContactLaw, surface: Surface, loads: Loads, *, mean_is_free: bool) -> None:
+    """Refuse loads that bodies obeying a law never have.
+
+    They are pulls on bodies that only push, forces of which the upper bounds bear no more, and,
+    where full contact is rigid, depths beyond it.
+    """
+    control, values, bounds = loads.control, loads.values, Bounds.of(law)
+    if law.only_pushes:
+        refuse_pulls(control, values)
+    if control == "forces":
+        most, largest = bounds.largest_force(surface.area), int(values.argmax())
+        if values[largest] >= most:
+            hardness = (
+                f"{'' if np.ndim(bounds.high) == 0 else 'mean '}hardness {most / surface.area:g}"
+            )
+            raise InputError(
+                f"forces[{largest}] is {values[largest]:g}; a body of {hardness} and nominal area "
+                f"{surface.area:g} bears less than H A_0 = {most:g}: give smaller forces, or a "
+                "larger hardness"
+            )
+    elif mean_is_free and np.isposinf(bounds.high).all():
+        full_contact, depth = float(np.mean(surface.heights.max() - surface.heights)), values.max()
+        if not depth < full_contact:
+            raise InputError(
+                f"depth {depth:g} is beyond reach: the periodic half-space is in full contact "
+                f"at {full_contact:g}, whatever the force; give smaller depths, or forces"
+            )
+
+
+def refuse_pulls(control: str, values: Real) -> None:
+    """Refuse loads under which bodies that only push do not touch, unless they unload."""
+    before_touch = np.maximum.accumulate(values) <= 0
+    for wrong, what in (
+        (values < 0, "negative: compression counts positive"),
+        ((values == 0) & before_touch, "zero, at which nothing touches"),
+    ):
+        if wrong.any():
+            raise InputError(
+                f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive "
+                "numbers, and zero only to unload"
+            )
+
+
 def _computable_loads(given: GivenLoads) -> Loads:
     """Return given loads that are not too large to compute with."""
     loads = _checked_loads(given)
@@ -227,7 +272,8 @@ def depth_apart(surface: Surface, half_space: HalfSpace, law: ContactLaw, deepes
     separation = surface.heights.max() - surface.heights
     within = np.count_nonzero(separation < deepest + law.reach) * surface.area / separation.size
     radius = float(np.sqrt(within / np.pi))
-    work = law.largest_pull * law.reach  # at least that of adhesion
+    pull = Bounds.of(law).largest_pull
+    work = pull * law.reach  # at least that of adhesion
     if not radius:
         return -law.reach
     smaller, stiffness, larger = (
@@ -235,14 +281,14 @@ def depth_apart(surface: Surface, half_space: HalfSpace, law: ContactLaw, deepes
     )
     usual = float(np.sqrt(4 * np.pi * radius**2 * work / stiffness))
     growth = float(np.log2(min(stiffness / smaller, larger / stiffness)))  # k as a to this power
-    largest = law.largest_pull * np.pi * radius**2 / stiffness
+    largest = pull * np.pi * radius**2 / stiffness
     later = usual / np.sqrt(growth) if growth > 0 else np.inf
     return -law.reach - max(usual, min(later, largest))
 
 
 def unbearable_pull(law: ContactLaw, area: float) -> float:
     """Return a pull that no contact bears, under which bodies come off. [force]"""
-    return -_UNBEARABLE * law.largest_pull * area
+    return -_UNBEARABLE * Bounds.of(law).largest_pull * area
 
 
 def _checked_loads(given: GivenLoads) -> Loads:

@@ -19,7 +19,12 @@ from roughline.contact.arguments import (
     kept_loads,
 )
 from roughline.contact.curve import Curve
-from roughline.contact.estimates import bytes_of_layers, expected_area_fraction, memory_for
+from roughline.contact.estimates import (
+    bytes_of_layers,
+    bytes_of_pull,
+    expected_area_fraction,
+    memory_for,
+)
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
 from roughline.contact.jkr import JKR
 from roughline.contact.loads import GivenLoads, Loads, refuse_beyond_precision, surface_loads
@@ -283,15 +288,14 @@ def _refuse_beyond_memory(
         half_space.periodic,
         max(kept, measured),  # measures are taken from the fields of one load at a time
         yielding=law.memory == "dents",
-        sticking=law.follows_gaps,
         several=loads.values.size > 1,
         of_layers=bytes_of_layers(half_space, surface.shape, surface.spacing),
     )
-    if fits_into_memory(memory(area_fraction=1.0)):
+    if fits_into_memory(memory(area_fraction=1.0, of_pull=bytes_of_pull(law, 1.0))):
         return
-    share = 1.0 if law.follows_gaps else expected_area_fraction(surface, half_space, loads, law)
+    share = expected_area_fraction(surface, half_space, loads, law)
     refuse_beyond_memory(
-        memory(area_fraction=share),
+        memory(area_fraction=share, of_pull=bytes_of_pull(law, share)),
         f"pressing {surface.shape[0]} x {surface.shape[1]} points"
         + (f" and keeping the fields of {kept} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),

@@ -99,11 +99,12 @@ def _refuse_other_law(law: ContactLaw, scaled: ContactLaw, pressure: float, leng
             "one, or above zero: the lower one comes first, and is zero or negative",
             "law",
         )
+    if not law.only_pushes:
+        _refuse_other_pull(law)
     low_there, high_there = scaled.bounds(None)
     for what, given, there, unit in (
         ("a lower bound", low, low_there, pressure),
         ("an upper bound", high, high_there, pressure),
-        ("the largest pull", law.largest_pull, scaled.largest_pull, pressure),
         ("the reach", law.reach, scaled.reach, length),
     ):
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):
@@ -115,3 +116,35 @@ def _refuse_other_law(law: ContactLaw, scaled: ContactLaw, pressure: float, leng
                 "be divided by the first number, and lengths by the second",
                 "law",
             )
+
+
+def _refuse_other_pull(law: ContactLaw) -> None:
+    """Refuse a law that pulls and yields, or whose shares, gaps and work do not go together."""
+    name = type(law).__name__
+    if np.any(np.less(law.bounds(None)[1], np.inf)):
+        raise InputError(
+            f"is {name}, whose bounds both pull and yield: a contact leaves dents or remembers its "
+            "path, not both; give an infinite upper bound, or a lower one of zero",
+            "law",
+        )
+    ends = np.isfinite(law.cutoff)
+    gaps = np.linspace(0, law.cutoff if ends else float(law.gap_at(np.array([0.01]))[0]), 9)
+    shares, work = law.share_at(gaps), law.work_beyond(gaps)
+    opened, steps = work[:-1] - work[1:], np.diff(gaps)
+    slack = _SAME * gaps[-1]
+    for wrong, what in (
+        (shares[0] != 1, f"share_at that is {shares[0]:g} at a gap of zero: it is one there"),
+        (not gaps[-1] > 0, "gap_at that gives no gaps: they are positive where less is borne"),
+        (np.any(np.diff(shares) > 0) or np.any(shares < 0), "share_at that rises, or is negative"),
+        (
+            not np.allclose(law.share_at(law.gap_at(shares)), shares, rtol=_SAME, atol=_SAME),
+            "gap_at that is not the inverse of its share_at",
+        ),
+        (
+            np.any(opened > shares[:-1] * steps + slack)
+            or np.any(opened < shares[1:] * steps - slack),
+            "work_beyond that is not the integral of its share_at over larger gaps",
+        ),
+    ):
+        if wrong:
+            raise InputError(f"has a method {name}.{what}", "law")

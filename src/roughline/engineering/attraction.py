@@ -17,6 +17,7 @@ from roughline.engineering.described import rows_of
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
+from roughline.halfspace.laws.pulling_zone import resolves_pull_off
 from roughline.units import engineering, in_si
 
 _OVER = re.compile(r"\s+over\s+", re.IGNORECASE)
@@ -115,7 +116,7 @@ class Attraction:
         """Whether the zone that pulls has cells enough on a grid for a pull-off."""
         reach = self.on_grid(spacing, E_star).range
         assert reach is not None
-        return sticking_law(self.law, self.work, reach).scaled(E_star, spacing).resolves_pull_off
+        return resolves_pull_off(sticking_law(self.law, self.work, reach).scaled(E_star, spacing))
 
 
 @functools.cache

@@ -30,6 +30,7 @@ from roughline.fluid.one_map import (
     tells_of_larger,
 )
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
@@ -155,7 +156,7 @@ def sealing_pressure(
     full = in_full_contact(surface, half_space)
     # in round numbers, so that it is sought alike wherever a repeated surface is cut
     share = float(f"{_PERCOLATING * _slope(full, half_space.repeats):.6g}")
-    guess = min(share * half_space.E_star, _OF_HARDNESS * law.largest_force(1.0))
+    guess = min(share * half_space.E_star, _OF_HARDNESS * Bounds.of(law).largest_force(1.0))
     search = _Search(half_space, along, rtol)
     (low, open_area), (high, sealed_area) = search.bracket(surface, law, guess)
     found = SealingPressure(low, high, (open_area, sealed_area), along)
@@ -165,7 +166,7 @@ def sealing_pressure(
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
     tells = tells_of_larger(surface)
     left_open = partial(factor_left_open, found.value, half, of_quarters, tells=tells)
-    most = min(high * left_open(of_grid=steepening_of(full)), law.largest_force(1.0))
+    most = min(high * left_open(of_grid=steepening_of(full)), Bounds.of(law).largest_force(1.0))
     ends = low / left_open() if tells else 0.0, max(high, most)
     return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
@@ -199,7 +200,7 @@ class _Search:
     ) -> tuple[tuple[float, float], tuple[float, float]]:
         """Mean pressure and area fraction of the last open gap, and of the first sealed one."""
         ends: dict[bool, tuple[float, float]] = {}
-        largest = law.largest_force(1.0)
+        largest = Bounds.of(law).largest_force(1.0)
         pressure, step = guess if guess < largest else _OF_HARDNESS * largest, _WIDER
         for _ in range(_MOST_TRIALS):
             is_open, area = self._is_open(surface, law, pressure)

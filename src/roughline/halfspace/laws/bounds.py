@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -22,9 +23,18 @@ class Bounds:
     high: Real | float
 
     @classmethod
-    def of(cls, law: ContactLaw, nodes: Indices | None) -> Bounds:
-        """Ask a law for the bounds of nodes of the grid."""
+    def of(cls, law: ContactLaw, nodes: Indices | None = None) -> Bounds:
+        """Ask a law for the bounds of nodes of the grid, or of all of it."""
         return cls(*law.bounds(nodes))
+
+    @property
+    def largest_pull(self) -> float:
+        """Largest tension that a node bears. [pressure]"""
+        return -float(np.min(self.low))
+
+    def largest_force(self, area: float) -> float:
+        """Return the force under which the mean pressure on an area is the upper bound. [force]"""
+        return float(np.mean(self.high)) * area
 
     def at(self, places: Indices | Mask) -> Bounds:
         """Return the bounds of some of the nodes."""
@@ -32,7 +42,7 @@ class Bounds:
         high = self.high[places] if isinstance(self.high, np.ndarray) else self.high
         return Bounds(low, high)
 
-    @property
+    @cached_property
     def pulled(self) -> Indices:
         """The nodes that cannot be without pressure, as far as bounds differ from node to node."""
         return np.flatnonzero(self.low if isinstance(self.low, np.ndarray) else ())

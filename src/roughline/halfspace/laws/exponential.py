@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -12,11 +11,9 @@ from roughline.computing.arrays import Real
 from roughline.errors.public import public_making
 from roughline.halfspace.laws.adhesive import Adhesive
 
-_LEAST = 1e-7  # share of the largest pull, from which on pulls are told apart
-
 
 @public_making
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Exponential(Adhesive):
     """Elastic bodies that pull each other with a pressure (w / rho) exp(-g / rho) [1]_.
 
@@ -30,8 +27,6 @@ class Exponential(Adhesive):
         Work to separate a unit of area, w. [pressure * length]
     range : float
         Gap across which the pull falls by a factor e, rho. [length]
-    share : ndarray, shape (nx, ny), or float
-        Share of the largest pull that each node bears at least.
 
     Raises
     ------
@@ -50,20 +45,14 @@ class Exponential(Adhesive):
         "linear elastic, and pull each other across gaps, e times less with each range"
     )
 
-    @property
-    def reach(self) -> float:
-        """Gap with the least share that is told from none. [length]"""
-        return -math.log(_LEAST) * self.range
-
     def share_at(self, gap: Real) -> Real:
         """Return exp(-g / rho)."""
-        return np.exp(-np.maximum(gap, 0.0) / self.range)
+        return np.exp(-gap / self.range)
 
-    def gap_between(self, share: Real, other: Real | float) -> Real:
-        """Return rho times the difference of their logarithms; the least ones count as alike."""
-        logs = [np.log(np.maximum(each, _LEAST)) for each in (share, other)]
-        return self.range * np.abs(logs[0] - logs[1])
+    def gap_at(self, share: Real) -> Real:
+        """Return -rho ln(share)."""
+        return -self.range * np.log(share)
 
     def work_beyond(self, gap: Real) -> Real:
-        """Return exp(-g / rho)."""
-        return self.share_at(gap)
+        """Return rho exp(-g / rho)."""
+        return self.range * np.exp(-gap / self.range)

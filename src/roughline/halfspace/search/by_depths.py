@@ -16,6 +16,7 @@ from typing import Protocol
 
 import numpy as np
 
+from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.search.problem import Contact, Load, Outcome
 from roughline.halfspace.search.tangent import Response
 
@@ -84,7 +85,7 @@ class State:
         pressure, problem = self.contact.pressure, self.contact.problem
         if not pressure.size:
             return 0.0
-        scale, _ = problem.law.scales(pressure, np.zeros_like(pressure))
+        scale, _ = problem.scales(pressure, np.zeros_like(pressure))
         return max(self.borne, problem.grid.cell_area * scale)
 
     @property
@@ -231,7 +232,7 @@ class _Search:
     def _lowest_of_full_contact(self, state: State) -> float:
         """Return the force of full contact whose first node pulls nearly all that it can."""
         problem, pressure = state.contact.problem, state.contact.pressure
-        spare = float(pressure.min()) + (1 - self._rtol) * problem.law.largest_pull
+        spare = float(pressure.min()) + (1 - self._rtol) * Bounds.of(problem.law).largest_pull
         return state.force - problem.grid.cell_area * pressure.size * spare
 
     def _step(self, before: State | None, state: State) -> float:

@@ -10,23 +10,25 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
+from roughline.halfspace.search.pull import Shares
 from roughline.halfspace.search.turns import Turns
 from roughline.halfspace.search.window import Window
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
+# A guess whose pressures exceed an upper bound so many times leaves no doubt that nodes yield.
+_BEYOND_DOUBT = 3.0
 _ROUGH = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
 def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, Problem]:
     """Guess which nodes come into contact, and the pressures on them up to a factor.
 
-    Return with them the bodies under the law that pressures on the next coarser grid foresee.
+    Return with them the bodies, which yield where pressures on the next coarser grid foresee it.
     """
     start = _from_coarser(problem, load)
-    if start is not None:
-        foreseen = problem.obeying(problem.law.foreseen(start.nodes, start.pressure))
-        if foreseen is not problem:
-            problem, start = foreseen, _from_coarser(foreseen, load)
+    if start is not None and problem.exceeds(start.nodes, start.pressure, _BEYOND_DOUBT):
+        problem = replace(problem, is_elastic=False)
+        start = _from_coarser(problem, load)
     return start or _rigid_guess(problem, load), problem
 
 
@@ -49,6 +51,7 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
         grid=problem.grid.coarser,
         separation=coarse_separation,
         law=problem.law.on(_halved),
+        shares=_halved_shares(problem.shares, separation.shape),
     )
     start = _from_coarser(coarse, load) or _rigid_guess(coarse, load)
     window = Window.of(coarse, load, start)
@@ -66,6 +69,15 @@ def _halved(field: Real) -> Real:
         means[: n // 2] /= 2
         field = np.moveaxis(means, 0, axis)
     return np.ascontiguousarray(field)
+
+
+def _halved_shares(shares: Shares, shape: tuple[int, int]) -> Shares:
+    """Means over two by two nodes of what is zero on all others."""
+    if not shares.nodes.size:
+        return shares
+    halved = _halved(shares.field(math.prod(shape)).reshape(shape)).ravel()
+    nodes = np.flatnonzero(halved)
+    return Shares(nodes, halved[nodes])
 
 
 def _spread(coarse: ContactSet, width: int, shape: tuple[int, int]) -> ContactSet | None:
@@ -105,7 +117,7 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
         counts = range(1, separations.size + 1)
         reached = bisect_left(counts, True, key=lambda count: depth_of(count) <= beyond[count - 1])
         depth = depth_of(counts[reached])
-        fewest = np.nan_to_num(force / problem.law.largest_force(problem.grid.cell_area))
+        fewest = np.nan_to_num(force / problem.bounds.largest_force(problem.grid.cell_area))
         depth = max(depth, float(separations[min(int(fewest), separations.size - 1)]))
     nodes = np.flatnonzero(separation < depth)
     return ContactSet(nodes, depth - separation.flat[nodes], load.depth)

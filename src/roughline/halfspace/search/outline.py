@@ -39,7 +39,7 @@ def overstated_cells(
     shape = contact.separation.shape
     touching = np.zeros(shape, dtype=bool)
     touching.flat[contact.nodes[~contact.pulling]] = True
-    above = contact.pressure - contact.problem.law.bounds(contact.nodes)[0]
+    above = contact.pressure - contact.problem.bounds_at(contact.nodes).low
     pairs, summits = 0, 0.0
     for axis in (0, 1):
         for step in (1, -1):

@@ -13,8 +13,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.laws.bounds import Bounds
-from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.search.by_depths import under_forces
 from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.problem import (
@@ -26,12 +24,13 @@ from roughline.halfspace.search.problem import (
     Problem,
     Residuals,
 )
+from roughline.halfspace.search.rounds import Rounds
 from roughline.halfspace.search.tangent import Response, Tangent, response
 from roughline.halfspace.search.turns import Turns
 from roughline.halfspace.search.window import Window
 
-# Part of a law's misfit to which its contact is solved while they are led to each other, and the
-# largest such tolerance.
+# Part of the misfit of shares to which their contact is solved while they are led to each other,
+# and the largest such tolerance.
 _OF_MISFIT, _ROUGHEST = 0.03, 1e-2
 _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
@@ -65,10 +64,10 @@ class Path:
         self._last: _Solved | None = None  # until the next search
         self._start: ContactSet | None = None  # of the search, which takes it
         self._followed: tuple[Indices, Response] | None = None  # nodes and tangents that led to it
-        self._before: float | None = None  # the load before
         self._largest: float | None = None
         self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
         self._unknown_below = -np.inf  # the largest load that was not solved
+        self._has_yielded = False
 
     def from_apart(self) -> Path:
         """Return the path of bodies that have come apart, and remember nothing."""
@@ -89,7 +88,7 @@ class Path:
             solved = self._furthest = replace(self._furthest, contact=contact)
         else:
             solved = self._solved(load)
-        self._before, self._last = load.value, solved
+        self._last = solved
         return solved.contact, solved.response
 
     def _solved(self, load: Load) -> _Solved:
@@ -98,7 +97,7 @@ class Path:
         if contact.outcome is not Outcome.CONVERGED:
             lost = {"none": -np.inf, "dents": load.value, "path": np.inf}
             self._unknown_below = lost[contact.problem.law.memory]
-            self._problem = self._problem.obeying(contact.problem.law)
+            self._problem = replace(self._problem, shares=contact.problem.shares)
             return _Solved(load, contact, None)
         self._largest = load.value if self._largest is None else max(self._largest, load.value)
         if contact.separation is not self._problem.separation:
@@ -109,52 +108,75 @@ class Path:
         return _Solved(load, replace(contact, convolutions=spent), answer)
 
     def _found(self, load: Load) -> tuple[Contact, Contact]:
-        """Solve the contact under a load, by one law after the other until one settles it.
+        """Solve the contact under a load; return it in a window, and the same on the grid."""
+        memory = self._problem.law.memory
+        if memory == "path":
+            return self._led_to_gaps(load)
+        if memory == "dents":
+            return self._dented(load)
+        return self._settled(load, self._problem, self._method)
 
-        Return the contact in a window, and the same on the grid.
+    def _dented(self, load: Load) -> tuple[Contact, Contact]:
+        """Solve for elastic bodies first, unless they have yielded and meet their largest load.
+
+        That bodies yield shows before their elastic contact is found.
         """
-        law, spent = self._problem.law.start(load.value, self._before, self._largest), 0
-        rtol, single = _ROUGHEST if law.follows_gaps else self._method.rtol, True
-        while True:
-            method = self._method.to(rtol, single) if law.follows_gaps else self._method
-            found, contact = self._settled(load, law, spent, method)
-            if contact.outcome is Outcome.STALLED and contact.residuals.worst <= self._method.rtol:
-                found, contact = (replace(x, outcome=Outcome.CONVERGED) for x in (found, contact))
-            law = contact.problem.law
-            lost = contact.outcome is Outcome.STALLED and method.precision == "float32"
-            if lost and self._method.precision == "mixed":
-                single, spent = False, found.convolutions
-                continue
-            # that bodies yield shows before their elastic contact is found
-            told = contact.outcome is Outcome.CONVERGED or law.memory == "dents"
-            following = law.then(contact) if told else None
-            if following is not None and following.follows_gaps:
-                misfit = following.misfit / contact.length_scale
-                rtol = min(_OF_MISFIT * max(misfit, self._method.rtol), _ROUGHEST)
-                if misfit <= self._method.rtol:  # the law fits, and its contact is to be known well
-                    following = None if method.rtol <= self._method.rtol else law
-                    residuals = replace(contact.residuals, misfit=misfit)
-                    found, contact = (replace(x, residuals=residuals) for x in (found, contact))
-            if following is None:
-                if law.follows_gaps:  # how it was led to the gap is of no more use
-                    law = law.start(load.value, self._before, self._largest)
-                    found, contact = (
-                        replace(x, problem=x.problem.obeying(law)) for x in (found, contact)
-                    )
-                return found, contact
-            law, spent = following, found.convolutions
+        beyond = self._largest is None or load.value > self._largest
+        problem = replace(self._problem, is_elastic=not (beyond and self._has_yielded))
+        found, contact = self._settled(load, problem, self._method)
+        if contact.problem.exceeds(contact.nodes, contact.pressure):
+            problem = replace(problem, is_elastic=False)
             if np.isfinite(contact.force):  # else there is nothing to start from
-                self._start = _under(following, contact)
+                self._start = _under(problem, contact)
+            found, contact = self._settled(load, problem, self._method, found.convolutions)
+        self._has_yielded |= not contact.problem.is_elastic
+        return found, contact
+
+    def _led_to_gaps(self, load: Load) -> tuple[Contact, Contact]:
+        """Solve the contact in rounds, in which shares of the pull and gaps are led to each other.
+
+        Contacts of shares that do not fit yet are solved roughly, in single precision while that
+        serves.
+        """
+        problem, rtol, single, spent = replace(self._problem), _ROUGHEST, True, 0
+        rounds = Rounds(problem.pull, problem.shares.above_zero)
+        while True:
+            method = self._method.to(rtol, single)
+            found, contact = self._settled(load, problem, method, spent)
+            spent = found.convolutions
+            problem = contact.problem  # which does not hold the bounds any more
+            if contact.outcome is Outcome.STALLED:
+                if contact.residuals.worst <= self._method.rtol:
+                    found, contact = (
+                        replace(x, outcome=Outcome.CONVERGED) for x in (found, contact)
+                    )
+                elif method.precision == "float32" and self._method.precision == "mixed":
+                    single = False
+                    continue
+            if contact.outcome is not Outcome.CONVERGED:
+                return found, contact
+            following = rounds.then(contact.gap.ravel())
+            misfit = following.misfit / contact.length_scale
+            rtol = min(_OF_MISFIT * max(misfit, self._method.rtol), _ROUGHEST)
+            if misfit > self._method.rtol:
+                rounds, problem = following, replace(problem, shares=following.shares)
+            else:  # the shares fit, and their contact is to be known well
+                residuals = replace(contact.residuals, misfit=misfit)
+                found, contact = (replace(x, residuals=residuals) for x in (found, contact))
+                if method.rtol <= self._method.rtol:
+                    return found, contact
+            self._start = _under(problem, contact)
+            del found, contact, following  # none is held while the next is solved
 
     def _settled(
-        self, load: Load, law: ContactLaw, spent: int, method: Method
+        self, load: Load, problem: Problem, method: Method, spent: int = 0
     ) -> tuple[Contact, Contact]:
-        """Solve the contact by a law, in the window in which bodies can touch."""
-        problem, most = self._problem.obeying(law), method.max_iterations
+        """Solve the contact of bodies with fixed bounds, in the window in which they can touch."""
+        most = method.max_iterations
         if contact := _known(problem, load, for_first_time=self._furthest is None):
             return contact, contact
         if load.force is not None:
-            load = Load(force=_attainable(load.force, law, problem.grid.cell_area))
+            load = Load(force=_attainable(load.force, problem))
         if self._start is None:
             self._start, problem = first_guess(problem, load)
         window = Window.of(problem, load, self._start)
@@ -203,33 +225,34 @@ class Path:
         self._start = _predicted(contact, tangent, load)
 
 
-def _under(law: ContactLaw, contact: Contact) -> ContactSet:
-    """Return a contact as the start under another law: nodes that pull are at its lower bound."""
-    low = Bounds.of(law, contact.nodes).low
+def _under(problem: Problem, contact: Contact) -> ContactSet:
+    """Return a contact as the start under other bounds: nodes that pull are at the lower one."""
+    low = problem.bounds_at(contact.nodes).low
     pressure = np.where(contact.pulling, low, contact.pressure)
     bears = pressure != 0
     return ContactSet(contact.nodes[bears], pressure[bears], contact.depth)
 
 
-def _attainable(force: float, law: ContactLaw, cell_area: float) -> float:
+def _attainable(force: float, problem: Problem) -> float:
     """Return slightly less where nodes at an upper bound alone may bear a force.
 
     With no node below its bound the depth would be open.
     """
-    nodes = force / law.largest_force(cell_area)
+    nodes = force / problem.bounds.largest_force(problem.grid.cell_area)
     same = abs(nodes - np.round(nodes)) < _SAME_FORCE * nodes
     return force * (1 - 2 * _SAME_FORCE) if same else force
 
 
 def _known(problem: Problem, load: Load, *, for_first_time: bool) -> Contact | None:
     """Return the contact where it needs no search: bodies apart, or no finite pressures do."""
-    law, depth = problem.law, load.depth
-    pulls = not law.only_pushes and Bounds.of(law, None).pulled.size
-    if not pulls and (load.value == 0 if depth is None else depth <= problem.touch):
+    depth = load.depth
+    apart = load.value == 0 if depth is None else depth <= problem.touch
+    if apart and not problem.bounds.pulled.size:
         return _unsearched(problem, load, Outcome.CONVERGED)
     # full contact is rigid where the mean is free; rounding counts where loads came back to it
     rigid = depth is not None and problem.grid.half_space.mean_is_free and for_first_time
-    if rigid and load.value >= problem.separation.mean() and law.largest_force(1.0) == np.inf:
+    bearable = problem.bounds.largest_force(1.0)
+    if rigid and load.value >= problem.separation.mean() and bearable == np.inf:
         return _unsearched(problem, load, Outcome.STALLED, problem.separation.size)
     return None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 import math
-from dataclasses import astuple, dataclass, replace
+from dataclasses import astuple, dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
@@ -15,10 +15,13 @@ from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.inverse.kept import inverse_on
+from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.pulling_zone import pulled_length
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
+from roughline.halfspace.search.pull import Pull, Shares
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
 # epsilons of pi C F / A_0 on grids of 8 to 10^6 points. C is the compliance of the longest wave, in
@@ -27,6 +30,7 @@ _ROUNDINGS = 2.0
 SINGLE_ABOVE = 1e-4
 """Single precision serves while errors are above this part of what moves; its own are 1e-7."""
 _DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
+_LEAST_PULL = 1e-3  # of the largest pull, with which pressures are compared at least
 
 
 class Outcome(enum.Enum):
@@ -82,6 +86,10 @@ class Problem:
     # but with no less than this times the sum of the forces on all nodes, :meth:`Method.resolution`
     resolution: float
     law: ContactLaw
+    # what nodes that are apart are pulled with, of the largest pull
+    shares: Shares = field(default_factory=Shares.none)
+    # whether the upper bounds are left out, as long as no node exceeds its own
+    is_elastic: bool = False
 
     def __post_init__(self) -> None:
         """Refuse a law whose bounds are not those of this grid's nodes."""
@@ -126,9 +134,44 @@ class Problem:
         depth = start.depth if load.depth is None else load.depth
         return math.inf if depth is None else _DEEPER * self.reach(depth)
 
-    def obeying(self, law: ContactLaw) -> Problem:
-        """Return the same bodies under another law."""
-        return self if law is self.law else replace(self, law=law)
+    @cached_property
+    def bounds(self) -> Bounds:
+        """The bounds that the pressures of all nodes have now."""
+        return self.bounds_at(None)
+
+    def bounds_at(self, nodes: Indices | None) -> Bounds:
+        """Return the bounds that the pressures of ascending nodes have now, or of all."""
+        low, high = self.law.bounds(nodes)
+        if not self.law.only_pushes:
+            shares = self.shares
+            low = low * (shares.field(self.separation.size) if nodes is None else shares.at(nodes))
+        return Bounds(low, math.inf if self.is_elastic else high)
+
+    @property
+    def pull(self) -> Pull:
+        """The pull across gaps."""
+        half_space, compliance = self.grid.half_space, self.grid.inverse.diagonal
+        return Pull(self.law, self.separation, compliance, half_space.repeats)
+
+    def exceeds(self, nodes: Indices, pressure: Real, times: float = 1.0) -> bool:
+        """Whether elastic bodies bear more than so many times an upper bound, on some of nodes."""
+        most = Bounds.of(self.law, nodes).high
+        return self.is_elastic and bool(np.any(pressure > times * np.asarray(most)))
+
+    def scales(self, pressure: Real, displacement: Real) -> tuple[float, float]:
+        """Return with what pressures and gaps are compared in the residuals.
+
+        They are the mean magnitude of the pressures, which does not vanish where pushes and pulls
+        balance, and the largest displacement towards the half-space. Bodies that pull may displace
+        each other by nothing, so their gaps are compared with the range. Nor need they bear
+        anything: where they touch under no load and nothing else is within reach, pressures are
+        compared with a part of the largest pull. [pressure] and [length]
+        """
+        mean = float(np.abs(pressure).mean())
+        if self.law.only_pushes:
+            return mean, float(displacement.max())
+        least = _LEAST_PULL * Bounds.of(self.law).largest_pull
+        return max(mean, least), pulled_length(self.law)
 
 
 @dataclass(frozen=True)

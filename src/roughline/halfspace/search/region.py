@@ -43,9 +43,8 @@ class Region:
     @classmethod
     def whole(cls, problem: Problem) -> Region:
         """All nodes of the grid, with the exact operator."""
-        bounds = Bounds.of(problem.law, None)
         operator, separation = CorrectedOperator(problem.operator), problem.separation.ravel()
-        return cls(problem, operator, separation, bounds, math.inf)
+        return cls(problem, operator, separation, problem.bounds, math.inf)
 
     @classmethod
     def possible(cls, problem: Problem, contact: Indices, reach: float) -> Region:
@@ -64,7 +63,7 @@ class Region:
         if places.size > _LARGEST * shown.size:
             return cls.whole(problem)
         nodes = GridNodes.of(places, shown.shape)
-        bounds, separation = Bounds.of(problem.law, places), problem.separation.flat[places]
+        bounds, separation = problem.bounds.at(places), problem.separation.flat[places]
         return cls(
             problem, CorrectedOperator(problem.operator, nodes=nodes), separation, bounds, reach
         )
@@ -183,7 +182,7 @@ class Trial:
         compared = borne
         if borne > 0:
             displacement = gap[places] + approach - (region.separation[places] - problem.touch)
-            pressure_scale, length_scale = problem.law.scales(pressure, displacement)
+            pressure_scale, length_scale = problem.scales(pressure, displacement)
             compared = max(borne, pressure_scale * cell_area)
         # which keeps what is no number
         length_scale = float(np.maximum(length_scale, problem.resolution * borne))

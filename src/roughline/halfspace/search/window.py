@@ -46,7 +46,7 @@ class Window:
         window = cls(problem, rows, columns, reach)
         area = window.bodies.separation.size * problem.grid.cell_area
         # with room to spare, as nodes at an upper bound alone are no contact
-        bears = load.force is None or problem.law.largest_force(area) > 2 * load.force
+        bears = load.force is None or problem.bounds.largest_force(area) > 2 * load.force
         return window if bears else cls.whole(problem)
 
     @classmethod

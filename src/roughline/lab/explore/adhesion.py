@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 import roughline as rl
+from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM
 from roughline.lab.controls import ControlError, as_code
 from roughline.lab.explore.controls import Quantity
 from roughline.lab.explore.panels import BACK, kept
@@ -124,12 +125,12 @@ class Adhesion(Physics):
 
     def is_resolved(self, state: ExploreState, n: int) -> bool:
         """Whether the zone that pulls has enough cells."""
-        return self.zone(state, n) >= rl.Dugdale.resolved_zone
+        return self.zone(state, n) >= RESOLVED_FROM
 
     def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Where bodies pull each other at the load, and how well the grid resolves that."""
         assert pressed.pulling_fraction is not None
-        cells, needed = float(pressed.settings["pulling_zone_cells"]), rl.Dugdale.resolved_zone
+        cells, needed = float(pressed.settings["pulling_zone_cells"]), RESOLVED_FROM
         is_resolved = cells >= needed
         return [
             item(

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.errors.checks import shown
+from roughline.halfspace.laws.bounds import Bounds
 from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_code, as_text, has_unit
 from roughline.lab.explore.controls import CHOICES, NUMBERS, Quantity
 from roughline.lab.maps import Map
@@ -275,7 +276,11 @@ class ExploreState:
     def most_force_bar(self) -> float:
         """Dimensionless force that all of the area bears. [1]"""
         law = self.law
-        return math.inf if law is None else law.largest_force(self.length**2) / self.force(1.0)
+        return (
+            math.inf
+            if law is None
+            else Bounds.of(law).largest_force(self.length**2) / self.force(1.0)
+        )
 
     def texts(self) -> dict[str, str]:
         """All that is set, as texts by the keys of the controls."""

@@ -1,0 +1,231 @@
+"""The pull across the gaps of a grid, as shares of the largest pull of each node.
+
+A law may end its pull by a jump. On a grid a cell at that edge would then have two places, within
+reach and beyond, and the edge would move by whole cells. So a jump ends over a ramp about the
+cutoff: half of its width is what the gap changes across half a cell, or, where that is more, what
+the pull on a cell displaces it. It lessens the pull below the cutoff by what it adds beyond, so the
+work of adhesion stays that of the law.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from roughline.computing.arrays import Floats, Indices, Integers, Real
+from roughline.computing.compiled import compiled
+from roughline.errors import InputError
+from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.laws.law import LEAST_SHARE, ContactLaw
+from roughline.halfspace.laws.unilateral import Unilateral
+
+# Half of the ramp over what the pull on a cell displaces it: so a cell at the edge of the reach has
+# one place, and a circle on cells pulls as a circle does (benchmarks/pull_off.py).
+_WIDTH = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Shares:
+    """Shares of the largest pull that nodes bear, ascending flat indices; others bear none."""
+
+    nodes: Indices
+    values: Real
+
+    @classmethod
+    def none(cls) -> Shares:
+        """No node is pulled."""
+        return cls(np.empty(0, np.intp), np.empty(0))
+
+    @property
+    def above_zero(self) -> Shares:
+        """The same, without nodes that bear none."""
+        pulled = self.values > 0
+        return Shares(self.nodes[pulled], self.values[pulled])
+
+    def at(self, nodes: Indices) -> Real:
+        """Return the shares of some nodes, ascending ones."""
+        if np.array_equal(nodes, self.nodes):
+            return self.values
+        found = np.zeros(nodes.size)
+        _find(self.nodes, self.values, nodes, found)
+        return found
+
+    def but(self, nodes: Indices, values: Real) -> Shares:
+        """Return the same, with other values at some of their nodes."""
+        changed = self.values.copy()
+        changed[np.searchsorted(self.nodes, nodes)] = values
+        return Shares(self.nodes, changed)
+
+    def field(self, size: int) -> Real:
+        """Return the shares of all nodes of a grid of so many."""
+        field = np.zeros(size)
+        field[self.nodes] = self.values
+        return field
+
+
+@dataclass(frozen=True, eq=False)
+class Pull:
+    """The pull of a law across the gaps of bodies on a grid, at nodes given by flat indices."""
+
+    law: ContactLaw
+    separation: Real  # distance of the bodies at first touch, shape (nx, ny) [length]
+    compliance: float  # displacement of a node by the pressure on it alone [length / pressure]
+    repeats: tuple[bool, bool]  # whether bodies go on as they begin, along x and along y
+
+    @cached_property
+    def jump(self) -> float:
+        """Share of the pull that ends at the cutoff."""
+        if math.isinf(self.law.cutoff):
+            return 0.0
+        jump = float(self.law.share_at(np.array([self.law.cutoff]))[0])
+        return jump if jump > LEAST_SHARE else 0.0
+
+    @property
+    def _narrowest(self) -> float:
+        """Half of the width that a ramp has at least. [length]"""
+        return _WIDTH * Bounds.of(self.law).largest_pull * self.compliance
+
+    def at_hand(self) -> ContactLaw:
+        """Return the law, or, where the pull moves less than rounding, one without it.
+
+        Raises
+        ------
+        InputError
+            If the pull would end within a cell.
+        """
+        law, cells = self.law, self.separation.size
+        if law.only_pushes:
+            return law
+        moved = Bounds.of(law).largest_pull * self.compliance * cells
+        if moved < np.finfo(float).eps * self.separation.max():
+            return Unilateral()
+        if self.jump and self._narrowest > law.cutoff:
+            enough = 1.01 * np.sqrt(self._narrowest / law.cutoff)  # rounded to three digits, too
+            raise InputError(
+                "is too short for the grid: the pull w / h_0 would end within a cell. Give at "
+                f"least {enough:.3g} times as much, with the same work, or a finer grid",
+                "range",
+            )
+        return law
+
+    def followed(self, gap: Real, shares: Shares) -> tuple[Shares, Shares, float]:
+        """Return the shares that a gap leaves, and from others, at nodes where both differ.
+
+        The gap is that of all nodes, shape (nx * ny,). Return with them by how much, at most, gaps
+        differ that go with the two. [length]
+        """
+        nodes = self._near(gap, shares)
+        followed = self._shares(gap[nodes] if nodes.size < gap.size else gap, nodes)
+        taken = shares.at(nodes)
+        places = np.flatnonzero(followed != taken)
+        moved, there, before = nodes[places], followed[places], taken[places]
+        apart = self._apart(there, before, moved)
+        return Shares(nodes, followed), Shares(moved, there - before), float(apart.max(initial=0.0))
+
+    def _near(self, gap: Real, shares: Shares) -> Indices:
+        """Return the nodes that a gap leaves within reach, and those of shares, in one memory."""
+        if math.isinf(self.law.cutoff):
+            return shares.nodes if shares.nodes.size == gap.size else np.arange(gap.size)
+        near = gap < self.law.reach
+        near[shares.nodes] = True
+        nodes = np.flatnonzero(near)
+        return nodes if nodes.size > shares.nodes.size else shares.nodes
+
+    def _shares(self, gap: Real, nodes: Indices) -> Real:
+        """Return the shares that the gaps of nodes leave."""
+        law = self.law
+        shares = law.share_at(np.clip(gap, 0.0, law.cutoff))
+        if math.isinf(law.cutoff):
+            return shares
+        if not self.jump:
+            return np.where(gap < law.cutoff, shares, 0.0)
+        within = self._within(gap, self._ramp(nodes))
+        within *= self.jump
+        shares -= self.jump
+        shares += within
+        return shares
+
+    def _apart(self, shares: Real, others: Real, nodes: Indices) -> Real:
+        """Return by how much the gaps of nodes differ that go with shares. [length]"""
+        least = self.jump or LEAST_SHARE
+        gaps = [self.law.gap_at(np.maximum(each, least)) for each in (shares, others)]
+        apart = np.abs(gaps[0] - gaps[1])
+        if self.jump:  # the rest is along the ramp
+            lower = [np.minimum(each, self.jump) / self.jump for each in (shares, others)]
+            apart += 2 * self._ramp(nodes) * np.abs(lower[0] - lower[1])
+        return apart
+
+    def energy(self, gap: Real) -> float:
+        """Return minus the work that is left to separate all nodes, over the area of a cell.
+
+        The gap is that of all nodes, shape (nx * ny,). [pressure * length]
+        """
+        law = self.law
+        nodes = np.flatnonzero(gap < (law.reach if self.jump else law.cutoff))
+        gap = np.maximum(gap[nodes], 0.0)
+        work = law.work_beyond(np.minimum(gap, law.cutoff))
+        if self.jump:
+            ramp = self._ramp(nodes)
+            to_ramp = np.maximum(law.cutoff - ramp - gap, 0.0)
+            even = to_ramp + ramp * self._within(gap, ramp) ** 2
+            work += self.jump * (even - np.maximum(law.cutoff - gap, 0.0))
+        return float(np.sum(Bounds.of(law, nodes).low * work))
+
+    def _within(self, gap: Real, ramp: Real) -> Real:
+        """Return one up to the ramp, and zero beyond it."""
+        within = self.law.cutoff + ramp
+        within -= gap
+        within /= 2 * ramp
+        return np.clip(within, 0.0, 1.0, out=within)
+
+    def _ramp(self, nodes: Indices) -> Real:
+        """Return half of the width over which the pull ends at nodes. [length]"""
+        steps = _steps(self.separation, nodes, *self.repeats)
+        steps /= 2
+        np.clip(steps, self._narrowest, self.law.cutoff, out=steps)
+        return steps
+
+
+@compiled
+def _find(nodes: Integers, values: Floats, wanted: Integers, found: Floats) -> None:
+    """Write the values of nodes to where wanted ones are among them; both lists ascend."""
+    place = 0
+    for i in range(wanted.size):
+        step = 1
+        while place + step < nodes.size and nodes[place + step] <= wanted[i]:
+            place += step
+            step *= 2
+        while step:
+            if place + step < nodes.size and nodes[place + step] <= wanted[i]:
+                place += step
+            step //= 2
+        if place < nodes.size and nodes[place] == wanted[i]:
+            found[i] = values[place]
+
+
+@compiled
+def _steps(separation: Real, nodes: Indices, repeats_x: bool, repeats_y: bool) -> Real:
+    """Return what the separation changes by from cell to cell, along x and along y together."""
+    steps = np.zeros(nodes.size)
+    nx, ny = separation.shape
+    for i in range(nodes.size):
+        x = nodes[i] // ny
+        y = nodes[i] - x * ny
+        low, high, cells = _beside(x, nx, repeats_x)
+        steps[i] += abs(separation[high, y] - separation[low, y]) / cells
+        low, high, cells = _beside(y, ny, repeats_y)
+        steps[i] += abs(separation[x, high] - separation[x, low]) / cells
+    return steps
+
+
+@compiled
+def _beside(place: int, points: int, repeats: bool) -> tuple[int, int, int]:
+    """Return the neighbours of a point on a line, or itself at an end, and the cells between."""
+    low, high = place - 1, place + 1
+    if repeats:
+        return (low if low >= 0 else points - 1), (high if high < points else 0), 2
+    low, high = max(low, 0), min(high, points - 1)
+    return low, high, max(high - low, 1)
