@@ -9,6 +9,7 @@ import pytest
 
 import roughline as rl
 from roughline.halfspace.search.pull import Pull, Shares
+from roughline.halfspace.search.region import Region
 from roughline.halfspace.search.rounds import Rounds, _History
 
 DUGDALE = rl.Dugdale(work_of_adhesion=0.02, range=0.2)
@@ -137,3 +138,19 @@ def test_nodes_that_join_a_history_have_rested_before():
     steps, *_ = np.linalg.lstsq(np.diff(moves, axis=0).T, moves[-1], rcond=1e-10)
     expected = np.clip(values[-1] - steps @ np.diff(values, axis=0), 0, 1)
     assert taken.values[[0, 1, 3, 4]] == pytest.approx(expected[[0, 1, 3, 4]], abs=1e-12)
+
+
+def test_a_round_starts_from_the_gap_of_the_last_one(monkeypatch):
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0, q_roll=8 * np.pi, q_high=64 * np.pi)
+    surface = spectrum.surface(160, rng=5)
+    law = rl.Dugdale(work_of_adhesion=0.5, range=0.3)
+
+    def pressed() -> rl.Curve:
+        return rl.press(surface, E_star=1.0, law=law, depths=[0.5, 0.8])
+
+    found = pressed()
+    monkeypatch.setattr(Region, "from_other_bounds", lambda *_: None)
+    by_convolutions = pressed()
+    np.testing.assert_allclose(found.force, by_convolutions.force, rtol=1e-6)
+    assert np.array_equal(found.area_fraction, by_convolutions.area_fraction)
+    assert found.convolutions.sum() < 0.7 * by_convolutions.convolutions.sum()

@@ -63,6 +63,7 @@ class Path:
         self._method = method
         self._last: _Solved | None = None  # until the next search
         self._start: ContactSet | None = None  # of the search, which takes it
+        self._before: Contact | None = None  # under other shares, with this start
         self._followed: tuple[Indices, Response] | None = None  # nodes and tangents that led to it
         self._largest: float | None = None
         self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
@@ -166,6 +167,7 @@ class Path:
                 if method.rtol <= self._method.rtol:
                     return found, contact
             self._start = _under(problem, contact)
+            self._before = contact
             del found, contact, following  # none is held while the next is solved
 
     def _settled(
@@ -183,8 +185,8 @@ class Path:
         self._start = window.inside(self._start)
         while True:
             method = replace(method, max_iterations=max(1, most - spent))
-            turns = Turns(window.bodies, load, self._start, method)
-            self._start = None
+            turns = Turns(window.bodies, load, self._start, method, self._before)
+            self._start = self._before = None
             found = turns.contact()
             spent += found.convolutions
             holds = window.holds(found)
@@ -247,12 +249,12 @@ def _known(problem: Problem, load: Load, *, for_first_time: bool) -> Contact | N
     """Return the contact where it needs no search: bodies apart, or no finite pressures do."""
     depth = load.depth
     apart = load.value == 0 if depth is None else depth <= problem.touch
-    if apart and not problem.bounds.pulled.size:
+    if apart and not problem.shares.above_zero.nodes.size:
         return _unsearched(problem, load, Outcome.CONVERGED)
     # full contact is rigid where the mean is free; rounding counts where loads came back to it
     rigid = depth is not None and problem.grid.half_space.mean_is_free and for_first_time
-    bearable = problem.bounds.largest_force(1.0)
-    if rigid and load.value >= problem.separation.mean() and bearable == np.inf:
+    deep = rigid and load.value >= problem.separation.mean()
+    if deep and problem.bounds.largest_force(1.0) == np.inf:
         return _unsearched(problem, load, Outcome.STALLED, problem.separation.size)
     return None
 

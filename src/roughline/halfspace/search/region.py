@@ -86,23 +86,42 @@ class Region:
         The trial is one in this region with the exact operator. Nodes off the contact are near
         whose gap is below so many times the error on contact.
         """
-        problem, carriers, grid = self.problem, trial.carriers, self.problem.grid.shape
+        carriers, grid = trial.carriers, self.problem.grid.shape
         most = max(0, int(_LARGEST * math.prod(grid)) - carriers.places.size)
         places, order = merged(carriers.places, trial.close(reach, most))
-        nodes = self.operator.grid_nodes(places)
-        restricted = problem.inverse.restricted.on(nodes)
-        if restricted is None:
-            return None
         found = Carriers(np.flatnonzero(order < carriers.places.size), carriers.pressure)
-        before = np.zeros(places.size)
-        before[found.places] = found.pressure
-        separation = self.separation[places]
         moved = trial.gap[places]
         moved[found.places[trial.plastic]] -= trial.overlap
         moved += trial.approach
-        moved -= separation - problem.touch
-        operator = CorrectedOperator(problem.operator, restricted, nodes, before, moved)
-        return Region(problem, operator, separation, self.bounds.at(places), 0.0), found
+        nodes = self.operator.grid_nodes(places)
+        region = _restricted(self.problem, nodes, self.bounds.at(places), found, moved)
+        return (region, found) if region else None
+
+    @classmethod
+    def from_other_bounds(
+        cls, problem: Problem, contact: Contact, start: ContactSet
+    ) -> tuple[Region, Carriers] | None:
+        """Return the nodes as a region that bear pressure in a contact under other bounds or now.
+
+        The start is of nodes of that contact. Nodes whose bounds allow no zero pressure are
+        carriers, too. None if the exact operator costs less.
+        """
+        bears = np.zeros(problem.separation.size, dtype=bool)
+        bears[contact.nodes] = bears[problem.shares.above_zero.nodes] = True
+        places = np.flatnonzero(bears)
+        bounds = problem.bounds_at(places)
+        before = Carriers(np.searchsorted(places, contact.nodes), contact.pressure)
+        moved = contact.gap_at(places)
+        moved += contact.depth - problem.touch
+        region = _restricted(problem, problem.grid.nodes(places), bounds, before, moved)
+        if region is None:
+            return None
+        carriers = np.searchsorted(places, start.nodes)
+        pressure = np.broadcast_to(bounds.low, places.shape).copy()
+        pressure[carriers] = bounds.at(carriers).nearest(start.pressure)
+        bears = pressure != 0
+        bears[carriers] = True
+        return region, Carriers(np.flatnonzero(bears), pressure[bears])
 
     def recentred(self, carriers: Carriers, precision: Precision) -> Region:
         """Return the region with the operator that is exact for the pressures of carriers."""
@@ -282,6 +301,25 @@ class Trial:
             outcome=outcome,
             convolutions=convolutions,
         )
+
+
+def _restricted(
+    problem: Problem, nodes: GridNodes, bounds: Bounds, carriers: Carriers, moved: Real
+) -> Region | None:
+    """Return some nodes as a region; None if a restricted operator costs more.
+
+    It is exact for the carriers among them, which move the surface by so much more than the bodies
+    are apart there at first touch. The array is overwritten. [length]
+    """
+    restricted = problem.inverse.restricted.on(nodes)
+    if restricted is None:
+        return None
+    before = np.zeros(nodes.indices.size)
+    before[carriers.places] = carriers.pressure
+    separation = problem.separation.flat[nodes.indices]
+    moved -= separation - problem.touch
+    operator = CorrectedOperator(problem.operator, restricted, nodes, before, moved)
+    return Region(problem, operator, separation, bounds, 0.0)
 
 
 def _part(error: float, borne: float) -> float:
