@@ -1,6 +1,7 @@
 """Commands that the recorder runs on files: press, info, compare and generate."""
 
 import shlex
+from dataclasses import replace
 
 import numpy as np
 from recorded_problems import line, rough, scan
@@ -56,7 +57,7 @@ def _fill(folder, topographies):
     surfaces["small"] = rough(96, 5, **law).cropped((0, 48), (0, 96)).detrended()
     surfaces["coarse"] = rough(16, 6, **law)
     for name, body in surfaces.items():
-        rl.write(rl.Surface(body.heights, body.sizes, "m", body.settings), f"{name}.nc")
+        rl.write(replace(body, unit="m"), f"{name}.nc")
     rl.write(rl.Line(line(256, 7, **law).heights, 1e-3, "m"), "line.nc")
     heights = surfaces["rough"].heights.copy()
     np.save("map.npy", heights)

@@ -1,6 +1,7 @@
 """Bodies that the recorder presses from Python, and how."""
 
 import math
+from dataclasses import replace
 from functools import partial as of
 
 import numpy as np
@@ -44,7 +45,7 @@ def tilted(n, seed):
     """A piece of a larger surface, with its tilt."""
     piece = rough(2 * n, seed).cropped((0, n), (0, n))
     heights = piece.heights + 2.0 * np.arange(n)[:, np.newaxis] / n
-    return rl.Surface(heights, piece.sizes, settings=piece.settings)
+    return replace(piece, heights=heights)
 
 
 def shape(name, n):
