@@ -51,9 +51,9 @@ def _of_work(separation: Separation, pressed: Pressed) -> Real:
 def _of_range(name: str, pressed: Pressed) -> Mapping[str, str]:
     """Of which attraction an answer is, and of which surface."""
     law, attraction = pressed.curve.law, pressed.attraction
-    if attraction is None or law is None:
+    if attraction is None or not isinstance(law, Adhesive):
         return {}
-    reach = engineering(float(law.settings["range"]), "m")
+    reach = engineering(law.range, "m")
     place = ""
     if pressed.interface is not None:
         place = "of this piece alone, a punch with its outline; "
@@ -69,14 +69,14 @@ def _of_range(name: str, pressed: Pressed) -> Mapping[str, str]:
 def _branch(pressed: Pressed) -> str:
     """Say which branch the other answers are of, and which range was taken."""
     law, attraction = pressed.curve.law, pressed.attraction
-    if attraction is None or law is None or pressed.sought.separation is None:
+    if attraction is None or not isinstance(law, Adhesive) or pressed.sought.separation is None:
         return ""
     text = (
         "the bodies stick: other answers are those on the way in, and stiffness and conductance "
         "those of the points that touch"
     )
     if attraction.range is None:
-        reach = float(law.settings["range"])
+        reach = law.range
         text += (
             f"; no range was given, and the shortest that the map resolves is taken, "
             f"{engineering(reach, 'm')}"

@@ -130,7 +130,7 @@ class Adhesion(Physics):
     def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Where bodies pull each other at the load, and how well the grid resolves that."""
         assert pressed.pulling_fraction is not None
-        cells, needed = float(pressed.settings["pulling_zone_cells"]), RESOLVED_FROM
+        cells, needed = self.zone(state, len(fields.gap)), RESOLVED_FROM
         is_resolved = cells >= needed
         return [
             item(
@@ -176,9 +176,9 @@ class Adhesion(Physics):
 
     def in_command(self, state: ExploreState) -> tuple[list[str], str]:
         """The law."""
-        settings = self.law(state).settings
-        work = state.in_words("w", "J/m^2", float(settings["work_of_adhesion"]))
-        reach = state.in_words("h0", "m", float(settings["range"]))
+        law = self.law(state)
+        work = state.in_words("w", "J/m^2", law.work_of_adhesion)
+        reach = state.in_words("h0", "m", law.range)
         left_out = "the way back and the pull-off need two materials"
         return ["--adhesion", f"{work} over {reach}"], left_out
 
