@@ -1,11 +1,14 @@
 """Notes and warnings: what is said together is derived from the same facts."""
 
+import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.assessment.doubts import warnings_of
 from roughline.assessment.notes import listed_in_short
 
 PAIR = "steel,copper"
@@ -123,6 +126,26 @@ def test_full_contact_is_said(surface):
     assert np.isinf(result.answers["contact_stiffness"].values).tolist() == [False, True]
     text = "; ".join(result.warnings)
     assert "all points touch under 20 N: no gap is left, and stiffness is infinite" in text
+
+
+@pytest.mark.parametrize(
+    ("half_space", "rest"),
+    [
+        (
+            rl.Layered(1e9, 0.3, 1e-4, base_young=math.inf, periodic=True),
+            "k is that of even pressure on the rigid base",
+        ),
+        (rl.Homogeneous(1e9, periodic=True), "stiffness is infinite"),
+        (rl.Homogeneous(1e9), "k is that of a flat punch"),
+    ],
+)
+def test_how_stiff_a_full_contact_is_follows_from_the_half_space(surface, half_space, rest):
+    smooth = rl.Surface(surface.heights / 1000, surface.sizes, "m")
+    result = said(smooth, loads=["1 mN", "20 N"], periodic=True, elastic=True)
+    curve = rl.press(smooth, half_space=half_space, forces=result.curve.force)
+    found = warnings_of(replace(result, curve=curve), None, False)
+    assert any(each.endswith(f"no gap is left, and {rest}") for each in found)
+    assert np.isinf(curve.stiffness[-1]) == (rest == "stiffness is infinite")
 
 
 def test_a_wide_interval_names_its_largest_cause_first(surface):

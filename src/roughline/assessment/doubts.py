@@ -203,8 +203,11 @@ def _of_full_contact(result: Assessment) -> list[str]:
     curve, body = result.curve_as_asked, result.body
     if curve.area_fraction is None or not isinstance(body, Surface):
         return []
-    repeated = curve.settings.get("boundary") == "periodic"
-    rest = "stiffness is infinite" if repeated else "k is that of a flat punch"
+    if curve.half_space.mean_is_free:
+        rest = "stiffness is infinite"
+    else:  # what repeats along both axes nevertheless stands on a rigid base
+        on_base = all(curve.half_space.repeats)
+        rest = f"k is that of {'even pressure on the rigid base' if on_base else 'a flat punch'}"
     notes = []
     apart = np.rint((1 - curve.area_fraction) * body.heights.size)
     full = [name for name, n in zip(result.headings, apart, strict=True) if n == 0]

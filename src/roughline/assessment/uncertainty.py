@@ -34,7 +34,7 @@ def intervals_of(
     low, high = interval(value, np.hypot(error, area_change))
     loading = interval(curve.stiffness, np.hypot(stiffness_error, loading_change))
     springing = interval(unloading, np.hypot(unloading_error, unloading_change))
-    if curve.settings.get("boundary") == "periodic":  # a full contact is infinitely stiff
+    if curve.half_space.mean_is_free:  # a full contact is infinitely stiff
         may_be_full = high >= 1
         loading, springing = (_open(ends, may_be_full) for ends in (loading, springing))
     if curve.hardness is not None:  # no area bears more than the hardness
