@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 import roughline as rl
 from benchmarks.made_surfaces import SIDE, Make, parent_of
 from roughline.assessment.behind_maps import shared_load
+from roughline.topography.provenance import Provenance, Tilt
 
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 E_STAR = 200e9 / (1 - 0.3**2) / 2
@@ -124,8 +125,8 @@ def test_waves_longer_than_all_maps_take_down_what_is_said_of_the_part(joint, ma
 
 @pytest.mark.parametrize("maps", [4, 7])
 def test_bows_tell_of_longer_waves_where_the_tilt_is_the_mountings(maps):
-    mounted = {"tilt": "mounting"}
-    _, part, _ = part_of("waviness of 4 maps", maps=maps, points=64, waves=8, settings=mounted)
+    mounted = Provenance(tilt=Tilt(is_of_mounting=True))
+    _, part, _ = part_of("waviness of 4 maps", maps=maps, points=64, waves=8, provenance=mounted)
     assert part.warnings[0].startswith("the maps are bowed")
 
 

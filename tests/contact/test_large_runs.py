@@ -335,9 +335,7 @@ def test_a_fractal_punch_is_meant_to_end_at_its_border():
 
 def test_contact_in_the_middle_of_a_measured_surface_is_not_warned_of(tmp_path):
     x = np.linspace(-1, 1, 64)
-    cap = rl.Surface(
-        -(x[:, np.newaxis] ** 2 + x**2), (1.0, 1.0), settings={"origin": "instrument file"}
-    )
+    cap = rl.Surface(-(x[:, np.newaxis] ** 2 + x**2), (1.0, 1.0), is_cut_out=True)
     assert rl.press(cap, E_star=1.0, depths=[0.01, 0.1]).warnings == ()
     assert len(rl.press(cap, E_star=1.0, depths=[2.5]).warnings) == 1
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ import roughline as rl
 from benchmarks.made_surfaces import GAUSSIAN, SIDE, Make, parent_of, piece_of
 from roughline.spectra.coarser_selves import coarser_selves
 from roughline.spectra.departures import departures
+from roughline.topography.provenance import Provenance, Tilt
 
 
 def piece(kind: str, seed: int, **make: float) -> rl.Surface:
@@ -53,7 +56,7 @@ def test_a_tilt_that_own_waves_do_not_explain_is_told_however_it_was_removed():
     stage = tilted(piece("sharp roll-off", 1), 3e-3)
     for body in (stage, stage.detrended(), stage.detrended().scaled(2.0)):
         assert "longer waves" in broken(body)
-    known = rl.Surface(stage.heights, stage.sizes, "m", {"tilt": "mounting"}, is_cut_out=True)
+    known = replace(stage, provenance=Provenance(tilt=Tilt(is_of_mounting=True)))
     assert broken(known) == set()
 
 

@@ -12,6 +12,7 @@ from benchmarks.made_surfaces import Make, measured, parent_of, piece_of
 from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.profile import profile_spectrum
+from roughline.topography.provenance import Instrument, Provenance
 
 Q_0 = 2 * math.pi
 
@@ -32,6 +33,11 @@ def found(fit, hurst, roll, cutoff, last, rms=1.0):
         fit.q_high_interval[0] <= cutoff * Q_0 <= fit.q_high_interval[1] * last,
         fit.rms_interval[0] <= rms <= fit.rms_interval[1],
     )
+
+
+def of(pixels=None, blur=None, tip_radius=None):
+    """What is known of the instrument."""
+    return Provenance(Instrument(pixels, blur, tip_radius))
 
 
 LAWS = [  # H, roll-off and cutoff, where there are such
@@ -101,7 +107,7 @@ def test_a_line_scan_is_recovered(n, hurst, roll, share):
 def test_intervals_are_not_idle():
     """On 512² points H is known to a tenth, a roll-off and a cutoff to some rings."""
     spectrum = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_roll=8 * Q_0, q_high=150 * Q_0)
-    exact = replace(spectrum.surface(512, 3, "gaussian"), settings={"pixels": "points", "blur": 0})
+    exact = replace(spectrum.surface(512, 3, "gaussian"), provenance=of("points", 0))
     fit = fit_self_affine(isotropic_spectrum(exact))
     assert fit.hurst == pytest.approx(0.6, abs=0.05)
     assert np.ptp(fit.hurst_interval) < 0.12
@@ -229,7 +235,7 @@ def test_the_exponent_is_held_through_every_instrument_and_corner(instrument, co
 
 def test_what_is_told_of_the_instrument_narrows_the_interval():
     body, hurst = seen("blur of a pixel", 1)
-    told = replace(body, settings={"pixels": "points", "blur": body.spacing[0]}, is_cut_out=True)
+    told = replace(body, provenance=of("points", body.spacing[0]), is_cut_out=True)
     unknown, known = (
         fit_self_affine(isotropic_spectrum(each)) for each in (replace(body, is_cut_out=True), told)
     )
@@ -241,8 +247,7 @@ def test_what_is_told_of_the_instrument_narrows_the_interval():
 def test_a_law_may_end_on_a_map_whose_blur_is_told():
     spectrum = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=6 * Q_0, q_high=30 * Q_0)
     blurred = ndimage.gaussian_filter(spectrum.surface(128, 5, "gaussian").heights, 1, mode="wrap")
-    instrument = {"pixels": "points", "blur": 1 / 128}
-    told = rl.Surface(blurred, (1.0, 1.0), settings=instrument, is_cut_out=False)
+    told = rl.Surface(blurred, (1.0, 1.0), is_cut_out=False, provenance=of("points", 1 / 128))
     fit = fit_self_affine(isotropic_spectrum(told))
     assert fit.remarks == ()
     assert fit.hurst_interval[0] <= 0.7 <= fit.hurst_interval[1]
@@ -251,7 +256,7 @@ def test_a_law_may_end_on_a_map_whose_blur_is_told():
 
 def test_a_blurred_map_told_to_be_of_points_is_said():
     body, hurst = seen("blur of a pixel", 2)
-    told = replace(body, settings={"pixels": "points", "blur": 0.0}, is_cut_out=True)
+    told = replace(body, provenance=of("points", 0.0), is_cut_out=True)
     fit = fit_self_affine(isotropic_spectrum(told))
     assert any("not that of the instrument as it was told" in each for each in fit.objections)
     assert fit.hurst_interval[0] <= hurst <= fit.hurst_interval[1]
@@ -267,9 +272,9 @@ def test_a_drawn_out_surface_has_no_interval():
 
 def test_waves_that_a_tip_does_not_follow_are_left_out():
     body, _ = seen("stylus tip", 4)
-    told = replace(body, settings={"tip_radius": 2e-4}, is_cut_out=True)
+    told = replace(body, provenance=of(tip_radius=2e-4), is_cut_out=True)
     fit = fit_self_affine(isotropic_spectrum(told))
     assert fit.q_last < isotropic_spectrum(body).q[-1]
-    far = replace(told, settings={"tip_radius": 1.0})
+    far = replace(told, provenance=of(tip_radius=1.0))
     with pytest.raises(rl.InputError, match="check tip_radius"):
         fit_self_affine(isotropic_spectrum(far))

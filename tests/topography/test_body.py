@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.topography.provenance import Provenance
 
 
 def wave(nx=64, ny=48):
@@ -99,17 +100,21 @@ def test_a_piece_stays_a_piece_whatever_is_done_to_it():
 
 
 @pytest.mark.parametrize(
-    ("settings", "is_cut_out"),
+    "settings",
     [
-        ({}, False),
-        ({"origin": "self-affine surface"}, False),
-        ({"origin": "instrument file"}, True),
-        ({"origin": "self-affine surface", "cropped": "x 0:8, y 0:8"}, True),
+        {"origin": "instrument file"},
+        {"origin": "self-affine surface", "cropped": "x 0:8, y 0:8"},
+        {"detrended": "tilt", "tilt_removed_x": 0.1, "tilt": "mounting"},
+        {"pixels": "means", "blur": 0.1, "missing_points": 7, "missing_share": 0.5},
     ],
 )
-def test_what_is_not_given_is_as_the_settings_record(settings, is_cut_out):
-    assert rl.Surface(wave(), (1.0, 1.0), None, settings).is_cut_out is is_cut_out
-    assert not rl.Surface(wave(), (1.0, 1.0), None, settings, is_cut_out=False).is_cut_out
+def test_settings_decide_nothing(settings):
+    """They are a record for people; what decides is a field."""
+    for given in (settings, {}):
+        body = rl.Surface(wave(), (1.0, 1.0), None, given)
+        assert not body.is_cut_out  # as its borders tell
+        assert body.removed_trend == "none"
+        assert body.provenance == Provenance(borders=body.provenance.borders)
 
 
 def test_the_trend_that_was_removed_is_known():
@@ -117,7 +122,7 @@ def test_the_trend_that_was_removed_is_known():
         assert body.removed_trend == "none"
         assert body.detrended("curvature").scaled(2.0).removed_trend == "curvature"
         assert replace(body, settings={"detrended": "tilt"}).removed_trend == "none"
-    assert rl.Line(wave()[0], 1.0, settings={"detrended": "mean"}).removed_trend == "mean"
+    assert rl.Line(wave()[0], 1.0, removed_trend="mean").removed_trend == "mean"
     with pytest.raises(rl.InputError, match='removed_trend is "cubic"'):
         rl.Line(wave()[0], 1.0, removed_trend="cubic")
 

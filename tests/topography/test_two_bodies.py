@@ -1,11 +1,14 @@
 """Two rough bodies, and line scans that are pressed."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.topography.missing import Filled
+from roughline.topography.provenance import Provenance
 
 
 def rough(seed, n=64, length=1e-3, unit="m"):
@@ -59,6 +62,35 @@ def test_two_equal_random_surfaces_are_as_one_of_root_two():
         one = spectrum.surface(64, 200 + seed).scaled(math.sqrt(2))
         ones.append(rl.press(one, E_star=1.0, forces=forces).stiffness)
     assert np.mean(pairs, axis=0) == pytest.approx(np.mean(ones, axis=0), rel=0.1)
+
+
+@pytest.mark.parametrize(("points", "is_resampled"), [(64, False), (32, False), (None, True)])
+def test_only_a_second_body_on_another_grid_is_said_to_be_resampled_to_the_first(
+    points, is_resampled
+):
+    """That both were resampled before, as they were prepared, is another matter."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-6, length=1e-3, q_roll=4e4)
+    first, second = (replace(spectrum.surface(n, i), unit="m") for n, i in ((64, 1), (48, 2)))
+    preparation = rl.Preparation(points=points)
+    question = rl.Question(
+        first, ("steel", "copper"), loads="1 N", against=second, preparation=preparation
+    )
+    notes = rl.assess(question).notes
+    said = [text for text in notes if "resampled by cubic splines to pixels of 15.6" in text]
+    assert bool(said) is is_resampled
+
+
+def test_the_share_of_missing_points_is_that_of_the_body_that_lacks_most():
+    bodies = [
+        replace(
+            rl.SelfAffine(hurst=0.8, rms_height=1e-6, length=1e-3).surface(16, i),
+            provenance=Provenance(filled=Filled(int(256 * share), share, "harmonic")),
+        )
+        for i, share in enumerate((0.25, 0.5, 0.125))
+    ]
+    both = rl.facing(bodies[0], bodies[1])
+    for all_three in (rl.facing(both, bodies[2]), rl.facing(bodies[2], both)):
+        assert all_three.provenance.missing_share == both.provenance.missing_share == 0.5
 
 
 @pytest.fixture(params=[50, 200])

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughline._version import __version__
 from roughline.assessment.assumptions import broken
 from roughline.computing.arrays import Real
 from roughline.contact.comparison.median_ratio import median_ratio
@@ -162,7 +163,7 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:
         resolved=np.all([curve.resolved for curve in curves], axis=0),
         rms_height=float(np.median([curve.rms_height for curve in curves])),
         settings={
-            "roughline_version": first.settings["roughline_version"],
+            "roughline_version": __version__,
             "model": "reduced",
             "control": "forces",
             "lines": _SCAN_LINES,

@@ -311,40 +311,39 @@ def what_was_prepared(body: Body) -> list[str]:
 
 def _filled_spikes_and_effects(body: Body) -> list[str]:
     """Say what was filled, what spikes there are, and what the preparation did, unless grave."""
-    notes = _of_the_file(body)
-    if body.settings.get("missing_points"):
-        count, share = body.settings["missing_points"], float(body.settings["missing_share"])
-        notes.append(f"{count} missing points ({share:.2%}) filled: {body.settings['filled']}")
+    notes, known = _of_the_file(body), body.provenance
+    if filled := known.filled:
+        notes.append(f"{filled.points} missing points ({filled.share:.2%}) filled: {filled.method}")
     if text := told_of_filled(body):
         notes.append(text)
-    if body.settings.get("filled_before_crop"):
+    if known.filled_before_crop:
         notes.append(
-            f"{body.settings['filled_before_crop']} missing points had been filled before this "
+            f"{known.filled_before_crop} missing points had been filled before this "
             "piece was cropped, and it is not known how many of them are in it"
         )
-    if body.settings.get("outliers_kept"):
+    if known.outliers_kept:
         notes.append(
-            f"{body.settings['outliers_kept']} spikes kept; the highest point decides the depth of "
+            f"{known.outliers_kept} spikes kept; the highest point decides the depth of "
             "first touch, so check whether they are real, or remove them "
             f"({called('remove_outliers', True)})"
         )
-    if body.settings.get("outliers_removed"):
-        notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
+    if known.outliers_removed:
+        notes.append(f"{known.outliers_removed} spikes removed and filled")
     return notes + [each.text for each in effects(body) if not each.is_grave]
 
 
 def _of_the_file(body: Body) -> list[str]:
     """Say what was corrected as the file was read, and what became of points that it masks."""
-    notes = []
-    if corrected := body.settings.get("corrected"):
-        notes.append(f"corrected as it was read ({body.settings.get('format')}): {corrected}")
-    if share := float(body.settings.get("masked_share", 0.0)):
+    notes, known = [], body.provenance
+    if known.corrected:
+        notes.append(f"corrected as it was read ({known.format}): {known.corrected}")
+    if masked := known.masked:
         rest = (
             f"their heights are used ({called('mask', 'leave-out')} leaves them out)"
-            if body.settings["mask"] == "used"
+            if masked.are_used
             else "they are left out, and filled like missing points"
         )
-        notes.append(f"masked in {body.settings['mask_of']}: {share:.1%} of the points; {rest}")
+        notes.append(f"masked in {masked.by}: {masked.share:.1%} of the points; {rest}")
     return notes
 
 
@@ -398,16 +397,17 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
 
 def _cropping_and_resampling(body: Body) -> list[str]:
     """Say what was cropped and resampled when two surfaces were laid together."""
-    if not isinstance(body, Surface):
+    both = body.provenance.facing
+    if both is None or not isinstance(body, Surface):
         return []
     notes = []
-    for name in ("first", "second"):
-        if f"{name}_cropped_to" in body.settings:
+    for name, is_cropped in zip(("first", "second"), both.cropped, strict=True):
+        if is_cropped:
             sizes = " x ".join(engineering(size, "m") for size in body.sizes)
             notes.append(
                 f"{name} body: cropped to what both have in common, {sizes}, from x = y = 0"
             )
-    if "second_resampled_to" in body.settings:
+    if both.is_resampled:
         pixel = " x ".join(engineering(size, "m") for size in body.spacing)
         notes.append(f"second body: resampled by cubic splines to pixels of {pixel}, the first's")
     return notes

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from roughline.errors.checks import between, one_of, positive
+from roughline.errors.checks import one_of
 from roughline.errors.public import public
-from roughline.spectra.response import Pixels
 from roughline.topography.files.measurement import MaskUse, Sizes
 from roughline.topography.missing import Filling, Missing
-from roughline.topography.settings import MOUNTING, Settings
+from roughline.topography.provenance import MOUNTING, Instrument, Pixels
 from roughline.units import metres_per
 
 
@@ -53,20 +51,14 @@ class Reading:
     mask: MaskUse = "use"
 
     def __post_init__(self) -> None:
-        if self.pixels is not None:
-            one_of("pixels", self.pixels, get_args(Pixels))
-        if self.blur is not None:
-            between("blur", self.blur, 0.0, sys.float_info.max, "a length from 0 on is needed")
-        if self.tip_radius is not None:
-            positive("tip_radius", self.tip_radius)
+        _ = self.instrument  # refuses what cannot be
         one_of("mask", self.mask, get_args(MaskUse))
         one_of("tilt", self.tilt, ("unknown", MOUNTING))
-        Missing(self.missing, self.most_missing)  # refuses what cannot be
+        Missing(self.missing, self.most_missing)  # so does this
         if self.unit is not None:
             metres_per(self.unit)
 
     @property
-    def of_instrument(self) -> Settings:
-        """What is told of the instrument, as settings of a body."""
-        told = {"pixels": self.pixels, "blur": self.blur, "tip_radius": self.tip_radius}
-        return {name: value for name, value in told.items() if value is not None}
+    def instrument(self) -> Instrument:
+        """What is told of the instrument."""
+        return Instrument(self.pixels, self.blur, self.tip_radius)

@@ -19,7 +19,7 @@ from roughline.topography.files.read import measurement
 from roughline.topography.low_pass import points_kept
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation, as_prepared
-from roughline.topography.settings import MOUNTING, TILT
+from roughline.topography.provenance import MOUNTING
 from roughline.topography.trend import Trend
 from roughline.topography.two_bodies import facing
 from roughline.units import engineering
@@ -54,8 +54,8 @@ class Topography:
     @property
     def is_filled(self) -> bool:
         """Whether points were missing and have been filled."""
-        settings = self.body.settings
-        return bool(settings.get("missing_points") or settings.get("filled_before_crop"))
+        known = self.body.provenance
+        return known.filled is not None or known.filled_before_crop > 0
 
     def filled_by(self, method: Filling) -> Body:
         """The body with its missing points filled by a method; itself where they are not known."""
@@ -107,9 +107,7 @@ def measured_body(
     removed = preparation.trend if preparation and preparation.trend else trend
     lines = preparation.lines if preparation else None
     filling = Missing(reading.missing, reading.most_missing, removed, lines)
-    if reading.tilt == MOUNTING:
-        content = replace(content, settings={**content.settings, TILT: MOUNTING})
-    content = replace(content, settings={**content.settings, **reading.of_instrument})
+    content = content.told(reading.instrument, is_tilt_of_mounting=reading.tilt == MOUNTING)
     body = content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
     if reading.blur is not None and reading.blur >= body.length:
         length = engineering(body.length, "m")

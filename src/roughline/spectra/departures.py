@@ -22,7 +22,6 @@ from roughline.spectra.gaussian_heights import of_heights
 from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import outliers
-from roughline.topography.settings import MOUNTING, TILT
 from roughline.units import in_words
 
 Assumption = Literal[
@@ -116,8 +115,7 @@ def _of_steps(body: Body) -> Departure | None:
 
 def _of_faults(body: Body) -> Iterator[Departure]:
     """Say where heights are not the surface's, so that no answer holds."""
-    shares = [body.settings.get(f"{of}missing_share", 0.0) for of in ("", "first_", "second_")]
-    if (share := max(map(float, shares))) > _FILLED:
+    if (share := body.provenance.missing_share) > _FILLED:
         text = (
             f"{share:.0%} of the points are missing and were filled, so that summits may be "
             f"missing as well: measure again, or crop to where points are known ({called('crop')})"
@@ -313,7 +311,7 @@ def _of_long_waves(body: Body) -> list[Departure | None]:
 
 def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
-    if "lines_levelled" in body.settings:
+    if body.provenance.lines_levelled:
         text = (
             f"the {what} was levelled line by line, which takes waves across its lines with their "
             "jumps, so its heights do not tell whether it lies on waves longer than itself: "
@@ -325,7 +323,7 @@ def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
         return Departure(
             "longer waves", _in_words(worst, body, what), math.sqrt(worst.share / _LONGER)
         )
-    if tilt_of(body) is None and body.settings.get(TILT) != MOUNTING:
+    if tilt_of(body) is None and not body.provenance.tilt.is_of_mounting:
         text = (
             f"the {what} was levelled before it was given, so its heights do not tell whether it "
             f"lies on waves longer than itself: give it as it was measured, or {_say_so()}"

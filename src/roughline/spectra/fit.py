@@ -20,10 +20,10 @@ from roughline.spectra.law_search import Corner, Law, LikelyLaws, Observed, powe
 from roughline.spectra.map_rings import MapRings
 from roughline.spectra.means import LEAST_MEANS
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
-from roughline.spectra.response import UNKNOWN
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
 from roughline.topography.body import Body, Surface
+from roughline.topography.provenance import UNKNOWN
 
 _Spectrum = IsotropicSpectrum | ProfileSpectrum
 _Interval = tuple[float, float]

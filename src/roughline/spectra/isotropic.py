@@ -14,9 +14,9 @@ from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.spectra.leakage import RING_HALF_WIDTH
-from roughline.spectra.response import UNKNOWN, Instrument
 from roughline.spectra.synthesis import Seed, random_line
 from roughline.topography.body import Line, Surface
+from roughline.topography.provenance import UNKNOWN, Instrument
 from roughline.topography.settings import Settings
 
 _TENTHS = 10  # of a decade
@@ -171,7 +171,7 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
         windowed=surface.is_cut_out,
         aspect=surface.sizes[0] / surface.sizes[1],
         spacing=math.sqrt(math.prod(surface.spacing)),
-        instrument=Instrument.of(surface.settings, math.sqrt(math.prod(surface.spacing))),
+        instrument=surface.provenance.instrument,
         independent=_independent(waves, counts, sums, squares),
         isotropy=isotropy(level),
     )

@@ -18,7 +18,8 @@ from scipy import special
 from roughline.computing import linear_algebra
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.spectra.means import Means
-from roughline.spectra.response import Instrument, Responses
+from roughline.spectra.response import Responses
+from roughline.topography.provenance import Instrument
 
 Corner = Literal["sharp", "smooth"]
 """Of a law at its roll-off: a plateau up to it, or 1 + (q / q_roll)² to a power."""
@@ -179,7 +180,7 @@ class Observed(ABC):
 
     means: Means
     nyquist: float
-    instrument: Instrument
+    instrument: Instrument  # its lengths in spacings
     dimensions: ClassVar[int]
 
     @property

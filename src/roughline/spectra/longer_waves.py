@@ -18,7 +18,6 @@ from scipy import special
 from roughline.computing.arrays import Real
 from roughline.spectra.fit import SelfAffineFit
 from roughline.topography.body import Body, Line, sides_of, spacings_of
-from roughline.topography.settings import MOUNTING, TILT, TILT_REMOVED
 from roughline.topography.trend import polynomials, slopes_of_plane
 
 _DEGREES = 8  # of polynomials, from 0
@@ -42,9 +41,9 @@ class LongShape:
 
 def tilt_of(body: Body) -> tuple[float, ...] | None:
     """Slopes of the plane that a body had before it was levelled; None if it is not known. [1]"""
-    removed = [body.settings.get(name) for name in TILT_REMOVED[: body.heights.ndim]]
     left = slopes_of_plane(body.heights, spacings_of(body))
-    found = [slope + float(before or 0.0) for slope, before in zip(left, removed, strict=True)]
+    removed = body.provenance.tilt.removed or (0.0,) * len(left)
+    found = [slope + before for slope, before in zip(left, removed, strict=True)]
     lies = float(np.square(np.multiply(found, sides_of(body))).sum()) / 12
     if not any(removed) and lies < _ROUNDING * body.rms_height**2:
         return None
@@ -87,7 +86,7 @@ def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShap
 
 def _own_tilt(body: Body) -> tuple[float, ...] | None:
     """The tilt of a body if it is known, and not its mounting's."""
-    return None if body.settings.get(TILT) == MOUNTING else tilt_of(body)
+    return None if body.provenance.tilt.is_of_mounting else tilt_of(body)
 
 
 def _rolls(fit: SelfAffineFit) -> list[float]:

@@ -39,7 +39,8 @@ class MapRings(Observed):
             spectrum.windowed,
         )
         nyquist = spectrum.length / (2 * spectrum.spacing)
-        return cls(means, nyquist, spectrum.instrument, spectrum.windowed, spectrum.aspect)
+        instrument = spectrum.instrument.in_units(spectrum.spacing)
+        return cls(means, nyquist, instrument, spectrum.windowed, spectrum.aspect)
 
     @property
     def modes(self) -> Real:

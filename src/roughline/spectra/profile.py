@@ -15,8 +15,8 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, several
 from roughline.errors.public import public
 from roughline.spectra.leakage import LONG_WAVES
-from roughline.spectra.response import Instrument
 from roughline.topography.body import Line
+from roughline.topography.provenance import Instrument
 
 _BINS_PER_DECADE = 20
 _LEAST_POINTS = 64
@@ -119,5 +119,5 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
         length=first.length,
         rms_height=rms,
         spacing=first.length / n,
-        instrument=Instrument.of(first.settings, first.length / n),
+        instrument=first.provenance.instrument,
     )

@@ -8,14 +8,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal, cast
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
-from roughline.topography.settings import Settings
-
-Pixels = Literal["means", "points"]
+from roughline.topography.provenance import Instrument
 
 _BLURS = np.append(0.0, np.geomspace(0.2, 4.0, 26))  # standard deviations of blurs that are tried
 _AS_PIXELS = 0.3  # blur that acts as means over pixels do, or a little more
@@ -30,28 +27,6 @@ _KNOWN = 0.1  # of the logarithm of what an instrument does, to which its law is
 _IMAGES = 2  # times twice the Nyquist wavenumber, on both sides
 _DIRECTIONS = 12  # of waves, on a quarter of a circle
 _PLACES = 24  # between which images of shorter waves are interpolated
-
-
-@dataclass(frozen=True)
-class Instrument:
-    """What is known of the instrument that measured heights; None where it is not known."""
-
-    pixels: Pixels | None = None  # whether heights are means over pixels or those of points
-    blur: float | None = None  # standard deviation of its Gaussian blur, in spacings
-    tip_radius: float | None = None  # radius of a tip [length]
-
-    @classmethod
-    def of(cls, settings: Settings, spacing: float) -> Instrument:
-        """Take what the settings of a body say whose points have a spacing."""
-        pixels, blur, radius = (settings.get(name) for name in ("pixels", "blur", "tip_radius"))
-        return cls(
-            cast(Pixels, pixels) if pixels in ("means", "points") else None,
-            float(blur) / spacing if isinstance(blur, float | int) else None,
-            float(radius) if isinstance(radius, float | int) else None,
-        )
-
-
-UNKNOWN = Instrument()  # an instrument of which nothing is known
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +53,7 @@ class Responses:
     def of(cls, instrument: Instrument, u: Real, hursts: Real, dimensions: int) -> Responses:
         """List what an instrument may do to a map, or to a scan of one dimension.
 
-        At wavenumbers u, and for surfaces of some exponents.
+        Its lengths are in spacings. At wavenumbers u, and for surfaces of some exponents.
         """
         means, known = instrument.pixels == "means", instrument.blur is not None
         tried = np.array([instrument.blur]) if known else _BLURS

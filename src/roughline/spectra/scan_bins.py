@@ -96,7 +96,8 @@ class ScanBins(Observed):
         correlated = np.where(edges[:-1] < LONG_WAVES, 1.0, _CORRELATED)
         means = Means.of(spectrum.q / q_low, power, spectrum.modes / correlated, windowed=True)
         nyquist = spectrum.length / (2 * spectrum.spacing)
-        return cls(means, nyquist, spectrum.instrument, edges, _cuts_of_surface(edges))
+        instrument = spectrum.instrument.in_units(spectrum.spacing)
+        return cls(means, nyquist, instrument, edges, _cuts_of_surface(edges))
 
     @property
     def modes(self) -> Real:

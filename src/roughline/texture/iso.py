@@ -338,8 +338,8 @@ def _told(
     removed = trend if trend != "none" else body.removed_trend
     is_new = trend != "none" or removed == "none"
     short = gaussian(s_filter)
-    if before := body.settings.get("low_pass"):
-        earlier = f"{gaussian(float(before))}, when it was prepared"
+    if before := body.provenance.low_pass:
+        earlier = f"{gaussian(before)}, when it was prepared"
         short = earlier if s_filter is None else f"{earlier}, and {short}"
     borders = "renormalised weights within half a cutoff of them"
     if not body.is_cut_out:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, TypeVar, get_args
 
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
 from roughline.errors import InputError
-from roughline.errors.checks import is_whole, one_of, refuse, rising_pair
+from roughline.errors.checks import flag, is_whole, one_of, refuse, rising_pair
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.borders import borders_of, whole_or_piece
-from roughline.topography.crop import settings_of_piece
 from roughline.topography.heights import (
     checked_heights,
     checked_length,
@@ -24,17 +23,8 @@ from roughline.topography.heights import (
     rms,
     rms_deviation,
 )
-from roughline.topography.settings import (
-    NOTHING_RECORDED,
-    PERIODIC,
-    PIECE,
-    TILT_REMOVED,
-    Settings,
-    checked_cut_out,
-    checked_trend,
-    read_only,
-    record_of_tilt,
-)
+from roughline.topography.provenance import NOTHING_KNOWN, Provenance, noted, noted_of_piece
+from roughline.topography.settings import NOTHING_RECORDED, Settings, read_only
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 from roughline.units import in_words, metres_per
 
@@ -65,13 +55,19 @@ class Surface:
         Unit of all lengths, where it is known, such as "m" or "um"; :func:`roughline.read` gives
         "m".
     settings : mapping, optional
-        Where the heights come from; stored with every result.
+        A record for people of where the heights come from; stored with every result. Nothing is
+        decided by it.
     is_cut_out : bool, optional
         Whether the surface is a piece of a larger one, as measured and cropped surfaces are, or
-        periodic. Default: as the settings record; where they do not, the heights decide: they are
-        a piece if opposite borders do not meet, and the settings record the step across.
+        periodic. Default: the heights decide. They are a piece if opposite borders do not meet, and
+        the settings record the step across.
     removed_trend : {"none", "mean", "tilt", "curvature"}, optional
-        Trend that was removed from the heights. Default: as the settings record.
+        Trend that was removed from the heights; default: none.
+    provenance : Provenance, optional
+        How the heights were measured, and what was done to them: the instrument, the tilt that was
+        removed, the points that were filled. Default: nothing is known of that. It goes with a body
+        that follows from this one, as ``dataclasses.replace(surface, heights=...)`` does, and not
+        with its array.
 
     Raises
     ------
@@ -98,6 +94,7 @@ class Surface:
     settings: Settings
     is_cut_out: bool
     removed_trend: Trend
+    provenance: Provenance
 
     __repr__ = _described
     _repr_html_ = in_notebook
@@ -110,9 +107,11 @@ class Surface:
         settings: Settings = NOTHING_RECORDED,
         *,
         is_cut_out: bool | None = None,
-        removed_trend: Trend | None = None,
+        removed_trend: Trend = "none",
+        provenance: Provenance = NOTHING_KNOWN,
     ) -> None:
         if hasattr(heights, "physical_sizes"):
+            is_cut_out = not heights.is_periodic if is_cut_out is None else is_cut_out
             heights, sizes, unit, settings = _of_topography(heights, sizes, unit, settings)
         if sizes is None:
             raise InputError("no sizes are given; give the sides of the surface, (Lx, Ly)")
@@ -122,9 +121,8 @@ class Surface:
                 f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 1 x 2 "
                 "are needed: give more points"
             )
-        settings = read_only(settings)
-        _set(self, heights=heights, sizes=checked_sides(sizes))
-        _set_recorded(self, unit, settings, is_cut_out, removed_trend)
+        _set(self, heights=heights, sizes=checked_sides(sizes), settings=read_only(settings))
+        _set_facts(self, unit, is_cut_out, removed_trend, provenance)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -230,7 +228,7 @@ class Line:
     unit : str, optional
         Unit of all lengths, where it is known, such as "m" or "um".
     settings : mapping, optional
-        Where the heights come from; stored with every result.
+        A record for people of where the heights come from; stored with every result.
     kind : {"reduced", "profile"}, optional
         Whether this is the line of the reduction method (the paper's eq. 7), or a straight cut
         through a surface such as a stylus measures. A cut is not the reduced line of its surface
@@ -239,7 +237,9 @@ class Line:
         Whether the line is a piece of a longer one, or periodic; default: as for a
         :class:`Surface`.
     removed_trend : {"none", "mean", "tilt", "curvature"}, optional
-        Trend that was removed from the heights. Default: as the settings record.
+        Trend that was removed from the heights; default: none.
+    provenance : Provenance, optional
+        How the heights were measured, and what was done to them, as for a :class:`Surface`.
 
     Raises
     ------
@@ -265,6 +265,7 @@ class Line:
     kind: Literal["reduced", "profile"]
     is_cut_out: bool
     removed_trend: Trend
+    provenance: Provenance
 
     __repr__ = _described
     _repr_html_ = in_notebook
@@ -278,15 +279,16 @@ class Line:
         kind: Literal["reduced", "profile"] = "reduced",
         *,
         is_cut_out: bool | None = None,
-        removed_trend: Trend | None = None,
+        removed_trend: Trend = "none",
+        provenance: Provenance = NOTHING_KNOWN,
     ) -> None:
         heights = checked_heights(heights, dimensions=1)
         if heights.size < 2:
             raise InputError(f"the line has {heights.size} points; at least 2 are needed")
         one_of("kind", kind, ("reduced", "profile"))
-        settings = read_only(settings)
         _set(self, heights=heights, length=checked_length(length), kind=kind)
-        _set_recorded(self, unit, settings, is_cut_out, removed_trend)
+        _set(self, settings=read_only(settings))
+        _set_facts(self, unit, is_cut_out, removed_trend, provenance)
 
     @property
     def spacing(self) -> float:
@@ -338,10 +340,14 @@ def with_heights(body: BodyType, heights: Real, **settings: Any) -> BodyType:
     return replace(body, heights=heights, settings={**body.settings, **settings})
 
 
+def after_step(body: BodyType, heights: Real, **facts: Any) -> BodyType:
+    """Return the body with other heights and further facts of its provenance."""
+    return replace(body, heights=heights, **noted(body, **facts))
+
+
 def piece(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
     """Return the points of a body that are kept along each side, with a record of that."""
-    settings = settings_of_piece(body.settings, kept, body.heights.shape)
-    return replace(within(body, kept), settings=settings)
+    return replace(within(body, kept), **noted_of_piece(body, kept, body.heights.shape))
 
 
 def within(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
@@ -358,25 +364,18 @@ def within(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
 
 
 def _scaled(body: BodyType, factor: float) -> BodyType:
-    settings = {**body.settings, "height_factor": factor}
-    for name in TILT_REMOVED:
-        if name in settings:
-            settings[name] = float(settings[name]) * factor
-    return replace(body, heights=body.heights * factor, settings=settings)
+    known = noted(body, tilt=body.provenance.tilt.scaled(factor))
+    known["settings"]["height_factor"] = factor
+    return replace(body, heights=body.heights * factor, **known)
 
 
 def _detrended(body: BodyType, trend: Trend) -> BodyType:
     refuse_unknown_trend(trend)
-    return replace(
-        body,
-        heights=without_trend(body.heights, trend),
-        settings={
-            **body.settings,
-            "detrended": trend,
-            **record_of_tilt(body.heights, spacings_of(body), trend, body.settings),
-        },
-        removed_trend=trend,
-    )
+    tilt = body.provenance.tilt.less_plane(body.heights, spacings_of(body), trend)
+    known = noted(body, tilt=tilt)
+    known["settings"]["detrended"] = trend
+    level = without_trend(body.heights, trend)
+    return replace(body, heights=level, removed_trend=trend, **known)
 
 
 def _set(body: Body, **fields: Any) -> None:
@@ -385,19 +384,25 @@ def _set(body: Body, **fields: Any) -> None:
         object.__setattr__(body, name, value)
 
 
-def _set_recorded(
+def _set_facts(
     body: Body,
     unit: str | None,
-    settings: Settings,
     is_cut_out: bool | None,
-    removed_trend: Trend | None,
+    removed_trend: Trend,
+    provenance: Provenance,
 ) -> None:
-    """Set fields of a body with heights, as given, or as its record or its borders say."""
-    if (decided := checked_cut_out(is_cut_out, settings)) is None:
+    """Set what is known of a body with heights, as given, or as its borders tell."""
+    if not isinstance(provenance, Provenance):
+        refuse("provenance", provenance, "a Provenance is needed, as another body has")
+    if is_cut_out is None:
         borders = borders_of(body.heights)
-        decided, settings = borders.jump, read_only({**settings, **borders.record})
-    _set(body, unit=checked_unit(unit), is_cut_out=decided)
-    _set(body, removed_trend=checked_trend(removed_trend, settings), settings=settings)
+        _set(body, provenance=provenance, is_cut_out=borders.jump)
+        found = noted(body, borders=borders)
+        _set(body, provenance=found["provenance"], settings=read_only(found["settings"]))
+    else:
+        _set(body, provenance=provenance, is_cut_out=flag("is_cut_out", is_cut_out))
+    one_of("removed_trend", removed_trend, get_args(Trend))
+    _set(body, unit=checked_unit(unit), removed_trend=removed_trend)
 
 
 def _of_topography(
@@ -408,7 +413,7 @@ def _of_topography(
         raise InputError("the topography is a line scan; a Surface needs a map: make a Line of it")
     if sizes is not None:
         raise InputError(f"the topography has its own sizes; leave {called('sizes')} out")
-    origin = PERIODIC if topography.is_periodic else PIECE
+    origin = "periodic topography" if topography.is_periodic else "topography"
     factor, heights = 1.0, topography.heights()
     if topography.unit:
         if unit:

@@ -20,22 +20,9 @@ _STEPS = 2**16  # ordinary steps that are taken at least, if there are as many
 _ROUNDING = 32 * np.finfo(np.float64).eps  # of the largest height, below which nothing is a step
 _EVEN = 1e-6  # least relative variance of ordinary steps
 
-_STEP, _CHANCE = "border_step", "border_chance"  # names in the settings
-
-
-class _Body(Protocol):
-    """What is asked of a Surface or a Line."""
-
-    @property
-    def heights(self) -> Real: ...
-    @property
-    def settings(self) -> Settings: ...
-    @property
-    def is_cut_out(self) -> bool: ...
-
 
 @dataclass(frozen=True)
-class _Borders:
+class Borders:
     """The step of heights across opposite borders, compared with ordinary steps."""
 
     # across the borders over the ordinary one between neighbours, along the side where it is least
@@ -56,7 +43,7 @@ class _Borders:
     @property
     def record(self) -> Settings:
         """What the settings of a body record."""
-        return {_STEP: self.step, _CHANCE: self.chance}
+        return {"border_step": self.step, "border_chance": self.chance}
 
     def in_words(self, borders: str) -> str:
         """Say how the opposite borders of a surface, or the ends of a line, lie to each other."""
@@ -66,7 +53,7 @@ class _Borders:
         return f"{'unclear: ' if self.are_unclear else ''}{borders} are {how_far} apart"
 
 
-def borders_of(heights: Real) -> _Borders:
+def borders_of(heights: Real) -> Borders:
     """Compare the step across opposite borders with ordinary steps.
 
     Heights that are repeated periodically have no border: the step across is a step as any other.
@@ -76,7 +63,7 @@ def borders_of(heights: Real) -> _Borders:
     The chance of the step across follows from it. A slope of the whole and a piece of a larger
     surface both raise the step across.
     """
-    least = _Borders(0.0, 1.0)
+    least = Borders(0.0, 1.0)
     rounding = _ROUNDING * float(max(heights.max(), -heights.min()))
     for axis, n in enumerate(heights.shape):
         if n < _LEAST:
@@ -88,13 +75,29 @@ def borders_of(heights: Real) -> _Borders:
     return least
 
 
-def decided(body: _Body) -> _Borders | None:
+class _Provenance(Protocol):
+    """What is asked of the provenance of a body."""
+
+    @property
+    def borders(self) -> Borders | None: ...
+
+
+class _Body(Protocol):
+    """What is asked of a Surface or a Line."""
+
+    @property
+    def heights(self) -> Real: ...
+    @property
+    def is_cut_out(self) -> bool: ...
+    @property
+    def provenance(self) -> _Provenance: ...
+
+
+def decided(body: _Body) -> Borders | None:
     """Return what was seen at the borders of a body; None if its heights did not decide."""
-    if _CHANCE not in body.settings:
-        return None
-    borders = _Borders(float(body.settings[_STEP]), float(body.settings[_CHANCE]))
+    borders = body.provenance.borders
     # a body of which its owner said otherwise since is as that says
-    return borders if borders.jump == body.is_cut_out else None
+    return borders if borders is not None and borders.jump == body.is_cut_out else None
 
 
 def whole_or_piece(body: _Body) -> str:
@@ -120,7 +123,7 @@ def _borders_of_a(body: _Body) -> str:
     return "opposite borders" if body.heights.ndim == 2 else "its ends"
 
 
-def _along(rows: Real, rounding: float) -> _Borders:
+def _along(rows: Real, rounding: float) -> Borders:
     """Compare the step from the last row to the first with those between neighbouring rows."""
     n, across = rows.shape
     places = min(n - 1, max(_PLACES, _STEPS // across))
@@ -129,9 +132,9 @@ def _along(rows: Real, rounding: float) -> _Borders:
     jump = np.abs(rows[0] - rows[-1])
     largest = float(max(steps.max(), jump.max()))
     if jump.max() <= rounding:
-        return _Borders(0.0, 1.0)
+        return Borders(0.0, 1.0)
     if steps.max() <= rounding:
-        return _Borders(math.inf, 0.0)
+        return Borders(math.inf, 0.0)
     within = np.sqrt(steps / largest).mean(axis=1) ** 4
     over_borders = float(np.sqrt(jump / largest).mean() ** 4)
     from scipy import special  # here because it loads slowly
@@ -140,4 +143,4 @@ def _along(rows: Real, rounding: float) -> _Borders:
     variance = max(float(within.var(ddof=1)) / mean**2, _EVEN)
     ratio = over_borders / mean
     chance = float(special.gammaincc(1 / variance, ratio / variance))
-    return _Borders(math.sqrt(ratio), chance)
+    return Borders(math.sqrt(ratio), chance)

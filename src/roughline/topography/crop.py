@@ -1,25 +1,15 @@
-"""Pieces of a topography: which points lie in a crop, and the record of a piece."""
+"""Pieces of a topography: which points lie in a crop."""
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.topography.settings import Settings
 from roughline.units import in_words
 
 Crop = tuple[float, ...]
 """From and to along each side: (x0, x1, y0, y1) of a map, (x0, x1) of a line. [length]"""
-
-_OF_THE_WHOLE = (
-    *("missing_points", "missing_share", "filled", "outliers_kept"),
-    *("mask", "mask_of", "masked_share"),
-    *("border_step", "border_chance", "low_pass_kept"),
-)
-"""What settings say of all points of a body, or of its borders."""
 
 
 def points_in(
@@ -45,17 +35,6 @@ def points_between(crop: Crop, positions: Real) -> tuple[slice]:
     first, end = (int(each) for each in np.searchsorted(positions, crop))
     _refuse_few(crop, end - first, "m")
     return (slice(first, end),)
-
-
-def settings_of_piece(
-    settings: Settings, kept: tuple[slice, ...], shape: tuple[int, ...]
-) -> Settings:
-    """Return the settings of a piece: what was cropped, and nothing that is said of the whole."""
-    before = settings.get("missing_points", settings.get("filled_before_crop"))
-    left = {key: value for key, value in settings.items() if key not in _OF_THE_WHOLE}
-    filled = {"filled_before_crop": before} if before else {}
-    share = math.prod(each.stop - each.start for each in kept) / math.prod(shape)
-    return {**left, **filled, "cropped": ranges_of(kept), "cropped_share": share}
 
 
 def ranges_of(kept: tuple[slice, ...]) -> str:

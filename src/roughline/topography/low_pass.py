@@ -8,9 +8,9 @@ from roughline.errors import InputError
 from roughline.topography.body import (
     Body,
     BodyType,
+    after_step,
     sides_of,
     spacings_of,
-    with_heights,
     within,
 )
 from roughline.topography.crop import ranges_of
@@ -34,11 +34,11 @@ def low_passed(body: BodyType, cutoff: float) -> BodyType:
     deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / each for each in spacings_of(body)]
     mode = "nearest" if body.is_cut_out else "wrap"
     heights = ndimage.gaussian_filter(body.heights, deviations, mode=mode)
-    low = with_heights(body, heights, low_pass=cutoff)
+    low = after_step(body, heights, low_pass=cutoff)
     kept = points_kept(body, cutoff)
     if not any(each.start for each in kept):
         return with_effect(body, low, "low_pass")
-    inner = with_heights(low, low.heights, low_pass_kept=ranges_of(kept))
+    inner = after_step(low, low.heights, low_pass_kept=ranges_of(kept))
     return with_effect(within(body, kept), within(inner, kept), "low_pass")
 
 

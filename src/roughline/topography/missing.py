@@ -13,12 +13,28 @@ from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.words import called
 from roughline.topography.line_levels import Levelling, line_levels
+from roughline.topography.settings import Settings
 from roughline.topography.trend import Trend, trend_of_known
 
 Filling = Literal["harmonic", "nearest"]
 
 _MOSTLY = 0.9  # share of the missing points that counts as most of them
 _COLUMNS, _ROWS = 48, 16  # of a coarse map, at most
+
+
+@dataclass(frozen=True)
+class Filled:
+    """Missing points that were filled."""
+
+    points: int  # how many
+    share: float  # of all points [1]
+    method: Filling
+
+    @property
+    def record(self) -> Settings:
+        """What the settings of a body record."""
+        counts = {"missing_points": self.points, "missing_share": self.share}
+        return {**counts, "filled": self.method}
 
 
 @dataclass(frozen=True)
@@ -48,21 +64,16 @@ class Missing:
         """The other method, to compare both."""
         return "nearest" if self.method == "harmonic" else "harmonic"
 
-    def completed(self, heights: Any, name: str) -> tuple[Real, dict[str, str | int | float]]:
-        """Return the heights with all points known, and settings that record what was filled."""
+    def completed(self, heights: Any, name: str) -> tuple[Real, Filled | None]:
+        """Return the heights with all points known, and what was filled; None if nothing was."""
         if not np.isfinite(np.ma.getdata(heights)).all():
             heights = np.ma.masked_invalid(heights, copy=False)
         unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
-        settings: dict[str, str | int | float] = {}
+        filled = None
         if unknown:
             heights = self.filled(heights, name)
-            settings = {
-                "missing_points": unknown,
-                "missing_share": unknown / heights.size,
-                "filled": self.method,
-                **({"filled_over_lines": self.lines} if self.lines else {}),
-            }
-        return np.array(heights, dtype=np.float64, copy=None), settings
+            filled = Filled(unknown, unknown / heights.size, self.method)
+        return np.array(heights, dtype=np.float64, copy=None), filled
 
     def too_many(self, mask: Mask, name: str) -> InputError | None:
         """Return the error for more missing points than are filled; None if there are fewer."""
@@ -77,7 +88,7 @@ class Missing:
         )
 
     def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> Real:
-        """Return masked heights with all points known, as :meth:`completed` without settings."""
+        """Return masked heights with all points known, as :meth:`completed` does."""
         mask = np.ma.getmaskarray(heights)
         too_many = self.too_many(mask, name)
         if too_many is not None:

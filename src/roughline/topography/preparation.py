@@ -19,9 +19,9 @@ from roughline.topography.body import (
     Body,
     BodyType,
     Surface,
+    after_step,
     piece,
     sides_of,
-    with_heights,
 )
 from roughline.topography.crop import Crop, points_in
 from roughline.topography.effects import effects, with_effect
@@ -124,7 +124,7 @@ class Preparation:
         if self.remove_outliers:
             body = _without_spikes(body, spikes, count)
         elif count:
-            body = with_heights(body, body.heights, outliers_kept=count)
+            body = after_step(body, body.heights, outliers_kept=count)
         body = self._without_trend(body, is_changed=bool(count) and self.remove_outliers)
         if self.low_pass is not None:
             body = low_passed(body, self.low_pass)
@@ -276,10 +276,10 @@ def _cropped(body: BodyType, crop: Crop) -> BodyType:
 def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:
     """Return a body with its spikes filled; without any, the settings record that."""
     if not count:
-        return with_heights(body, body.heights, outliers_removed=0)
+        return after_step(body, body.heights, outliers_removed=0)
     known = np.ma.MaskedArray(body.heights, spikes)
     filled = Missing().filled(known, "the topography, without its outliers,")
-    return with_effect(body, with_heights(body, filled, outliers_removed=count), "outliers")
+    return with_effect(body, after_step(body, filled, outliers_removed=count), "outliers")
 
 
 def resampled(body: BodyType, points: int | tuple[int, ...]) -> BodyType:
@@ -298,7 +298,7 @@ def resampled(body: BodyType, points: int | tuple[int, ...]) -> BodyType:
             zoom = [1.0] * len(shape)
             zoom[axis] = n / shape[axis]
             heights = ndimage.zoom(heights, zoom, order=3, mode="nearest", grid_mode=True)
-    return with_heights(body, heights, resampled_to=_times(wanted))
+    return after_step(body, heights, resampled_to=_times(wanted))
 
 
 def _wanted(body: Body, points: int | tuple[int, ...]) -> tuple[int, ...]:

@@ -13,7 +13,7 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.words import called
-from roughline.topography.body import Body, BodyType, Surface, with_heights
+from roughline.topography.body import Body, BodyType, Surface, after_step
 from roughline.topography.effects import with_effect
 from roughline.topography.line_levels import Levelling, line_levels
 from roughline.topography.missing import Missing
@@ -36,15 +36,16 @@ def levelled(body: BodyType, how: Levelling) -> BodyType:
     """Return a map without the levels of its lines; its settings record what that did."""
     _refuse_others(body, "lines")
     heights = body.heights - line_levels(body.heights, how)
-    filled = body.settings.get("missing_points", body.settings.get("filled_before_crop", 0))
-    late = {} if "filled_over_lines" in body.settings else {"filled_between_levels": filled}
-    level = with_heights(body, heights, lines_levelled=how, **(late if filled else {}))
+    before = body.provenance
+    filled = before.filled.points if before.filled else before.filled_before_crop
+    late = {"filled_between_levels": filled} if filled and not before.filled_over_lines else {}
+    level = after_step(body, heights, lines_levelled=how, **late)
     return with_effect(body, level, "levelled")
 
 
 def told_of_filled(body: Body) -> str:
     """Say that missing points were filled before lines were levelled; empty if they were not."""
-    if not (count := body.settings.get("filled_between_levels")):
+    if not (count := body.provenance.filled_between_levels):
         return ""
     return (
         f"{count} missing points were filled before lines were levelled, between the levels of "
@@ -59,10 +60,10 @@ def without_scars(body: BodyType) -> BodyType:
     marks = scars(body.heights)
     count = int(np.count_nonzero(marks))
     if not count:
-        return with_heights(body, body.heights, scars_removed=0)
+        return after_step(body, body.heights, scars_removed=0)
     known = np.ma.MaskedArray(body.heights, marks)
     filled = Missing().filled(known, "the topography, without its scars,")
-    return with_effect(body, with_heights(body, filled, scars_removed=count), "scars")
+    return with_effect(body, after_step(body, filled, scars_removed=count), "scars")
 
 
 def scars(heights: Real) -> Mask:

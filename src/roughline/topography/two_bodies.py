@@ -8,7 +8,8 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.topography.body import Surface
-from roughline.topography.settings import MEASURED, MOUNTING, TILT, TILT_REMOVED
+from roughline.topography.provenance import Facing, Provenance, Tilt
+from roughline.topography.settings import MEASURED, Settings
 
 
 @public
@@ -61,36 +62,52 @@ def facing(first: Surface, second: Surface) -> Surface:
     )
     heights = first.heights[: shape[0], : shape[1]] + other
     is_measured = first.is_cut_out or second.is_cut_out
-    settings: dict[str, str | int | float] = {
-        "origin": MEASURED if is_measured else "two surfaces",
-        **{f"first_{key}": value for key, value in first.settings.items()},
-        **{f"second_{key}": value for key, value in second.settings.items()},
-        **_record_of_tilts(first, second),
+    cropped = (_is_cropped(first, sizes), _is_cropped(second, sizes))
+    both = Facing(first.provenance, second.provenance, cropped, not same_grid)
+    tilt = _tilt_of_both(first.provenance.tilt, second.provenance.tilt)
+    return Surface(
+        heights,
+        sizes,
+        first.unit,
+        {
+            "origin": MEASURED if is_measured else "two surfaces",
+            **{f"first_{key}": value for key, value in first.settings.items()},
+            **{f"second_{key}": value for key, value in second.settings.items()},
+            **tilt.record,
+            **_record(both, sizes, shape),
+        },
+        is_cut_out=is_measured or any(cropped),
+        provenance=Provenance(tilt=tilt, facing=both),
+    )
+
+
+def _is_cropped(body: Surface, sizes: tuple[float, float]) -> bool:
+    """Whether more than half a point of a body is left out along a side."""
+    cut_off = (own - size for own, size in zip(body.sizes, sizes, strict=True))
+    return any(width > 0.5 * step for width, step in zip(cut_off, body.spacing, strict=True))
+
+
+def _record(both: Facing, sizes: tuple[float, float], shape: tuple[int, ...]) -> Settings:
+    """What the settings record of how two bodies were laid together."""
+    settings = {
+        f"{name}_cropped_to": f"{sizes[0]:.6g} x {sizes[1]:.6g}"
+        for name, is_cropped in zip(("first", "second"), both.cropped, strict=True)
+        if is_cropped
     }
-    is_cropped = False
-    for name, body in (("first", first), ("second", second)):
-        cut_off = [
-            size - n * step for size, n, step in zip(body.sizes, shape, first.spacing, strict=True)
-        ]
-        if any(width > 0.5 * step for width, step in zip(cut_off, body.spacing, strict=True)):
-            settings[f"{name}_cropped_to"] = f"{sizes[0]:.6g} x {sizes[1]:.6g}"
-            is_cropped = True
-    if not same_grid:
+    if both.is_resampled:
         settings["second_resampled_to"] = f"{shape[0]} x {shape[1]}"
-    return Surface(heights, sizes, first.unit, settings, is_cut_out=is_measured or is_cropped)
+    return settings
 
 
-def _record_of_tilts(first: Surface, second: Surface) -> dict[str, str | int | float]:
+def _tilt_of_both(first: Tilt, second: Tilt) -> Tilt:
     """What is known of the planes that were removed from both; the second is turned over x."""
-    bodies = (first, second)
-    if all(body.settings.get(TILT) == MOUNTING for body in bodies):
-        return {TILT: MOUNTING}
-    if not any(name in body.settings for body in bodies for name in TILT_REMOVED):
-        return {}
-    return {
-        name: float(first.settings.get(name, 0.0)) + sign * float(second.settings.get(name, 0.0))
-        for name, sign in zip(TILT_REMOVED, (-1, 1), strict=True)
-    }
+    if first.is_of_mounting and second.is_of_mounting:
+        return Tilt(is_of_mounting=True)
+    if not (first.removed or second.removed):
+        return Tilt()
+    none = (0.0, 0.0)
+    pairs = zip((-1, 1), first.removed or none, second.removed or none, strict=True)
+    return Tilt(tuple(own + sign * other for sign, own, other in pairs))
 
 
 def _on_grid_of_first(

@@ -25,6 +25,7 @@ from roughline.topography.files.instrument import _refuse_long_arrays
 from roughline.topography.files.read import measurement, suspicions
 from roughline.topography.missing import Missing
 from roughline.topography.preparation import prepared
+from roughline.topography.provenance import Instrument, Provenance
 from roughline.topography.trend import without_trend
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
@@ -60,11 +61,8 @@ def test_a_piece_is_read_back_as_a_piece(tmp_path, is_cut_out):
     """Files of earlier versions say it by their settings alone."""
     recorded = {"origin": "instrument file", "detrended": "mean"} if is_cut_out else {}
     heights = SPECTRUM.surface(16, 7).heights
-    rl.write(rl.Surface(heights, (1e-3, 1e-3), "m", recorded), tmp_path / "recorded.nc")
-    as_before(tmp_path / "recorded.nc", "is_cut_out", "removed_trend").rename(
-        tmp_path / "before.nc"
-    )
-    rl.write(rl.Surface(heights, (1e-3, 1e-3), "m", recorded), tmp_path / "recorded.nc")
+    rl.write(rl.Surface(heights, (1e-3, 1e-3), "m", recorded), tmp_path / "before.nc")
+    as_before(tmp_path / "before.nc", "is_cut_out", "removed_trend")
     stated = rl.Surface(
         heights,
         (1e-3, 1e-3),
@@ -73,7 +71,7 @@ def test_a_piece_is_read_back_as_a_piece(tmp_path, is_cut_out):
         removed_trend="mean" if is_cut_out else "none",
     )
     rl.write(stated, tmp_path / "stated.nc")
-    for name in ("recorded", "before", "stated"):
+    for name in ("before", "stated"):
         found = rl.read(tmp_path / f"{name}.nc")
         assert found.is_cut_out is is_cut_out
         assert found.removed_trend == ("mean" if is_cut_out else "none")
@@ -239,17 +237,18 @@ def test_suspicious_scales_are_pointed_out():
 
 
 @pytest.mark.parametrize(
-    ("side", "slope", "settings", "said"),
+    ("side", "slope", "pixels", "said"),
     [
-        (160.0, 1e-5, {}, "the sides are 160 m x 160 m; instruments measure 10 nm to 1 m"),
-        (5e-9, 0.1, {}, "the sides are 5 nm x 5 nm"),
-        (0.048, 1e-3, {"pixels": "means"}, "the pixels are 2 mm x 2 mm"),
-        (0.048, 1e-3, {}, ""),
-        (0.9, 9e-7, {}, "the rms slope is 9e-07"),
+        (160.0, 1e-5, None, "the sides are 160 m x 160 m; instruments measure 10 nm to 1 m"),
+        (5e-9, 0.1, None, "the sides are 5 nm x 5 nm"),
+        (0.048, 1e-3, "means", "the pixels are 2 mm x 2 mm"),
+        (0.048, 1e-3, None, ""),
+        (0.9, 9e-7, None, "the rms slope is 9e-07"),
     ],
 )
-def test_a_scale_of_the_sides_that_no_instrument_has_is_pointed_out(side, slope, settings, said):
-    rough = rl.Surface(SPECTRUM.surface(24, 7).heights, (side, side), "m", settings)
+def test_a_scale_of_the_sides_that_no_instrument_has_is_pointed_out(side, slope, pixels, said):
+    known, heights = Provenance(Instrument(pixels)), SPECTRUM.surface(24, 7).heights
+    rough = rl.Surface(heights, (side, side), "m", provenance=known)
     found = suspicions(rough.scaled(slope / rough.rms_slope))
     assert any(said in each for each in found) if said else not found
 

@@ -73,8 +73,8 @@ def prepare(arguments: Arguments, progress: Progress) -> bytes:
     }
     whole = before.body or body
     corner = (crop or (0.0, 0.0, 0.0, 0.0))[::2]
-    if cutoff := body.settings.get("low_pass"):
-        inner = points_kept(replace(whole, is_cut_out=body.is_cut_out), float(cutoff))
+    if cutoff := body.provenance.low_pass:
+        inner = points_kept(replace(whole, is_cut_out=body.is_cut_out), cutoff)
         corner = [
             start + each.start * step
             for start, each, step in zip(corner, inner, spacings_of(whole), strict=False)

@@ -25,6 +25,7 @@ from roughline.topography.files.channels import Channel, channel_of, listed
 from roughline.topography.files.formats import FORMATS
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import READ_AS_TEXT, has_other_bytes
+from roughline.topography.provenance import Instrument
 from roughline.topography.settings import MEASURED
 
 _READ_HERE = (
@@ -192,7 +193,7 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
     )
     known = next((each for each in FORMATS if each.reader == reader.format()), None)
     uneven = topography.dim == 1 and not topography.is_uniform
-    return Measurement(
+    measured = Measurement(
         file=file,
         heights=topography.heights(),
         unit=unit or None,
@@ -208,6 +209,6 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
             "origin": MEASURED,
             "file": file,
             "channel": channel.name or "",
-            **({"pixels": "means"} if reader.format() in _OPTICAL else {}),
         },
     )
+    return measured.told(Instrument("means" if reader.format() in _OPTICAL else None))

@@ -16,11 +16,19 @@ from roughline.errors import InputError, UnitError
 from roughline.errors.checks import one_of, shown
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
-from roughline.topography.crop import Crop, points_between, points_in, settings_of_piece
+from roughline.topography.crop import Crop, points_between, points_in
 from roughline.topography.effects import effect_of_trend
 from roughline.topography.heights import rms_deviation
 from roughline.topography.missing import Missing
-from roughline.topography.settings import Settings, checked_trend, record_of_tilt
+from roughline.topography.provenance import (
+    NOTHING_KNOWN,
+    Instrument,
+    Masked,
+    Provenance,
+    noted,
+    noted_of_piece,
+)
+from roughline.topography.settings import Settings
 from roughline.topography.trend import Trend, remove_trend
 from roughline.units import in_si, metres_per, refuse_decimal_comma
 
@@ -45,8 +53,13 @@ class Measurement:
     channels: tuple[str, ...] = ()  # all channels of the file, with their numbers
     positions: Real | None = None  # of the points of an uneven line [unit of the file]
     settings: Settings = field(default_factory=dict)  # where the heights come from
-    is_cut_out: bool | None = None  # as of a body, where the file states it
-    removed_trend: Trend | None = None  # likewise
+    provenance: Provenance = (
+        NOTHING_KNOWN  # as of a body, as far as the file or the caller states it
+    )
+    is_cut_out: bool | None = (
+        None  # likewise; what others wrote is a piece unless it says otherwise
+    )
+    removed_trend: Trend = "none"  # likewise
     unit_of_sides: str | None = None  # of sizes and positions, where that of heights is not stated
     is_piece: bool = False  # whether it is a piece of what the file holds
     format: str = ""  # its name, one of `formats.FORMATS`
@@ -80,6 +93,14 @@ class Measurement:
             )
         return replace(self, heights=np.ma.array(self.heights, mask=self.unknown | self.masked))
 
+    def told(self, instrument: Instrument, *, is_tilt_of_mounting: bool = False) -> Measurement:
+        """Return the measurement with what is told of its instrument and its tilt."""
+        known = self.provenance
+        facts: dict[str, Any] = {"instrument": known.instrument.with_told(instrument)}
+        if is_tilt_of_mounting:
+            facts["tilt"] = replace(known.tilt, is_of_mounting=True)
+        return replace(self, **noted(self, **facts))
+
     def piece(self, crop: Crop, unit: str | None, sizes: Sizes | None) -> Measurement:
         """Return a piece, with its own sizes, in which missing points are still missing.
 
@@ -105,7 +126,7 @@ class Measurement:
             sizes=tuple(length / scale.metres_aside for length in lengths),
             positions=positions,
             masked=None if self.masked is None else self.masked[kept],
-            settings=settings_of_piece(self.settings, kept, self.heights.shape),
+            **noted_of_piece(self, kept, self.heights.shape),
             is_cut_out=self.is_cut_out if is_whole else True,
             is_piece=True,
         )
@@ -140,50 +161,52 @@ class Measurement:
             raise obstacle
         scale = _Scale(self, unit, sizes)
         sides = scale.sides
-        heights, filling = missing.completed(self.heights, self.file)
-        settings = {**self.settings, **filling, **self._record()}
+        heights, filled = missing.completed(self.heights, self.file)
+        facts: dict[str, Any] = self._facts_of_file()
+        if filled:
+            facts |= {"filled": filled, "filled_over_lines": missing.lines}
+        record: dict[str, str] = {}
         removed = self._trend_to_remove(trend)
         if not self.by_roughline:
-            settings["file_unit"] = str(self.unit or unit)
+            record = {"reader": self.read_by, "file_unit": str(self.unit or unit)}
         if scale.metres != 1 or removed != "none":
-            heights = _changeable(heights, in_place or bool(filling))
+            heights = _changeable(heights, in_place or filled is not None)
             if scale.metres != 1:
                 heights *= scale.metres
         if self.positions is not None:
-            heights, settings["resampled"] = _on_even_points(
+            heights, record["resampled"] = _on_even_points(
                 self.positions * scale.metres_aside, heights
             )
         if removed != "none":
             before = rms_deviation(heights)
             spacings = [side / n for side, n in zip(sides, heights.shape, strict=True)]
-            settings |= record_of_tilt(heights, spacings, removed, settings)
+            facts["tilt"] = self.provenance.tilt.less_plane(heights, spacings, removed)
             remove_trend(heights, removed)
-            settings["detrended"] = removed
-            settings |= effect_of_trend(before, rms_deviation(heights))
-        of_both: dict[str, Any] = {
-            "is_cut_out": self.is_cut_out,
-            "removed_trend": self.removed_trend if self.by_roughline else removed,
-        }
+            record["detrended"] = removed
+            if left := effect_of_trend(before, rms_deviation(heights)):
+                facts["left"] = self.provenance.also_left(left)
+        known = noted(self, **facts)
+        known["settings"] |= record
+        known["removed_trend"] = self.removed_trend if self.by_roughline else removed
+        is_piece = True if self.is_cut_out is None and not self.by_roughline else self.is_cut_out
         if self.kind == "surface":
-            return Surface(heights, (sides[0], sides[1]), "m", settings, **of_both)
-        return Line(heights, sides[0], "m", settings, self.kind, **of_both)
+            return Surface(heights, (sides[0], sides[1]), "m", is_cut_out=is_piece, **known)
+        return Line(heights, sides[0], "m", kind=self.kind, is_cut_out=is_piece, **known)
 
-    def _record(self) -> Settings:
-        """Who read the file and how, for the settings of the body."""
+    def _facts_of_file(self) -> dict[str, Any]:
+        """What a file of others states of itself, for the provenance of the body."""
         if self.by_roughline:
             return {}
-        record: dict[str, str | int | float] = {
+        masked = None
+        if self.masked is not None and self.masked.any():
+            are_used = bool((self.masked & ~self.unknown).any())
+            masked = Masked(float(self.masked.mean()), self.mask_of, are_used)
+        return {
             "format": self.format,
-            "reader": self.read_by,
             "corrected": "; ".join(self.corrected),
             "doubts_of_file": "; ".join(self.doubts),
+            "masked": masked,
         }
-        if self.masked is not None and self.masked.any():
-            is_used = bool((self.masked & ~self.unknown).any())
-            record["mask"] = "used" if is_used else "left out"
-            record["mask_of"] = self.mask_of
-            record["masked_share"] = float(self.masked.mean())
-        return {name: value for name, value in record.items() if value != ""}
 
     def _trend_to_remove(self, wanted: Trend) -> Trend:
         """The trend of what an instrument measured; from a piece of ours, what the whole lacks.
@@ -193,7 +216,7 @@ class Measurement:
         if not self.by_roughline or wanted == "none":
             is_repeated = self.is_cut_out is False and wanted in ("tilt", "curvature")
             return "mean" if is_repeated else wanted
-        return checked_trend(self.removed_trend, self.settings) if self.is_piece else "none"
+        return self.removed_trend if self.is_piece else "none"
 
 
 @dataclass(frozen=True, eq=False)

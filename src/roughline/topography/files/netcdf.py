@@ -16,6 +16,14 @@ from roughline.errors import InputError, RoughlineError
 from roughline.topography.body import Body, Surface, sides_of, spacings_of
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.recorded import (
+    as_record,
+    is_piece_in_earlier,
+    provenance_in,
+    provenance_of_earlier,
+    trend_in_earlier,
+)
+from roughline.topography.provenance import Provenance
 from roughline.topography.trend import Trend
 
 _FORMATS = ("roughline body 2", "roughline body 1")
@@ -54,6 +62,7 @@ def write_netcdf(body: Body, path: Path) -> None:
         "removed_trend": body.removed_trend,
         "is_cut_out": int(body.is_cut_out),
         "settings": json.dumps({key: _plain(value) for key, value in body.settings.items()}),
+        "provenance": json.dumps(as_record(body.provenance)),
     }
     heights = (dimensions, body.heights, {**unit, "long_name": "height"})
     data = xarray.Dataset({"heights": heights}, coordinates, attrs)
@@ -80,6 +89,8 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
     attrs, heights = found
     settings = _settings_in(attrs, name)
     _refuse_damaged(attrs, heights, name)
+    # files of earlier versions state these in their settings alone
+    is_cut_out, trend = is_piece_in_earlier(settings), trend_in_earlier(settings)
     return Measurement(
         file=name,
         heights=heights,
@@ -88,9 +99,9 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
         kind=attrs["kind"],
         by_roughline=True,
         settings={**settings, "file": name},
-        # files of earlier versions state both in their settings alone
-        is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else None,
-        removed_trend=attrs.get("removed_trend"),
+        provenance=_provenance_in(attrs, settings, name),
+        is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else is_cut_out,
+        removed_trend=attrs.get("removed_trend", trend),
         format="NetCDF",
     )
 
@@ -150,6 +161,20 @@ def _settings_in(attrs: dict[str, Any], name: str) -> dict[str, Any]:
             f"{name} is a damaged file of roughline (wrong: settings): write it again"
         ) from error
     return {**before, **settings}
+
+
+def _provenance_in(attrs: dict[str, Any], settings: dict[str, Any], name: str) -> Provenance:
+    """The provenance of a body that roughline wrote; earlier versions recorded it in settings."""
+    is_stated = "provenance" in attrs
+    try:
+        if is_stated:
+            return provenance_in(json.loads(attrs["provenance"]))
+        return provenance_of_earlier(settings)
+    except (InputError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        wrong = "provenance" if is_stated else "settings"
+        raise InputError(
+            f"{name} is a damaged file of roughline (wrong: {wrong}): write it again"
+        ) from error
 
 
 def _refuse_damaged(attrs: dict[str, Any], heights: Any, name: str) -> None:

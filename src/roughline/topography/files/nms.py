@@ -10,6 +10,7 @@ import numpy as np
 from roughline.errors import InputError
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
+from roughline.topography.provenance import Instrument
 from roughline.topography.settings import MEASURED
 
 _HEAD = 3468  # bytes before the heights
@@ -73,5 +74,5 @@ def read_nms(path: Path, channel: int | str | None, name: str) -> Measurement | 
             "its lengths are in nm; SurfaceTopography 1.27 takes them for mm, which makes the map "
             "a million times too wide",
         ),
-        settings={"origin": MEASURED, "file": name, "pixels": "means"},
-    )
+        settings={"origin": MEASURED, "file": name},
+    ).told(Instrument(pixels="means"))

@@ -244,7 +244,7 @@ def _read_array(path: Path, name: str) -> Measurement | None:
 
 def suspicions(body: Body) -> list[str]:
     """List properties of a measured body that suggest a wrong unit, a wrong file or a slip."""
-    doubts = [text] if (text := str(body.settings.get("doubts_of_file", ""))) else []
+    doubts = [text] if (text := body.provenance.doubts_of_file) else []
     rms, slope = body.rms_height, body.rms_slope
     if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
         doubts.append(
@@ -277,7 +277,7 @@ def _doubts_of_sides(body: Body) -> list[str]:
             f"the sides are {_by(sides)}; instruments measure 10 nm to 1 m: check the unit of the "
             "sides"
         )
-    if body.settings.get("pixels") == "means" and max(spacings) > _LARGEST_PIXEL:
+    if body.provenance.instrument.pixels == "means" and max(spacings) > _LARGEST_PIXEL:
         doubts.append(
             f"the pixels are {_by(spacings)}; those of optical instruments are below 1 mm: check "
             "the unit of the sides"
