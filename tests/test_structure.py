@@ -75,3 +75,56 @@ def test_every_target_of_make_is_declared_once_and_its_programs_are_there():
     modules += [f"studies/{study}/study.py" for each in named for study in " ".join(each).split()]
     for program in modules + re.findall(r"\S+/\S+\.(?:py|toml)\b", text):
         assert program == "pyproject.toml" or (ROOT / program).is_file(), program
+
+
+_SHOWN_OR_STORED = ("report/", "topography/files/netcdf.py")
+_OTHER_SETTINGS = ("lab/server/", "cli/lab.py")  # those of the server
+
+
+def _reads_of_settings(tree):
+    """Uses of the settings of a body, a curve or a law, but for copies of all of them."""
+    parents = {child: node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Attribute) or node.attr != "settings":
+            continue
+        parent = parents[node]
+        if isinstance(parent, ast.IfExp) and parent.test is not node:
+            parent = parents[parent]
+        is_copied = (
+            isinstance(parent, ast.Dict)
+            or (isinstance(parent, ast.Attribute) and parent.attr == "items")
+            or (isinstance(parent, ast.keyword) and parent.arg == "settings")
+            or (isinstance(parent, ast.Call) and ast.unparse(parent.func) == "as_body")
+        )
+        if not is_copied:
+            yield parent
+
+
+def test_settings_decide_nothing():
+    """They are for people: only what writes or shows them looks a single one up."""
+    found = [
+        f"{name}, line {node.lineno}: {ast.unparse(node)}"
+        for path in sorted(SOURCE.rglob("*.py"))
+        if not (name := path.relative_to(SOURCE).as_posix()).startswith(
+            _SHOWN_OR_STORED + _OTHER_SETTINGS
+        )
+        for node in _reads_of_settings(ast.parse(path.read_text("utf-8")))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("line", "is_read"),
+    [
+        ('body.settings["tilt"]', True),
+        ('body.settings.get("tilt")', True),
+        ('"tilt" in curve.settings', True),
+        ("known = body.settings", True),
+        ("Instrument.of(body.settings)", True),
+        ("replace(body, settings={**body.settings, **more})", False),
+        ("Line(heights, 1.0, settings=body.settings)", False),
+        ("as_body(body.settings)", False),
+    ],
+)
+def test_every_way_to_look_a_setting_up_is_seen(line, is_read):
+    assert bool(list(_reads_of_settings(ast.parse(line)))) is is_read
