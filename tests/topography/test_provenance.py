@@ -52,7 +52,7 @@ def measured(**steps):
     heights = HEIGHTS + 1e-6 * np.arange(64)[:, np.newaxis]
     heights[3:6, 40:44], heights[50, 20] = np.nan, 1e-3
     content = Measurement("map", heights, "m", (1e-3, 1e-3), "surface", format="SDF")
-    content = content.told(Instrument("points", blur=3e-6), is_tilt_of_mounting=True)
+    content = content.with_instrument(Instrument("points", blur=3e-6), is_tilt_of_mounting=True)
     body = content.body(None, None, Missing(), "tilt")
     return rl.prepared(body, rl.Preparation(**steps)) if steps else body
 

@@ -107,7 +107,9 @@ def measured_body(
     removed = preparation.trend if preparation and preparation.trend else trend
     lines = preparation.lines if preparation else None
     filling = Missing(reading.missing, reading.most_missing, removed, lines)
-    content = content.told(reading.instrument, is_tilt_of_mounting=reading.tilt == MOUNTING)
+    content = content.with_instrument(
+        reading.instrument, is_tilt_of_mounting=reading.tilt == MOUNTING
+    )
     body = content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
     if reading.blur is not None and reading.blur >= body.length:
         length = engineering(body.length, "m")

@@ -23,7 +23,7 @@ from roughline.topography.heights import (
     rms,
     rms_deviation,
 )
-from roughline.topography.provenance import NOTHING_KNOWN, Provenance, noted, noted_of_piece
+from roughline.topography.provenance import NOTHING_KNOWN, Provenance, facts_of_piece, with_facts
 from roughline.topography.settings import NOTHING_RECORDED, Settings, read_only
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 from roughline.units import in_words, metres_per
@@ -342,12 +342,12 @@ def with_heights(body: BodyType, heights: Real, **settings: Any) -> BodyType:
 
 def after_step(body: BodyType, heights: Real, **facts: Any) -> BodyType:
     """Return the body with other heights and further facts of its provenance."""
-    return replace(body, heights=heights, **noted(body, **facts))
+    return replace(body, heights=heights, **with_facts(body, **facts))
 
 
 def piece(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
     """Return the points of a body that are kept along each side, with a record of that."""
-    return replace(within(body, kept), **noted_of_piece(body, kept, body.heights.shape))
+    return replace(within(body, kept), **facts_of_piece(body, kept, body.heights.shape))
 
 
 def within(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
@@ -364,7 +364,7 @@ def within(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
 
 
 def _scaled(body: BodyType, factor: float) -> BodyType:
-    known = noted(body, tilt=body.provenance.tilt.scaled(factor))
+    known = with_facts(body, tilt=body.provenance.tilt.scaled(factor))
     known["settings"]["height_factor"] = factor
     return replace(body, heights=body.heights * factor, **known)
 
@@ -372,7 +372,7 @@ def _scaled(body: BodyType, factor: float) -> BodyType:
 def _detrended(body: BodyType, trend: Trend) -> BodyType:
     refuse_unknown_trend(trend)
     tilt = body.provenance.tilt.less_plane(body.heights, spacings_of(body), trend)
-    known = noted(body, tilt=tilt)
+    known = with_facts(body, tilt=tilt)
     known["settings"]["detrended"] = trend
     level = without_trend(body.heights, trend)
     return replace(body, heights=level, removed_trend=trend, **known)
@@ -397,7 +397,7 @@ def _set_facts(
     if is_cut_out is None:
         borders = borders_of(body.heights)
         _set(body, provenance=provenance, is_cut_out=borders.jump)
-        found = noted(body, borders=borders)
+        found = with_facts(body, borders=borders)
         _set(body, provenance=found["provenance"], settings=read_only(found["settings"]))
     else:
         _set(body, provenance=provenance, is_cut_out=flag("is_cut_out", is_cut_out))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from roughline.topography.body import Body, BodyType, sides_of
-from roughline.topography.provenance import Left, Step, noted
+from roughline.topography.provenance import Left, Step, with_facts
 from roughline.units import in_words
 
 _NOTHING = 1e-3  # relative change of rms height and slope below which a step did nothing
@@ -20,7 +20,7 @@ def with_effect(before: BodyType, after: BodyType, step: Step) -> BodyType:
         _share(after.rms_height, before.rms_height),
         _share(after.rms_slope, before.rms_slope),
     )
-    return replace(after, **noted(after, left=after.provenance.also_left(left)))
+    return replace(after, **with_facts(after, left=after.provenance.also_left(left)))
 
 
 def effect_of_trend(before: float, after: float) -> Left | None:

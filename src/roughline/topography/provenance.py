@@ -26,6 +26,8 @@ Step = Literal["levelled", "scars", "outliers", "detrended", "low_pass", "resamp
 
 TILT_REMOVED = ("tilt_removed_x", "tilt_removed_y")
 TILT, MOUNTING = "tilt", "mounting"
+"""Names and values in the settings of what is known of a tilt."""
+
 _OF_THE_WHOLE = (
     *("missing_points", "missing_share", "filled", "outliers_kept"),
     *("mask", "mask_of", "masked_share"),
@@ -56,12 +58,12 @@ class Instrument:
         known = {"pixels": self.pixels, "blur": self.blur, "tip_radius": self.tip_radius}
         return {name: value for name, value in known.items() if value is not None}
 
-    def with_told(self, told: Instrument) -> Instrument:
-        """Return what is known with what is told of the same instrument, which counts first."""
+    def updated_by(self, other: Instrument) -> Instrument:
+        """Return what is known of this instrument, and by another account, which counts first."""
         return Instrument(
-            told.pixels or self.pixels,
-            self.blur if told.blur is None else told.blur,
-            told.tip_radius or self.tip_radius,
+            other.pixels or self.pixels,
+            self.blur if other.blur is None else other.blur,
+            other.tip_radius or self.tip_radius,
         )
 
     def in_units(self, length: float) -> Instrument:
@@ -221,7 +223,7 @@ class _Known(Protocol):
     def settings(self) -> Settings: ...
 
 
-def noted(of: _Known, **facts: Any) -> dict[str, Any]:
+def with_facts(of: _Known, **facts: Any) -> dict[str, Any]:
     """Return provenance and settings with further facts, to be replaced in what they are of."""
     return {
         "provenance": replace(of.provenance, **facts),
@@ -229,7 +231,7 @@ def noted(of: _Known, **facts: Any) -> dict[str, Any]:
     }
 
 
-def noted_of_piece(of: _Known, kept: tuple[slice, ...], shape: tuple[int, ...]) -> dict[str, Any]:
+def facts_of_piece(of: _Known, kept: tuple[slice, ...], shape: tuple[int, ...]) -> dict[str, Any]:
     """Return provenance and settings of a piece: its crop, and nothing that is said of the whole.
 
     How many of the points that had been filled lie in it is not known.
@@ -239,13 +241,9 @@ def noted_of_piece(of: _Known, kept: tuple[slice, ...], shape: tuple[int, ...]) 
         "filled_before_crop": before.filled.points if before.filled else before.filled_before_crop,
         "cropped_share": math.prod(each.stop - each.start for each in kept) / math.prod(shape),
     }
-    of_whole: dict[str, Any] = {
-        **{"filled": None, "outliers_kept": 0, "masked": None, "borders": None},
-        "low_pass_kept": "",
-    }
+    of_piece = replace(
+        before, **facts, filled=None, outliers_kept=0, masked=None, borders=None, low_pass_kept=""
+    )
     left = {key: value for key, value in of.settings.items() if key not in _OF_THE_WHOLE}
-    crop = {"cropped": ranges_of(kept)}
-    return {
-        "provenance": replace(before, **facts, **of_whole),
-        "settings": {**left, **Provenance(**facts).record, **crop},
-    }
+    left["cropped"] = ranges_of(kept)
+    return {"provenance": of_piece, "settings": {**left, **Provenance(**facts).record}}

@@ -211,4 +211,4 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
             "channel": channel.name or "",
         },
     )
-    return measured.told(Instrument("means" if reader.format() in _OPTICAL else None))
+    return measured.with_instrument(Instrument("means" if reader.format() in _OPTICAL else None))

@@ -25,8 +25,8 @@ from roughline.topography.provenance import (
     Instrument,
     Masked,
     Provenance,
-    noted,
-    noted_of_piece,
+    facts_of_piece,
+    with_facts,
 )
 from roughline.topography.settings import Settings
 from roughline.topography.trend import Trend, remove_trend
@@ -53,13 +53,10 @@ class Measurement:
     channels: tuple[str, ...] = ()  # all channels of the file, with their numbers
     positions: Real | None = None  # of the points of an uneven line [unit of the file]
     settings: Settings = field(default_factory=dict)  # where the heights come from
-    provenance: Provenance = (
-        NOTHING_KNOWN  # as of a body, as far as the file or the caller states it
-    )
-    is_cut_out: bool | None = (
-        None  # likewise; what others wrote is a piece unless it says otherwise
-    )
-    removed_trend: Trend = "none"  # likewise
+    # as of a body, as far as the file states it; what others wrote is a piece if it says nothing
+    provenance: Provenance = NOTHING_KNOWN
+    is_cut_out: bool | None = None
+    removed_trend: Trend = "none"
     unit_of_sides: str | None = None  # of sizes and positions, where that of heights is not stated
     is_piece: bool = False  # whether it is a piece of what the file holds
     format: str = ""  # its name, one of `formats.FORMATS`
@@ -93,13 +90,15 @@ class Measurement:
             )
         return replace(self, heights=np.ma.array(self.heights, mask=self.unknown | self.masked))
 
-    def told(self, instrument: Instrument, *, is_tilt_of_mounting: bool = False) -> Measurement:
-        """Return the measurement with what is told of its instrument and its tilt."""
+    def with_instrument(
+        self, instrument: Instrument, *, is_tilt_of_mounting: bool = False
+    ) -> Measurement:
+        """Return the measurement with what is known of its instrument and its tilt besides."""
         known = self.provenance
-        facts: dict[str, Any] = {"instrument": known.instrument.with_told(instrument)}
+        facts: dict[str, Any] = {"instrument": known.instrument.updated_by(instrument)}
         if is_tilt_of_mounting:
             facts["tilt"] = replace(known.tilt, is_of_mounting=True)
-        return replace(self, **noted(self, **facts))
+        return replace(self, **with_facts(self, **facts))
 
     def piece(self, crop: Crop, unit: str | None, sizes: Sizes | None) -> Measurement:
         """Return a piece, with its own sizes, in which missing points are still missing.
@@ -126,7 +125,7 @@ class Measurement:
             sizes=tuple(length / scale.metres_aside for length in lengths),
             positions=positions,
             masked=None if self.masked is None else self.masked[kept],
-            **noted_of_piece(self, kept, self.heights.shape),
+            **facts_of_piece(self, kept, self.heights.shape),
             is_cut_out=self.is_cut_out if is_whole else True,
             is_piece=True,
         )
@@ -164,7 +163,9 @@ class Measurement:
         heights, filled = missing.completed(self.heights, self.file)
         facts: dict[str, Any] = self._facts_of_file()
         if filled:
-            facts |= {"filled": filled, "filled_over_lines": missing.lines}
+            facts["filled"] = filled
+            if missing.lines:
+                facts["filled_over_lines"] = missing.lines
         record: dict[str, str] = {}
         removed = self._trend_to_remove(trend)
         if not self.by_roughline:
@@ -185,7 +186,7 @@ class Measurement:
             record["detrended"] = removed
             if left := effect_of_trend(before, rms_deviation(heights)):
                 facts["left"] = self.provenance.also_left(left)
-        known = noted(self, **facts)
+        known = with_facts(self, **facts)
         known["settings"] |= record
         known["removed_trend"] = self.removed_trend if self.by_roughline else removed
         is_piece = True if self.is_cut_out is None and not self.by_roughline else self.is_cut_out

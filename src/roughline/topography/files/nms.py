@@ -75,4 +75,4 @@ def read_nms(path: Path, channel: int | str | None, name: str) -> Measurement | 
             "a million times too wide",
         ),
         settings={"origin": MEASURED, "file": name},
-    ).told(Instrument(pixels="means"))
+    ).with_instrument(Instrument(pixels="means"))

@@ -19,10 +19,10 @@ _IN_METRES = {".x3p": write_x3p, ".gsf": write_gsf}
 def write(body: Body, path: str | Path) -> None:
     """Write a surface or a line to a file; the end of its name says of which format.
 
-    NetCDF holds all of the body, its settings included, and :func:`roughline.read` gives the same
-    body again. xarray and SurfaceTopography read its heights and sides. X3P (ISO 5436-2) and GSF
-    (Gwyddion's simple field) hold the heights and the sides of a surface alone, in metres, X3P in
-    double and GSF in single precision. What is read from them counts as measured.
+    NetCDF holds all of the body, its provenance and settings included, and :func:`roughline.read`
+    gives the same body again. xarray and SurfaceTopography read its heights and sides. X3P (ISO
+    5436-2) and GSF (Gwyddion's simple field) hold the heights and the sides of a surface alone, in
+    metres, X3P in double and GSF in single precision. What is read from them counts as measured.
 
     Parameters
     ----------
