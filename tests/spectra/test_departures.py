@@ -69,8 +69,11 @@ def test_heights_that_were_levelled_before_do_not_tell_of_longer_waves():
 
 def test_a_map_that_was_levelled_line_by_line_does_not_tell_of_longer_waves():
     body = rl.Preparation(lines="median").applied(piece("sharp roll-off", 1))
-    found = {each.assumption: each.text for each in departures(body)}
-    assert "was levelled line by line" in found["longer waves"]
+    other = piece("sharp roll-off", 2)
+    for each in (body, rl.facing(body, other), rl.facing(other, body)):
+        found = {departure.assumption: departure.text for departure in departures(each)}
+        assert "was levelled line by line" in found["longer waves"]
+    assert "longer waves" not in broken(rl.facing(other, other))
 
 
 def test_flat_summits_and_steps_of_the_heights_are_told():

@@ -311,7 +311,7 @@ def _of_long_waves(body: Body) -> list[Departure | None]:
 
 def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
-    if body.provenance.lines_levelled:
+    if body.provenance.is_levelled_by_lines:
         text = (
             f"the {what} was levelled line by line, which takes waves across its lines with their "
             "jumps, so its heights do not tell whether it lies on waves longer than itself: "

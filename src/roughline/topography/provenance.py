@@ -198,9 +198,19 @@ class Provenance:
     def missing_share(self) -> float:
         """Share of the points that were missing; of two bodies, of the one that lacks more. [1]"""
         own = 0.0 if self.filled is None else self.filled.share
-        if self.facing is None:
-            return own
-        return max(own, self.facing.first.missing_share, self.facing.second.missing_share)
+        return max([own, *(each.missing_share for each in self._of_both)])
+
+    @property
+    def is_levelled_by_lines(self) -> bool:
+        """Whether lines were levelled; of two bodies, those of either."""
+        return self.lines_levelled is not None or any(
+            each.is_levelled_by_lines for each in self._of_both
+        )
+
+    @property
+    def _of_both(self) -> tuple[Provenance, ...]:
+        """Those of two bodies whose heights were added."""
+        return () if self.facing is None else (self.facing.first, self.facing.second)
 
     def left_by(self, step: Step) -> Left | None:
         """Return what a step left of the roughness; None if it was not done."""
