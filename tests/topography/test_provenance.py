@@ -74,6 +74,13 @@ def test_files_hold_all_that_is_known(known):
         assert provenance_in(json.loads(json.dumps(as_record(each)))) == each
 
 
+def test_only_what_is_known_is_shown():
+    assert repr(NOTHING_KNOWN) == "Provenance()"
+    assert repr(Provenance(low_pass=1e-5, scars_removed=0)) == (
+        "Provenance(scars_removed=0, low_pass=1e-05)"
+    )
+
+
 def test_settings_of_earlier_versions_say_the_same():
     assert provenance_of_earlier(EVERYTHING.record) == EVERYTHING
     assert provenance_of_earlier({"pixels": "round", "blur": "some", "tilt": "small"}) == (
@@ -159,7 +166,7 @@ def test_a_body_made_anew_of_an_array_knows_what_is_given():
     assert given.provenance == known.provenance
 
 
-@pytest.mark.parametrize("wrong", [None, {}, "measured"])
+@pytest.mark.parametrize("wrong", [True, {}, "measured"])
 def test_another_provenance_is_refused(wrong):
     with pytest.raises(rl.InputError, match="provenance is .*; a Provenance is needed"):
         rl.Surface(HEIGHTS, (1e-3, 1e-3), provenance=wrong)

@@ -108,7 +108,7 @@ class Surface:
         *,
         is_cut_out: bool | None = None,
         removed_trend: Trend = "none",
-        provenance: Provenance = NOTHING_KNOWN,
+        provenance: Provenance | None = None,
     ) -> None:
         if hasattr(heights, "physical_sizes"):
             is_cut_out = not heights.is_periodic if is_cut_out is None else is_cut_out
@@ -280,7 +280,7 @@ class Line:
         *,
         is_cut_out: bool | None = None,
         removed_trend: Trend = "none",
-        provenance: Provenance = NOTHING_KNOWN,
+        provenance: Provenance | None = None,
     ) -> None:
         heights = checked_heights(heights, dimensions=1)
         if heights.size < 2:
@@ -389,9 +389,10 @@ def _set_facts(
     unit: str | None,
     is_cut_out: bool | None,
     removed_trend: Trend,
-    provenance: Provenance,
+    provenance: Provenance | None,
 ) -> None:
     """Set what is known of a body with heights, as given, or as its borders tell."""
+    provenance = NOTHING_KNOWN if provenance is None else provenance
     if not isinstance(provenance, Provenance):
         refuse("provenance", provenance, "a Provenance is needed, as another body has")
     if is_cut_out is None:

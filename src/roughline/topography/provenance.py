@@ -179,6 +179,14 @@ class Provenance:
     left: tuple[Left, ...] = ()  # of the roughness, by the last step of each kind
     facing: Facing | None = None
 
+    def __repr__(self) -> str:
+        known = (
+            f"{each.name}={value!r}"
+            for each in fields(self)
+            if (value := getattr(self, each.name)) != each.default
+        )
+        return f"Provenance({', '.join(known)})"
+
     @property
     def record(self) -> Settings:
         """What the settings of a body record; of two bodies, they hold both records besides."""
