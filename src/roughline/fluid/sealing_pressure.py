@@ -38,6 +38,7 @@ _PERCOLATING = 0.277  # mean pressure over E* and the rms slope at which Persson
 _OF_HARDNESS = 0.4  # about the share of the area that seals, all of which bears the hardness
 _WIDER = 1.5  # step from one trial to the next, until one is open and the other sealed
 _MOST_TRIALS = 60
+_FINER = 1e4  # times than the ends are apart contacts are solved, so that it decides no cell
 _NEARLY_ALL = 0.999  # of the hardness: all of the area bears it
 
 
@@ -225,6 +226,7 @@ class _Search:
             law=law,
             forces=[pressure * surface.area],
             measures=[OPEN[self.along]],
+            rtol=self.rtol / _FINER,
         )
         assert curve.area_fraction is not None
         return bool(curve.measured[OPEN[self.along].name].values[0]), float(curve.area_fraction[0])
