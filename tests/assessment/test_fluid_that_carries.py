@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from typer.testing import CliRunner
 
 import roughline as rl
@@ -177,7 +178,7 @@ def test_a_seal_that_opens_has_no_leak_and_says_so_in_one_line(body, capsys):
     print_assessment(found)
     page = capsys.readouterr().out
     assert page.count("lifts the bodies apart") == 1
-    assert "opens at P1_o" in page
+    assert "opens at P_o" in page
 
 
 def test_where_all_loads_open_it_the_pressure_that_does_is_all_that_is_known(body):
@@ -188,7 +189,7 @@ def test_where_all_loads_open_it_the_pressure_that_does_is_all_that_is_known(bod
     assert found.is_solved
     content = json.loads(to_json(of_assessment(found)))
     assert content["curve"]["status"] == ["lifted", "lifted"]
-    assert content["answers"]["P1_o"]["values"] == pytest.approx([301325.0, 501325.0])
+    assert content["answers"]["P_o"]["values"] == pytest.approx([301325.0, 501325.0])
 
 
 def test_each_load_of_a_history_has_its_share(body):
@@ -226,6 +227,61 @@ def test_the_load_that_seals_is_that_of_the_bodies_and_of_the_fluid(body):
         assert "beside" not in dry.answers[key].validity
     seals = found.answers["sealing_pressure"].values
     assert seals == pytest.approx(dry.answers["sealing_pressure"].values)
+
+
+def test_where_the_fluid_lifts_the_bodies_it_is_still_known_what_seals(body):
+    """It is of the bodies alone, and the load that seals is told."""
+    found = asked(body, ["0.1 MPa", "0.2 MPa"], closes=True)
+    dry = asked(body, ["0.1 MPa", "0.2 MPa"], "1.1 bar", closes=True)
+    expected = dry.answers["sealing_pressure"].values
+    assert found.answers["sealing_pressure"].values == pytest.approx(expected)
+    assert "reopening" not in found.answers
+    (said,) = [each for each in found.notes if "seals" in each]
+    load = f"{(expected[0] + EXCESS) / 1e3:.4g} kPa, of which the fluid carries 249.3 kPa"
+    assert said.endswith(f"are left of a load at {load}")
+    assert not [each for each in dry.notes if "seals" in each]
+
+
+def test_bodies_are_strained_by_what_they_press_with(body):
+    """Rubber's modulus is 2.9 MPa: a load of 0.8 MPa is 0.27 of it, 0.55 MPa are 0.19."""
+    wet, dry = (asked(body, ["0.8 MPa"], carries=each).warnings for each in (None, False))
+    so_far = "times the contact modulus: bodies that are strained so far"
+    assert any(f"load 0.8 MPa is 0.27 {so_far}" in each for each in dry)
+    own = f"load 0.8 MPa, without what the fluid carries, is 0.19 {so_far}"
+    assert any(own in each for each in wet)
+    lifted = asked(body, ["0.8 MPa"], "30 bar").warnings
+    assert not any("strained" in each for each in lifted)
+
+
+@pytest.mark.parametrize("fluid", [WATER, AIR])
+@pytest.mark.parametrize("outlet", [0.0, ATMOSPHERE])
+def test_in_a_wide_ring_the_pressure_falls_with_the_logarithm_of_the_radius(fluid, outlet):
+    """Of a gas, the square of it does; the mean over the area is found by quadrature."""
+    inner, outer, power = 5e-3, 5e-2, 1 if fluid is WATER else 2
+    ring = rl.Fluid(fluid, inlet=6e5, outlet=outlet, seal="5 mm .. 50 mm")
+    for enters_inside, found in zip((True, False), ring.excess_in_ring, strict=True):
+
+        def pressure(r, enters_inside=enters_inside):
+            share = np.log(r / inner) / np.log(outer / inner)
+            fallen = share if enters_inside else 1 - share
+            return (6e5**power + (outlet**power - 6e5**power) * fallen) ** (1 / power)
+
+        total = quad(lambda r: 2 * r * pressure(r), inner, outer, limit=200)[0]
+        expected = total / (outer**2 - inner**2) - ATMOSPHERE
+        assert found == pytest.approx(expected, rel=1e-4)
+    assert ring.excess_in_ring[0] < ring.excess < ring.excess_in_ring[1]
+
+
+def test_the_mean_over_a_wide_ring_is_told_where_the_fluid_carries(body):
+    told = []
+    for seal in ("20 mm .. 24 mm", "5 mm .. 50 mm", SEAL):
+        ask = rl.Fluid("water", inlet="6 bar", seal=seal)
+        given = {"loads": ["0.2 MPa", "0.8 MPa"], "periodic": True, "grid_error": False}
+        warnings = rl.assess(rl.Question(body, "rubber,steel", ask=ask, **given)).warnings
+        told.append([each for each in warnings if "narrow ring" in each])
+    assert [len(each) for each in told] == [0, 2, 0]
+    means = "the mean is 103 kPa if the fluid enters inside, and 395 kPa if outside"
+    assert all(means in each for each in told[1])
 
 
 def test_the_hardness_limits_what_is_left(body):

@@ -123,9 +123,12 @@ class Loading:
         return rising + falling, (*places, *range(len(rising), len(rising) + len(falling)))
 
     def strains(
-        self, body: Body, elasticity: ElasticPair, *, is_repeated: bool
+        self, body: Body, elasticity: ElasticPair, pressing: Sequence[float], *, is_repeated: bool
     ) -> list[tuple[float, str]]:
-        """Return how far each load strains a body: as a ratio, and in words."""
+        """Return how far each load strains a body, of what it presses with: in numbers and words.
+
+        A fluid that carries a part of the load acts on all of the surface, and deforms little.
+        """
         area, side = nominal_area(body), min(sides_of(body))
         if depths := self.heights():
             what = "depth {} is {} times the shorter side of the body"
@@ -134,8 +137,10 @@ class Loading:
             what = "the mean pressure of load {} is {} times the contact modulus"
             if elasticity.is_layered:
                 what = "the mean pressure of load {} strains the layers or their base by about {}"
+            if any(own < load for own, load in zip(pressing, self.forces(area), strict=True)):
+                what = what.replace("load {}", "load {}, without what the fluid carries,")
             side = math.inf if is_repeated else side
-            ratios = [elasticity.strain(force / area, side) for force in self.forces(area)]
+            ratios = [elasticity.strain(max(force, 0.0) / area, side) for force in pressing]
         return [
             (ratio, what.format(heading, decimal(ratio, 2)))
             for heading, ratio in zip(self.headings, ratios, strict=False)

@@ -83,7 +83,7 @@ class LoadCase:
     def of(cls, question: Question, body: Body) -> LoadCase:
         """The loads of a question on a body, spaced ones of a line scan included."""
         area, loading = nominal_area(body), question.loading
-        pressing = _pressing(question, area)
+        pressing = question.pressing(area)
         forces, asked = loading.path(pressing)
         depths, asked_depths = loading.path(loading.heights())
         n_loads, hardness, attraction = loading.n_loads, None, question.attraction
@@ -195,18 +195,6 @@ class LoadCase:
         )
 
 
-def _pressing(question: Question, area: float) -> list[float]:
-    """Forces with which a body presses, in the order of the loads: less what a fluid carries. [N]
-
-    Where they are not positive, the fluid lifts the body.
-    """
-    forces, sealing = question.loading.forces(area), question.sealing
-    if sealing is None:
-        return forces
-    left: list[float] = sealing.left_of(np.array(forces), area).tolist()
-    return left
-
-
 def _lifted(question: Question, forces: Sequence[float]) -> Mask | None:
     """Under which forces a fluid lifts a body; None where it does under none."""
     if question.sealing is None or question.sealing.excess == 0:
@@ -236,7 +224,7 @@ def _refuse_beyond_hardness(question: Question, area: float) -> None:
         return
     bearer = "the softer body" if question.pair is None else question.pair.bearer
     loading = question.loading
-    loads = zip(loading.headings, loading.forces(area), _pressing(question, area), strict=False)
+    loads = zip(loading.headings, loading.forces(area), question.pressing(area), strict=False)
     for heading, force, pressing in loads:
         if pressing >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
             carried = force - pressing

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
+import numpy as np
 from attrs import evolve, field, frozen
 
 from roughline.assessment.asked import (
@@ -29,7 +30,7 @@ from roughline.assessment.given import (
     quantities,
     refuse_unless_one_modulus,
 )
-from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum
+from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.loading import Loading
 from roughline.assessment.reading import Reading
 from roughline.contact.arguments import given_half_space
@@ -335,7 +336,19 @@ class Question:
 
     def strains(self, body: Body) -> list[tuple[float, str]]:
         """Return how far each load strains a body: as a ratio, and in words."""
-        return self.loading.strains(body, self.elasticity, is_repeated=self.is_repeated)
+        pressing = self.pressing(nominal_area(body))
+        return self.loading.strains(body, self.elasticity, pressing, is_repeated=self.is_repeated)
+
+    def pressing(self, area: float) -> list[float]:
+        """Forces with which a body presses, in the order of the loads: less what a fluid carries.
+
+        Where they are not positive, the fluid lifts the body. [N]
+        """
+        forces, fluid = self.loading.forces(area), self.sealing
+        if fluid is None:
+            return forces
+        left: list[float] = fluid.left_of(np.array(forces), area).tolist()
+        return left
 
     def refuse_misfit(self, body: Body) -> None:
         """Refuse what does not suit the kind of a body, or its size."""

@@ -28,6 +28,7 @@ ATMOSPHERE = 101325.0
 """Pressure outside, where no other is given. [Pa]"""
 
 _CARRIES = 0.05  # of the load, from which share on the fluid is taken to carry it
+_NODES = 40  # of Gauss over the area of a ring
 _ROUNDING = 1e-9  # of a load, by which it may miss that share
 
 _MARKED = re.compile(
@@ -255,6 +256,27 @@ class Fluid:
         if self.gas is not None and first + last > 0:
             mean = 2 / 3 * (first**2 + first * last + last**2) / (first + last)
         return max(mean - ATMOSPHERE, 0.0)
+
+    @property
+    def excess_in_ring(self) -> tuple[float, float]:
+        """The same in the mean of the area of a ring, if it enters inside, and if outside. [Pa]
+
+        The pressure of a liquid falls evenly with the logarithm of the radius, and the square of
+        that of a gas. Of a strip both are the excess.
+        """
+        if self.inlet is None or self.seal is None or not self.seal.is_ring:
+            return self.excess, self.excess
+        nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+        span = 4 * math.pi / self.seal.ratio  # logarithm of the square of the radii's ratio
+        fallen = np.log1p((nodes + 1) / 2 * math.expm1(span)) / span  # over even parts of the area
+        power = 1 if self.gas is None else 2
+        first, last = self.inlet**power, self.outlet**power
+        means = (
+            float(weights @ (first + (last - first) * each) ** (1 / power)) / 2
+            for each in (fallen, 1 - fallen)
+        )
+        inside, outside = (max(mean - ATMOSPHERE, 0.0) for mean in means)
+        return inside, outside
 
     def _is_carried(self, load: Real, area: float) -> Mask:
         """Whether the fluid carries a part of forces [N] on an area [m²] that counts."""

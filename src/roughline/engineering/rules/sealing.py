@@ -40,6 +40,7 @@ _HALF = 0.5  # share of the flow from which on one channel is told
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
 _RARE = 0.1  # free path over the aperture beyond which how walls reflect molecules counts
+_WIDE = 0.1  # of the mean pressure of the fluid, by which a ring's may differ from a strip's
 _TOLD = 0.1  # pressure of the fluid over that of the load, from which on it is said if left out
 _MOLECULES = 3e-9  # ten diameters of a molecule of water; those of oils are larger [m]
 _MBAR_LITRES = 10.0  # in a Pa m³
@@ -186,6 +187,7 @@ def _carries(pressed: Pressed) -> str:
             "; where it enters, its pressure is above that of the load, and faces that are not "
             "stiff open from there"
         )
+    text += _in_a_wide_ring(asked)
     if pressed.yields:
         text += (
             "; dents are those of the rest, as if the fluid came first: bodies that are loaded "
@@ -194,6 +196,18 @@ def _carries(pressed: Pressed) -> str:
     if pressed.attraction is not None:
         text += "; what draws them apart is of the bodies alone, without the fluid"
     return text
+
+
+def _in_a_wide_ring(asked: Fluid) -> str:
+    """Say what a ring does that is not narrow beside its radius, of which the sides are unlike."""
+    both = asked.excess_in_ring
+    if max(abs(each - asked.excess) for each in both) <= _WIDE * asked.excess:
+        return ""
+    inside, outside = (engineering(each, "Pa", 3) for each in both)
+    return (
+        f"; that is of a narrow ring: in this one the mean is {inside} if the fluid enters inside, "
+        f"and {outside} if outside, and it opens as much later or earlier"
+    )
 
 
 def _left_out(pressed: Pressed) -> str:
@@ -218,6 +232,7 @@ def _opens(pressed: Pressed) -> str:
         f"{_loads_in_words(pressed.load_pressure[lifted])}: the seal is open, and nothing else is "
         "known there"
     )
+    text += _in_a_wide_ring(asked)
     if pressed.attraction is not None:
         text += "; bodies that stick may hold, which is not solved"
     return Remark(text, is_grave=True)
@@ -241,13 +256,33 @@ def _of_opening(pressed: Pressed) -> Mapping[str, str]:
     return texts
 
 
-def _of_bodies_alone(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
-    """What the fluid adds to pressures and loads that are of the contact alone."""
+def _carried_at_sealing(pressed: Pressed) -> float:
+    """Mean pressure that the fluid carries under the load that seals. [Pa]"""
     asked, closing = pressed.sealing, pressed.sought.closing
     if asked is None or closing is None:
+        return 0.0
+    seals = closing.pressure.value
+    return float(asked.load_on(np.array([seals]), 1.0)[0]) - seals
+
+
+def _load_that_seals(pressed: Pressed) -> str:
+    """Say which load seals, where the fluid carries a part of it."""
+    closing, carried = pressed.sought.closing, _carried_at_sealing(pressed)
+    if closing is None or not carried > 0:
+        return ""
+    alone, load = (engineering(closing.pressure.value + more, "Pa") for more in (0.0, carried))
+    return (
+        "the pressure that seals and the load that is left are of what the bodies press with: "
+        f"{alone} are left of a load at {load}, of which the fluid carries "
+        f"{engineering(carried, 'Pa')}"
+    )
+
+
+def _of_bodies_alone(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
+    """What the fluid adds to pressures and loads that are of the contact alone."""
+    asked, carried = pressed.sealing, _carried_at_sealing(pressed)
+    if asked is None or pressed.sought.closing is None:
         return {}
-    carried = float(asked.load_on(np.array([closing.pressure.value]), 1.0)[0])
-    carried -= closing.pressure.value
     if share:
         carried = asked.excess if (_carried(pressed) > 0).any() else 0.0
     if not carried > 0:
@@ -382,7 +417,8 @@ def _bisected(
     if found is None:
         return None
     rows = [found.value] if np.isnan(found.interval).any() else [found.value, *found.interval]
-    return np.where(pressed.curve.converged, np.array(rows)[:, np.newaxis], np.nan)
+    known = pressed.curve.converged | pressed.lifted
+    return np.where(known, np.array(rows)[:, np.newaxis], np.nan)
 
 
 def _stays_tight(pressed: Pressed) -> str:
@@ -427,6 +463,7 @@ SEALING = (
         source="Dapp et al. 2012",
         value=partial(_bisected, lambda closing: closing.pressure),
         differing=partial(_of_bodies_alone, share=False),
+        note=_load_that_seals,
         answers_question=always,
     ),
     _rule(
@@ -482,7 +519,7 @@ SEALING = (
     _rule(
         key="opening_pressure",
         name="opens at",
-        symbol="P1_o",
+        symbol="P_o",
         unit="Pa",
         formula="P1 at which the fluid is p above the outside, in the mean of the gap",
         validity=_OF_STIFF_FACES,
