@@ -187,9 +187,14 @@ def test_what_is_too_steep_is_said():
         (np.ones(8), "two dimensions"),
         (np.ones((1, 8)), "at least 2 cells"),
         (np.ones((8, 1)), "at least 2 cells"),
-        (np.full((4, 4), -1.0), "negative"),
-        (np.full((4, 4), np.nan), "not finite"),
-        (np.full((4, 4), np.inf), "not finite"),
+        (np.full((4, 4), -1.0), "no distances, the first -1.0 at"),
+        (np.full((4, 4), np.nan), "no distances, the first nan at"),
+        (np.full((4, 4), np.inf), "no distances, the first inf at"),
+        (np.full((4, 4), 1e200), "number from 1e-40 to 1e[+]40"),  # its cube is none
+        (np.full((4, 4), 1e-110), "number from 1e-40 to 1e[+]40"),  # its cube is zero
+        (np.ma.masked_less(np.eye(4), 1), "12 values .* not masked"),
+        (np.ones((4, 4), complex), "array of numbers"),
+        (np.ones((4, 4), "M8[D]"), "array of numbers"),
         ("gap.npy", "array of numbers"),
         (rl.Line(np.arange(8.0), length=1.0), "Line"),
         (rl.Surface(np.ones((4, 4)), sizes=(1.0, 1.0)), "press it"),
@@ -210,6 +215,8 @@ def test_gaps_that_are_none_are_refused(gap, words):
         ({"sizes": (1.0, 1.0), "sides": "open"}, "sides"),
         ({"sizes": (1.0, 1.0), "sides": True}, "sides"),
         ({"sizes": (1.0, 1.0), "mean_free_path": -1.0}, "mean_free_path"),
+        ({"sizes": (1.0, 1.0), "mean_free_path": 1e300}, "mean_free_path is 1e[+]300"),
+        ({"sizes": (1e-100, 1e100)}, "times as long as wide"),
     ],
 )
 def test_arguments_that_do_not_fit_are_refused(arguments, words):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
@@ -29,6 +28,8 @@ REPEATS: dict[Sides, tuple[bool, bool]] = {
 }
 """Whether a gap repeats along x and along y."""
 
+_LEAST, _MOST = 1e-40, 1e40  # of lengths: squares of their third powers are numbers
+_LONGEST = 1e10  # of cells, over their width
 _BYTES = 130  # that an open cell takes for each doubling of a side
 
 
@@ -51,7 +52,10 @@ class Gap:
         distances = _checked(given)
         if sizes is None:
             raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
-        return cls(distances, checked_sides(sizes), checked, checked_free_path(mean_free_path))
+        gap = cls(distances, checked_sides(sizes), checked, checked_free_path(mean_free_path))
+        if not 1 / _LONGEST <= gap.ratio <= _LONGEST:
+            refuse("sizes", sizes, f"cells at most {_LONGEST:g} times as long as wide are needed")
+        return gap
 
     def repeats(self, side: Along) -> bool:
         """Whether it repeats along a side."""
@@ -82,9 +86,9 @@ class Gap:
 
 
 def checked_free_path(given: Any) -> float:
-    """A mean free path; refused where it is negative or not finite."""
-    needed = "a finite number of at least 0 is needed"
-    return between("mean_free_path", given, 0.0, sys.float_info.max, needed)
+    """A mean free path; refused where it is negative, or its conductance is beyond numbers."""
+    needed = f"a number from 0 to {_MOST:g} is needed"
+    return between("mean_free_path", given, 0.0, _MOST, needed)
 
 
 def _checked(given: Any) -> Real:
@@ -105,7 +109,10 @@ def _checked(given: Any) -> Real:
     if isinstance(given, Fields):  # rounding leaves neither gaps in contact nor overlaps beside it
         return np.where(given.contact, 0.0, np.maximum(given.gap, 0.0))
     try:
-        gap = np.array(given, dtype=np.float64)
+        array = np.ma.asarray(given)
+        if array.dtype.kind in "cmM":  # of complex numbers and of times, a part would be lost
+            raise TypeError
+        gap = np.ma.filled(array.astype(np.float64), np.nan)
     except (TypeError, ValueError, OverflowError):
         refuse("gap", given, "an array of numbers, shape (nx, ny), is needed")
     if gap.ndim != 2 or min(gap.shape) < 2:
@@ -114,12 +121,13 @@ def _checked(given: Any) -> Real:
             given,
             "two dimensions of at least 2 cells are needed: in one, any contact stops the flow",
         )
-    wrong = ~((gap >= 0) & (gap < np.inf))
+    wrong = ~((gap == 0) | ((gap >= _LEAST) & (gap <= _MOST)))
     if wrong.any():
         i, j = np.argwhere(wrong)[0]
         raise InputError(
-            f"has {int(wrong.sum())} negative or not finite values, the first {gap[i, j]} at "
-            f"({i}, {j}); a distance is at least 0, and 0 where the bodies touch",
+            f"has {int(wrong.sum())} values that are no distances, the first {gap[i, j]} at "
+            f"({i}, {j}); a distance is 0 where the bodies touch, and else a number from "
+            f"{_LEAST:g} to {_MOST:g}, not masked",
             "gap",
         )
     return gap
