@@ -192,6 +192,15 @@ def test_where_all_loads_open_it_the_pressure_that_does_is_all_that_is_known(bod
     assert content["answers"]["P_o"]["values"] == pytest.approx([301325.0, 501325.0])
 
 
+def test_nothing_is_said_of_a_load_that_was_not_asked_for(body):
+    """The highest peak is at the border, which would carry all of a light load."""
+    peak = np.unravel_index(np.argmax(body.heights), body.shape)
+    heights = np.roll(body.heights, (-peak[0], -peak[1]), (0, 1))
+    piece = rl.Surface(heights, body.sizes, "m", is_cut_out=True)
+    warnings = asked(piece, ["0.1 MPa"], periodic=False).warnings
+    assert not [each for each in warnings if "border" in each]
+
+
 def test_each_load_of_a_history_has_its_share(body):
     """Metal keeps the dents of a load when the fluid lifts it midway."""
     given = {"hardness": "3 MPa", "loads": ["0.8 MPa", "0.2 MPa", "0.5 MPa"]}
