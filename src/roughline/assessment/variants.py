@@ -301,7 +301,11 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
     first, curve = variant.needed(curves), curves.get(variant.name)
     if isinstance(first, Curve):  # as asked, or under no load
         return curves.get(periodic(Way.AS_ASKED)) if first.converged.any() else None
-    if first is None or curve is None or not first.borne(curve).any():
+    if first is None or curve is None:
+        return None
+    if first.lifted is not None and first.lifted.all():  # what seals is known nevertheless
+        return replace(first, periodic=True, levelled=True, fields=(), measures=case.measures)
+    if not first.borne(curve).any():
         return None
     loads = replace(first.under_forces_of(curve), periodic=True, levelled=True)
     if case.question.sealing is None:

@@ -266,15 +266,13 @@ def _carried_at_sealing(pressed: Pressed) -> float:
 
 
 def _load_that_seals(pressed: Pressed) -> str:
-    """Say which load seals, where the fluid carries a part of it."""
-    closing, carried = pressed.sought.closing, _carried_at_sealing(pressed)
-    if closing is None or not carried > 0:
+    """Say what the load that seals is more, where the fluid carries a part of it."""
+    carried = _carried_at_sealing(pressed)
+    if not carried > 0:
         return ""
-    alone, load = (engineering(closing.pressure.value + more, "Pa") for more in (0.0, carried))
     return (
-        "the pressure that seals and the load that is left are of what the bodies press with: "
-        f"{alone} are left of a load at {load}, of which the fluid carries "
-        f"{engineering(carried, 'Pa')}"
+        "the pressure that seals and the load that is left are of what the bodies press with: of "
+        f"the load that seals the fluid carries {engineering(carried, 'Pa')} beside that"
     )
 
 
