@@ -172,6 +172,28 @@ def test_sealed_is_exactly_zero_and_says_what_the_grid_leaves_open(surface, caps
     assert json.loads(to_json(of_assessment(result)))["answers"]["Q"]["values"] == [0.0]
 
 
+def test_what_dents_seal_on_the_way_back_is_not_said_to_be_sealed_from_there_on():
+    """On first loading the same load leaves a path."""
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=2.5e-7, q_roll=5e4)
+    given = {"periodic": True, "grid_error": False, "ask": WATER}
+    loads = ["120 MPa", "300 MPa", "120 MPa"]
+    said = {}
+    for history in (True, False):
+        question = rl.Question(
+            spectrum.surface(32, rng=3),
+            "steel,copper",
+            loads=loads if history else loads[:2],
+            history=history,
+            **given,
+        )
+        found = rl.assess(question)
+        apertures = found.answers["hydraulic_aperture"].values
+        assert (apertures > 0).tolist() == [True, False, False][: apertures.size]
+        (said[history],) = [each for each in found.notes if "no path leads" in each]
+    assert "through the map from 300 MPa on:" in said[False]
+    assert "under 2 of 3 loads, which are from 120 MPa to 300 MPa:" in said[True]
+
+
 def test_one_channel_that_carries_half_of_the_flow_is_told(surface):
     heights = np.zeros((64, 64))
     heights[:, 20:24] = -1e-5  # a groove along x through a flat plateau

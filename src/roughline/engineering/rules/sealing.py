@@ -351,10 +351,15 @@ def _sealed(pressed: Pressed) -> str:
     sealed = (aperture[0] == 0) & (_lift(pressed) < 1)
     if not sealed.any():
         return ""
-    least = pressed.load_pressure[sealed].min()
+    loads = pressed.load_pressure
+    least, most = (
+        engineering(float(end), "Pa") for end in (loads[sealed].min(), loads[sealed].max())
+    )
+    under = f"from {least} on"
+    if (np.diff(loads) < 0).any():  # on the way back dents may seal where nothing did before
+        under = f"under {sealed.sum()} of {sealed.size} loads, which are from {least} to {most}"
     text = (
-        f"no path leads through the map from {engineering(least, 'Pa')} on: the leak is exactly "
-        "zero on this map and its grid"
+        f"no path leads through the map {under}: the leak is exactly zero on this map and its grid"
     )
     open_still = aperture.shape[0] == 3 and (aperture[2][sealed] > 0).any()
     return text + (
