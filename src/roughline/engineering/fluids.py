@@ -46,6 +46,8 @@ _GRADE = re.compile(r"^\W*(?:(?:iso|oil)\W*)*vg\W*(\d+)(?:\W*oil\b)?", re.IGNORE
 class Liquid:
     """A liquid of constant viscosity.
 
+    A fluid that thins with the rate of shear leaks no more than a liquid of its least viscosity.
+
     Parameters
     ----------
     viscosity : float
