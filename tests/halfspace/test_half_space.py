@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace.elasticity.half_space import Repeated
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.convolution import displacement_field
@@ -118,12 +117,14 @@ def test_modes_taken_in_even_and_odd_halves_displace_as_all_at_once(shape, monke
         assert (halves != whole).any()
 
 
-def test_what_is_repeated_is_displaced_from_its_mean_as_its_free_one_is_by_waves():
+def test_an_interface_is_displaced_from_its_mean_and_by_waves_as_the_whole_is():
     free = rl.Layered(1.0, 0.4, 0.7, np.inf) + rl.Homogeneous(3.0)
     for each in (free, free.first):
-        found = Repeated(each)
+        found = each.interface
         assert found.periodic
         assert found.mean_is_free
+        assert found.interface is found
+        assert repr(found) == f"({each!r}).interface"
         assert (found.E_star, found.disc_stiffness(2.0)) == (each.E_star, each.disc_stiffness(2.0))
         q = np.array([0.1, 1.0, 10.0])
         assert (found.spectrum(q) == each.spectrum(q)).all()
@@ -133,11 +134,23 @@ def test_what_is_repeated_is_displaced_from_its_mean_as_its_free_one_is_by_waves
         assert scaled.spectrum(q * 5) == pytest.approx(found.spectrum(q) * 2 / 5, rel=1e-12)
         with pytest.raises(rl.InputError, match="less than half a cell"):
             found.refuse((2.0, 0.1))
-    alone = Repeated(rl.Homogeneous(3.0))
-    expected = displacement_field(on_grid(Homogeneous(3.0, True), SHAPE, SPACING), PRESSURE)
-    with np.errstate(divide="ignore"):
-        same = displacement_field(on_grid(alone, SHAPE, SPACING), PRESSURE)
-    assert same == pytest.approx(expected, rel=ROUNDING)
+    assert rl.Homogeneous(3.0).interface == rl.Homogeneous(3.0, periodic=True)
+
+
+def test_the_whole_of_a_repeated_layer_is_its_interface_and_the_even_spring_of_the_layer():
+    """The depth differs by p h / M, with M = E (1 - nu) / ((1 + nu) (1 - 2 nu))."""
+    body = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(16, rng=7)
+    young, poisson, thickness = 1.0, 0.3, 0.1
+    layer = rl.Layered(young, poisson, thickness, np.inf, periodic=True)
+    spring = (
+        thickness * (1 + poisson) * (1 - 2 * poisson) / (young * (1 - poisson)) / body.area
+    )  # depth over force
+    forces = [1e-4, 1e-3, 1e-2]
+    whole = rl.press(body, half_space=layer, forces=forces)
+    interface = rl.press(body, half_space=layer.interface, forces=forces)
+    assert whole.area_fraction == pytest.approx(interface.area_fraction, abs=0)
+    assert whole.depth - interface.depth == pytest.approx(spring * np.array(forces), rel=1e-6)
+    assert 1 / whole.stiffness - 1 / interface.stiffness == pytest.approx(spring, rel=1e-5)
 
 
 def test_waves_feel_the_modulus_of_a_half_space_that_they_displace_as_much():

@@ -125,5 +125,4 @@ def _expected_share(case: Case, body: Surface) -> float | None:
     if loads.n_loads is not None:
         return None
     given = Loads("forces" if loads.forces else "depths", np.array(loads.forces or loads.depths))
-    half_space = loads.elasticity.half_space(periodic=loads.periodic)
-    return expected_area_fraction(body, half_space, given, law_of(loads.hardness))
+    return expected_area_fraction(body, loads.half_space, given, law_of(loads.hardness))

@@ -23,9 +23,8 @@ from roughline.assessment.kinds import nominal_area
 from roughline.assessment.notes import what_was_prepared
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import Topography
-from roughline.contact.arguments import LARGEST
+from roughline.contact.arguments import LARGEST, given_half_space
 from roughline.contact.creep import Creep
-from roughline.contact.elastic_pair import ElasticPair
 from roughline.contact.press_creep import CreepCurve, press_creep
 from roughline.contact.strain import BEYOND, LARGEST_STRAIN
 from roughline.engineering.coated import Solid
@@ -33,6 +32,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called, speaking
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.topography.body import Body, Line, sides_of
 from roughline.topography.effects import grave_effects
 from roughline.topography.files.read import suspicions
@@ -163,7 +163,7 @@ class CreepQuestion:
         if pair is None:
             return
         for coated in pair.coated:
-            if coated.elasticity.young[-1] < math.inf or self.both_give_way:
+            if math.inf > coated.base.E or self.both_give_way:
                 refuse(
                     "materials",
                     coated.name,
@@ -183,15 +183,17 @@ class CreepQuestion:
         return None if self.materials is None else MaterialPair(*self.materials)
 
     @property
-    def elasticity(self) -> ElasticPair:
-        """How both bodies give way to pressure at once."""
-        return ElasticPair(self.E_star or math.nan) if self.pair is None else self.pair.elasticity
+    def half_space(self) -> HalfSpace:
+        """What both bodies are pressed as at once."""
+        if self.pair is None:
+            return given_half_space(None, self.E_star, self.periodic)
+        return self.pair.half_space(periodic=self.periodic)
 
     @property
     def both_give_way(self) -> bool:
         """Whether neither of both materials is rigid."""
         return self.materials is not None and all(
-            min(each.elasticity.young) < math.inf for each in self.materials
+            math.inf > each.surface.E for each in self.materials
         )
 
     @property
@@ -233,7 +235,7 @@ class CreepQuestion:
         largest = max(self.values(area))
         if self.depths:
             return 0.0 if self.periodic else largest / side
-        return self.elasticity.strain(largest / area, side) / self.prony.relaxed_share
+        return self.half_space.strain(largest / area, side) / self.prony.relaxed_share
 
     def values(self, area: float) -> list[float]:
         """Forces on a body of a nominal area [N], or depths [m], in their order."""
@@ -313,14 +315,12 @@ def press_with_creep(question: CreepQuestion) -> PressedCreep:
             "less, or check the units",
         )
     held = values if len(values) > 1 else values[0]
-    elasticity = question.elasticity
-    pressed_as = elasticity.on_rigid_base if elasticity.is_layered else elasticity.half_space
     curve = press_creep(
         body,
         question.prony,
         times=question.seconds,
         force=held if question.loads else None,
         depth=held if question.depths else None,
-        half_space=pressed_as(periodic=question.periodic),
+        half_space=question.half_space,
     )
     return PressedCreep(question, body, curve)

@@ -186,7 +186,7 @@ def _strained(result: Assessment) -> list[str]:
         told.append((ratio, f"{text}: {so_far}, and no interval includes that"))
     pressed = result.answers.get("contact_pressure")
     if question.coated and pressed is not None:
-        ratio = float(np.nanmax(pressed.values, initial=0.0)) / question.elasticity.softest
+        ratio = float(np.nanmax(pressed.values, initial=0.0)) / question.half_space.softest
         if ratio > _PRESSED:
             text = (
                 f"the mean contact pressure reaches {decimal(ratio, 2)} times the contact modulus "

@@ -9,10 +9,10 @@ import numpy as np
 from attrs import frozen
 
 from roughline.assessment.kinds import nominal_area
-from roughline.contact.elastic_pair import ElasticPair
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole
 from roughline.errors.words import called
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.topography.body import Body, sides_of
 from roughline.units import as_si, decimal, engineering, load_in_newtons
 
@@ -123,7 +123,7 @@ class Loading:
         return rising + falling, (*places, *range(len(rising), len(rising) + len(falling)))
 
     def strains(
-        self, body: Body, elasticity: ElasticPair, pressing: Sequence[float], *, is_repeated: bool
+        self, body: Body, half_space: HalfSpace, pressing: Sequence[float], *, is_layered: bool
     ) -> list[tuple[float, str]]:
         """Return how far each load strains a body, of what it presses with: in numbers and words.
 
@@ -135,12 +135,12 @@ class Loading:
             ratios = [depth / side for depth in depths]
         else:
             what = "the mean pressure of load {} is {} times the contact modulus"
-            if elasticity.is_layered:
+            if is_layered:
                 what = "the mean pressure of load {} strains the layers or their base by about {}"
             if any(own < load for own, load in zip(pressing, self.forces(area), strict=True)):
                 what = what.replace("load {}", "load {}, without what the fluid carries,")
-            side = math.inf if is_repeated else side
-            ratios = [elasticity.strain(max(force, 0.0) / area, side) for force in pressing]
+            side = math.inf if half_space.periodic is True else side
+            ratios = [half_space.strain(max(force, 0.0) / area, side) for force in pressing]
         return [
             (ratio, what.format(heading, decimal(ratio, 2)))
             for heading, ratio in zip(self.headings, ratios, strict=False)

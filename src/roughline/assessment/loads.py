@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -14,7 +13,6 @@ from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.arguments import law_of, sticking_law
 from roughline.contact.curve import Curve
-from roughline.contact.elastic_pair import ElasticPair
 from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
@@ -23,6 +21,7 @@ from roughline.contact.status import Status
 from roughline.engineering.attraction import Attraction
 from roughline.errors import InputError
 from roughline.errors.words import called
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 
@@ -63,11 +62,10 @@ class LoadCase:
     """A body, and the loads and settings under which it is pressed."""
 
     body: Body
-    elasticity: ElasticPair
+    half_space: HalfSpace
     forces: list[float]  # with which it presses, in the order in which they are applied [N]
     depths: list[float]  # instead of forces [m]
     n_loads: int | None  # instead of both: forces spaced from first touch to saturation
-    periodic: bool | Literal["x", "y"]
     asked: Sequence[int] = ()  # which loads were asked for, in the order asked; none if not named
     grid_error: bool = False
     levelled: bool = False  # without its tilt, which a periodic half-space cannot have
@@ -89,7 +87,7 @@ class LoadCase:
         n_loads, hardness, attraction = loading.n_loads, None, question.attraction
         if isinstance(body, Surface):
             if attraction is not None:
-                attraction = attraction.on_grid(max(body.spacing), question.elasticity.softest)
+                attraction = attraction.on_grid(max(body.spacing), question.half_space.softest)
                 forces = forces or ([] if depths else _spaced(question, body))
                 n_loads = None
             _refuse_beyond_hardness(question, area)
@@ -100,17 +98,21 @@ class LoadCase:
             n_loads = None
         return cls(
             body,
-            question.elasticity,
+            question.half_space,
             forces,
             depths,
             n_loads,
-            question.repeated_along,
             asked or asked_depths,
             levelled=question.joint is not None and is_map(body),
             hardness=hardness,
             attraction=attraction,
             lifted=_lifted(question, forces) if pressing else None,
         )
+
+    @property
+    def periodic(self) -> Periodic:
+        """Along which axes the body is repeated."""
+        return self.half_space.periodic
 
     @property
     def count(self) -> int:
@@ -164,7 +166,7 @@ class LoadCase:
         """The loads that press, or a light one where there is none, as a curve has one."""
         numbers = np.flatnonzero(~lifted).tolist()
         fields = [numbers.index(load) for load in self.fields if not lifted[load]]
-        light = _LIGHT * self.elasticity.softest * nominal_area(self.body)
+        light = _LIGHT * self.half_space.softest * nominal_area(self.body)
         forces = [self.forces[load] for load in numbers] or [light]
         return replace(self, forces=forces, fields=fields, lifted=None)
 
@@ -180,7 +182,7 @@ class LoadCase:
             law = sticking_law(pull.law, pull.work, pull.range)
         return press(
             self.body.detrended() if self.levelled else self.body,
-            half_space=self.elasticity.half_space(periodic=self.periodic),
+            half_space=self.half_space,
             hardness=self.hardness,
             law=law,
             n_loads=self.n_loads,
@@ -205,9 +207,8 @@ def _lifted(question: Question, forces: Sequence[float]) -> Mask | None:
 
 def _spaced(question: Question, body: Surface) -> list[float]:
     """Forces for bodies that stick, those of the same ones if they only push. [N]"""
-    half_space = question.elasticity.half_space(periodic=question.repeated_along)
     given = GivenLoads(None, None, question.loading.n_loads)
-    loads = surface_loads(body, half_space, given, 1e-6, single=False, law=law_of(None))
+    loads = surface_loads(body, question.half_space, given, 1e-6, single=False, law=law_of(None))
     return [float(each) for each in loads.values]
 
 

@@ -388,7 +388,7 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
     The second result says whether that outweighs all other steps. Nothing is said of a surface
     that is no map: it may be meant to be repeated.
     """
-    repeats = question.elasticity.half_space(periodic=question.repeated_along).repeats
+    repeats = question.half_space.repeats
     if not any(repeats) or not is_map(body):
         return "", False
     found = border_jump(body if question.joint is None else body.detrended(), repeats)

@@ -34,7 +34,6 @@ from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.loading import Loading
 from roughline.assessment.reading import Reading
 from roughline.contact.arguments import given_half_space
-from roughline.contact.elastic_pair import ElasticPair
 from roughline.contact.strain import BEYOND, LARGEST_STRAIN
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated, Solid
@@ -45,7 +44,7 @@ from roughline.errors.checks import refuse, shown
 from roughline.errors.earlier import EARLIER
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.halfspace.elasticity.half_space import Periodic
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import Preparation
 from roughline.units import as_si
@@ -117,7 +116,8 @@ class Question:
     against : Surface, Line, str or Path, optional
         Topography of the second body, read and prepared like the first; without it, it is smooth.
     periodic : bool, "x" or "y", optional
-        As for :func:`roughline.press`; along one direction alone only with `E_star`.
+        As for :func:`roughline.press`; along one direction alone only with `E_star`. Where bodies
+        repeat both ways, their :attr:`~roughline.HalfSpace.interface` is pressed.
     grid_error : bool, optional
         Whether the grid's error is estimated; default: where that is cheap, and with a
         whole curve, on 64 points a side or more. Without it no interval is given.
@@ -292,15 +292,18 @@ class Question:
         return pair.with_hardness(self.hardness)
 
     @property
-    def elasticity(self) -> ElasticPair:
-        """How both bodies give way to pressure: by a modulus that is given, or by the materials."""
-        pair = self.pair
-        return ElasticPair(self.E_star or math.nan) if pair is None else pair.elasticity
+    def half_space(self) -> HalfSpace:
+        """What both bodies are pressed as; where they are repeated, the interface alone."""
+        pair, along = self.pair, self.repeated_along
+        if pair is None:
+            return given_half_space(None, self.E_star, along)
+        return pair.half_space().interface if along is True else pair.half_space(periodic=along)
 
     @property
     def modulus(self) -> float:
         """Contact modulus, given or of what lies at both surfaces. [Pa]"""
-        return self.elasticity.E_star
+        pair = self.pair
+        return self.E_star or math.nan if pair is None else pair.E_star
 
     @property
     def coated(self) -> list[Coated]:
@@ -337,7 +340,7 @@ class Question:
     def strains(self, body: Body) -> list[tuple[float, str]]:
         """Return how far each load strains a body: as a ratio, and in words."""
         pressing = self.pressing(nominal_area(body))
-        return self.loading.strains(body, self.elasticity, pressing, is_repeated=self.is_repeated)
+        return self.loading.strains(body, self.half_space, pressing, is_layered=bool(self.coated))
 
     def pressing(self, area: float) -> list[float]:
         """Forces with which a body presses, in the order of the loads: less what a fluid carries.

@@ -74,7 +74,7 @@ def solution_of_scan(case: Case, body: Line) -> Solution:
     second = case.parts[1].body if len(case.parts) > 1 else None
     against = second if isinstance(second, Line) else None
     scan = press_scan(
-        body, E_star=case.loads.elasticity.E_star, forces=case.loads.forces, against=against
+        body, E_star=case.loads.half_space.E_star, forces=case.loads.forces, against=against
     )
     ends = scan.low, scan.high
     _, is_too_steep = how_far_a_line_serves(case.question, body)

@@ -191,7 +191,7 @@ def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
         return None
     forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, _UNLOADING_LOADS)
     left = curve.surface_after(largest)
-    return LoadCase(left, case.loads.elasticity, forces.tolist(), [], None, case.loads.periodic)
+    return LoadCase(left, case.loads.half_space, forces.tolist(), [], None)
 
 
 def _filled_otherwise(case: Case, variant: Variant, body: Surface) -> Variant:
@@ -307,7 +307,8 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
         return replace(first, periodic=True, levelled=True, fields=(), measures=case.measures)
     if not first.borne(curve).any():
         return None
-    loads = replace(first.under_forces_of(curve), periodic=True, levelled=True)
+    under = first.under_forces_of(curve)
+    loads = replace(under, half_space=under.half_space.interface, levelled=True)
     if case.question.sealing is None:
         loads = replace(loads, fields=())  # nobody looks into its gap
     return replace(loads, measures=case.measures)
@@ -362,8 +363,9 @@ def _alike(
     if not loads.forces:
         return None
     pressed, attraction = piece(), loads.attraction
-    if attraction and not attraction.is_resolved(max(pressed.spacing), loads.elasticity.softest):
+    if attraction and not attraction.is_resolved(max(pressed.spacing), loads.half_space.softest):
         return None
     forces = (np.array(loads.forces) / nominal_area(body) * pressed.area).tolist()
-    loads = replace(loads, body=pressed, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
-    return replace(loads, measures=measures, levelled=False, grid_error=False)
+    loads = replace(loads, body=pressed, forces=forces, half_space=loads.half_space.interface)
+    loads = replace(loads, measures=measures, rtol=_RTOL_OF_TILES)
+    return replace(loads, levelled=False, grid_error=False)

@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from roughline.contact.elastic_pair import ElasticBody
 from roughline.engineering.material import Material
 from roughline.errors import InputError
 from roughline.errors.checks import as_number, several, shown
 from roughline.errors.public import public
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.elasticity.layered import Layered
 from roughline.units import engineering
 
 _LAYER = 'a layer is a Material and its thickness in m, such as (rl.material("gold"), 0.5e-6)'
@@ -92,19 +93,32 @@ class Coated:
         """Thickness of each layer, from the surface on. [m]"""
         return tuple(thickness for _, thickness in self.layers)
 
+    def half_space(self, *, periodic: Periodic = False) -> HalfSpace:
+        """Return the body, pressed by a rigid one."""
+        return Layered(
+            young=[each.E for each, _ in self.layers],
+            poisson=[each.nu for each, _ in self.layers],
+            thickness=self.thicknesses,
+            base_young=self.base.E,
+            base_poisson=self.base.nu,
+            periodic=periodic,
+        )
+
     @property
-    def elasticity(self) -> ElasticBody:
-        """How it gives way to pressure."""
-        return ElasticBody(
-            tuple(each.E for each in self.materials),
-            tuple(each.nu for each in self.materials),
-            self.thicknesses,
+    def layers_compliance(self) -> float:
+        """How far even pressure compresses the layers, which cannot widen. [m / Pa]
+
+        The sum of their thicknesses over M = E (1 - nu) / ((1 + nu) (1 - 2 nu)).
+        """
+        return sum(
+            h * (1 + each.nu) * (1 - 2 * each.nu) / (each.E * (1 - each.nu))
+            for each, h in self.layers
         )
 
     def refuse_grid(self, spacing: tuple[float, float]) -> None:
         """Refuse cells of a grid [m] that do not resolve the layers."""
         try:
-            self.elasticity.half_space.refuse(spacing)
+            self.half_space().refuse(spacing)
         except InputError:
             top, thickness = self.layers[0]
             raise InputError(

@@ -6,9 +6,10 @@ import math
 import warnings
 from dataclasses import dataclass, replace
 
-from roughline.contact.elastic_pair import ElasticBody
 from roughline.errors import InputError, UnitWarning
 from roughline.errors.public import public
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
 _SOFTEST = 1e3  # Young's modulus that solids have at least, but for the softest gels [Pa]
 
@@ -107,10 +108,9 @@ class Material:
         """None, as there is no layer. [m]"""
         return ()
 
-    @property
-    def elasticity(self) -> ElasticBody:
-        """How a body of it gives way to pressure."""
-        return ElasticBody((self.E,), (self.nu,))
+    def half_space(self, *, periodic: Periodic = False) -> HalfSpace:
+        """Return a body of it, pressed by a rigid one; a rigid body is none."""
+        return Homogeneous(self.E / (1 - self.nu**2), periodic)
 
     def with_hardness(self, hardness: float) -> Material:
         """Return the same with a hardness that is known exactly [Pa]; a rigid body has none."""

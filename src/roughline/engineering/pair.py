@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import operator
 from collections.abc import Iterable
 from dataclasses import dataclass
 from operator import itemgetter
 
+from roughline.contact.arguments import given_half_space
 from roughline.contact.conduction import Resistances
-from roughline.contact.elastic_pair import ElasticPair
 from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.material import Material
 from roughline.errors import InputError
 from roughline.errors.public import public
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,11 +39,24 @@ class MaterialPair:
         )
         return 1 / compliance if compliance else math.inf
 
+    def half_space(self, *, periodic: Periodic = False) -> HalfSpace:
+        """Return what both are pressed as: one that holds the contact modulus, or their sum.
+
+        Raises
+        ------
+        InputError
+            If the contact modulus is beyond all measure.
+        """
+        if not self.coated:
+            return given_half_space(None, self.E_star, periodic)
+        elastic = [each for each in (self.first, self.second) if not math.isinf(each.surface.E)]
+        bodies = [each.half_space(periodic=periodic) for each in elastic]
+        return functools.reduce(operator.add, bodies)
+
     @property
-    def elasticity(self) -> ElasticPair:
-        """How both give way to pressure."""
-        bodies = (self.first.elasticity, self.second.elasticity) if self.coated else ()
-        return ElasticPair(self.E_star, bodies)
+    def layers_compliance(self) -> float:
+        """How far even pressure compresses the layers of both. [m / Pa]"""
+        return sum(each.layers_compliance for each in self.coated)
 
     @property
     def coated(self) -> list[Coated]:

@@ -112,7 +112,7 @@ def _meaning_of_joint(pressed: Pressed, *, bodies_matter: bool) -> str:
 
 def _layer_stiffness(pressed: Pressed) -> Real | None:
     """Stiffness of the layers of both bodies under even pressure; a piece alone holds it. [N/m]"""
-    compliance = pressed.pair.elasticity.layers_compliance
+    compliance = pressed.pair.layers_compliance
     if not pressed.is_repeated or not pressed.pair.coated:
         return None
     stiffness = pressed.nominal_area / compliance if compliance else np.inf
@@ -131,7 +131,7 @@ def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
         return _OF_KEPT_VOLUME
     k_i = pressed.symbols["k_i"]
     pressure = float(np.nanmax(pressed.load_pressure))  # a fluid compresses them as well
-    compressed = engineering(pressure * pressed.pair.elasticity.layers_compliance, "m")
+    compressed = engineering(pressure * pressed.pair.layers_compliance, "m")
     added = engineering(float(np.nanmax(of_layers)), "N/m")
     return (
         f"stiffness {k_i} and approach are those of the interface alone: layers are compressed as "

@@ -167,6 +167,33 @@ class HalfSpace(ABC):
         return TwoBodies(self, other)
 
     @property
+    def interface(self) -> HalfSpace:
+        """What it is without its mean: repeated along both axes, displaced by waves alone.
+
+        Under even pressure layers on a rigid base are compressed as a whole; that is left out here,
+        and what is left is the interface. A deep body has no bounded mean, so that its interface is
+        the body itself, repeated.
+        """
+        return _Interface(self)
+
+    @property
+    def softest(self) -> float:
+        """Contact modulus of the softest material that it is made of. [pressure]"""
+        return self.E_star
+
+    def strain(self, pressure: float, side: float) -> float:
+        """Return about how far pressure strains it, on a place of some side.
+
+        Parameters
+        ----------
+        pressure : float
+            The mean pressure. [pressure]
+        side : float
+            Side of the place; infinite where pressure is everywhere. [length]
+        """
+        return pressure / self.E_star
+
+    @property
     def repeats(self) -> tuple[bool, bool]:
         """Whether pressures repeat themselves beyond the grid along x, and along y."""
         return repeated_axes(self.periodic)
@@ -250,6 +277,15 @@ class TwoBodies(HalfSpace):
         """How far a hard layer of one of them spreads a load. [length]"""
         return max(self.first.spread, self.second.spread)
 
+    @property
+    def softest(self) -> float:
+        """Contact modulus of the softest materials of both. [pressure]"""
+        return 1 / (1 / self.first.softest + 1 / self.second.softest)
+
+    def strain(self, pressure: float, side: float) -> float:
+        """Return about how far pressure strains both together. [1]"""
+        return self.first.strain(pressure, side) + self.second.strain(pressure, side)
+
     def spectrum(self, q: Real) -> Real:
         """Return the displacement over the pressure of waves."""
         return self.first.spectrum(q) + self.second.spectrum(q)
@@ -271,43 +307,52 @@ class TwoBodies(HalfSpace):
         return TwoBodies(*(each.in_units(pressure, length) for each in (self.first, self.second)))
 
 
-@dataclass(frozen=True)
-class Repeated(HalfSpace):
-    """A free half-space, repeated without an end, whose displacements count from their mean.
+@dataclass(frozen=True, repr=False)
+class _Interface(HalfSpace):
+    """A half-space that is repeated, and displaced from its mean."""
 
-    So they do of every deep body. Layers on a rigid base are displaced by even pressure, too. Here
-    that is left out, and what is left is the interface alone.
+    whole: HalfSpace
 
-    Parameters
-    ----------
-    free : HalfSpace
-        What is repeated.
-    """
-
-    free: HalfSpace
+    def __repr__(self) -> str:
+        """Return what makes it, in Python."""
+        return f"({self.whole!r}).interface"
 
     @property
     def E_star(self) -> float:  # type: ignore[override]
         """Contact modulus of the surface. [pressure]"""
-        return self.free.E_star
+        return self.whole.E_star
 
     @property
     def periodic(self) -> bool:  # type: ignore[override]
         """Pressures repeat themselves beyond the grid."""
         return True
 
+    @property
+    def interface(self) -> HalfSpace:
+        """Itself."""
+        return self
+
+    @property
+    def softest(self) -> float:
+        """Contact modulus of the softest material. [pressure]"""
+        return self.whole.softest
+
+    def strain(self, pressure: float, side: float) -> float:
+        """Return about how far pressure strains the whole. [1]"""
+        return self.whole.strain(pressure, side)
+
     def spectrum(self, q: Real) -> Real:
         """Return the displacement over the pressure of waves; without a bound for even pressure."""
-        return np.where(q == 0, np.inf, self.free.spectrum(q))
+        return np.where(q == 0, np.inf, self.whole.spectrum(q))
 
     def refuse(self, spacing: tuple[float, float]) -> None:
-        """Refuse grids that do not resolve what is repeated."""
-        self.free.refuse(spacing)
+        """Refuse grids that do not resolve the whole."""
+        self.whole.refuse(spacing)
 
-    def in_units(self, pressure: float, length: float) -> Repeated:
+    def in_units(self, pressure: float, length: float) -> _Interface:
         """Return the same half-space in other units."""
-        return Repeated(self.free.in_units(pressure, length))
+        return _Interface(self.whole.in_units(pressure, length))
 
     def disc_stiffness(self, radius: float) -> float:
-        """Return the force per approach of a rigid disc on what is repeated."""
-        return self.free.disc_stiffness(radius)
+        """Return the force per approach of a rigid disc on the whole."""
+        return self.whole.disc_stiffness(radius)

@@ -54,6 +54,11 @@ class Homogeneous(HalfSpace):
         """Whether the surface is free: the kernel is positive everywhere then."""
         return not any(self.repeats)
 
+    @property
+    def interface(self) -> Homogeneous:
+        """The same, repeated along both axes: even pressure has no bounded displacement."""
+        return replace(self, periodic=True)
+
     def spectrum(self, q: Real) -> Real:
         """Return 2 / (E* q), the displacement over the pressure of waves."""
         return 2 / (self.E_star * q)

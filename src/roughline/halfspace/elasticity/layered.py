@@ -17,6 +17,7 @@ from roughline.errors.public import public_making
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
 
 _THINNEST = 0.5  # thickness of the top layer over the side of a cell, at least
+_FAR = 1e3  # side over thickness, from which on pressure is even for layers
 
 
 @public_making
@@ -44,7 +45,8 @@ class Layered(HalfSpace):
     periodic : bool, "x" or "y", optional
         Whether pressures repeat themselves beyond the grid: along both axes, none, or the one that
         is named. Where they do not, the surface is free. On a rigid base, a periodic body is
-        displaced by even pressure, and depths hold that. Along one axis only, depths on an elastic
+        displaced by even pressure, and depths hold that; its :attr:`~roughline.HalfSpace.interface`
+        is not. Along one axis only, depths on an elastic
         base count from a place as far away across as the surface is wide, and as layers harder than
         their base spread a load: the sum of thickness times E* over that of the base less one. On a
         rigid base they count from the base.
@@ -97,7 +99,8 @@ class Layered(HalfSpace):
         if all(self.repeats) and math.isinf(self.base_young) and self._layers[1].min() == 0.5:
             raise InputError(
                 "a periodic layer of poisson 0.5 on a rigid base locks: even pressure displaces "
-                "nothing, so that no depth tells it; give poisson=0.499, or periodic=False"
+                "nothing, so that no depth tells it; give poisson=0.499, or periodic=False, of "
+                "which .interface is what the waves of pressure displace"
             )
 
     @property
@@ -112,6 +115,31 @@ class Layered(HalfSpace):
         of_base = self.base_young / (1 - self.base_poisson**2)
         harder = np.maximum(young / (1 - poisson**2) / of_base - 1, 0.0)
         return float(thickness @ harder)
+
+    @property
+    def softest(self) -> float:
+        """Contact modulus of the softest of layers and base. [pressure]"""
+        moduli = [young / (1 - poisson**2) for young, poisson in self._materials]
+        return 1 / max(1 / each for each in moduli)
+
+    def strain(self, pressure: float, side: float) -> float:
+        """Return about how far pressure strains the base, or its layers together. [1]
+
+        Layers are strained by what they add to the displacement of the base, over their thickness,
+        or down to where the pressure reaches.
+        """
+        base_young, base_poisson = self._materials[-1]
+        of_base = 1 / (base_young / (1 - base_poisson**2))
+        thickness = sum(several(self.thickness))
+        side = min(side, _FAR * thickness)
+        added = float(self.spectrum(np.array([1 / side]))[0]) - 2 * side * of_base
+        return pressure * max(of_base, added / min(thickness, 2 * side))
+
+    @property
+    def _materials(self) -> list[tuple[float, float]]:
+        """Young's modulus and Poisson's ratio of each layer, and of the base."""
+        layers = zip(several(self.young), several(self.poisson), strict=True)
+        return [*layers, (self.base_young, self.base_poisson)]
 
     @cached_property
     def _layers(self) -> Real:
