@@ -25,7 +25,6 @@ from roughline.contact.distribution import Distribution as Distribution
 from roughline.contact.estimates import Estimate as Estimate
 from roughline.contact.estimates import estimate as estimate
 from roughline.contact.fields import Fields as Fields
-from roughline.contact.jkr import JKR as JKR
 from roughline.contact.measures import MEAN_GAP as MEAN_GAP
 from roughline.contact.measures import Measure as Measure
 from roughline.contact.patches import Patches as Patches
@@ -69,6 +68,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneou
 from roughline.halfspace.elasticity.layered import Layered as Layered
 from roughline.halfspace.laws.dugdale import Dugdale as Dugdale
 from roughline.halfspace.laws.exponential import Exponential as Exponential
+from roughline.halfspace.laws.jkr import JKR as JKR
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral as Unilateral
 from roughline.halfspace.laws.yielding import Yielding as Yielding

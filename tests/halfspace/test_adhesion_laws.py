@@ -8,7 +8,8 @@ import pytest
 import roughline as rl
 from random_cases import cases, seeds
 from roughline.contact.loads import depth_apart, even_cycle
-from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM, remarks
+from roughline.halfspace.elasticity.cell import cell_compliance
+from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM, farthest_pulled, remarks
 
 FORCE = 1e-5  # over the largest: rounds end where gaps are right to the tolerance
 LAWS = [rl.Dugdale, rl.Exponential]
@@ -66,7 +67,7 @@ def test_a_cycle_from_out_of_reach_and_back_dissipates_what_it_encloses(law):
     body, of_body = spectrum.surface(64, rng=4), law(2.5e-4, 7e-3)
     deepest = 0.5 * float((body.heights.max() - body.heights).mean())
     apart = depth_apart(body, rl.Homogeneous(1.0), of_body, deepest)
-    depths = even_cycle(-of_body.reach, deepest, apart, 120).values
+    depths = even_cycle(-farthest_pulled(of_body), deepest, apart, 120).values
     curve = rl.press(body, E_star=1.0, law=of_body, depths=depths)
     assert curve.force[0] == pytest.approx(0, abs=FORCE * np.abs(curve.force).max())
     assert curve.force[-1] == pytest.approx(0, abs=FORCE * np.abs(curve.force).max())
@@ -206,6 +207,34 @@ def test_what_is_no_pull_is_refused(law, said):
     with pytest.raises(rl.InputError, match=said) as refused:
         law()
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_a_law_refuses_the_grids_on_which_its_pull_would_end_within_a_cell(periodic):
+    """At a range h_0 with 4 (w / h_0) c = h_0, c = 4 arsinh(1) dx / (pi E*) being a cell's."""
+    body, work, E_star = surface(n=64), 1e-5, 2.0
+    dx, half_space = body.spacing[0], rl.Homogeneous(E_star, periodic)
+    least = np.sqrt(16 * np.arcsinh(1) * work * dx / (np.pi * E_star))
+    for times in (1.02, 0.95):
+        law = rl.Dugdale(work, times * least)
+        if times > 1:
+            law.refuse_grid(half_space, body.spacing)
+            rl.press(body, half_space=half_space, law=law, depths=[-3 * law.range])
+            continue
+        for ask in (
+            lambda: law.refuse_grid(half_space, body.spacing),  # noqa: B023
+            lambda: rl.press(body, half_space=half_space, law=law, depths=[0.0]),  # noqa: B023
+        ):
+            with pytest.raises(rl.InputError, match="range is too short for the grid"):
+                ask()
+    rl.Exponential(work, 0.1 * least).refuse_grid(half_space, body.spacing)  # it ends evenly
+
+
+def test_a_cell_of_a_repeated_half_space_is_displaced_nearly_as_one_alone():
+    spacing, layer = (0.3, 0.2), rl.Layered(2.0, 0.3, 1.0, np.inf)
+    for free in (rl.Homogeneous(2.0), layer, layer + rl.Homogeneous(1.0)):
+        found = cell_compliance(free.interface, spacing)
+        assert found == pytest.approx(cell_compliance(free, spacing), rel=0.02)
 
 
 def test_what_the_grid_does_not_resolve_is_refused_or_told():

@@ -19,7 +19,6 @@ from roughline.assessment.given import (
 )
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.contact.jkr import JKR
 from roughline.contact.press import press
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Solid
@@ -28,6 +27,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError, UnitWarning
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
+from roughline.halfspace.laws.jkr import JKR
 from roughline.topography.profile import Profile
 from roughline.units import as_si, decimal, engineering
 

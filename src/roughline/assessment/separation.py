@@ -11,7 +11,6 @@ import numpy as np
 from roughline.assessment.case import Case
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.contact.jkr import JKR
 from roughline.contact.loads import depth_apart, unbearable_pull
 from roughline.contact.press import press
 from roughline.contact.status import Status
@@ -30,7 +29,7 @@ def separation_of(case: Case, curve: Curve) -> Separation | None:
     of a joint, or the way in which missing points are filled, leave them open as well.
     """
     largest, law = case.loads.largest, curve.law
-    if not curve.converged[largest] or law is None or isinstance(law, JKR):
+    if not curve.converged[largest] or law is None:
         return None
     force = float(curve.force[largest])
     is_judged = case.loads.grid_error and case.question.joint is None and not case.filled
@@ -94,7 +93,6 @@ def _drawn_apart(surface: Surface, under: Curve) -> tuple[Curve, Real]:
     """
     law, off = under.law, under.pull_off_depth
     assert law is not None
-    assert not isinstance(law, JKR)
     loaded, unloaded = float(under.depth[0]), float(under.depth[1])
     if under.half_space.mean_is_free:  # full contact has one depth, at which forces are not known
         full = float(np.mean(surface.heights.max() - surface.heights))

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from roughline.contact.jkr import JKR
 from roughline.errors import InputError
 from roughline.errors.checks import as_plain, between, is_whole, refuse, several
 from roughline.errors.words import called
@@ -15,6 +14,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.halfspace.laws.dugdale import Dugdale
 from roughline.halfspace.laws.exponential import Exponential
+from roughline.halfspace.laws.jkr import JKR
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
@@ -60,12 +60,12 @@ def given_half_space(
     return half_space
 
 
-def given_law(law: ContactLaw | JKR | None, hardness: float | None, body: Body) -> ContactLaw:
+def given_law(law: ContactLaw | None, hardness: float | None, body: Body | Profile) -> ContactLaw:
     """Return the law that bodies obey; a hardness is short for one, unless it is infinite."""
     hardness = _given_hardness(hardness, body)
     if law is None:
         return law_of(hardness)
-    if not isinstance(law, ContactLaw | JKR):
+    if not isinstance(law, ContactLaw):
         refuse(
             "law",
             law,
@@ -80,31 +80,14 @@ def given_law(law: ContactLaw | JKR | None, hardness: float | None, body: Body) 
     if isinstance(body, Line):
         reason = (
             "the springs of a Line only push"
-            if isinstance(law, ContactLaw) and law.only_pushes
+            if law.only_pushes
             else "springs stick as bodies of revolution do, whose contact is one disc, and a rough "
             "line has many contacts, whose sizes are not those of the surface"
         )
         raise InputError(
             f"law belongs to the full model; {reason}: leave it out, or press a Surface"
         )
-    if isinstance(law, JKR):
-        raise InputError(
-            "is rl.JKR, which holds where the contact radius is the only length, of a Profile; a "
-            "Surface sticks by rl.Dugdale(work_of_adhesion, range) or rl.Exponential: press with "
-            "two short ranges, the second half as long, and extrapolate as their square",
-            "law",
-        )
-    return law
-
-
-def given_stickiness(
-    law: ContactLaw | JKR | None, hardness: float | None, profile: Profile
-) -> JKR | None:
-    """Return how a profile sticks; None if it does not."""
-    _given_hardness(hardness, profile)
-    if law is None or isinstance(law, Unilateral):
-        return None
-    if not isinstance(law, JKR):
+    if isinstance(body, Profile) and not isinstance(law, Unilateral | JKR):
         refuse(
             "law",
             law,

@@ -17,7 +17,6 @@ from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.curve_files import checked_name, write_curve
 from roughline.contact.fields import Fields, Indentation, KeptFields
-from roughline.contact.jkr import JKR
 from roughline.contact.measures import Measured
 from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import Status
@@ -133,7 +132,7 @@ class Curve:
     dents : sequence of Indentation
         Permanent indentations after each load, for :meth:`surface_after`; None where the surface
         is not indented. Empty without a hardness.
-    law : ContactLaw, JKR or None
+    law : ContactLaw or None
         What pressures and gaps obey; None for a line, and for a profile that does not stick.
     control : {"forces", "depths"}
         What was prescribed.
@@ -174,7 +173,7 @@ class Curve:
     fields: Sequence[Fields | None] = field(default=(), repr=False)
     surface: Surface | None = field(default=None, repr=False)
     dents: Sequence[Indentation | None] = field(default=(), repr=False)
-    law: ContactLaw | JKR | None = field(default=None, repr=False)
+    law: ContactLaw | None = field(default=None, repr=False)
     control: Literal["forces", "depths"] = field(default="forces", repr=False)
 
     _repr_html_ = in_notebook

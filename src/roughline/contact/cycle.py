@@ -17,6 +17,7 @@ from roughline.contact.loads import (
 from roughline.errors import Interrupted
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.pulling_zone import farthest_pulled
 from roughline.halfspace.search.problem import Method
 from roughline.topography.body import Surface
 
@@ -68,4 +69,4 @@ def cycle(
             break
     # the first step after which nothing is in contact any more
     last = min(int(np.flatnonzero(force != 0).max(initial=0)) + 1, _STEPS_BACK)
-    return even_cycle(-law.reach, deepest, float(back[last]), n_loads)
+    return even_cycle(-farthest_pulled(law), deepest, float(back[last]), n_loads)

@@ -23,6 +23,7 @@ from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.pulling_zone import farthest_pulled
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.topography.body import Surface
 
@@ -156,6 +157,8 @@ def _checked_law(law: ContactLaw | None) -> ContactLaw:
         return Unilateral()
     if not isinstance(law, ContactLaw):
         refuse("law", law, "a contact law is needed, such as rl.Dugdale(work_of_adhesion, range)")
+    if math.isinf(Bounds.of(law).largest_pull):
+        refuse("law", law, "no grid resolves it: a law with a range is needed, such as rl.Dugdale")
     return law
 
 
@@ -249,7 +252,7 @@ def expected_area_fraction(
     """
     largest = float(loads.values.max())
     if loads.control == "depths":
-        farthest = surface.heights.max() - largest - law.reach
+        farthest = surface.heights.max() - largest - farthest_pulled(law)
         reached = np.count_nonzero(surface.heights > farthest)
         return min(
             1.0, (2.0 if any(half_space.repeats) else 1.0) * float(reached) / surface.heights.size

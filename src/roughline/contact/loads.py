@@ -21,6 +21,7 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.pulling_zone import farthest_pulled
 from roughline.reduction.revolution import Revolution
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
@@ -178,7 +179,7 @@ def _cycle(surface: Surface, half_space: HalfSpace, law: ContactLaw, given: Give
     """
     deepest = next(deepest_ones(surface, half_space))
     last = depth_apart(surface, half_space, law, deepest)
-    return even_cycle(-law.reach, deepest, last, _counted(given))
+    return even_cycle(-farthest_pulled(law), deepest, last, _counted(given))
 
 
 def deepest_ones(surface: Surface, half_space: HalfSpace) -> Iterator[float]:
@@ -269,13 +270,13 @@ def depth_apart(surface: Surface, half_space: HalfSpace, law: ContactLaw, deepes
     k l² / 2. Springs of a line do so at 2 pi a w = k l² / (2 a). Where k grows more slowly with a,
     as on a hard layer, the edge lets go later, at the latest when all of the disc pulls as it can.
     """
-    separation = surface.heights.max() - surface.heights
-    within = np.count_nonzero(separation < deepest + law.reach) * surface.area / separation.size
+    separation, reach = surface.heights.max() - surface.heights, farthest_pulled(law)
+    within = np.count_nonzero(separation < deepest + reach) * surface.area / separation.size
     radius = float(np.sqrt(within / np.pi))
     pull = Bounds.of(law).largest_pull
-    work = pull * law.reach  # at least that of adhesion
+    work = pull * reach  # at least that of adhesion
     if not radius:
-        return -law.reach
+        return -reach
     smaller, stiffness, larger = (
         half_space.disc_stiffness(each * radius) for each in (0.5, 1.0, 2.0)
     )
@@ -283,7 +284,7 @@ def depth_apart(surface: Surface, half_space: HalfSpace, law: ContactLaw, deepes
     growth = float(np.log2(min(stiffness / smaller, larger / stiffness)))  # k as a to this power
     largest = pull * np.pi * radius**2 / stiffness
     later = usual / np.sqrt(growth) if growth > 0 else np.inf
-    return -law.reach - max(usual, min(later, largest))
+    return -reach - max(usual, min(later, largest))
 
 
 def unbearable_pull(law: ContactLaw, area: float) -> float:

@@ -15,7 +15,6 @@ from roughline.contact.arguments import (
     checked_count,
     given_half_space,
     given_law,
-    given_stickiness,
     kept_loads,
 )
 from roughline.contact.curve import Curve
@@ -26,7 +25,6 @@ from roughline.contact.estimates import (
     memory_for,
 )
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
-from roughline.contact.jkr import JKR
 from roughline.contact.loads import GivenLoads, Loads, refuse_beyond_precision, surface_loads
 from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
@@ -50,7 +48,7 @@ def press(
     E_star: float | None = None,
     half_space: HalfSpace | None = None,
     hardness: float | None = None,
-    law: ContactLaw | JKR | None = None,
+    law: ContactLaw | None = None,
     depths: ArrayLike | None = None,
     forces: ArrayLike | None = None,
     n_loads: int | None = None,
@@ -84,7 +82,7 @@ def press(
         Largest pressure that a point bears, the indentation hardness of the softer body; where it
         is reached, the surface is permanently indented. Default, or infinite: both bodies are
         elastic. Short for ``law=rl.Yielding(hardness)``. [pressure]
-    law : ContactLaw or JKR, optional
+    law : ContactLaw, optional
         What pressure and gap obey at a point. Default: :class:`~roughline.Unilateral`, bodies that
         neither stick nor overlap; :class:`~roughline.Dugdale` and :class:`~roughline.Exponential`
         stick. A profile sticks by :class:`~roughline.JKR`.
@@ -188,10 +186,7 @@ def press(
     [0.308]
     """
     half_space = given_half_space(half_space, E_star, periodic)
-    if isinstance(body, Profile):
-        stickiness = given_stickiness(law, hardness, body)
-    else:
-        law = given_law(law, hardness, body)
+    law = given_law(law, hardness, body)
     rtol = between("rtol", rtol, 1e-12, 0.1, "a tolerance from 1e-12 to 0.1 is needed")
     max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = flag("grid_error", grid_error)
@@ -206,15 +201,15 @@ def press(
         homogeneous = _of_reduced(body, half_space, sought, measures)
         if isinstance(body, Line):
             return _complete(body, press_line(body, homogeneous, given), throw)
-        return _complete(body, press_profile(body, homogeneous, stickiness, given), throw)
+        return _complete(body, press_profile(body, homogeneous, law, given), throw)
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed, or a Profile of a "
             "body of revolution: wrap heights as Surface(heights, sizes=(Lx, Ly)) or Line(heights, "
             "length=L), and a topography of SurfaceTopography as Surface(topography)"
         )
-    assert isinstance(law, ContactLaw)
     half_space.refuse(body.spacing)
+    law.refuse_grid(half_space, body.spacing)
     single = precision == "float32"
     loads = surface_loads(body, half_space, given, rtol, single=single, law=law)
     kept = kept_loads(fields, loads.values.size)

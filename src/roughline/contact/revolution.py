@@ -9,22 +9,24 @@ import numpy as np
 from roughline._version import __version__
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.contact.jkr import JKR
 from roughline.contact.loads import GivenLoads, comes_nearer, profile_loads
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.laws.jkr import JKR
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.reduction.revolution import Moved, Revolution
 from roughline.topography.profile import Profile
 
 
 def press_profile(
-    profile: Profile, half_space: Homogeneous, law: JKR | None, given: GivenLoads
+    profile: Profile, half_space: Homogeneous, law: ContactLaw, given: GivenLoads
 ) -> Curve:
     """Press a body of revolution by the reduction method."""
-    work_of_adhesion = 0.0 if law is None else law.work_of_adhesion
+    work_of_adhesion = law.work_of_adhesion if isinstance(law, JKR) else 0.0
     body = Revolution.of(profile.radii, profile.heights, half_space.E_star, work_of_adhesion)
+    sticks = not law.only_pushes
     if (falls := body.falls_at) is not None:
         raise InputError(
             f"this profile is so uneven from radius {falls:.3g} on that its contact would not be "
@@ -34,14 +36,14 @@ def press_profile(
     loads = profile_loads(profile, body, given)
     moves: list[Moved] = []
     for value in loads.values.tolist():
-        start = moves[-1].radius if moves and law is not None else 0.0
+        start = moves[-1].radius if moves and sticks else 0.0
         moves.append(body.moved(loads.control, start, value))
     radius = np.array([each.radius for each in moves])
     depth, force = _depths_and_forces(body, radius, loads.control == "forces", loads.values)
     is_solved = np.isfinite(depth)
     pulls = [each.pull_off for each in moves if each.pull_off is not None]
     pull_off_depth, pull_off_force = min(pulls, key=lambda pull: pull[1], default=[math.nan] * 2)
-    work, dissipated = (None, None) if law is None else _works(body, moves, depth)
+    work, dissipated = _works(body, moves, depth) if sticks else (None, None)
     share = np.where(is_solved, (radius / profile.largest_radius) ** 2, math.nan)
     return Curve(
         depth=depth,
@@ -60,15 +62,15 @@ def press_profile(
             "roughline_version": __version__,
             "model": "reduced",
             "control": loads.control,
-            **({} if law is None else law.settings),
+            **law.settings,
         },
         work=work,
         dissipated_work=dissipated,
-        on_approach=None if law is None else comes_nearer(depth),
+        on_approach=comes_nearer(depth) if sticks else None,
         pull_off_depth=pull_off_depth,
         pull_off_force=pull_off_force,
         warnings=_warnings(body, radius, depth),
-        law=law,
+        law=law if sticks else None,
         control=loads.control,
     )
 

@@ -11,6 +11,7 @@ from roughline.contact.loads import Loads
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.pulling_zone import farthest_pulled
 from roughline.topography.body import Surface
 
 _SAME = 1e-6  # part by which what is scaled may differ
@@ -105,7 +106,7 @@ def _refuse_other_law(law: ContactLaw, scaled: ContactLaw, pressure: float, leng
     for what, given, there, unit in (
         ("a lower bound", low, low_there, pressure),
         ("an upper bound", high, high_there, pressure),
-        ("the reach", law.reach, scaled.reach, length),
+        ("the reach", farthest_pulled(law), farthest_pulled(scaled), length),
     ):
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):
             found, right = np.broadcast_arrays(there, np.asarray(given) / unit)

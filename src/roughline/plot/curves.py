@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
-from roughline.contact.jkr import JKR
 from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.errors.public import public
@@ -143,7 +142,7 @@ def rising(curve: Curve) -> Mask:
 
 
 def _sticks(curve: Curve) -> bool:
-    return isinstance(curve.law, JKR) or (curve.law is not None and not curve.law.only_pushes)
+    return curve.law is not None and not curve.law.only_pushes
 
 
 def _explain(axes: Axes, curve: Curve) -> None:

@@ -10,6 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.elasticity.half_space import HalfSpace
 
 LEAST_SHARE = 1e-7
 """Share of the largest pull, from which on pulls are told apart."""
@@ -114,19 +115,25 @@ class ContactLaw(ABC):
         """
         return np.zeros_like(gap)
 
-    @property
-    def reach(self) -> float:
-        """Gap beyond which nothing is pulled. [length]
+    def refuse_grid(  # noqa: B027 as most are resolved, or told to be poorly
+        self, half_space: HalfSpace, spacing: tuple[float, float]
+    ) -> None:
+        """Refuse a grid that does not resolve the law, if there are such grids.
 
-        It is the cutoff, or twice that where the pull ends by a jump, as no ramp goes beyond; of a
-        pull without an end, it is the gap that leaves 1e-7 of it.
+        It is asked of the grid of a surface, not of the coarser ones that guesses come from.
+
+        Parameters
+        ----------
+        half_space : HalfSpace
+            What is pressed.
+        spacing : tuple of float
+            Sides of a cell, (dx, dy). [length]
+
+        Raises
+        ------
+        InputError
+            If the grid is too coarse.
         """
-        if self.only_pushes:
-            return 0.0
-        if math.isinf(self.cutoff):
-            return float(self.gap_at(np.array([LEAST_SHARE]))[0])
-        jumps = float(self.share_at(np.array([self.cutoff]))[0]) > LEAST_SHARE
-        return 2 * self.cutoff if jumps else self.cutoff
 
     @property
     def only_pushes(self) -> bool:

@@ -12,12 +12,57 @@ import math
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.errors import InputError
 from roughline.halfspace.laws.bounds import Bounds
-from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.law import LEAST_SHARE, ContactLaw
 
 RESOLVED_FROM = 4.0
 """Cells across the zone that pulls, from which on a grid resolves it."""
 _POORLY_FROM = 2.0  # cells, with which a pull-off is resolved at least
+# Half of the ramp over what the pull on a cell displaces it: so a cell at the edge of the reach has
+# one place, and a circle on cells pulls as a circle does (benchmarks/pull_off.py).
+_WIDTH = 4.0
+
+
+def farthest_pulled(law: ContactLaw) -> float:
+    """Return the gap beyond which nothing is pulled. [length]
+
+    It is the cutoff, or twice that where the pull ends by a jump, as no ramp goes beyond; of a pull
+    without an end, it is the gap that leaves 1e-7 of it.
+    """
+    if law.only_pushes:
+        return 0.0
+    if math.isinf(law.cutoff):
+        return float(law.gap_at(np.array([LEAST_SHARE]))[0])
+    return 2 * law.cutoff if jump(law) else law.cutoff
+
+
+def jump(law: ContactLaw) -> float:
+    """Return the share of the pull that ends at the cutoff; zero where it ends evenly. [1]"""
+    if math.isinf(law.cutoff):
+        return 0.0
+    share = float(law.share_at(np.array([law.cutoff]))[0])
+    return share if share > LEAST_SHARE else 0.0
+
+
+def narrowest_ramp(law: ContactLaw, compliance: float) -> float:
+    """Return half of the width that the ramp has at least over which a pull ends. [length]
+
+    The compliance is the displacement of a cell by unit pressure on it alone. [length / pressure]
+    """
+    return _WIDTH * Bounds.of(law).largest_pull * compliance
+
+
+def refuse_end_within_a_cell(law: ContactLaw, compliance: float) -> None:
+    """Refuse a pull that would end by a jump within a cell of such a compliance."""
+    ramp = narrowest_ramp(law, compliance)
+    if jump(law) and ramp > law.cutoff:
+        enough = 1.01 * np.sqrt(ramp / law.cutoff)  # rounded to three digits, too
+        raise InputError(
+            "is too short for the grid: the pull w / h_0 would end within a cell. Give at "
+            f"least {enough:.3g} times as much, with the same work, or a finer grid",
+            "range",
+        )
 
 
 def pulled_length(law: ContactLaw) -> float:

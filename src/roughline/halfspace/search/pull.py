@@ -17,14 +17,15 @@ import numpy as np
 
 from roughline.computing.arrays import Floats, Indices, Integers, Real
 from roughline.computing.compiled import compiled
-from roughline.errors import InputError
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import LEAST_SHARE, ContactLaw
+from roughline.halfspace.laws.pulling_zone import (
+    farthest_pulled,
+    jump,
+    narrowest_ramp,
+    refuse_end_within_a_cell,
+)
 from roughline.halfspace.laws.unilateral import Unilateral
-
-# Half of the ramp over what the pull on a cell displaces it: so a cell at the edge of the reach has
-# one place, and a circle on cells pulls as a circle does (benchmarks/pull_off.py).
-_WIDTH = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,15 +79,12 @@ class Pull:
     @cached_property
     def jump(self) -> float:
         """Share of the pull that ends at the cutoff."""
-        if math.isinf(self.law.cutoff):
-            return 0.0
-        jump = float(self.law.share_at(np.array([self.law.cutoff]))[0])
-        return jump if jump > LEAST_SHARE else 0.0
+        return jump(self.law)
 
     @property
     def _narrowest(self) -> float:
         """Half of the width that a ramp has at least. [length]"""
-        return _WIDTH * Bounds.of(self.law).largest_pull * self.compliance
+        return narrowest_ramp(self.law, self.compliance)
 
     def at_hand(self) -> ContactLaw:
         """Return the law, or, where the pull moves less than rounding, one without it.
@@ -102,13 +100,7 @@ class Pull:
         moved = Bounds.of(law).largest_pull * self.compliance * cells
         if moved < np.finfo(float).eps * self.separation.max():
             return Unilateral()
-        if self.jump and self._narrowest > law.cutoff:
-            enough = 1.01 * np.sqrt(self._narrowest / law.cutoff)  # rounded to three digits, too
-            raise InputError(
-                "is too short for the grid: the pull w / h_0 would end within a cell. Give at "
-                f"least {enough:.3g} times as much, with the same work, or a finer grid",
-                "range",
-            )
+        refuse_end_within_a_cell(law, self.compliance)
         return law
 
     def followed(self, gap: Real, shares: Shares) -> tuple[Shares, Shares, float]:
@@ -129,7 +121,7 @@ class Pull:
         """Return the nodes that a gap leaves within reach, and those of shares, in one memory."""
         if math.isinf(self.law.cutoff):
             return shares.nodes if shares.nodes.size == gap.size else np.arange(gap.size)
-        near = gap < self.law.reach
+        near = gap < farthest_pulled(self.law)
         near[shares.nodes] = True
         nodes = np.flatnonzero(near)
         return nodes if nodes.size > shares.nodes.size else shares.nodes
@@ -164,7 +156,7 @@ class Pull:
         The gap is that of all nodes, shape (nx * ny,). [pressure * length]
         """
         law = self.law
-        nodes = np.flatnonzero(gap < (law.reach if self.jump else law.cutoff))
+        nodes = np.flatnonzero(gap < (farthest_pulled(law) if self.jump else law.cutoff))
         gap = np.maximum(gap[nodes], 0.0)
         work = law.work_beyond(np.minimum(gap, law.cutoff))
         if self.jump:

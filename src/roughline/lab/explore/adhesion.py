@@ -111,10 +111,8 @@ class Adhesion(Physics):
     def check(self, state: ExploreState) -> None:
         """Refuse a grid that does not resolve the pull."""
         cell = state.length / state.n
-        try:  # the grid is refused alike under a flat body of few cells, far away
-            flat = rl.Surface(np.zeros((2, 2)), sizes=(2 * cell, 2 * cell))
-            depths = [-4 * self.h0 * state.rms_height]
-            rl.press(flat, half_space=state.half_space, law=state.law, depths=depths)
+        try:
+            self.law(state).refuse_grid(state.half_space, (cell, cell))
         except rl.InputError as error:
             raise ControlError(str(error), "h0", "w", "n", *OF_THE_SURFACE) from None
 

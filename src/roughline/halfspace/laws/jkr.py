@@ -1,25 +1,29 @@
-"""Bodies of revolution that stick in the limit of a short range, by Heß's rule."""
+"""Bodies that stick in the limit of a short range: bodies of revolution, by Heß's rule."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar, NoReturn
 
+from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
 from roughline.errors.checks import as_number
 from roughline.errors.public import public_making
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.laws.law import ContactLaw
 
 
 @public_making
 @dataclass(frozen=True)
-class JKR:
+class JKR(ContactLaw):
     """Bodies of revolution that stick as Johnson, Kendall and Roberts have it [1]_.
 
     In the reduction method the springs at the edge of the contact let go when they are pulled by
     sqrt(2 pi a w / E*) [2]_. This holds where the contact radius a is the only length of the
     contact: for a :class:`~roughline.Profile` on a free, homogeneous half-space. The pull has no
-    range, so bodies that come nearer jump together where they first touch.
+    range and no bound, so no grid resolves it, and bodies that come nearer jump together where they
+    first touch.
 
     Attributes
     ----------
@@ -51,7 +55,6 @@ class JKR:
 
     work_of_adhesion: float
     assumption: ClassVar[str] = "linear elastic, and pull each other where they touch alone"
-    memory: ClassVar[Literal["path"]] = "path"
 
     def __post_init__(self) -> None:
         work = as_number(self.work_of_adhesion)
@@ -61,8 +64,26 @@ class JKR:
                 "leave law out for bodies that do not stick",
                 "work_of_adhesion",
             )
+        object.__setattr__(self, "work_of_adhesion", work)
 
     @property
-    def settings(self) -> dict[str, str | float]:
-        """Its name and the work of adhesion."""
-        return {"law": "JKR", "work_of_adhesion": self.work_of_adhesion}
+    def cutoff(self) -> float:  # type: ignore[override]
+        """Zero, as bodies pull where they touch alone. [length]"""
+        return 0.0
+
+    def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
+        """Return that the pull has no bound, as it has no range, and pressures have none."""
+        return -math.inf, math.inf
+
+    def scaled(self, pressure: float, length: float) -> JKR:
+        """Return the law in other units."""
+        return JKR(self.work_of_adhesion / (pressure * length))
+
+    def refuse_grid(self, half_space: HalfSpace, spacing: tuple[float, float]) -> NoReturn:
+        """Refuse all grids: none resolves a pull without a range."""
+        raise InputError(
+            "is rl.JKR, which holds where the contact radius is the only length, of a Profile; a "
+            "Surface sticks by rl.Dugdale(work_of_adhesion, range) or rl.Exponential: press with "
+            "two short ranges, the second half as long, and extrapolate as their square",
+            "law",
+        )
