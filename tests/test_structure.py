@@ -36,12 +36,15 @@ def test_no_files_import_each_other(graph):
 
 
 def test_rooms_are_imported_by_statements_that_checkers_see():
-    """And by no name in a text; the front door apart, whose names the types of users list."""
+    """And by no name in a text; the front door apart, whose names the types of users list.
+
+    The modules of users that plans name are imported by these names.
+    """
     hidden = {"import_module", "__import__", "resolve_name", "locate", "run_module"}
     found = [
         f"{path.relative_to(SOURCE)}, line {node.lineno}: {ast.unparse(node)}"
         for path in sorted(SOURCE.rglob("*.py"))
-        if path != SOURCE / "__init__.py"
+        if path not in (SOURCE / "__init__.py", SOURCE / "campaign/by_name.py")
         for node in ast.walk(ast.parse(path.read_text("utf-8")))
         if isinstance(node, ast.Name | ast.Attribute | ast.alias)
         and (ast.unparse(node).split(".")[-1]).split(" ")[0] in hidden

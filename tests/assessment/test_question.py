@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline import campaign
 from roughline.errors.earlier import EARLIER
 
 NOWHERE = "no/such/file.x3p"
@@ -64,21 +65,27 @@ def test_what_cannot_be_is_refused_where_it_is_asked(ask, message):
 def test_every_earlier_spelling_gets_one_line_with_the_new_one(spelling):
     """And the new one is one that is taken."""
     question = rl.Question("a.nc", "steel,copper", loads="1 N", ask=rl.Fluid("water"))
+    names = {"rl": rl, "question": question, "Ensemble": campaign.Ensemble}
+    ensemble = 'Ensemble("a", "full", (2.2,), 64, 1, (0.1,), 0, '
     earlier = spelling
     if spelling.startswith("rl."):
         earlier = f'{spelling}("6 bar")'
     elif spelling.startswith("Question("):
         name = spelling.removeprefix("Question(").removesuffix("=)")
         earlier = f'rl.Question("a.nc", "steel,copper", {name}=0.3)'
+    elif spelling.startswith("Ensemble("):
+        earlier = spelling.replace("Ensemble(", ensemble).replace("=)", "=0.3)")
     with pytest.raises(rl.InputError) as refused:
-        eval(earlier, {"rl": rl, "question": question})
+        eval(earlier, names)
     new = EARLIER[spelling]
     assert str(refused.value).endswith(f" any more; write {new}")
     assert "\n" not in str(refused.value)
+    if new.startswith("law="):
+        new = f"{ensemble}{new})"
     if new.startswith("ask="):
         new = f"rl.Question(..., {new})"
     new = new.replace("...", '"a.nc", "steel,copper", loads="1 N"')
-    assert eval(new, {"rl": rl, "question": question}) is not None
+    assert eval(new, names) is not None
 
 
 def test_an_earlier_name_is_imported_no_more_and_listed_nowhere():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import zarr
 
 import roughline as rl
 from campaign.test_hardness import compute
@@ -18,8 +19,7 @@ TABLE = {
     "cutoff_ratio": 8,
     "force_bars": [0.05, 0.5],
     "boundary": "periodic",
-    "work_bar": 0.2,
-    "range_bar": 0.4,
+    "law": rl.Dugdale(work_of_adhesion=0.2, range=0.4),
 }
 
 
@@ -49,31 +49,45 @@ def test_a_store_keeps_the_pull_of_bodies_that_stick_alone(tmp_path):
     assert (found.pull_off_force < 0).all()
     assert (found.pulling_fraction > 0).all()
     assert "plastic_fraction" not in found
-    plain = planned(work_bar=None, range_bar=None)
+    plain = planned(law=None)
     assert "pull_off_force" not in batches.evaluate_case(plain.ensembles[0], 2.2, 0)
-    assert "work_bar" not in plain.ensembles[0].identity()
-    with pytest.raises(rl.StoreError, match="work_bar"):
-        compute(planned(work_bar=0.1), store)
+    assert "law" not in plain.ensembles[0].identity()
+    with pytest.raises(rl.StoreError, match="other settings: its law is"):
+        compute(planned(law=rl.Dugdale(0.1, 0.4)), store)
 
 
-def test_several_works_make_an_ensemble_each():
-    names = [each.name for each in planned(work_bar=[0.1, 0.2]).ensembles]
-    assert names == ["soft-work0.1", "soft-work0.2"]
+def test_a_store_of_0_3_which_kept_the_numbers_of_the_pull_goes_on(tmp_path):
+    store = tmp_path / "store"
+    compute(planned(), store)
+    group = zarr.open_group(store / "soft")
+    law = group.attrs["law"]
+    earlier = {"work_bar": law["work_of_adhesion"], "range_bar": law["range"]}
+    attributes = {key: each for key, each in group.attrs.items() if key != "law"}
+    group.attrs.put({**attributes, **earlier, "attraction": "dugdale"})
+    assert compute(planned(), store) == 0
+    assert compute(planned(realisations=3), store) == 1
+    assert campaign.Store(store).lost("soft") == []
+    with pytest.raises(rl.StoreError, match="other settings: its law is"):
+        compute(planned(law=rl.Exponential(0.2, 0.4)), store)
+
+
+def test_several_laws_make_an_ensemble_each():
+    laws = [rl.Dugdale(work, 0.4) for work in (0.1, 0.2)]
+    assert [(each.name, each.law) for each in planned(law=laws).ensembles] == [
+        ("soft-law1", laws[0]),
+        ("soft-law2", laws[1]),
+    ]
 
 
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
-        ({"work_bar": 0.0}, "work_bar is 0.0; bodies that stick need a positive"),
-        ({"work_bar": float("nan")}, "work_bar is nan"),
-        ({"range_bar": None}, "range_bar is None"),
-        ({"work_bar": None}, "work_bar is None"),
-        ({"range_bar": -1.0}, "range_bar is -1.0"),
-        ({"range_bar": 0.1}, "cells wide, which resolves no pull-off"),
-        ({"hardness_bar": 1.0}, "bodies that yield cannot stick"),
-        ({"model": "reduced", "boundary": None}, "the reduced model cannot stick"),
-        ({"attraction": "jkr"}, "attraction"),
-        ({"work_of_adhesion": 1.0}, "give work_bar"),
+        ({"law": rl.Dugdale(0.2, 0.18)}, "cells wide, which resolves no pull-off"),
+        ({"law": rl.Dugdale(0.2, 0.1)}, "range is too short for the grid"),
+        ({"law": rl.JKR(0.2)}, "of a Profile; a Surface sticks by"),
+        ({"hardness_bar": 1.0}, "law and hardness_bar are given"),
+        ({"model": "reduced", "boundary": None}, "the springs of the reduced model only push"),
+        ({"work_of_adhesion": 1.0}, "give law = "),
     ],
 )
 def test_what_cannot_stick_is_refused(changes, told):

@@ -92,7 +92,7 @@ def test_a_spectrum_has_the_cutoffs_of_its_plan():
         ({"force_bars": [float("nan")]}, "must be positive, finite and rising"),
         ({"force_bars": [-1.0]}, "must be positive, finite and rising"),
         ({"model": "both"}, 'model is \'both\'; allowed are "full" and "reduced"'),
-        ({"boundary": "free"}, "boundary is 'free'; the reduced model has ('none',)"),
+        ({"boundary": "free"}, "boundary is 'free'; the reduced model has 'none'"),
         ({"model": "full", "boundary": "none"}, "boundary is 'none'; the full model has"),
         ({"roll_off_ratios": 0.5}, "roll_off_ratio is 0.5; q_roll / q_low is 1 or more"),
         ({"cutoff_ratio": 4096}, "roll_off_ratio < cutoff_ratio <= points / 2"),

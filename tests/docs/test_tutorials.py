@@ -1,11 +1,13 @@
 """Commands of the handbook run as they stand, and print what its pages show."""
 
+import math
 import re
 import shlex
 from pathlib import Path
 
 import pytest
 
+import roughline as rl
 from roughline import campaign
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -90,9 +92,14 @@ def test_the_three_stiffnesses_of_a_measured_map(type_in, topographies):
 
 def test_the_plan_of_a_campaign_has_the_cases_that_the_page_tells(tmp_path):
     page = (DOCS / "how-to" / "campaign.md").read_text("utf-8")
-    (text,) = re.findall(r"^```toml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    text, bodies = re.findall(r"^```toml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
     (tmp_path / "study.toml").write_text(text)
     plan = campaign.read_plan(tmp_path / "study.toml")
     assert f"{plan.name}: {plan.cases} cases to compute" in page
     for name in re.findall(r"^([\w-]+) +━", page, re.MULTILINE):
         assert plan.ensemble(name)
+    elastic = "".join(each for each in text.splitlines(True) if "hardness_bar" not in each)
+    (tmp_path / "study.toml").write_text(elastic + bodies)
+    of_surfaces = campaign.read_plan(tmp_path / "study.toml").ensemble("surfaces-n256")
+    assert of_surfaces.law == rl.Dugdale(work_of_adhesion=0.2, range=0.4)
+    assert of_surfaces.half_space == rl.Layered(1.0, 0.3, 0.1, math.inf)

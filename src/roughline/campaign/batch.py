@@ -14,7 +14,6 @@ from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
-from roughline.contact.arguments import sticking_law
 from roughline.contact.loads import unbearable_pull
 from roughline.contact.press import press
 from roughline.errors import RoughlineError
@@ -94,18 +93,14 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
     seed = ensemble.seed_of(realisation)
     make = spectrum.line if ensemble.model == "reduced" else spectrum.surface
     body = make(ensemble.n, seed)
-    hardness = None if ensemble.hardness_bar is None else ensemble.hardness_bar * body.rms_slope
-    forces, law = np.array(ensemble.force_bars), None
-    if ensemble.work_bar is not None and ensemble.range_bar is not None:
-        law = sticking_law(ensemble.attraction, ensemble.work_bar, ensemble.range_bar)
+    forces, law = np.array(ensemble.force_bars), ensemble.law_of(body.rms_slope)
+    if not law.only_pushes:
         forces = np.append(forces, unbearable_pull(law, 1.0))
     curve = press(
         body,
-        E_star=1.0,
-        hardness=hardness,
-        law=law,
+        half_space=ensemble.pressed_into,
+        law=None if ensemble.model == "reduced" else law,
         forces=forces,
-        periodic=ensemble.boundary == "periodic",
         throw=False,
     )
     of_body = {

@@ -17,7 +17,6 @@ from roughline.computing import fft
 from roughline.computing.cores import available_cores
 from roughline.computing.memory import free_memory
 from roughline.contact import estimates
-from roughline.contact.arguments import sticking_law
 from roughline.errors import InputError, StoreError
 
 _BATCH_SECONDS = 1.0  # sending, receiving and writing a batch takes some ten milliseconds
@@ -80,14 +79,15 @@ def _memory_of(ensemble: Ensemble) -> int:
     if ensemble.model == "reduced":
         return _WORKER_BYTES + _LINE_BYTES * ensemble.n
     shape = (ensemble.n, ensemble.n)
-    periodic, yielding = ensemble.boundary == "periodic", ensemble.hardness_bar is not None
-    share = 1.0 if max(ensemble.force_bars) > _SATURATED else None
-    of_pull = 0.0
-    if ensemble.work_bar is not None and ensemble.range_bar is not None:
-        law = sticking_law(ensemble.attraction, ensemble.work_bar, ensemble.range_bar)
-        of_pull = estimates.bytes_of_pull(law, 1.0)
+    law, half_space, spacing = ensemble.law_of(1.0), ensemble.pressed_into, 1 / ensemble.n
     pressing = estimates.memory_for(
-        shape, periodic, 0, yielding=yielding, area_fraction=share, of_pull=of_pull
+        shape,
+        half_space.periodic,
+        0,
+        yielding=law.memory == "dents",
+        area_fraction=1.0 if max(ensemble.force_bars) > _SATURATED else None,
+        of_pull=estimates.bytes_of_pull(law, 1.0),
+        of_layers=estimates.bytes_of_layers(half_space, shape, (spacing, spacing)),
     )
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
@@ -129,7 +129,7 @@ def _timed(ensemble: Ensemble) -> float:
     try:
         if ensemble.model == "full":
             shape = (ensemble.n, ensemble.n)
-            periodic = ensemble.boundary == "periodic"
+            periodic = ensemble.pressed_into.periodic
             return estimates.estimate(shape, len(ensemble.force_bars), periodic=periodic).seconds
         small = replace(ensemble, n=min(ensemble.n, 2**18), roll_off_ratio=1.0, cutoff_ratio=None)
         evaluate_case(small, small.fractal_dimensions[0], 0)  # compiles

@@ -4,29 +4,38 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from dataclasses import dataclass, fields
+from typing import Any, Literal, NoReturn
 
 import numpy as np
 
-from roughline.contact.arguments import STICKING, sticking_law
+from roughline.campaign.by_name import described
+from roughline.contact.arguments import law_of
 from roughline.errors import InputError
-from roughline.errors.checks import one_of
+from roughline.errors.public import public_making
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import resolves_pull_off, zone
 from roughline.spectra.self_affine import SelfAffine
 
 _Model = Literal["full", "reduced"]
-_Boundary = Literal["free", "periodic", "none"]
 
 _SMALLEST, _LARGEST = 3, {"full": 2**15, "reduced": 2**28}
+BODIES = ("hardness_bar", "law", "half_space")
+"""Settings of bodies that are not elastic, or not of one material; others have none of them."""
+
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
+@public_making
 @dataclass(frozen=True)
 class Ensemble:
     """Random bodies of one model, pressed at the same dimensionless forces.
 
-    Every body has length 1, rms height 1 and E* 1; phases are random, moduli fixed.
+    Every body has length L = 1, rms height h = 1 and E* = 1; phases are random, moduli fixed. So
+    pressures are over E* h / L, gaps over h, and lengths along the surface over L.
 
     Attributes
     ----------
@@ -44,8 +53,8 @@ class Ensemble:
         Rising dimensionless forces F / (E* h L).
     seed : int
         Root of all seeds.
-    boundary : {"free", "periodic", "none"}
-        Of the half-space; "none" for lines.
+    boundary : str, optional
+        Of the half-space, "free" or "periodic", or as `half_space` has it; "none" for lines.
     roll_off_ratio : float
         q_roll / q_low: the spectrum is flat below q_roll.
     cutoff_ratio : float or None
@@ -53,12 +62,13 @@ class Ensemble:
     hardness_bar : float or None
         H / (E* g) with g the rms slope of each body, its own :attr:`~roughline.Surface.rms_slope`
         on its grid. None for elastic bodies; infinity becomes None. Full model only.
-    work_bar, range_bar : float or None
-        w L / (E* h²), the work of adhesion, and h_0 / h, the range of the pull, of bodies that
-        stick; None where they only push. Each body is then drawn apart after its largest load.
-        Full model, without a hardness.
-    attraction : {"dugdale", "exponential"}
-        Law of the pull.
+    law : ContactLaw or None
+        What pressures and gaps obey; None where bodies only push, or for `hardness_bar`. So
+        ``rl.Dugdale(0.2, 0.4)`` has w L / (E* h²) = 0.2 and h_0 / h = 0.4. Bodies that stick are
+        drawn apart after their largest load. Full model only.
+    half_space : HalfSpace or None
+        What bodies are pressed into, in place of a homogeneous half-space. Its moduli are taken
+        over its E*. Full model only.
 
     Raises
     ------
@@ -73,13 +83,12 @@ class Ensemble:
     realisations: int
     force_bars: tuple[float, ...]
     seed: int
-    boundary: _Boundary
+    boundary: str = ""
     roll_off_ratio: float = 1.0
     cutoff_ratio: float | None = None
     hardness_bar: float | None = None
-    work_bar: float | None = None
-    range_bar: float | None = None
-    attraction: str = "dugdale"
+    law: ContactLaw | None = None
+    half_space: HalfSpace | None = None
 
     def __post_init__(self) -> None:
         refuse = self._refuse
@@ -89,9 +98,7 @@ class Ensemble:
             refuse("a name has letters, digits, hyphens, dots and underscores")
         if self.model not in _LARGEST:
             refuse(f'model is {self.model!r}; allowed are "full" and "reduced"')
-        boundaries = ("none",) if self.model == "reduced" else ("free", "periodic")
-        if self.boundary not in boundaries:
-            refuse(f"boundary is {self.boundary!r}; the {self.model} model has {boundaries}")
+        self._refuse_boundary()
         if not _SMALLEST <= self.n <= _LARGEST[self.model]:
             refuse(f"{self.n} points; allowed are {_SMALLEST} to {_LARGEST[self.model]}")
         if self.realisations < 1:
@@ -116,9 +123,26 @@ class Ensemble:
             )
         if self.hardness_bar is not None:
             self._refuse_hardness(self.hardness_bar)
-        self._refuse_adhesion()
+        if self.law is not None:
+            self._refuse_law(self.law)
 
-    def _refuse(self, what: str) -> None:
+    def _refuse_boundary(self) -> None:
+        """Refuse another boundary than that of the half-space; where none is given, take that."""
+        allowed = ("none",) if self.model == "reduced" else ("free", "periodic")
+        if self.half_space is not None:
+            if not isinstance(self.half_space, HalfSpace):
+                self._refuse(f"half_space is {self.half_space!r}; an rl.HalfSpace is needed")
+            if self.model == "reduced":
+                self._refuse("half_space is given, and lines lie on springs: leave it out")
+            allowed = (self.half_space.boundary,)
+        if not self.boundary:
+            object.__setattr__(self, "boundary", allowed[0])
+        if self.boundary not in allowed:
+            had = " or ".join(map(repr, allowed))
+            what = f"the {self.model} model" if self.half_space is None else "the half-space"
+            self._refuse(f"boundary is {self.boundary!r}; {what} has {had}")
+
+    def _refuse(self, what: str) -> NoReturn:
         raise InputError(f"ensemble {self.name!r}: {what}")
 
     def _refuse_forces(self) -> None:
@@ -158,37 +182,50 @@ class Ensemble:
                     f"{most:.3g} here: give smaller force_bars, or a larger hardness_bar"
                 )
 
-    def _refuse_adhesion(self) -> None:
-        """Refuse an adhesion that a plan cannot have."""
-        given = {"work_bar": self.work_bar, "range_bar": self.range_bar}
-        one_of("attraction", self.attraction, tuple(STICKING))
-        if self.work_bar is None and self.range_bar is None:
-            return
-        for name, value in given.items():
-            if value is None or not 0 < value < math.inf:
-                self._refuse(
-                    f"{name} is {value}; bodies that stick need a positive, finite work_bar, "
-                    "w L / (E* h²), and range_bar, h_0 / h"
-                )
-        if self.model == "reduced" or self.hardness_bar is not None:
-            other = "the reduced model" if self.model == "reduced" else "bodies that yield"
-            self._refuse(f"work_bar is {self.work_bar}, and {other} cannot stick: leave it out")
-        assert self.work_bar is not None
-        assert self.range_bar is not None
-        law = sticking_law(self.attraction, self.work_bar, self.range_bar).scaled(1.0, 1 / self.n)
-        if not resolves_pull_off(law):
+    def _refuse_law(self, law: ContactLaw) -> None:
+        """Refuse a law that a plan cannot have, loads beyond it, and grids that are too coarse."""
+        if not isinstance(law, ContactLaw):
+            self._refuse(f"law is {law!r}; an rl.ContactLaw is needed")
+        if self.model == "reduced":
             self._refuse(
-                f"the zone that pulls about a contact, n range_bar² / (pi work_bar), is "
-                f"{zone(law):.2g} cells wide, which resolves no "
-                "pull-off: give a larger range_bar, or more points"
+                "law is given, and the springs of the reduced model only push: leave it out"
             )
+        if self.hardness_bar is not None:
+            self._refuse("law and hardness_bar are given; one of the two is needed")
+        if not self.force_bars[-1] < (most := Bounds.of(law).largest_force(1.0)):
+            self._refuse(
+                f"force_bar {self.force_bars[-1]:g} is more than the law bears, which is less than "
+                f"{most:.3g}: give smaller force_bars"
+            )
+        try:
+            law.refuse_grid(self.pressed_into, (1 / self.n, 1 / self.n))
+        except InputError as error:
+            self._refuse(str(error))
+        in_cells = law.scaled(1.0, 1 / self.n)
+        if not (law.only_pushes or resolves_pull_off(in_cells)):
+            self._refuse(
+                "the zone that pulls about a contact, n L E* w / (pi sigma_0²), is "
+                f"{zone(in_cells):.2g} cells wide, which resolves no pull-off: give a law with a "
+                "longer range, or more points"
+            )
+
+    def law_of(self, rms_slope: float) -> ContactLaw:
+        """Return what pressures and gaps of a body obey that has such a rms slope."""
+        if self.law is not None:
+            return self.law
+        return law_of(None if self.hardness_bar is None else self.hardness_bar * rms_slope)
+
+    @property
+    def pressed_into(self) -> HalfSpace:
+        """What bodies are pressed into, in units in which E* is 1."""
+        if self.half_space is None:
+            return Homogeneous(1.0, periodic=self.boundary == "periodic")
+        return self.half_space.in_units(self.half_space.E_star, 1.0)
 
     @property
     def memory(self) -> Literal["none", "dents", "path"]:
         """What loads leave in the bodies, as their contact law says."""
-        if self.work_bar is not None:
-            return "path"
-        return "none" if self.hardness_bar is None else "dents"
+        return self.law_of(1.0).memory
 
     def spectrum(self, fractal_dimension: float) -> SelfAffine:
         """Return the spectrum of the bodies of one fractal dimension."""
@@ -209,16 +246,17 @@ class Ensemble:
 
         The number of bodies is not among them.
         """
-        settings = asdict(self)
-        for extent in ("name", "fractal_dimensions", "realisations"):
-            del settings[extent]
+        extent = ("name", "fractal_dimensions", "realisations")
+        settings = {
+            each.name: getattr(self, each.name) for each in fields(self) if each.name not in extent
+        }
         settings["force_bars"] = list(self.force_bars)
         settings["cutoff_ratio"] = self.cutoff_ratio or "grid"
-        if self.hardness_bar is None:  # so that stores of elastic bodies are as they always were
-            del settings["hardness_bar"]
-        if self.work_bar is None:
-            for name in ("work_bar", "range_bar", "attraction"):
+        for name in BODIES:
+            if settings[name] is None:  # so that stores of elastic bodies are as they always were
                 del settings[name]
+            elif name != "hardness_bar":
+                settings[name] = described(settings[name])
         return settings
 
     @property

@@ -1,7 +1,7 @@
 """Plans in TOML: read and checked as a whole before anything is computed.
 
-A plan has a ``name``, a ``seed`` and tables ``[[ensemble]]``. Lists of points, of roll-off ratios
-or of hardnesses or works of adhesion make one ensemble for each combination, named after it.
+A plan has a ``name``, a ``seed`` and tables ``[[ensemble]]``. Lists of points, of roll-off ratios,
+of hardnesses or of laws make one ensemble for each combination, named after it.
 """
 
 from __future__ import annotations
@@ -14,10 +14,13 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from roughline.campaign.by_name import made
 from roughline.campaign.plan import Ensemble, Plan, decades, evenly
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.public import public
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.laws.law import ContactLaw
 
 _Kind = Callable[[Any], Any]
 _MOST_VALUES = 10_000  # of one range; more values are a typing error
@@ -89,23 +92,24 @@ def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemb
         _ENSEMBLE,
         roll_off_ratios=(1.0,),
         cutoff_ratio=None,
-        boundary="none" if table.get("model") == "reduced" else "free",
+        boundary="",
         hardness_bar=(math.inf,),
-        work_bar=(None,),
-        range_bar=None,
-        attraction="dugdale",
+        law=(None,),
+        half_space=None,
     )
-    name, several = given.pop("name"), ("points", "roll_off_ratios", "hardness_bar", "work_bar")
-    points, roll_offs, hardnesses, works = (given.pop(key) for key in several)
-    for n, roll_off, hardness, work in product(points, roll_offs, hardnesses, works):
+    name, several = given.pop("name"), ("points", "roll_off_ratios", "hardness_bar", "law")
+    points, roll_offs, hardnesses, laws = (given.pop(key) for key in several)
+    for n, roll_off, hardness, (number, law) in product(
+        points, roll_offs, hardnesses, enumerate(laws, 1)
+    ):
         parts = [name]
         parts += [f"n{n}"] if len(points) > 1 else []
         parts += [f"roll{roll_off:g}"] if len(roll_offs) > 1 else []
         yielding = f"hardness{hardness:g}" if hardness < math.inf else "elastic"
         parts += [yielding] if len(hardnesses) > 1 else []
-        parts += [f"work{work:g}"] if len(works) > 1 else []
+        parts += [f"law{number}"] if len(laws) > 1 else []
         own = {"n": n, "seed": seed, "roll_off_ratio": roll_off, "hardness_bar": hardness}
-        own["work_bar"] = work
+        own["law"] = law
         yield Ensemble(name="-".join(parts), **own, **given)
 
 
@@ -121,6 +125,8 @@ def _values(
         if key in table:
             try:
                 found[key] = kind(table[key])
+            except InputError as error:
+                raise InputError(f"{place}: {key} {error}") from error
             except _WrongKindError as error:
                 told = f"{place}: {key} is {shown(table[key])}; {error} is needed"
                 raise InputError(told) from None
@@ -182,6 +188,27 @@ def _numbers(value: Any) -> tuple[float, ...]:
     return tuple(_number(item) for item in values)
 
 
+def _laws(value: Any) -> tuple[ContactLaw, ...]:
+    """A contact law, or a list of them, each itself or as a table with its name and fields."""
+    values = value if isinstance(value, list) else [value]
+    if not values:
+        raise _WrongKindError("at least one law")
+    return tuple(_of_bodies(ContactLaw, item) for item in values)
+
+
+def _half_space(value: Any) -> HalfSpace:
+    found: HalfSpace = _of_bodies(HalfSpace, value)
+    return found
+
+
+def _of_bodies(kind: type, value: Any) -> Any:
+    if isinstance(value, kind):
+        return value
+    if not isinstance(value, dict):
+        raise _WrongKindError('a table such as { name = "Dugdale", work_of_adhesion = 0.2, ... }')
+    return made(kind, value)
+
+
 def _range(value: dict[str, Any]) -> tuple[float, ...]:
     step = "per_decade" if "per_decade" in value else "count"
     if set(value) != {"from", "to", step}:
@@ -208,20 +235,23 @@ _ENSEMBLE = {
     "cutoff_ratio": _number,
     "boundary": _text,
     "hardness_bar": _numbers,
-    "work_bar": _numbers,
-    "range_bar": _number,
-    "attraction": _text,
+    "law": _laws,
+    "half_space": _half_space,
 }
 """Keys of an ensemble, and of what kind each is."""
 
+_A_LAW = (
+    "law",
+    '= { name = "Dugdale", work_of_adhesion = ..., range = ... }, w L / (E* h²) and h_0 / h',
+)
 _MEANT = {
     "hurst": ("fractal_dimensions,", "which are 3 - H"),
     "H": ("fractal_dimensions,", "which are 3 - H"),
     "n": ("points",),
     "surfaces": ("realisations",),
     "hardness": ("hardness_bar,", "H / (E* times the rms slope)"),
-    "work_of_adhesion": ("work_bar,", "w L / (E* h²), and range_bar"),
-    "range": ("range_bar,", "h_0 / h"),
+    **dict.fromkeys(("work_bar", "range_bar", "work_of_adhesion", "range"), _A_LAW),
+    "attraction": ("law", '= { name = "Exponential", ... }'),
     "forces": ("force_bars,", "F / (E* h L)"),
     "loads": ("force_bars,", "F / (E* h L)"),
     "periodic": ("boundary", '= "periodic"'),

@@ -342,7 +342,10 @@ class _Dispatch:
         batch = self._pending.pop(future)
         error = future.exception() if future.status == "error" else None
         if isinstance(error, VersionError | ImportError):
-            raise ClusterError(f"{error}; install version {__version__} on every worker")
+            raise ClusterError(
+                f"{error}; install version {__version__}, and the modules of the plan's laws and "
+                "half-spaces, on every worker"
+            )
         if type(error).__name__ == "KilledWorker" and not self._alone:
             self._suspects += batch.split()
             return

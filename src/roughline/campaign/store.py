@@ -107,8 +107,10 @@ class Store:
             key: (COORDINATES[key].dims, value, COORDINATES[key].attributes)
             for key, value in sorted(coordinates_of(group, read.marks.shape).items())
         }
-        attributes = dict(group.attrs)
-        attributes["failures"] = json.dumps(attributes["failures"])
+        attributes = {
+            key: json.dumps(each) if isinstance(each, dict) else each
+            for key, each in group.attrs.items()
+        }
         data = xarray.Dataset(variables, coordinates, attributes)
         return data.sortby("fractal_dimension")
 

@@ -37,7 +37,7 @@ from roughline.campaign.layout import (
     codecs,
     variables_of,
 )
-from roughline.campaign.plan import Ensemble, Plan
+from roughline.campaign.plan import BODIES, Ensemble, Plan
 from roughline.campaign.store import (
     coordinates_of,
     damaged_or_foreign,
@@ -198,11 +198,10 @@ def _refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
     """
     if ensemble.name not in root:
         return
-    # of elastic bodies that only push, neither the settings nor what is stored names more
-    others = dict.fromkeys(("hardness_bar", "work_bar", "range_bar", "attraction"))
-    wanted = {**others, **json.loads(json.dumps(ensemble.identity()))}
+    # of elastic bodies of one material, neither the settings nor what is stored names more
+    wanted = {**dict.fromkeys(BODIES), **json.loads(json.dumps(ensemble.identity()))}
     group = root[ensemble.name]
-    stored = group.attrs
+    stored = _with_law(dict(group.attrs))
     if {key: stored.get(key) for key in wanted} == wanted:
         return
     if CASE_STATUS.name not in group or (group[CASE_STATUS.name][:] == PENDING).all():
@@ -215,6 +214,15 @@ def _refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
                 f"is {_short(stored.get(key))}, the plan's is {_short(value)}; rename the "
                 "ensemble, or choose another folder"
             )
+
+
+def _with_law(stored: dict[str, Any]) -> dict[str, Any]:
+    """Return settings with the law of bodies that stick, of which 0.3 stored the numbers."""
+    if "attraction" not in stored:
+        return stored
+    name = stored["attraction"].capitalize()
+    numbers = {"work_of_adhesion": stored["work_bar"], "range": stored["range_bar"]}
+    return {**stored, "law": {"name": name, **numbers}}
 
 
 def _prepared_group(root: Any, ensemble: Ensemble) -> Any:

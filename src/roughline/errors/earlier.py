@@ -21,5 +21,8 @@ EARLIER = {
     "Question(frequency=)": 'ask=rl.Ultrasound("5 MHz")',
     "Question(joint_area=)": 'ask=rl.Joint("2 cm^2")',
     "Question(theories=)": 'ask=rl.Theories("persson")',
+    "Ensemble(work_bar=)": "law=rl.Dugdale(work_of_adhesion=0.2, range=0.4)",
+    "Ensemble(range_bar=)": "law=rl.Dugdale(work_of_adhesion=0.2, range=0.4)",
+    "Ensemble(attraction=)": "law=rl.Exponential(work_of_adhesion=0.2, range=0.4)",
 }
 """Names of the package, and parts and keywords of what it offers, with what is to be written."""
