@@ -17,8 +17,9 @@ import numpy as np
 import roughline as rl
 
 _PICTURE = re.compile(r"base64,([A-Za-z0-9+/=]+)")
-# names of parts that are no answers, or that a value holds itself in: the material of its surface
-_INSIDE = {"band", "materials", "surface"}
+# names of parts that are no answers, or that a value holds itself in: the material of its surface,
+# the interface of a half-space
+_INSIDE = {"band", "interface", "materials", "surface"}
 _WORK = "convolutions"  # the name of what answers take, which may change
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _OF_THE_RUN = {"seconds", "core_seconds", "started", "cores"}  # names whose values are times

@@ -170,7 +170,7 @@ class Adhesion(Physics):
             "law = rl.Dugdale(work_of_adhesion=work, range=h_0)\n"
         )
         arguments = "law=law, forces=[force, 2 * force, force, 0.0]"
-        return before, arguments, _IN_PYTHON.format(body=state.body_as_code)
+        return before, arguments, _IN_PYTHON.format(body=state.body_in_python[0])
 
     def in_command(self, state: ExploreState) -> tuple[list[str], str]:
         """The law."""
@@ -267,7 +267,7 @@ def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
     of_turn = {
         panel: Filled({"back": kept(state.force_bars(by_forces)[turned], values[turned])})
         for panel, values in state.over_force(by_forces).items()
-        if panel != "aperture"
+        if panel in Adhesion.series
     }
     return of_turn | {
         "cycle": Filled(

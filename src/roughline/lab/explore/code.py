@@ -5,7 +5,6 @@ from __future__ import annotations
 import shlex
 from itertools import chain
 
-import roughline as rl
 from roughline.assessment.fields import FIELDS
 from roughline.lab.controls import as_code
 from roughline.lab.explore.reading import state_in
@@ -29,8 +28,8 @@ def _as_python(state: ExploreState) -> str:
     for each in state.added:
         before, arguments, after = each.in_python(state)
         lines, answers, forces = lines + before, answers + after, arguments or forces
-    is_layered = not isinstance(state.half_space, rl.Homogeneous)
-    over_base = " * half_space.E_star / E_star" if is_layered else ""  # else over that of the layer
+    body, modulus = state.body_in_python
+    over_base = f" * {modulus} / E_star" if modulus != "E_star" else ""  # E_star is of the base
     load = state.typed("F")
     over = f"{as_code(state.F)} * E_star * surface.rms_height * surface.length"
     force = f"load_in_newtons({load!r}, surface.area)" if load else over
@@ -52,7 +51,7 @@ spectrum = rl.SelfAffine(
 )
 surface = spectrum.surface(n={state.n}, rng={state.seed})
 force = {force}  # N
-{lines}curve = rl.press(surface, {state.body_as_code}, {forces}, fields=[0])
+{lines}curve = rl.press(surface, {body}, {forces}, fields=[0])
 
 print("stiffness_bar", curve.stiffness_bar[0]{over_base})
 print("area_fraction_corrected", curve.area_fraction_corrected[0])

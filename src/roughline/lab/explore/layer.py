@@ -62,6 +62,7 @@ class Layer(Physics):
     )
     unlike = "on the homogeneous base"
     strip: ClassVar = {"layer": "roughness"}
+    body_in_python: ClassVar = ("half_space=half_space", "half_space.E_star")
 
     def half_space(self, state: ExploreState) -> rl.HalfSpace:
         """The layer on its base."""

@@ -130,7 +130,7 @@ def forces_shown(state: ExploreState) -> NDArray[np.float64]:
     [1]
     """
     rising = np.union1d(borne(state, _CURVE_FORCES), state.F)
-    if not isinstance(state.law, rl.Yielding):
+    if not state.yields:
         return rising
     return np.concatenate([rising[rising <= state.F], state.F * np.array(UNLOADING)])
 
@@ -189,7 +189,7 @@ def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[s
             pressure=(1 / state.E_star, "/ E*"),
             gap=(1 / height, "/ h"),
             deflection=(1 / height, "/ h"),
-            yields=isinstance(state.law, rl.Yielding),
+            yields=state.yields,
         ),
     }
     for each in state.added:

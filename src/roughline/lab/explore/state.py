@@ -51,6 +51,8 @@ class Physics:
     strip: ClassVar[Mapping[str, str]] = {}  # its numbers, each with that which it follows
     panels: ClassVar[tuple[Panel, ...]] = ()
     series: ClassVar[Mapping[str, tuple[Series, ...]]] = {}  # that it adds to other panels
+    # arguments of a press in Python for its half-space, and the contact modulus of that
+    body_in_python: ClassVar[tuple[str, str] | None] = None
     follows: ClassVar[Literal["", "surface", "load"]] = ""  # with which its task is asked anew
 
     @classmethod
@@ -205,6 +207,11 @@ class ExploreState:
         return next(filter(None, (each.law(self) for each in self.added)), None)
 
     @property
+    def yields(self) -> bool:
+        """Whether loads leave dents."""
+        return self.law is not None and self.law.memory == "dents"
+
+    @property
     def half_space(self) -> rl.HalfSpace:
         """What the surface is pressed into."""
         layered = next(filter(None, (each.half_space(self) for each in self.added)), None)
@@ -216,11 +223,11 @@ class ExploreState:
         return next(filter(None, (each.materials(self) for each in self.added)), None)
 
     @property
-    def body_as_code(self) -> str:
-        """Arguments of a press in Python, for what the surface is pressed into."""
-        if not isinstance(self.half_space, rl.Homogeneous):
-            return "half_space=half_space"
-        return "E_star=E_star, periodic=True" if self.periodic else "E_star=E_star"
+    def body_in_python(self) -> tuple[str, str]:
+        """Arguments of a press in Python for what is pressed into, and its contact modulus."""
+        plain = "E_star=E_star, periodic=True" if self.periodic else "E_star=E_star"
+        added = filter(None, (each.body_in_python for each in self.added))
+        return next(added, (plain, "E_star"))
 
     def typed(self, key: str) -> str:
         """A text with a unit as it was typed, if it counts; else none."""

@@ -60,7 +60,7 @@ def _stiffness_and_area(pressed: rl.Curve, state: ExploreState) -> list[Item]:
     of_k, of_area = (
         (first(intervals.stiffness), first(intervals.area)) if intervals else (None, None)
     )
-    sticks = isinstance(pressed.law, rl.Dugdale)
+    sticks = pressed.law is not None and not pressed.law.only_pushes
     return [
         item(
             *("stiffness_3d", "k̄ (3D)"),
