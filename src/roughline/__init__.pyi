@@ -44,6 +44,7 @@ from roughline.engineering.pair import contact_modulus as contact_modulus
 from roughline.engineering.rule import Rule as Rule
 from roughline.engineering.rules import rules as rules
 from roughline.engineering.sealing import Fluid as Fluid
+from roughline.engineering.symbols import Symbol as Symbol
 from roughline.errors import ClusterError as ClusterError
 from roughline.errors import ContinuumWarning as ContinuumWarning
 from roughline.errors import ConvergenceError as ConvergenceError

@@ -9,6 +9,7 @@ import pytest
 import roughline as rl
 from lab.test_measured import Page
 from roughline.report.contact_report import write_contact_report
+from roughline.report.contact_tables import symbol_table
 from roughline.report.json_output import of_assessment, of_part, to_json
 from roughline.report.terminal import print_assessment
 
@@ -30,7 +31,8 @@ RESONANCE = rl.Rule(
     symbol="f_0",
     unit="Hz",
     group="acoustic",
-    formula="sqrt(k_u / m) / (2 pi), m = 1 kg",
+    formula="sqrt(k_u / m_1) / (2 pi)",
+    symbols=lambda pressed: [rl.Symbol("m_1", "mass on the contact", "kg", 1.0)],
     validity="small vibrations",
     source="Rayleigh 1877",
     value=_resonance,
@@ -66,13 +68,30 @@ def test_it_has_the_interval_of_what_it_follows_from(resonance, surface):
     assert found.low == pytest.approx(np.sqrt(k.low) / (2 * np.pi), rel=1e-12)
     high = np.minimum(np.sqrt(k.high) / (2 * np.pi), LIMIT * found.values)
     assert found.high == pytest.approx(high, rel=1e-12)
-    assert found.formula == "sqrt(k / m) / (2 pi), m = 1 kg"  # by the name that the table has
+    assert found.formula == "sqrt(k / m_1) / (2 pi)"  # by the name that the table has
+
+
+def test_its_symbols_stand_in_the_table_of_the_page(resonance, surface):
+    _, rows = symbol_table(asked(surface, elastic=True))
+    assert ["m_1", "mass on the contact", "1 kg"] in rows
+
+
+@pytest.mark.parametrize(
+    ("symbol", "formula", "is_in"),
+    [
+        *(("E*", "F/(E* m)", True), ("E*", "E*_e", False), ("k", "k_u / 2", False)),
+        *(("P1", "(P1² - P2²)", True), ("W/B", "B/(W P)", True), ("W/B", "W + b", False)),
+        *(("u", "1 / (u + M)", True), ("t", "sum(t / E_c)", True), ("t", "at two", False)),
+    ],
+)
+def test_a_symbol_is_in_a_formula_where_it_stands_for_itself(symbol, formula, is_in):
+    assert rl.Symbol(symbol, "").is_in(formula) == is_in
 
 
 def test_the_scatter_of_the_hardness_widens_it_up_to_its_limits(resonance, surface):
     result = asked(surface)
     found, k_u = result.answers["resonance"], result.answers["unloading_stiffness"]
-    assert found.formula.startswith("sqrt(k_u / m)")
+    assert found.formula.startswith("sqrt(k_u / m_1)")
     wide = np.sqrt(k_u.high / k_u.values)
     assert found.high / found.values == pytest.approx(np.minimum(wide, LIMIT), rel=1e-12)
     assert (wide > LIMIT).any()  # or the limits are not seen
@@ -91,7 +110,7 @@ def test_it_is_that_of_a_joint(resonance, surface):
     result = asked(piece, ask=rl.Joint("4 mm^2"), elastic=True)
     found, k_i = result.answers["resonance"], result.answers["interface_stiffness"]
     assert found.values == pytest.approx(np.sqrt(k_i.values) / (2 * np.pi), rel=1e-12)
-    assert found.formula == "sqrt(k_i / m) / (2 pi), m = 1 kg"
+    assert found.formula == "sqrt(k_i / m_1) / (2 pi)"
 
 
 def test_it_is_averaged_over_maps(resonance, surface):

@@ -15,6 +15,7 @@ from roughline.engineering.intervals import Ends
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.sealing import Fluid
+from roughline.engineering.symbols import Symbol
 from roughline.errors import InputError
 from roughline.errors.checks import one_of, refuse, several, shown
 from roughline.errors.public import are_numbers, public
@@ -60,6 +61,9 @@ class Rule:
     value : callable
         Works it out from what was pressed: an array of shape (loads,) or, with both ends of its
         interval in either order, (3, loads); None where there is no such answer. [unit]
+    symbols : callable, optional
+        What its formula uses that is no answer: a :class:`~roughline.Symbol` for each. Pages show
+        those that stand in the formula. Default: none.
     validity, source : str, optional
         Where the formula holds, and its publication.
     differing : callable, optional
@@ -141,6 +145,7 @@ class Rule:
     value: Callable[[Pressed], Real | None]
     validity: str = ""
     source: str = ""
+    symbols: Callable[[Pressed], Sequence[Symbol]] = lambda _pressed: ()
     differing: Callable[[Pressed], Mapping[str, str]] = lambda _pressed: {}
     lacking: Callable[[MaterialPair, float | None], str] = lambda _pair, _frequency: ""
     unknown: Callable[[Pressed], str] = lambda _pressed: ""
@@ -208,6 +213,7 @@ class Rule:
             low,
             high,
             **texts,
+            symbols=[each for each in self.symbols(pressed) if each.is_in(texts["formula"])],
             limits=limits,
             under=None if self.under is None else self.under(pressed),
             leads=is_first or self.leads(pressed),
@@ -238,6 +244,8 @@ class Answer:
         Where the formula holds.
     source : str
         Publication of the formula.
+    symbols : sequence of Symbol
+        What the formula uses that is no answer.
     limits : tuple
         Least and largest possible value. [unit]
     under : tuple of (str, float), or None
@@ -259,6 +267,7 @@ class Answer:
     formula: str
     validity: str = ""
     source: str = ""
+    symbols: Sequence[Symbol] = ()
     limits: Limits = (0.0, np.inf)
     under: tuple[str, float] | None = None
     leads: bool = False

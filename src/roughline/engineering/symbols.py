@@ -1,121 +1,73 @@
-"""Symbols of the formulas: one meaning each, and each of them on the page that uses it."""
+"""Symbols that formulas use and that are no answers, each told with the formula that uses it.
+
+Here are those of several groups of answers; the others stand beside the rules of theirs.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from roughline.engineering.formulas import harmonic_conductivity
-from roughline.engineering.pair import MaterialPair
-from roughline.engineering.sealing import Fluid, SealShape
+from roughline.engineering.pressed import Pressed
+from roughline.errors.public import public
 
 
+@public
 @dataclass(frozen=True)
-class _Symbol:
-    """A symbol of a formula that is no answer."""
+class Symbol:
+    """A symbol of a formula that is no answer.
 
-    symbol: str  # as formulas write it
-    meaning: str
-    unit: str = "1"  # SI
-    value: float | None = None  # None where it is not one number [unit]
-
-
-def symbols_of(
-    formulas: Sequence[str],
-    pair: MaterialPair,
-    *,
-    E_star: float,
-    hardness: float | None,
-    area: float,
-    rms_height: float,
-    sealing: Fluid | None = None,
-) -> list[_Symbol]:
-    """The symbols of formulas that are no answers, with their values.
-
-    The area is that of the joint if there is one [m²], the rms height that of the sum of both
-    surfaces [m].
+    Parameters
+    ----------
+    symbol : str
+        As formulas write it.
+    meaning : str
+        What it stands for.
+    unit : str, optional
+        SI.
+    value : float, optional
+        None where it is not one number. [unit]
     """
-    conductivities = pair.at_surfaces("conductivity")
-    harmonic = conductivities and harmonic_conductivity(conductivities)
-    known = [
-        _Symbol("E*", "contact modulus", "Pa", E_star),
-        _Symbol("A_0", "nominal area", "m²", area),
-        _Symbol("H", "hardness of the softer body", "Pa", hardness),
-        *_of_bodies("rho", "electrical resistivity", "Ω m", pair.at_surfaces("resistivity")),
-        *_of_bodies("kappa", "thermal conductivity", "W/(m K)", conductivities),
-        _Symbol("kappa_s", "their harmonic mean", "W/(m K)", harmonic),
-        _Symbol("sigma", "rms height", "m", rms_height),
-        _Symbol("m", "mean slope of a profile, the rms slope over sqrt(pi)"),
-        _Symbol("G*", "tangential contact modulus", "Pa", pair.G_star),
-        *_of_bodies("G", "shear modulus", "Pa", pair.both("shear_modulus")),
-        *_of_bodies("nu", "Poisson's ratio", "1", pair.both("nu")),
-        _Symbol("U", "elastic energy under the pressures of the contact", "J"),
-        _Symbol("U_t", "that of the same pressures on the materials at the surfaces", "J"),
-        _Symbol("t", "thickness of a layer", "m"),
-        _Symbol("E_c", "E (1 - nu) / ((1 + nu) (1 - 2 nu)) of a layer, which cannot widen", "Pa"),
-        _Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
-        _Symbol("a_H", "radius of Holm's single spot", "m"),
-        *_of_bodies("z", "acoustic impedance", "Pa s/m", pair.both("impedance")),
-        _Symbol("omega", "angular frequency of the wave", "1/s"),
-        _Symbol("K", "stiffness per area of the interface", "N/m³"),
-        _Symbol("i", "imaginary unit"),
-        *([] if sealing is None else _of_fluid(sealing)),
-    ]
-    used = {name for each in formulas for name in _names_in(each)}
-    return [each for each in known if used.issuperset(each.symbol.split("/"))]
+
+    symbol: str
+    meaning: str
+    unit: str = "1"
+    value: float | None = None
+
+    def is_in(self, formula: str) -> bool:
+        """Whether a formula uses it; of a quotient, both parts."""
+        parts = self.symbol.split("/")
+        return all(
+            re.search(rf"(?<!\w){re.escape(part)}(?![A-Za-z0-9_*])", formula) for part in parts
+        )
 
 
-def _names_in(formula: str) -> set[str]:
-    """Return the symbols that a formula names, words of the language left out."""
-    names = re.findall(r"[A-Za-z]+(?:_[A-Za-z0]+)?\d?\*?", formula)
-    return {name for name in names if not name.isalpha() or name in _LETTERS or name in _GREEK}
+def contact_modulus(pressed: Pressed) -> Symbol:
+    """E*."""
+    return Symbol("E*", "contact modulus", "Pa", pressed.curve.E_star)
 
 
-_GREEK = {"rho", "kappa", "sigma", "omega", "nu", "eta"}
-_LETTERS = {*"ABEFGHKMPRTUWdikmptuwz"}
+def tangential_modulus(pressed: Pressed) -> Symbol:
+    """G*."""
+    return Symbol("G*", "tangential contact modulus", "Pa", pressed.pair.G_star)
 
 
-def _of_fluid(sealing: Fluid) -> list[_Symbol]:
-    """The symbols of a fluid and of the seal that it crosses."""
-    gas = sealing.gas
-    found = [
-        *_of_seal(sealing.seal),
-        _Symbol("P1", "absolute pressure at the inlet", "Pa", sealing.inlet),
-        _Symbol("P2", "absolute pressure at the outlet", "Pa", sealing.outlet),
-        _Symbol("eta", f"viscosity of {sealing.medium.name}", "Pa s", sealing.medium.viscosity),
-        _Symbol("u", "gap", "m"),
-    ]
-    if gas is None:
-        return found
-    pressure = sealing.mean_pressure
-    return [
-        *found,
-        _Symbol("R_s", "specific gas constant", "J/(kg K)", gas.gas_constant),
-        _Symbol("T", "temperature of the gas", "K", gas.temperature),
-        _Symbol("k_g", "thermal conductivity of the gas", "W/(m K)", gas.conductivity),
-        _Symbol("M", "temperature jump length", "m", gas.temperature_jump(pressure)),
-    ]
+def nominal_area(pressed: Pressed) -> Symbol:
+    """A_0, of the joint if there is one."""
+    return Symbol("A_0", "nominal area", "m²", pressed.nominal_area)
 
 
-def _of_seal(seal: SealShape | None) -> list[_Symbol]:
-    """The symbols of the face that a fluid crosses; of a ring they have no value of their own."""
-    if seal is not None and seal.is_ring:
-        meaning = "of the ring, whose radii are r and R: 2 pi / ln(R/r)"
-        return [_Symbol("W/B", meaning, "1", seal.ratio)]
-    length, width = (None, None) if seal is None else (seal.width, seal.width / seal.ratio)
-    return [
-        _Symbol("W", "length of the seal across the flow", "m", length),
-        _Symbol("B", "width of the seal along the flow", "m", width),
-    ]
+def hardness(pressed: Pressed) -> Symbol:
+    """H, whether points may yield or not."""
+    return Symbol("H", "hardness of the softer body", "Pa", pressed.hardness)
 
 
-def _of_bodies(
+def of_both(
     letter: str, meaning: str, unit: str, values: tuple[float, float] | None
-) -> list[_Symbol]:
-    """The symbols of a property of both bodies."""
-    which = ("first", "second")
+) -> list[Symbol]:
+    """A property of both bodies, numbered."""
+    first, second = values or (None, None)
     return [
-        _Symbol(f"{letter}{i + 1}", f"{meaning} of the {which[i]} body", unit, values and values[i])
-        for i in range(2)
+        Symbol(f"{letter}1", f"{meaning} of the first body", unit, first),
+        Symbol(f"{letter}2", f"{meaning} of the second body", unit, second),
     ]

@@ -10,7 +10,6 @@ import numpy as np
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
 from roughline.engineering.coated import Coated
-from roughline.engineering.symbols import symbols_of
 from roughline.report.answers import starred
 from roughline.report.typeset import formula_in_symbols
 from roughline.report.values import Write, value_and_interval, with_interval
@@ -93,25 +92,15 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the symbols of the formulas that are no answers."""
-    question, pair = assessment.question, assessment.question.pair
     header = ["symbol", "meaning", "value"]
-    if pair is None:
-        return header, []
+    told = {each.symbol: each for answer in assessment.answers.values() for each in answer.symbols}
     rows = [
         [
             formula_in_symbols(each.symbol),
             formula_in_symbols(each.meaning),
             "" if each.value is None else with_interval(each.value, None, each.unit),
         ]
-        for each in symbols_of(
-            [each.formula for each in assessment.answers.values()],
-            pair,
-            E_star=assessment.curve.E_star,
-            hardness=assessment.curve.hardness or pair.hardness,
-            area=question.joint or assessment.area,
-            rms_height=assessment.body.rms_height,
-            sealing=question.sealing,
-        )
+        for each in told.values()
     ]
     return header, rows
 

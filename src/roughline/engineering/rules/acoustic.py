@@ -11,6 +11,7 @@ from roughline.engineering.formulas import reflection
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
+from roughline.engineering.symbols import Symbol, nominal_area, of_both
 
 
 def _lacking(pair: MaterialPair, frequency: float | None) -> str:
@@ -49,6 +50,16 @@ def _limits(pressed: Pressed) -> Limits:
     return abs(first - second) / (first + second), 1.0
 
 
+def _symbols(pressed: Pressed) -> list[Symbol]:
+    return [
+        *of_both("z", "acoustic impedance", "Pa s/m", pressed.pair.both("impedance")),
+        Symbol("i", "imaginary unit"),
+        Symbol("omega", "angular frequency of the wave", "1/s"),
+        Symbol("K", "stiffness per area of the interface", "N/m³"),
+        nominal_area(pressed),
+    ]
+
+
 _REFLECTION = Rule(
     key="reflection",
     name="reflection",
@@ -57,6 +68,7 @@ _REFLECTION = Rule(
     group="acoustic",
     answers_question=always,
     formula="|z1 - z2 + i omega z1 z2 / K| / |z1 + z2 + i omega z1 z2 / K|, K = k_i / A_0",
+    symbols=_symbols,
     validity="longitudinal plane waves much longer than the distances between contact spots; k_u, "
     "as their amplitude is small, so that all of the contact springs back",
     source="Tattersall 1973",

@@ -12,6 +12,7 @@ from roughline.computing.arrays import Real
 from roughline.engineering.attraction import Separation
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
+from roughline.engineering.symbols import nominal_area
 from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.units import decimal, engineering
 
@@ -135,6 +136,7 @@ ADHESION = (
         symbol="p_po",
         unit="Pa",
         formula="F_po / A_0",
+        symbols=lambda pressed: [nominal_area(pressed)],
         value=partial(_found, lambda separation, pressed: separation.pull_off / pressed.area),
     ),
     _rule(

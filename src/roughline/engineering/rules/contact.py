@@ -12,6 +12,7 @@ from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
+from roughline.engineering.symbols import hardness, nominal_area
 from roughline.errors.remark import Remark
 from roughline.errors.words import called
 from roughline.units import decimal, engineering
@@ -109,6 +110,7 @@ CONTACT = (
         symbol="A/A_0",
         unit="1",
         formula="A / A_0",
+        symbols=lambda pressed: [nominal_area(pressed)],
         value=lambda pressed: pressed.area_fraction,
         limits=lambda pressed: (_least_fraction(pressed), 1.0),
         leads=always,
@@ -130,6 +132,7 @@ CONTACT = (
         symbol="p_c/H",
         unit="1",
         formula="F / (A H), H of the softer body",
+        symbols=lambda pressed: [hardness(pressed)],
         validity=f"elastic below {ELASTIC_UP_TO:g}, all of the contact yields at 1",
         value=_over_hardness,
         warning=_beyond_elastic,
@@ -163,6 +166,7 @@ CONTACT = (
         symbol="u_m",
         unit="m",
         formula="volume between the bodies over A_0",
+        symbols=lambda pressed: [nominal_area(pressed)],
         validity="of the map in a periodic half-space; waves longer than the map open it further",
         differing=lambda pressed: {"validity": pressed.place} if pressed.place else {},
         value=lambda pressed: pressed.measure(MEAN_GAP.name),

@@ -12,6 +12,7 @@ from roughline.engineering.formulas import COMPARED, electrical_resistance, holm
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
+from roughline.engineering.symbols import Symbol, contact_modulus, hardness, nominal_area, of_both
 
 _rule = partial(Rule, group="electrical")
 
@@ -42,6 +43,11 @@ def _of_single_spot(pressed: Pressed) -> Real | None:
         return holm_resistance(pressed.force, hardness, resistivities)
 
 
+def _resistivities(pressed: Pressed) -> list[Symbol]:
+    values = pressed.pair.at_surfaces("resistivity")
+    return of_both("rho", "electrical resistivity", "Ω m", values)
+
+
 ELECTRICAL = (
     _rule(
         key="constriction_resistance",
@@ -49,6 +55,7 @@ ELECTRICAL = (
         symbol="R",
         unit="ohm",
         formula="E* (rho1 + rho2) / (2 k_u)",
+        symbols=lambda pressed: [contact_modulus(pressed), *_resistivities(pressed)],
         validity="clean metal; films add to it. k_u, as current spreads from the contact spots "
         "like the displacement on unloading, however the spots were formed",
         source="Barber 2003",
@@ -66,6 +73,7 @@ ELECTRICAL = (
         symbol="rho_c",
         unit="ohm m²",
         formula="R A_0, A_0 the nominal area of the joint",
+        symbols=lambda pressed: [nominal_area(pressed)],
         validity="of the interface alone; clean metal",
         source="Barber 2003",
         value=_specific_resistance,
@@ -78,6 +86,11 @@ ELECTRICAL = (
         symbol="R_Holm",
         unit="ohm",
         formula="(rho1 + rho2) / (4 a_H), pi a_H² = F / H",
+        symbols=lambda pressed: [
+            *_resistivities(pressed),
+            Symbol("a_H", "radius of Holm's single spot", "m"),
+            hardness(pressed),
+        ],
         validity="for comparison: all of the load on one plastic spot; separate spots have less "
         "resistance, and elastic spots, which are smaller, have more",
         source="Holm 1967",

@@ -9,6 +9,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
+from roughline.engineering.symbols import Symbol, contact_modulus, tangential_modulus
 from roughline.units import engineering
 
 
@@ -30,6 +31,15 @@ def _of_slip(pressed: Pressed) -> Mapping[str, str]:
     return {"validity": f"{friction}; {_SLIP.validity}"}
 
 
+def _symbols(pressed: Pressed) -> list[Symbol]:
+    slip = pressed.sought.slip
+    return [
+        Symbol("mu", "coefficient of friction", "1", None if slip is None else slip.friction),
+        contact_modulus(pressed),
+        tangential_modulus(pressed),
+    ]
+
+
 _SLIP = Rule(
     key="slip_displacement",
     name="displacement before sliding",
@@ -37,6 +47,7 @@ _SLIP = Rule(
     unit="m",
     group="friction",
     formula="mu (E*/G*) d, d the approach that unloading takes back",
+    symbols=_symbols,
     validity="under the largest load, kept while the tangential force grows; normal and tangential "
     "problems uncoupled",
     source="Ciavarella 1998",

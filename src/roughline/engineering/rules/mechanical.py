@@ -16,6 +16,13 @@ from roughline.engineering.formulas import electrical_resistance
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule
+from roughline.engineering.symbols import (
+    Symbol,
+    contact_modulus,
+    nominal_area,
+    of_both,
+    tangential_modulus,
+)
 from roughline.units import decimal, engineering
 
 _rule = partial(Rule, group="mechanics")
@@ -181,6 +188,9 @@ def _of_contact(pressed: Pressed) -> Mapping[str, str]:
     }
 
 
+_OF_PUNCH = Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m")
+
+
 CONTACT_STIFFNESS = _rule(
     key="contact_stiffness",
     name="contact stiffness",
@@ -217,6 +227,7 @@ INTERFACE_STIFFNESS = _rule(
     symbol="k_i",
     unit="N/m",
     formula="1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch",
+    symbols=lambda _pressed: [_OF_PUNCH],
     value=lambda pressed: None if pressed.interface is None else pressed.interface_stiffness,
     differing=_which_interface,
     warning=_which_surface,
@@ -243,6 +254,7 @@ MECHANICAL = (
         symbol="p",
         unit="Pa",
         formula="F / A_0, A_0 the nominal area",
+        symbols=lambda pressed: [nominal_area(pressed)],
         value=lambda pressed: pressed.load_pressure,
         differing=_of_joint(formula="F / A_0, A_0 the nominal area of the joint"),
         is_given=True,
@@ -268,6 +280,11 @@ MECHANICAL = (
         symbol="E*_e",
         unit="Pa",
         formula="E* U_t/U",
+        symbols=lambda pressed: [
+            contact_modulus(pressed),
+            Symbol("U", "elastic energy under the pressures of the contact", "J"),
+            Symbol("U_t", "that of the same pressures on the materials at the surfaces", "J"),
+        ],
         value=lambda pressed: pressed.measure("effective_modulus"),
         differing=_between_moduli,
         leads=lambda pressed: bool(pressed.pair.coated),
@@ -279,6 +296,13 @@ MECHANICAL = (
         symbol="k_l",
         unit="N/m",
         formula="A_0 / sum(t / E_c) over the layers",
+        symbols=lambda pressed: [
+            nominal_area(pressed),
+            Symbol("t", "thickness of a layer", "m"),
+            Symbol(
+                "E_c", "E (1 - nu) / ((1 + nu) (1 - 2 nu)) of a layer, which cannot widen", "Pa"
+            ),
+        ],
         validity="in series with k_i: 1/k_i + 1/k_l is the compliance of both. Of layers much "
         "wider than they are thick, under even pressure; the constriction of bodies to a joint, "
         "where that is added, holds it already",
@@ -296,6 +320,7 @@ MECHANICAL = (
         symbol="k/A_0",
         unit="N/m³",
         formula="k / A_0",
+        symbols=lambda pressed: [nominal_area(pressed)],
         value=_per_area,
         differing=_of_joint(symbol="k_i/A_0", formula="k_i / A_0"),
         under=lambda pressed: (_under_unloading(pressed)[0], 1 / pressed.nominal_area),
@@ -310,6 +335,12 @@ MECHANICAL = (
         unit="N/m",
         is_shown_at_many_loads=True,
         formula="k_u G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
+        symbols=lambda pressed: [
+            tangential_modulus(pressed),
+            contact_modulus(pressed),
+            *of_both("nu", "Poisson's ratio", "1", pressed.pair.both("nu")),
+            *of_both("G", "shear modulus", "Pa", pressed.pair.both("shear_modulus")),
+        ],
         validity="before any slip; normal and tangential problems uncoupled; k_u, as a small shear "
         "causes no yield",
         source="Popov 2017, ch. 8",

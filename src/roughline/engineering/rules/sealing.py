@@ -19,7 +19,8 @@ from roughline.engineering.leak import (
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
-from roughline.engineering.sealing import Closing, Fluid
+from roughline.engineering.sealing import Closing, Fluid, SealShape
+from roughline.engineering.symbols import Symbol
 from roughline.errors.remark import Remark
 from roughline.errors.words import called
 from roughline.fluid.flow import why_too_steep
@@ -455,6 +456,42 @@ def _joint_conductance(pressed: Pressed) -> Real | None:
     return gas + solid if gas.shape == solid.shape else gas[:1] + solid[:1]
 
 
+def _of_fluid(pressed: Pressed) -> list[Symbol]:
+    """What formulas name of a fluid, of the gap and of the seal that it crosses."""
+    asked = pressed.sealing
+    if asked is None:
+        return []
+    found = [
+        *_of_seal(asked.seal),
+        Symbol("P1", "absolute pressure at the inlet", "Pa", asked.inlet),
+        Symbol("P2", "absolute pressure at the outlet", "Pa", asked.outlet),
+        Symbol("eta", f"viscosity of {asked.medium.name}", "Pa s", asked.medium.viscosity),
+        Symbol("u", "gap", "m"),
+    ]
+    gas = asked.gas
+    if gas is None:
+        return found
+    return [
+        *found,
+        Symbol("R_s", "specific gas constant", "J/(kg K)", gas.gas_constant),
+        Symbol("T", "temperature of the gas", "K", gas.temperature),
+        Symbol("k_g", "thermal conductivity of the gas", "W/(m K)", gas.conductivity),
+        Symbol("M", "temperature jump length", "m", gas.temperature_jump(asked.mean_pressure)),
+    ]
+
+
+def _of_seal(seal: SealShape | None) -> list[Symbol]:
+    """The face that a fluid crosses; sides of a ring have no value of their own."""
+    if seal is not None and seal.is_ring:
+        meaning = "of the ring, whose radii are r and R: 2 pi / ln(R/r)"
+        return [Symbol("W/B", meaning, "1", seal.ratio)]
+    length, width = (None, None) if seal is None else (seal.width, seal.width / seal.ratio)
+    return [
+        Symbol("W", "length of the seal across the flow", "m", length),
+        Symbol("B", "width of the seal along the flow", "m", width),
+    ]
+
+
 SEALING = (
     _rule(
         key="sealing_pressure",
@@ -490,6 +527,7 @@ SEALING = (
         symbol="Q",
         unit="m³/s",
         formula="(W/B) u_h³ (P1 - P2) / (12 eta)",
+        symbols=_of_fluid,
         is_of_interface=True,
         value=_of_liquid,
         unknown=_lifts,
@@ -502,6 +540,7 @@ SEALING = (
         symbol="q_pV",
         unit="mbar l/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta), at 20 °C; u_s with slip",
+        symbols=_of_fluid,
         unknown=_lifts,
         is_of_interface=True,
         value=partial(_of_gas, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
@@ -514,6 +553,7 @@ SEALING = (
         symbol="m_dot",
         unit="kg/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta R_s T)",
+        symbols=_of_fluid,
         is_of_interface=True,
         value=partial(_of_gas, mass_of_throughput),
         unknown=_lifts,
@@ -525,6 +565,7 @@ SEALING = (
         symbol="P_o",
         unit="Pa",
         formula="P1 at which the fluid is p above the outside, in the mean of the gap",
+        symbols=_of_fluid,
         validity=_OF_STIFF_FACES,
         source="",
         value=_opening_pressure,
@@ -552,6 +593,7 @@ SEALING = (
         symbol="u_h",
         unit="m",
         formula="gap of flat plates that let as much through, (12 eta Q B/(W (P1 - P2)))^(1/3)",
+        symbols=_of_fluid,
         is_of_interface=True,
         value=partial(_largest, needed=_APERTURES),
         differing=partial(_with_direction, "hydraulic aperture"),
@@ -619,6 +661,7 @@ SEALING = (
         unit="W/(m² K)",
         group="thermal",
         formula="k_g <1 / (u + M)> of the open gap, M the temperature jump length",
+        symbols=_of_fluid,
         validity=f"of the map; {_STILL}",
         differing=lambda pressed: {"validity": f"{pressed.place or 'of the map'}; {_STILL}"},
         source="Yovanovich 2005",

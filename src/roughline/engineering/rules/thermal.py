@@ -9,6 +9,7 @@ from roughline.computing.arrays import Real
 from roughline.engineering.conduction import of_contact, of_interface, spreading, through_layers
 from roughline.engineering.formulas import (
     COMPARED,
+    harmonic_conductivity,
     mikic_conductance,
     thermal_conductance,
     yovanovich_conductance,
@@ -16,6 +17,7 @@ from roughline.engineering.formulas import (
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
+from roughline.engineering.symbols import Symbol, contact_modulus, hardness, nominal_area, of_both
 
 _rule = partial(Rule, group="thermal")
 
@@ -80,6 +82,22 @@ def _plastic(pressed: Pressed) -> Real | None:
     return yovanovich_conductance(pressed.pressure, hardness, *shape)
 
 
+def _conductivities(pressed: Pressed) -> list[Symbol]:
+    values = pressed.pair.at_surfaces("conductivity")
+    mean = values and harmonic_conductivity(values)
+    return [
+        Symbol("kappa_s", "harmonic mean of both thermal conductivities", "W/(m K)", mean),
+        *of_both("kappa", "thermal conductivity", "W/(m K)", values),
+    ]
+
+
+def _heights(pressed: Pressed) -> list[Symbol]:
+    return [
+        Symbol("m", "mean slope of a profile, the rms slope over sqrt(pi)"),
+        Symbol("sigma", "rms height", "m", pressed.rms_height),
+    ]
+
+
 THERMAL = (
     _rule(
         key="thermal_conductance",
@@ -88,6 +106,7 @@ THERMAL = (
         unit="W/K",
         is_shown_at_many_loads=True,
         formula="kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
+        symbols=lambda pressed: [*_conductivities(pressed), contact_modulus(pressed)],
         validity=f"{_IN_VACUUM}. k_u, as heat spreads from the contact spots however they were "
         "formed",
         source="Barber 2003",
@@ -104,6 +123,11 @@ THERMAL = (
         symbol="h_c",
         unit="W/(m² K)",
         formula="kappa_s k_i / (E* A_0)",
+        symbols=lambda pressed: [
+            *_conductivities(pressed),
+            contact_modulus(pressed),
+            nominal_area(pressed),
+        ],
         validity=_OF_INTERFACE,
         source="Barber 2003",
         value=conductance_of_interface,
@@ -120,6 +144,11 @@ THERMAL = (
         symbol="h_Mikic",
         unit="W/(m² K)",
         formula="1.55 kappa_s m/sigma (sqrt(2) p/(E* m))^0.94",
+        symbols=lambda pressed: [
+            *_conductivities(pressed),
+            *_heights(pressed),
+            contact_modulus(pressed),
+        ],
         validity=f"{_IN_VACUUM}. Gaussian heights, light loads, no large waves",
         source="Mikic 1974",
         value=_mikic,
@@ -131,6 +160,11 @@ THERMAL = (
         symbol="h_CMY",
         unit="W/(m² K)",
         formula="1.25 kappa_s m/sigma (p/H)^0.95",
+        symbols=lambda pressed: [
+            *_conductivities(pressed),
+            *_heights(pressed),
+            hardness(pressed),
+        ],
         validity=f"{_IN_VACUUM}. Gaussian heights, all contact plastic",
         source="Yovanovich 2005",
         value=_plastic,
