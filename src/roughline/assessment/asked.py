@@ -73,21 +73,24 @@ class Adhesion:
                 f"bodies that stick ({adhesion}) and also yield are not solved: take them as "
                 f"elastic ({called('elastic', True)}), or leave {adhesion} out",
                 None,
-                *("adhesion", "elastic"),
+                "adhesion",
+                "elastic",
             )
         if any(isinstance(each, Friction) for each in others):
             raise InputError(
                 f"partial slip ({called('rl.Friction')}) of bodies that stick ({adhesion}) is not "
                 "known: leave one of them out",
                 None,
-                *("adhesion", "friction"),
+                "adhesion",
+                "friction",
             )
         if any(isinstance(each, Fluid) and each.closure for each in others):
             raise InputError(
                 f"{called('closure', True)} bisects loads, and bodies that stick ({adhesion}) "
                 "depend on those before: leave one of them out",
                 None,
-                *("adhesion", "closure"),
+                "adhesion",
+                "closure",
             )
 
 
@@ -113,7 +116,8 @@ class Friction:
                 f"stiffness of bodies of one material each, and {each.name} is coated: leave "
                 f"{friction} out",
                 None,
-                *("friction", "materials"),
+                "friction",
+                "materials",
             )
 
 
@@ -252,7 +256,8 @@ def refuse_of_strip(ask: Iterable[Asked], along: str, *, has_materials: bool) ->
             "answers are known of bodies that are free or repeated both ways, not of one that is "
             f"repeated along {along} alone; for its curve, {' and '.join(take)}",
             None,
-            *("periodic", "materials"),
+            "periodic",
+            "materials",
         )
 
 

@@ -194,7 +194,8 @@ class Question:
                 f"{called('hardness')} and {called('elastic', True)} contradict each other; give "
                 "one of them",
                 None,
-                *("hardness", "elastic"),
+                "hardness",
+                "elastic",
             )
         if self.reading != Reading() and not any(
             isinstance(each, Path) for each in (*self.bodies, self.against)

@@ -30,7 +30,8 @@ def told_of(kind: str, told: Told) -> dict[str, Any]:
             raise InputError(
                 f"{called(other.name)} and {called(each.name)} are both given: give one of them",
                 None,
-                *(other.name, each.name),
+                other.name,
+                each.name,
             )
     return {each.argument: told[each.name] for each in given}
 

@@ -199,7 +199,8 @@ class Fluid:
                 f"({called('outlet')}) at {engineering(self.outlet, 'Pa')}, both absolute: a fluid "
                 "enters where its pressure is higher",
                 None,
-                *("inlet", "outlet"),
+                "inlet",
+                "outlet",
             )
 
     def _refuse_without_fluid(self) -> None:

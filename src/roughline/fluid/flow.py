@@ -423,9 +423,19 @@ def _through_cell(gap: Gap) -> dict[Along, Flow]:
         tensor = cell.crossing * np.array([[shape, 1.0], [1.0, 1 / shape]])
     return {
         along: Flow(
-            *(gap.distances, gap.sizes, along, gap.sides, gap.path),
-            *(cell.pressures[k], cell.rates[0][k], cell.rates[1][k], *cell.conductances),
-            *(float(cell.crossing[k, k]), float(cell.sections[k]), tensor),
+            gap=gap.distances,
+            sizes=gap.sizes,
+            along=along,
+            sides=gap.sides,
+            mean_free_path=gap.path,
+            pressure=cell.pressures[k],
+            rates_x=cell.rates[0][k],
+            rates_y=cell.rates[1][k],
+            conductances_x=cell.conductances[0],
+            conductances_y=cell.conductances[1],
+            inflow=float(cell.crossing[k, k]),
+            outflow=float(cell.sections[k]),
+            tensor=tensor,
         )
         for k, along in enumerate(get_args(Along))
         if gap.repeats(along)
@@ -439,7 +449,16 @@ def _between_ends(gap: Gap, along: Along) -> Flow:
     found = ended_flow(gap) if along == "x" else ended_flow(gap.turned()).turned()
     forward = found.rates[0] if along == "x" else found.rates[1].T
     return Flow(
-        *(gap.distances, gap.sizes, along, gap.sides, gap.path),
-        *(found.pressure, *found.rates, *found.conductances),
-        *(float(forward[0].sum()), float(forward[-1].sum())),
+        gap=gap.distances,
+        sizes=gap.sizes,
+        along=along,
+        sides=gap.sides,
+        mean_free_path=gap.path,
+        pressure=found.pressure,
+        rates_x=found.rates[0],
+        rates_y=found.rates[1],
+        conductances_x=found.conductances[0],
+        conductances_y=found.conductances[1],
+        inflow=float(forward[0].sum()),
+        outflow=float(forward[-1].sum()),
     )

@@ -75,16 +75,26 @@ def contact_maps(
     return {
         "area": Map(marked, colours, 0, len(colours) - 1),
         "pressure": _scaled(
-            *(fields.pressure, pressure, "Viridis256", "pressure", _PRESSED),
+            values=fields.pressure,
+            scale=pressure,
+            palette="Viridis256",
+            title="pressure",
+            low=_PRESSED,
             caption="blank where nothing touches",
         ),
         "gap": _scaled(
-            *(open_gap, gap, "Cividis256", "gap"),
+            values=open_gap,
+            scale=gap,
+            palette="Cividis256",
+            title="gap",
             nothing="in contact",
             caption="blank where they touch",
         ),
         "displacement": _scaled(
-            *(fields.displacement, deflection, "Cividis256", "deflection"),
+            values=fields.displacement,
+            scale=deflection,
+            palette="Cividis256",
+            title="deflection",
             caption="of the half-space",
         ),
     }
@@ -114,7 +124,10 @@ def flux_map(flow: rl.Flow) -> Map:
     logarithm[~is_open] = np.nan
     high = max(float(np.log10(flux.max())), 0.0)
     return Map(
-        *(logarithm, "flux", _WEAKEST, high),
+        values=logarithm,
+        palette="flux",
+        low=_WEAKEST,
+        high=high,
         title="flux",
         unit="of its mean",
         is_logarithmic=True,

@@ -157,7 +157,8 @@ def _draw_separation(axes: Axes, assessment: Assessment, drawn: Curve) -> None:
     y_label, force = _force_axis(assessment)
     shown = slice(int(np.flatnonzero(drawn.force)[-1]) + 2)  # up to the first depth without a force
     axes.plot(
-        *(drawn.depth[shown] * depth, drawn.force[shown] * force),
+        drawn.depth[shown] * depth,
+        drawn.force[shown] * force,
         ".-",
         color="tab:blue",
         label="drawn apart",

@@ -55,17 +55,27 @@ class Adhesion(Physics):
     )
     controls = (
         Quantity(
-            *("w", "w L/(E*h²)", "work of adhesion", 1e-4, 10.0, 1.0),
-            "Work to separate a unit of area, over E* h² / L, or with a unit, such as 50 mJ/m^2. "
-            "About 1 is what it takes to flatten the longest waves.",
+            key="w",
+            symbol="w L/(E*h²)",
+            name="work of adhesion",
+            low=1e-4,
+            high=10.0,
+            default=1.0,
+            meaning="Work to separate a unit of area, over E* h² / L, or with a unit, such as 50 "
+            "mJ/m^2. About 1 is what it takes to flatten the longest waves.",
             unit="J/m**2",
             scale_of=lambda state: float(state.E_star * state.rms_height**2 / state.length),
             over="E* h² / L",
         ),
         Quantity(
-            *("h0", "h_0/h", "range of the pull", 1e-3, 2.0, 0.5),
-            "Largest gap across which the bodies pull each other, evenly with w / h_0, over the "
-            "rms height, or with a unit, such as 5 nm. A shorter one takes a finer grid.",
+            key="h0",
+            symbol="h_0/h",
+            name="range of the pull",
+            low=1e-3,
+            high=2.0,
+            default=0.5,
+            meaning="Largest gap across which the bodies pull each other, evenly with w / h_0, "
+            "over the rms height, or with a unit, such as 5 nm. A shorter one takes a finer grid.",
             unit="m",
             scale_of=lambda state: float(state.rms_height),
             over="h",
@@ -85,7 +95,10 @@ class Adhesion(Physics):
     }
     panels = (
         Panel(
-            *("cycle", "Force over depth", "depth d / h", FORCE),
+            key="cycle",
+            title="Force over depth",
+            x="depth d / h",
+            y=FORCE,
             ranges=((-1, 1), (-1, 1)),
             series=(
                 _way("there", "dark-line", "circle"),
@@ -132,15 +145,21 @@ class Adhesion(Physics):
         is_resolved = cells >= needed
         return [
             item(
-                *("pulling", "pulled", f"{figure(100 * float(pressed.pulling_fraction[0]))}%"),
-                "Share of the nominal area across whose gap the bodies pull each other, on the way "
-                "to this load.",
+                key="pulling",
+                symbol="pulled",
+                value=f"{figure(100 * float(pressed.pulling_fraction[0]))}%",
+                meaning="Share of the nominal area across whose gap the bodies pull each other, on "
+                "the way to this load.",
             ),
             item(
-                *("zone", "pulling zone", f"{figure(cells, 2)} cells{'' if is_resolved else ' *'}"),
-                "Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = w / h_0, "
-                f"in cells of this grid; {needed:g} resolve it.",
-                "" if is_resolved else f"{needed:g} are needed: a longer range, or a finer grid",
+                key="zone",
+                symbol="pulling zone",
+                value=f"{figure(cells, 2)} cells{'' if is_resolved else ' *'}",
+                meaning="Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = "
+                f"w / h_0, in cells of this grid; {needed:g} resolve it.",
+                below=""
+                if is_resolved
+                else f"{needed:g} are needed: a longer range, or a finer grid",
             ),
         ]
 
@@ -260,7 +279,7 @@ def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
         "pull-off": {"x": [depth / height] * is_known, "y": [pull / state.force(1.0)] * is_known},
     }
     columns = number_rows(
-        *(depths, forces, by_depths.area_fraction, state.stiffness_bars(by_depths.stiffness))
+        depths, forces, by_depths.area_fraction, state.stiffness_bars(by_depths.stiffness)
     )
     is_borne = (forces != 0) & by_depths.converged
     turned = slice(1, _BACK + 1)
@@ -298,16 +317,20 @@ def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
     pressure = up_to_three_digits(pull / by_forces.length**2, None, "Pa")
     return [
         item(
-            *("retreat", "contact, way back", f"{figure(100 * area)}%"),
-            "Real contact area at this load on the way back from twice as much, beside that on the "
-            "way there.",
-            f"on {n}² points",
+            key="retreat",
+            symbol="contact, way back",
+            value=f"{figure(100 * area)}%",
+            meaning="Real contact area at this load on the way back from twice as much, beside "
+            "that on the way there.",
+            below=f"on {n}² points",
         ),
         item(
-            *("pull_off", "pull-off", _pull_off(found, state)),
-            "Largest pull F / (E* h L) that the contact bears on the way back; below it with its "
-            "unit, and over the nominal area.",
-            f"{up_to_three_digits(pull, None, 'N')}, {pressure}, on {n}² points"
+            key="pull_off",
+            symbol="pull-off",
+            value=_pull_off(found, state),
+            meaning="Largest pull F / (E* h L) that the contact bears on the way back; below it "
+            "with its unit, and over the nominal area.",
+            below=f"{up_to_three_digits(pull, None, 'N')}, {pressure}, on {n}² points"
             if math.isfinite(pull)
             else "the grid does not resolve the pull",
         ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import roughline as rl
@@ -47,135 +48,130 @@ class Quantity(Control):
             ) from None
 
 
-def _length(
-    key: str, symbol: str, name: str, low: float, high: float, default: float, meaning: str
-) -> Quantity:
-    """A length over the side of the surface."""
-    return Quantity(
-        *(key, symbol, name, low, high, default, meaning),
-        unit="m",
-        scale_of=lambda state: float(state.length),
-        over="sides",
-    )
+_length = partial(
+    Quantity, unit="m", scale_of=lambda state: float(state.length), over="sides"
+)  # over the side of the surface
 
 
 _NUMBERS = (
     Control(
-        "D_f",
-        "D_f",
-        "fractal dimension",
-        2.0,
-        3.0,
-        2.2,
-        "How rough the surface is on small scales: 2 is smooth, 3 fills space; D_f = 3 - H, with "
-        "the Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
+        key="D_f",
+        symbol="D_f",
+        name="fractal dimension",
+        low=2.0,
+        high=3.0,
+        default=2.2,
+        meaning="How rough the surface is on small scales: 2 is smooth, 3 fills space; D_f = 3 - "
+        "H, with the Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
         scale="linear",
     ),
     _length(
-        "roll_off",
-        "λ_r/L",
-        "roll-off wavelength",
-        1 / 32,
-        1.0,
-        1.0,
-        "The spectrum is flat for waves longer than this. Relative to the side of the surface, "
-        "or with a unit, such as 0.2 mm; at 1 there is no plateau.",
+        key="roll_off",
+        symbol="λ_r/L",
+        name="roll-off wavelength",
+        low=1 / 32,
+        high=1.0,
+        default=1.0,
+        meaning="The spectrum is flat for waves longer than this. Relative to the side of the "
+        "surface, or with a unit, such as 0.2 mm; at 1 there is no plateau.",
     ),
     _length(
-        "cutoff",
-        "λ_s/L",
-        "cutoff wavelength",
-        1 / 512,
-        0.5,
-        1 / 512,
-        "Length of the shortest wave. Relative to the side of the surface, or with a unit; n "
-        "points along a side carry no waves shorter than 2/n, which is the default of each grid.",
+        key="cutoff",
+        symbol="λ_s/L",
+        name="cutoff wavelength",
+        low=1 / 512,
+        high=0.5,
+        default=1 / 512,
+        meaning="Length of the shortest wave. Relative to the side of the surface, or with a unit; "
+        "n points along a side carry no waves shorter than 2/n, which is the default of each grid.",
     ),
     _length(
-        "h",
-        "h/L",
-        "rms height",
-        1e-6,
-        0.1,
-        1e-3,
-        "Root-mean-square height. Relative to the side of the surface, or with a unit: 0.3 um.",
+        key="h",
+        symbol="h/L",
+        name="rms height",
+        low=1e-6,
+        high=0.1,
+        default=1e-3,
+        meaning="Root-mean-square height. Relative to the side of the surface, or with a unit: 0.3 "
+        "um.",
     ),
     Control(
-        "slope",
-        "∇h",
-        "rms slope",
-        1e-4,
-        1.0,
-        0.1,
-        "Root-mean-square slope of the surface on its grid, without unit; the theory assumes "
-        "small slopes.",
+        key="slope",
+        symbol="∇h",
+        name="rms slope",
+        low=1e-4,
+        high=1.0,
+        default=0.1,
+        meaning="Root-mean-square slope of the surface on its grid, without unit; the theory "
+        "assumes small slopes.",
     ),
     Control(
-        "seed",
-        "seed",
-        "seed",
-        0,
-        999_999,
-        7,
-        "Selects one of all random surfaces: the same seed gives the same surface, with more "
-        "detail on a finer grid.",
+        key="seed",
+        symbol="seed",
+        name="seed",
+        low=0,
+        high=999_999,
+        default=7,
+        meaning="Selects one of all random surfaces: the same seed gives the same surface, with "
+        "more detail on a finer grid.",
         scale="whole",
         step=1,
     ),
     Control(
-        "F",
-        "F̄",
-        "load",
-        1e-4,
-        10.0,
-        0.1,
-        "Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean "
+        key="F",
+        symbol="F̄",
+        name="load",
+        low=1e-4,
+        high=10.0,
+        default=0.1,
+        meaning="Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean "
         "pressure such as 2 MPa.",
     ),
 )
 _CHOICES = (
     Choice(
-        "n",
-        "points along a side",
-        {str(n): str(n) for n in (64, 128, 256, 512, 1024)},
-        "512",
-        "Points along a side of the grid: more points give finer waves and take longer.",
+        key="n",
+        name="points along a side",
+        options={str(n): str(n) for n in (64, 128, 256, 512, 1024)},
+        default="512",
+        meaning="Points along a side of the grid: more points give finer waves and take longer.",
     ),
     Choice(
-        "rms",
-        "roughness by",
-        {"height": "rms height", "slope": "rms slope"},
-        "height",
-        "Which of the two is kept when the spectrum changes.",
+        key="rms",
+        name="roughness by",
+        options={"height": "rms height", "slope": "rms slope"},
+        default="height",
+        meaning="Which of the two is kept when the spectrum changes.",
     ),
     Choice(
-        "boundary",
-        "around the surface",
-        {"free": "free", "periodic": "periodic"},
-        "free",
-        "Free: the half-space continues, unloaded, around the surface. Periodic: the surface is "
-        "repeated without end; the stiffness is then that of the interface alone.",
+        key="boundary",
+        name="around the surface",
+        options={"free": "free", "periodic": "periodic"},
+        default="free",
+        meaning="Free: the half-space continues, unloaded, around the surface. Periodic: the "
+        "surface is repeated without end; the stiffness is then that of the interface alone.",
     ),
     Choice(
-        "shown",
-        "contact as",
-        {
+        key="shown",
+        name="contact as",
+        options={
             **{"area": "area", "pressure": "pressure"},
             **{"gap": "gap", "displacement": "displacement"},
         },
-        "area",
-        "Quantity that the second map shows.",
+        default="area",
+        meaning="Quantity that the second map shows.",
     ),
     Choice(
-        "theories",
-        "theory",
-        {
+        key="theories",
+        name="theory",
+        options={
             "persson": "Persson",
             "bush-gibson-thomas": "Bush, Gibson, Thomas",
             "greenwood-williamson": "Greenwood, Williamson",
         },
-        "",
-        "Theories for the same waves, drawn with the curves; they hold for periodic surfaces.",
+        default="",
+        meaning="Theories for the same waves, drawn with the curves; they hold for periodic "
+        "surfaces.",
     ),
 )
 NUMBERS = {each.key: each for each in _NUMBERS}

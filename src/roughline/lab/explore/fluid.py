@@ -58,8 +58,10 @@ class Fluid(Physics):
     strip: ClassVar = {"aperture": "area", "channel": "aperture"}
     panels = (
         over_force(
-            *("aperture", "Aperture over force", "hydraulic aperture uₕ / h"),
-            (
+            key="aperture",
+            title="Aperture over force",
+            y="hydraulic aperture uₕ / h",
+            lines=(
                 *theory_lines(_THEORIES),
                 _cross("theory sealed", "theory, sealed", "theory"),
                 _cross("sealed", "3D, sealed: nothing comes through", "dark-line"),
@@ -99,15 +101,20 @@ class Fluid(Physics):
         gap = figure(float(flow.gap[flow.constriction]) / pressed.rms_height)
         return [
             item(
-                *("aperture", "u_h", f"{value} h" + (" *" if doubt else "")),
-                _MEANING + (f" But {doubt}." if doubt else ""),
-                up_to_three_digits(aperture, ends, "m"),
+                key="aperture",
+                symbol="u_h",
+                value=f"{value} h" + (" *" if doubt else ""),
+                meaning=_MEANING + (f" But {doubt}." if doubt else ""),
+                below=up_to_three_digits(aperture, ends, "m"),
             ),
             item(
-                *("channel", "largest channel", share),
-                "Largest share of the flow that one channel between two places of contact carries. "
-                "Below: where the fluid is throttled most, the ring in the map, and the gap there.",
-                f"ring: x {x} L, y {y} L, gap {gap} h",
+                key="channel",
+                symbol="largest channel",
+                value=share,
+                meaning="Largest share of the flow that one channel between two places of contact "
+                "carries. Below: where the fluid is throttled most, the ring in the map, and the "
+                "gap there.",
+                below=f"ring: x {x} L, y {y} L, gap {gap} h",
             ),
         ]
 

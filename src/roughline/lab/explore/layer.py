@@ -32,30 +32,51 @@ class Layer(Physics):
     )
     controls = (
         Quantity(
-            *("t", "t/L", "thickness of the layer", 2e-3, 1.0, 0.05),
-            "Thickness of the layer. Relative to the side of the surface, or with a unit: 2 um. "
-            "It has to be half a cell of the grid at least.",
+            key="t",
+            symbol="t/L",
+            name="thickness of the layer",
+            low=2e-3,
+            high=1.0,
+            default=0.05,
+            meaning="Thickness of the layer. Relative to the side of the surface, or with a unit: "
+            "2 um. It has to be half a cell of the grid at least.",
             unit="m",
             scale_of=lambda state: float(state.length),
             over="sides",
         ),
         Quantity(
-            *("E_l", "E*_l/E*", "modulus of the layer", 1e-3, 1e3, 0.1),
-            "Contact modulus E/(1-ν²) of the layer over E*, which is that of the base; or with a "
-            "unit: 110 GPa.",
+            key="E_l",
+            symbol="E*_l/E*",
+            name="modulus of the layer",
+            low=1e-3,
+            high=1e3,
+            default=0.1,
+            meaning="Contact modulus E/(1-ν²) of the layer over E*, which is that of the base; or "
+            "with a unit: 110 GPa.",
             unit="Pa",
             scale_of=lambda state: float(state.E_star),
             over="E*",
         ),
         Control(
-            *("nu_l", "ν_l", "Poisson's ratio of the layer", 0.0, 0.5, 0.3),
-            "Of the layer, without unit, at the same contact modulus; at 0.5 it keeps its volume.",
+            key="nu_l",
+            symbol="ν_l",
+            name="Poisson's ratio of the layer",
+            low=0.0,
+            high=0.5,
+            default=0.3,
+            meaning="Of the layer, without unit, at the same contact modulus; at 0.5 it keeps its "
+            "volume.",
             scale="linear",
             step=0.01,
         ),
         Control(
-            *("nu_b", "ν_b", "Poisson's ratio of the base", 0.0, 0.5, 0.3),
-            "Of the base, without unit, at the same contact modulus.",
+            key="nu_b",
+            symbol="ν_b",
+            name="Poisson's ratio of the base",
+            low=0.0,
+            high=0.5,
+            default=0.3,
+            meaning="Of the base, without unit, at the same contact modulus.",
             scale="linear",
             step=0.01,
         ),
@@ -82,7 +103,8 @@ class Layer(Physics):
             raise ControlError(
                 f"a layer of {self.t:.3g} sides is less than half a cell of {state.n} points, "
                 f"where its base alone is felt: give {least:.3g} or more, or take more points",
-                *("t", "n"),
+                "t",
+                "n",
             )
 
     def is_resolved(self, state: ExploreState, n: int) -> bool:
@@ -96,10 +118,12 @@ class Layer(Physics):
         cells = self.t * fields.gap.shape[0]
         return [
             item(
-                *("layer", "layer", f"{figure(cells)} cells"),
-                "Thickness of the layer in cells of this grid; with its unit, and the contact "
-                "modulus of the layer, below.",
-                f"{thickness}, E*_l {modulus}",
+                key="layer",
+                symbol="layer",
+                value=f"{figure(cells)} cells",
+                meaning="Thickness of the layer in cells of this grid; with its unit, and the "
+                "contact modulus of the layer, below.",
+                below=f"{thickness}, E*_l {modulus}",
             )
         ]
 

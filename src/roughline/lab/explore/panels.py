@@ -18,7 +18,10 @@ def over_force(
 ) -> Panel:
     """Loads of the full model over force: those of the curve, and the present one."""
     return Panel(
-        *(key, title, FORCE, y),
+        key=key,
+        title=title,
+        x=FORCE,
+        y=y,
         series=(
             *lines,
             *(theory_lines(theories.options) if theories else ()),
@@ -34,8 +37,13 @@ def over_force(
 FEW = "3D, fewer than ten cells touch"
 """Name of loads whose contact the grid decides."""
 BACK = Series(
-    *("back", "3D, way back", "here"),
-    {"line": {"line_width": 2}, "scatter": {"line_width": 1.5, "size": 5, "marker": "square"}},
+    name="back",
+    legend="3D, way back",
+    colour="here",
+    glyphs={
+        "line": {"line_width": 2},
+        "scatter": {"line_width": 1.5, "size": 5, "marker": "square"},
+    },
 )
 """The way back from the present load."""
 
@@ -76,19 +84,30 @@ _OF_CURVE: dict[str, Any] = {
 
 PANELS = (
     over_force(
-        *("stiffness", "Stiffness over force", "stiffness k̄", (_REDUCED,), CHOICES["theories"]),
+        key="stiffness",
+        title="Stiffness over force",
+        y="stiffness k̄",
+        lines=(_REDUCED,),
+        theories=CHOICES["theories"],
         ranges=(_FORCES, (1e-3, 1.6)),
         columns=("F̄", "k̄", "model"),
         **_OF_CURVE,
     ),
     over_force(
-        *("area", "Area over force", "real contact area A / A₀", (), CHOICES["theories"]),
+        key="area",
+        title="Area over force",
+        y="real contact area A / A₀",
+        lines=(),
+        theories=CHOICES["theories"],
         ranges=(_FORCES, _AREAS),
         columns=("F̄", "A/A₀", "model"),
         **_OF_CURVE,
     ),
     Panel(
-        *("spectrum", "Spectrum", "waves along the side, q L / 2π", "spectrum C [m⁴]"),
+        key="spectrum",
+        title="Spectrum",
+        x="waves along the side, q L / 2π",
+        y="spectrum C [m⁴]",
         ranges=((0.8, 300.0), (1e-20, 1e-10)),
         series=_OF_SPECTRUM,
         columns=("waves along the side", "C [m⁴]", "law [m⁴]"),

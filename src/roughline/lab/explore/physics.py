@@ -31,7 +31,13 @@ def shown_choice() -> Choice:
     options = dict(shown.options)
     for kind in PHYSICS:
         options |= kind.maps
-    return Choice(shown.key, shown.name, options, shown.default, shown.meaning)
+    return Choice(
+        key=shown.key,
+        name=shown.name,
+        options=options,
+        default=shown.default,
+        meaning=shown.meaning,
+    )
 
 
 def panels() -> dict[str, Panel]:

@@ -153,7 +153,10 @@ def contact(
     started = time.perf_counter()
     surface = state.surface(n)
     pressed = pressed_under(
-        *(state, surface, np.array([state.F]), progress),
+        state,
+        surface,
+        np.array([state.F]),
+        progress,
         fields=True,
         grid_error=not is_coarse,
         measures=state.measures,

@@ -84,13 +84,15 @@ def _refuse_waves(state: ExploreState) -> None:
         raise ControlError(
             f"the cutoff, {state.cutoff:.4g} sides, is not shorter than the roll-off, "
             f"{state.roll_off:.4g} sides: shorten it, or lengthen the roll-off",
-            *("cutoff", "roll_off"),
+            "cutoff",
+            "roll_off",
         )
     if 2 / state.n >= state.roll_off:
         raise ControlError(
             f"{state.n} points carry no waves shorter than the roll-off, {state.roll_off:.4g} "
             "sides: take more points, or a longer roll-off",
-            *("n", "roll_off"),
+            "n",
+            "roll_off",
         )
 
 
@@ -107,7 +109,9 @@ def _refuse_together(state: ExploreState) -> None:
         raise ControlError(
             f"the surface bears less than its hardness everywhere, F̄ = {most:.3g}: give a smaller "
             "load, or a larger hardness",
-            *("F", *(key for each in state.added for key in each.numbers), *OF_THE_SURFACE),
+            "F",
+            *(key for each in state.added for key in each.numbers),
+            *OF_THE_SURFACE,
         )
 
 

@@ -21,10 +21,12 @@ def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
     """What the reduced model gives at the load."""
     return [
         item(
-            *("stiffness_1d", "k̄ (1D)", figure(stiffness)),
-            f"Stiffness k / (E* L) of the reduced model, mean of {lines} lines with the same "
-            "waves. It is made for the free half-space of one material, dry and elastic.",
-            unlike(state),
+            key="stiffness_1d",
+            symbol="k̄ (1D)",
+            value=figure(stiffness),
+            meaning=f"Stiffness k / (E* L) of the reduced model, mean of {lines} lines with the "
+            "same waves. It is made for the free half-space of one material, dry and elastic.",
+            below=unlike(state),
         )
     ]
 
@@ -45,9 +47,11 @@ def contact_words(
         *_stiffness_and_area(pressed, state),
         *_pressure_and_depth(pressed, fields, state),
         item(
-            *("roughness", "h", up_to_three_digits(surface.rms_height, None, "m")),
-            "Rms height; the rms slope on this grid is given below.",
-            f"slope {figure(surface.rms_slope)}",
+            key="roughness",
+            symbol="h",
+            value=up_to_three_digits(surface.rms_height, None, "m"),
+            meaning="Rms height; the rms slope on this grid is given below.",
+            below=f"slope {figure(surface.rms_slope)}",
         ),
         *(word for each in state.added for word in each.words(pressed, fields, state)),
     ]
@@ -63,21 +67,26 @@ def _stiffness_and_area(pressed: rl.Curve, state: ExploreState) -> list[Item]:
     sticks = pressed.law is not None and not pressed.law.only_pushes
     return [
         item(
-            *("stiffness_3d", "k̄ (3D)"),
-            figure(state.stiffness_bars(stiffness), supported_digits(stiffness, of_k, _DIGITS))
+            key="stiffness_3d",
+            symbol="k̄ (3D)",
+            value=figure(
+                state.stiffness_bars(stiffness), supported_digits(stiffness, of_k, _DIGITS)
+            )
             + (" *" if unsure else ""),
-            "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
-            "square punch. The interval shows how far finer grids may change it."
+            meaning="Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over "
+            "that of a square punch. The interval shows how far finer grids may change it."
             + " It is that at a given reach of the pull: along a branch the slope is less." * sticks
             + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
-            up_to_three_digits(stiffness, of_k, "N/m"),
+            below=up_to_three_digits(stiffness, of_k, "N/m"),
         ),
         item(
-            *("area", "contact"),
-            f"{figure(100 * area, supported_digits(area, of_area, _DIGITS))}%",
-            "Real contact area over the nominal one, corrected for the steps of its outline. The "
-            "interval shows how much finer grids, with finer roughness, may change it.",
-            up_to_three_digits(area, of_area, "%").partition(" ")[2],
+            key="area",
+            symbol="contact",
+            value=f"{figure(100 * area, supported_digits(area, of_area, _DIGITS))}%",
+            meaning="Real contact area over the nominal one, corrected for the steps of its "
+            "outline. The interval shows how much finer grids, with finer roughness, may change "
+            "it.",
+            below=up_to_three_digits(area, of_area, "%").partition(" ")[2],
         ),
     ]
 
@@ -88,19 +97,27 @@ def _pressure_and_depth(pressed: rl.Curve, fields: rl.Fields, state: ExploreStat
     over_hardness = f", {figure(in_contact / pressed.hardness)} H" if pressed.hardness else ""
     return [
         item(
-            *("pressure", "p_c", f"{figure(in_contact / state.E_star)} E*"),
-            "Mean pressure within the contact, over the cells that touch.",
-            up_to_three_digits(in_contact, None, "Pa") + over_hardness,
+            key="pressure",
+            symbol="p_c",
+            value=f"{figure(in_contact / state.E_star)} E*",
+            meaning="Mean pressure within the contact, over the cells that touch.",
+            below=up_to_three_digits(in_contact, None, "Pa") + over_hardness,
         ),
         item(
-            *("depth", "d", f"{figure(depth / pressed.rms_height)} h"),
-            "Depth since the first touch of the highest summit.",
-            up_to_three_digits(depth, None, "m"),
+            key="depth",
+            symbol="d",
+            value=f"{figure(depth / pressed.rms_height)} h",
+            meaning="Depth since the first touch of the highest summit.",
+            below=up_to_three_digits(depth, None, "m"),
         ),
         item(
-            *("force", "F", up_to_three_digits(force, None, "N")),
-            "Total force on the surface, for the side and the contact modulus that are set.",
-            f"{up_to_three_digits(force / state.length**2, None, 'Pa')} over the nominal area",
+            key="force",
+            symbol="F",
+            value=up_to_three_digits(force, None, "N"),
+            meaning="Total force on the surface, for the side and the contact modulus that are "
+            "set.",
+            below=f"{up_to_three_digits(force / state.length**2, None, 'Pa')} over the nominal "
+            "area",
         ),
     ]
 

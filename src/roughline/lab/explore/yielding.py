@@ -42,9 +42,15 @@ class Yielding(Physics):
     )
     controls = (
         Quantity(
-            *("hardness_bar", "H/(E*∇h)", "hardness", 0.02, 5.0, 0.5),
-            "Largest pressure that a point bears, over E* times the rms slope on the grid, or with "
-            "a unit, such as 2 GPa. Where it is reached, the surface is permanently indented.",
+            key="hardness_bar",
+            symbol="H/(E*∇h)",
+            name="hardness",
+            low=0.02,
+            high=5.0,
+            default=0.5,
+            meaning="Largest pressure that a point bears, over E* times the rms slope on the grid, "
+            "or with a unit, such as 2 GPa. Where it is reached, the surface is permanently "
+            "indented.",
             unit="Pa",
             scale_of=lambda state: float(state.E_star * state.rms_slope),
             over="E* ∇h",
@@ -86,23 +92,28 @@ class Yielding(Physics):
         digits = supported_digits(unloading, ends, 3)
         return [
             item(
-                *("unloading", "k̄_u (3D)"),
-                figure(state.stiffness_bars(unloading), digits),
-                "Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs back, "
-                "while on loading the spots at the hardness bear no more. Ultrasound and currents "
-                "depend on it.",
-                up_to_three_digits(unloading, ends, "N/m"),
+                key="unloading",
+                symbol="k̄_u (3D)",
+                value=figure(state.stiffness_bars(unloading), digits),
+                meaning="Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs "
+                "back, while on loading the spots at the hardness bear no more. Ultrasound and "
+                "currents depend on it.",
+                below=up_to_three_digits(unloading, ends, "N/m"),
             ),
             item(
-                *("plastic", "plastic", f"{figure(100 * float(pressed.plastic_fraction[0]))}%"),
-                "Share of the contact that is at the hardness; the hardness is given below.",
-                f"H {up_to_three_digits(self.hardness(state), None, 'Pa')}",
+                key="plastic",
+                symbol="plastic",
+                value=f"{figure(100 * float(pressed.plastic_fraction[0]))}%",
+                meaning="Share of the contact that is at the hardness; the hardness is given "
+                "below.",
+                below=f"H {up_to_three_digits(self.hardness(state), None, 'Pa')}",
             ),
             item(
-                *("indentation", "indentation"),
-                f"{figure(indentation / pressed.rms_height)} h",
-                "Largest permanent indentation, which remains after unloading.",
-                up_to_three_digits(indentation, None, "m"),
+                key="indentation",
+                symbol="indentation",
+                value=f"{figure(indentation / pressed.rms_height)} h",
+                meaning="Largest permanent indentation, which remains after unloading.",
+                below=up_to_three_digits(indentation, None, "m"),
             ),
         ]
 

@@ -18,19 +18,19 @@ BODIES = {key: (field, text) for field in FIELDS for key, text in field.texts.it
 by the keys of these."""
 
 _GIVEN_BY = Choice(
-    "bodies",
-    "bodies given by",
-    {"materials": "two materials", "modulus": "contact modulus"},
-    "materials",
-    "Two materials give all answers; a contact modulus E* alone gives the curve.",
+    key="bodies",
+    name="bodies given by",
+    options={"materials": "two materials", "modulus": "contact modulus"},
+    default="materials",
+    meaning="Two materials give all answers; a contact modulus E* alone gives the curve.",
 )
 CHOICES = {
     key: Choice(
-        key,
-        field.label or key,
-        {word: shown for word, (_, shown) in field.choices.items()},
-        next(iter(field.choices)),
-        field.help,
+        key=key,
+        name=field.label or key,
+        options={word: shown for word, (_, shown) in field.choices.items()},
+        default=next(iter(field.choices)),
+        meaning=field.help,
     )
     for key, field in BY_CONTROL.items()
     if field.choices

@@ -23,8 +23,11 @@ def _over_force(key: str, title: str, y: str) -> Panel:
 
 PANELS = (
     Panel(
-        *("file-line", "Heights as the file has them", "x", "height"),
-        (
+        key="file-line",
+        title="Heights as the file has them",
+        x="x",
+        y="height",
+        series=(
             line("heights", "", "dark-line", 1.2),
             marks("spikes", "spikes", "here", size=11, marker="circle", **_OPEN),
             marks("missing", "missing points", "here", size=8, marker="x", **_OPEN),
@@ -33,14 +36,20 @@ PANELS = (
         is_logarithmic=False,
     ),
     Panel(
-        *("prepared-line", "Before and after", "x", "height"),
-        (line("before", "before", "theory", 1.2), line("after", "after", "dark-line", 1.2)),
+        key="prepared-line",
+        title="Before and after",
+        x="x",
+        y="height",
+        series=(line("before", "before", "theory", 1.2), line("after", "after", "dark-line", 1.2)),
         columns=("heights", "before", "after"),
         is_logarithmic=False,
     ),
     Panel(
-        *("spectrum", "Spectrum", "wavenumber q = 2π/λ [1/m]", "spectrum C [m⁴]"),
-        (
+        key="spectrum",
+        title="Spectrum",
+        x="wavenumber q = 2π/λ [1/m]",
+        y="spectrum C [m⁴]",
+        series=(
             marks("spectrum", "this surface", "dark-line", size=3.5, line_width=1),
             line("law", "nearest self-affine law", "here", 2.5),
         ),
@@ -50,15 +59,21 @@ PANELS = (
     ),
     _over_force("area", "Area over force", "real contact area A / A₀"),
     Panel(
-        *("models", "Stiffness of both models", FORCE, "raw stiffness k / (E* L)"),
-        (
+        key="models",
+        title="Stiffness of both models",
+        x=FORCE,
+        y="raw stiffness k / (E* L)",
+        series=(
             band("full", "full model, this surface", "dark-line", size=6, line_width=2),
             band("reduced", "reduced model, mean of lines", "light-line", size=6, line_width=2),
         ),
     ),
     Panel(
-        *("part", "The maps beside each other", "", ""),
-        (
+        key="part",
+        title="The maps beside each other",
+        x="",
+        y="",
+        series=(
             band("mean", "mean, and the interval for the part", "here", 0.2, line_width=2),
             estimates("maps", "each map and its interval", "dark-line"),
         ),

@@ -35,9 +35,11 @@ PANELS = (
         "3D", "Figure 4: stiffness over force, full model, surfaces", ((1e-3, 10), (5e-3, 1.6))
     ),
     Panel(
-        *("exponents", "Figure 5: exponent over fractal dimension"),
-        *("fractal dimension", "exponent α"),
-        (
+        key="exponents",
+        title="Figure 5: exponent over fractal dimension",
+        x="fractal dimension",
+        y="exponent α",
+        series=(
             *(
                 band(f"{i}", "", "light-line", 0.3, line_dash=dash, line_width=1.5)
                 for i, dash in enumerate(_WINDOWS)
@@ -51,13 +53,19 @@ PANELS = (
         is_logarithmic=False,
     ),
     Panel(
-        *("area", "Area law: real contact area over force", FORCE, "real contact area A / A₀"),
-        _CURVES,
+        key="area",
+        title="Area law: real contact area over force",
+        x=FORCE,
+        y="real contact area A / A₀",
+        series=_CURVES,
         ranges=((1e-3, 10), (1e-6, 1.3)),
     ),
     Panel(
-        *("kappa", "Area law: κ of eq. 4", "fractal dimension", "κ = A E* ∇h / F"),
-        (
+        key="kappa",
+        title="Area law: κ of eq. 4",
+        x="fractal dimension",
+        y="κ = A E* ∇h / F",
+        series=(
             *(line(name, name, "theory", 1.5, line_dash=dash) for name, dash in _KAPPAS.items()),
             estimates("corrected", "area corrected", "dark-line", marker="circle"),
             estimates("cells", "area in cells", "here", marker="triangle", fill_alpha=0),
