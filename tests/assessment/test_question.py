@@ -66,6 +66,7 @@ def test_every_earlier_spelling_gets_one_line_with_the_new_one(spelling):
     """And the new one is one that is taken."""
     question = rl.Question("a.nc", "steel,copper", loads="1 N", ask=rl.Fluid("water"))
     names = {"rl": rl, "question": question, "Ensemble": campaign.Ensemble}
+    names |= {"material": rl.material("steel"), "law": rl.Dugdale(0.2, 0.4)}
     ensemble = 'Ensemble("a", "full", (2.2,), 64, 1, (0.1,), 0, '
     earlier = spelling
     if spelling.startswith("rl."):

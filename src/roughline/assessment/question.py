@@ -41,7 +41,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Fluid
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
-from roughline.errors.earlier import EARLIER
+from roughline.errors.earlier import refuse_part
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
@@ -219,9 +219,7 @@ class Question:
     if not TYPE_CHECKING:  # checkers know what there is
 
         def __getattr__(self, name):
-            if new := EARLIER.get(f"question.{name}"):
-                raise InputError(f"there is no question.{name} any more; write {new}")
-            raise AttributeError(f"'Question' object has no attribute {name!r}")
+            refuse_part("question", name, "Question")
 
     def _asked(self, kind: type[_Kind], of: Callable[[_Kind], _Value]) -> _Value | None:
         """A value of what is asked of a kind, if it is."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from roughline.engineering.material import Material
 from roughline.errors import InputError
 from roughline.errors.checks import as_number, several, shown
+from roughline.errors.earlier import refuse_part
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.elasticity.layered import Layered
@@ -71,6 +73,11 @@ class Coated:
                 raise InputError(
                     f"nu of {each.name} is {each.nu}; of layers and their base 0 to 0.5 is allowed"
                 )
+
+    if not TYPE_CHECKING:  # checkers know what there is
+
+        def __getattr__(self, name):
+            refuse_part("material", name, type(self).__name__)
 
     @property
     def name(self) -> str:

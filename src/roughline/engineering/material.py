@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from roughline.errors import InputError, UnitWarning
+from roughline.errors.earlier import refuse_part
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -92,6 +94,11 @@ class Material:
             raise InputError(
                 f"hardness_factor of {self.name} is {self.hardness_factor}; 1 or more is needed"
             )
+
+    if not TYPE_CHECKING:  # checkers know what there is
+
+        def __getattr__(self, name):
+            refuse_part("material", name, type(self).__name__)
 
     @property
     def surface(self) -> Material:

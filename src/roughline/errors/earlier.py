@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import NoReturn
+
+from roughline.errors import InputError
+
 EARLIER = {
     "rl.Inlet": 'rl.Fluid("water", inlet="6 bar", seal="100 mm x 2 mm")',
     "rl.Outlet": 'rl.Fluid("water", inlet="6 bar", outlet="2 bar", seal="100 mm x 2 mm")',
@@ -17,6 +21,8 @@ EARLIER = {
     "question.scale": "question.loading.scale",
     "question.flow_along": "question.fluid.along",
     "question.finds_closing": "question.fluid.closure",
+    "material.elasticity": "material.half_space()",
+    "law.reach": "law.cutoff",
     "Question(friction=)": "ask=rl.Friction(0.3)",
     "Question(frequency=)": 'ask=rl.Ultrasound("5 MHz")',
     "Question(joint_area=)": 'ask=rl.Joint("2 cm^2")',
@@ -26,3 +32,10 @@ EARLIER = {
     "Ensemble(attraction=)": "law=rl.Exponential(work_of_adhesion=0.2, range=0.4)",
 }
 """Names of the package, and parts and keywords of what it offers, with what is to be written."""
+
+
+def refuse_part(of: str, name: str, kind: str) -> NoReturn:
+    """Refuse a part that a value has not: one that is gone with what is to be written."""
+    if new := EARLIER.get(f"{of}.{name}"):
+        raise InputError(f"there is no {of}.{name} any more; write {new}")
+    raise AttributeError(f"{kind!r} object has no attribute {name!r}")

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
+from roughline.errors.earlier import refuse_part
 from roughline.halfspace.elasticity.half_space import HalfSpace
 
 LEAST_SHARE = 1e-7
@@ -38,6 +39,11 @@ class ContactLaw(ABC):
 
     assumption: ClassVar[str] = "of a law of their own"
     cutoff: float = math.inf
+
+    if not TYPE_CHECKING:  # checkers know what there is
+
+        def __getattr__(self, name):
+            refuse_part("law", name, type(self).__name__)
 
     @abstractmethod
     def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
