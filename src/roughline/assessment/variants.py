@@ -304,7 +304,10 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
     if first is None or curve is None:
         return None
     if first.lifted is not None and first.lifted.all():  # what seals is known nevertheless
-        return replace(first, periodic=True, levelled=True, fields=(), measures=case.measures)
+        interface = first.half_space.interface
+        return replace(
+            first, half_space=interface, levelled=True, fields=(), measures=case.measures
+        )
     if not first.borne(curve).any():
         return None
     under = first.under_forces_of(curve)
