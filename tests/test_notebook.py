@@ -54,11 +54,11 @@ def test_a_body_is_told_in_a_line():
 @pytest.mark.parametrize(
     ("loads", "told"),
     [
-        ({"forces": [1, 10]}, "<Curve: 2 loads, force 1 N to 10 N>"),
-        ({"forces": [2]}, "<Curve: 1 load, force 2 N to 2 N>"),
+        ({"forces": [1, 10]}, "<SurfaceCurve: 2 loads, force 1 N to 10 N>"),
+        ({"forces": [2]}, "<SurfaceCurve: 1 load, force 2 N to 2 N>"),
         (
             {"forces": [1, 10], "max_iterations": 2, "throw": False},
-            "<Curve: 2 loads, none solved>",
+            "<SurfaceCurve: 2 loads, none solved>",
         ),
     ],
 )

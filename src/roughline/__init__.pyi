@@ -21,6 +21,8 @@ from roughline.contact.comparison.models import compare as compare
 from roughline.contact.comparison.trust import trust_map as trust_map
 from roughline.contact.creep import Creep as Creep
 from roughline.contact.curve import Curve as Curve
+from roughline.contact.curve import LineCurve as LineCurve
+from roughline.contact.curve import SurfaceCurve as SurfaceCurve
 from roughline.contact.distribution import Distribution as Distribution
 from roughline.contact.estimates import Estimate as Estimate
 from roughline.contact.estimates import estimate as estimate

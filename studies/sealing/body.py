@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 import roughline as rl
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.errors import ConvergenceError
 from roughline.fluid.gap import Along
 from roughline.fluid.sealing_pressure import OPEN
@@ -101,7 +101,7 @@ class _Pressed:
     """A body under loads p / (E* g), one after the other."""
 
     loads: tuple[float, ...]
-    curve: Curve
+    curve: SurfaceCurve
 
     @classmethod
     def of(cls, case: Case, surface: rl.Surface, loads: Iterable[float]) -> _Pressed:

@@ -52,7 +52,7 @@ def test_the_reduced_model_has_no_hardness():
     assert "\n" not in said
     curve = rl.press(line, E_star=1.0, forces=[0.01])
     names = ("hardness", "unloading_stiffness", "plastic_fraction", "indentation", "work")
-    assert not [name for name in names if getattr(curve, name) is not None]
+    assert not [name for name in names if getattr(curve, name, None) is not None]
 
 
 def test_an_infinite_hardness_is_none(surface):

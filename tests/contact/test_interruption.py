@@ -40,7 +40,9 @@ def test_solved_loads_are_kept(throw):
     assert curve.fields[2:] == (None, None)
 
 
-def test_an_interruption_inside_a_load_loses_that_load_alone(monkeypatch):
+@pytest.mark.parametrize("step", ["overstated_cells", "share_at_border"])
+def test_an_interruption_inside_a_load_loses_that_load_alone(step, monkeypatch):
+    """Whether its contact is looked at when it comes, or its numbers are written already."""
     from roughline.contact import full
 
     calls = []
@@ -51,11 +53,17 @@ def test_an_interruption_inside_a_load_loses_that_load_alone(monkeypatch):
             raise KeyboardInterrupt
         return original(*arguments)
 
-    original = full.overstated_cells
-    monkeypatch.setattr(full, "overstated_cells", stopping)
+    original = getattr(full, step)
+    monkeypatch.setattr(full, step, stopping)
     with pytest.raises(rl.Interrupted) as caught:
-        pressed()
-    assert caught.value.curve.converged.tolist() == [True, True, False, False]
+        pressed(measures=[rl.MEAN_GAP])
+    curve = caught.value.curve
+    assert curve.converged.tolist() == [True, True, False, False]
+    for numbers in (curve.force, curve.work, curve.residual, curve.measured["mean_gap"].values):
+        assert np.isnan(numbers).tolist() == [False, False, True, True]
+    assert curve.fields[2:] == (None, None)
+    assert curve.residual_of[1] != ""
+    assert curve.residual_of[2:] == ("", "")
 
 
 def test_after_the_last_load_ctrl_c_is_still_heard():

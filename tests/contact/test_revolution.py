@@ -86,7 +86,7 @@ def test_force_and_depth_control_agree_and_the_order_of_loads_does_not_matter():
     by_depth = press(power_law(2.5), None, depths=[0.1, 0.4, 0.2])
     by_force = press(power_law(2.5), None, forces=by_depth.force[::-1])
     assert by_force.depth[::-1] == pytest.approx(by_depth.depth, rel=ROUNDING)
-    assert by_depth.work is by_depth.on_approach is by_depth.law is None
+    assert by_depth.work is by_depth.dissipated_work is by_depth.law is None
 
 
 def test_spaced_forces_run_from_ten_radii_to_all_of_them():

@@ -244,7 +244,7 @@ def test_a_load_that_is_not_there_is_refused(curve, surface):
         rl.plot.contact(curve, 8)
     with pytest.raises(rl.InputError, match="press with fields=True"):
         rl.plot.pressure(rl.press(surface, E_star=1e11, n_loads=3))
-    with pytest.raises(rl.InputError, match="this curve is of a line"):
+    with pytest.raises(rl.InputError, match="reduced model of a line gives no fields; press"):
         rl.plot.contact(rl.press(SPECTRUM.line(256, 1), E_star=1.0, n_loads=3))
     with pytest.raises(
         rl.InputError, match="no quantity 'areas' over the loads; allowed are depth"

@@ -16,8 +16,8 @@ from roughline.assessment.larger_surface import Differences, stiffness_of_the_pi
 from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
-from roughline.contact.selection import at_loads
+from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.contact.selection import at_loads, first_fields
 from roughline.contact.status import Status
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pair import MaterialPair
@@ -59,7 +59,7 @@ def answers_of(
         is_repeated=case.is_repeated_for_interface or case.loads.periodic is True,
         place=solution.place,
         sought=solution.sought,
-        fields=next((each for each in solution.curve.fields if each is not None), None),
+        fields=first_fields(solution.curve),
     )
     answers, left_out = rules.answers(found)
     if found.lifted.all():  # what a fluid lifts has no answers of its contact
@@ -75,7 +75,7 @@ def ends_from_many(
     `with_grid` says whether they hold what the grid leaves open as well.
     """
     larger, curve, pair = result.larger, result.curve_as_asked, result.question.pair
-    if larger is None or pair is None or curve.area_fraction_corrected is None:
+    if larger is None or pair is None or not isinstance(curve, SurfaceCurve):
         return {}
     larger = larger.from_many(curve.area_fraction_corrected, further, with_grid=with_grid)
     intervals = result.intervals_as_asked if with_grid else None

@@ -16,10 +16,10 @@ from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
-from roughline.contact.selection import at_loads
+from roughline.contact.selection import at_loads, first_fields
 from roughline.contact.status import Status
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pressed import Sought
@@ -160,7 +160,7 @@ class Assessment:
     @property
     def fields(self) -> Fields | None:
         """Fields of one load; None if they were not asked for, or the load was not solved."""
-        return next((each for each in self.curve.fields if each is not None), None)
+        return first_fields(self.curve)
 
     @cached_property
     def flows(self) -> Sequence[Flow]:
@@ -245,7 +245,7 @@ class Assessment:
             "force": (self.scale * np.stack([curve.force]), "N"),
             "stiffness": (self.scale * np.stack([curve.stiffness, *(stiffness or ())]), "N/m"),
         }
-        if curve.area_fraction_corrected is not None:
+        if isinstance(curve, SurfaceCurve):
             share = np.stack([curve.area_fraction_corrected, *(area or ())])
             columns["area_fraction_corrected"] = share, "1"
         return columns

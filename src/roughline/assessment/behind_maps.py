@@ -34,6 +34,7 @@ from roughline.assessment.larger_measure import UNTOLD
 from roughline.assessment.larger_surface import Differences, LargerSurface, roll_offs_of
 from roughline.assessment.tiles import FEWEST, MOST_DOUBLINGS, Beyond, Tiles, logit
 from roughline.computing.arrays import Real
+from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.errors.words import called
@@ -81,10 +82,11 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
         )
         alike = Differences(of_stiffness, of_area, _of_measures(larger, beyond_gap))
     agree = _agreement(surfaces)
-    areas = [each.curve_as_asked.area_fraction_corrected for each in results]
+    curves = [each.curve_as_asked for each in results]
+    areas = [each.area_fraction_corrected for each in curves if isinstance(each, SurfaceCurve)]
     sharing = shared_load(
         np.stack([each.stiffness.values for each in larger]),
-        np.stack([each for each in areas if each is not None]),
+        np.stack(areas),
         math.sqrt(area),
         float(first.curve.half_space.modulus(np.array([math.pi / math.sqrt(area)]))[0]),
         1.0 if agree is None else agree.of_places,

@@ -19,6 +19,7 @@ from roughline.assessment.notes import (
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices
 from roughline.contact.borders import border_warnings
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.formulas import plasticity_index
 from roughline.engineering.rules.mechanical import (
@@ -71,16 +72,21 @@ def warnings_of(
         *_of_border(result, result.asked),
         *remarks([borders] if are_grave else [], is_grave=True),
     ]
-    if isinstance(body, Surface) and curve.stiffness_error is None:
+    if isinstance(body, Surface) and not _knows_grid_error(curve):
         why = _why_without_grid_error(result.question, body, grid_error_was_tried)
         warnings.append(Remark(why, INTERVALS))
     return remarks(warnings)
 
 
+def _knows_grid_error(curve: Curve) -> bool:
+    """Whether the discretisation errors of a curve were estimated."""
+    return isinstance(curve, SurfaceCurve) and curve.stiffness_error is not None
+
+
 def _of_border(result: Assessment, loads: Indices) -> tuple[str, ...]:
     """Say what the border carries under some loads, which need not be all that were pressed."""
     curve = result.curve
-    if curve.surface is None or curve.border_share is None:
+    if not isinstance(curve, SurfaceCurve):
         return ()
     return border_warnings(curve.surface, curve.force[loads], curve.border_share[loads])
 
@@ -92,7 +98,7 @@ def _departures_in_words(result: Assessment) -> list[Remark]:
     shows is said where it is pressed.
     """
     made: dict[Prediction, bool] = {
-        "grid": result.curve.stiffness_error is not None,
+        "grid": _knows_grid_error(result.curve),
         "larger surface": is_map(result.body) and bool(result.answers),
         "theories": bool(result.theories),
     }
@@ -201,7 +207,7 @@ def _strained(result: Assessment) -> list[str]:
 def _of_full_contact(result: Assessment) -> list[str]:
     """Say under which loads all points touch, or all but a few."""
     curve, body = result.curve_as_asked, result.body
-    if curve.area_fraction is None or not isinstance(body, Surface):
+    if not isinstance(curve, SurfaceCurve):
         return []
     if curve.half_space.mean_is_free:
         rest = "stiffness is infinite"
@@ -226,11 +232,13 @@ def _of_full_contact(result: Assessment) -> list[str]:
 def _of_wide_interval(result: Assessment) -> list[str]:
     """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
     curve, points = result.curve_as_asked, result.body.heights.size
-    error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
     rules = (INTERFACE_STIFFNESS, UNLOADING_STIFFNESS, CONTACT_STIFFNESS)
     shown = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
     ends = None if shown is None else shown.ends
-    if shown is None or ends is None or error is None or k is None or curve.area_fraction is None:
+    if shown is None or ends is None or not isinstance(curve, SurfaceCurve):
+        return []
+    error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
+    if error is None:
         return []
     with np.errstate(divide="ignore", invalid="ignore"):
         widths, of_grid = np.log(ends[1] / ends[0]), 2 * np.log1p(error / k)

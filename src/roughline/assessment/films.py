@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.engineering.coated import Coated
@@ -50,7 +50,8 @@ def film_of(question: Question) -> Film | None:
 
 def film_that_spots_exceed(question: Question, curve: Curve) -> tuple[Film, float] | None:
     """The film, and the radius of the spots where these are wider than it is thick; else None."""
-    film, radii = film_of(question), curve.measured.get(SPOT_RADIUS.name)
+    measured = curve.measured if isinstance(curve, SurfaceCurve) else {}
+    film, radii = film_of(question), measured.get(SPOT_RADIUS.name)
     if film is None or radii is None:
         return None
     radius = float(np.nanmax(radii.values, initial=0.0))

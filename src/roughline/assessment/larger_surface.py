@@ -20,7 +20,7 @@ from roughline.assessment.uncertainty import (
     widened,
 )
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.press import press
 from roughline.contact.scaling import PUNCH_GRID_ERROR
 from roughline.engineering.formulas import interface_stiffness
@@ -75,7 +75,7 @@ class LargerSurface:
         share = _widened_share(area, shares or (area, area), further.area)
         return LargerSurface(stiffness, share, measures=self.measures)
 
-    def intervals(self, curve: Curve) -> Intervals | None:
+    def intervals(self, curve: SurfaceCurve) -> Intervals | None:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
 
         There are none where the piece does not tell of that. The stiffness on loading keeps its

@@ -12,7 +12,7 @@ from roughline.assessment.loading import DEFAULT_LOADS
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.arguments import law_of, sticking_law
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
@@ -131,7 +131,7 @@ class LoadCase:
 
     def borne(self, curve: Curve) -> Mask:
         """Which loads of a curve were solved, and leave some of the area below the hardness."""
-        if self.hardness is None or curve.area_fraction is None:
+        if self.hardness is None or not isinstance(curve, SurfaceCurve):
             return curve.converged
         most = self.hardness * curve.length**2
         return curve.converged & (np.nan_to_num(curve.force) < most * (1 - _ROUNDING))

@@ -14,6 +14,7 @@ from roughline.assessment.given import has_forces, several
 from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
 from roughline.assessment.loads import hardness_of
 from roughline.assessment.question import Question
+from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pair import MaterialPair
@@ -44,7 +45,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
         above = not_answered(result)
         notes += [each for each in result.left_out if each not in above]
         notes += _of_layers(result, pair)
-        if result.curve.area_fraction is None:
+        if not isinstance(result.curve, SurfaceCurve):
             notes.append("no contact area: the reduced model of a line does not predict it")
     bodies = [each.body for each in result.topographies]
     notes += remarks(of_each(bodies, _filled_spikes_and_effects), DATA)
@@ -86,7 +87,7 @@ def not_answered(result: Assessment) -> list[Remark]:
 def _of_yield(result: Assessment) -> list[str]:
     """Say what yields at the largest load, with which hardness, and how far its scatter matters."""
     curve, pair, hardness = result.curve, result.question.pair, hardness_of(result.question)
-    if curve.hardness is None or hardness is None or curve.plastic_fraction is None:
+    if curve.hardness is None or hardness is None or not isinstance(curve, SurfaceCurve):
         return []
     whose = "given" if pair is None or hardness.factor == 1 else f"of {pair.bearer}"
     known = f"{engineering(hardness.value, 'Pa')}, {whose}"

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.assessment.case import Case
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.loads import depth_apart, unbearable_pull
 from roughline.contact.press import press
 from roughline.contact.status import Status
@@ -22,19 +22,17 @@ _STEPS = 8  # from no load to the largest pull, on to where bodies come apart, a
 _NEARLY = 1 - 1e-6  # of the depth of full contact
 
 
-def separation_of(case: Case, curve: Curve) -> Separation | None:
+def separation_of(case: Case, curve: SurfaceCurve) -> Separation | None:
     """Draw a surface apart from the largest load of a curve; None if that was not solved.
 
     Pull-off and area are uncertain by the grid's errors. They have no interval where other places
     of a joint, or the way in which missing points are filled, leave them open as well.
     """
-    largest, law = case.loads.largest, curve.law
-    if not curve.converged[largest] or law is None:
+    largest, law, surface = case.loads.largest, curve.law, curve.surface
+    if not curve.converged[largest]:
         return None
     force = float(curve.force[largest])
     is_judged = case.loads.grid_error and case.question.joint is None and not case.filled
-    surface = curve.surface
-    assert surface is not None
     under = press(
         surface,
         half_space=curve.half_space,
@@ -49,9 +47,7 @@ def separation_of(case: Case, curve: Curve) -> Separation | None:
         unsolved = f"the load that is taken off was not solved: {reason}"
         return Separation(under, unknown, unknown, math.nan, unsolved)
     share, error = under.area_fraction_corrected, under.area_fraction_error
-    assert share is not None
     drawn, depths = _drawn_apart(surface, under)
-    assert drawn.work is not None
     return Separation(
         drawn,
         _rows(-under.pull_off_force, under.pull_off_force_error),
@@ -61,7 +57,7 @@ def separation_of(case: Case, curve: Curve) -> Separation | None:
     )
 
 
-def _unsolved(under: Curve, drawn: Curve, depths: Real) -> str:
+def _unsolved(under: SurfaceCurve, drawn: SurfaceCurve, depths: Real) -> str:
     """Say which load on the way was not solved, and what it takes at most, or why nothing is known.
 
     Past the largest pull bodies pull less, and at the last of the depths they are apart.
@@ -74,7 +70,7 @@ def _unsolved(under: Curve, drawn: Curve, depths: Real) -> str:
             f"{engineering(depths[first], 'm')}: {Status(drawn.status[first]).reason}"
         )
         work, pull = drawn.work, -under.pull_off_force
-        if work is None or first < 2 or not np.isfinite(pull):
+        if first < 2 or not np.isfinite(pull):
             return text
         least = float(work[first - 1] - work[1])
         most = least + pull * float(depths[first - 1] - depths[-1])
@@ -86,13 +82,12 @@ def _unsolved(under: Curve, drawn: Curve, depths: Real) -> str:
     return ""
 
 
-def _drawn_apart(surface: Surface, under: Curve) -> tuple[Curve, Real]:
+def _drawn_apart(surface: Surface, under: SurfaceCurve) -> tuple[SurfaceCurve, Real]:
     """Draw bodies apart at falling depths, through those of no load and of the pull-off.
 
     Where they come apart is looked for first, as it bounds the work that they take.
     """
     law, off = under.law, under.pull_off_depth
-    assert law is not None
     loaded, unloaded = float(under.depth[0]), float(under.depth[1])
     if under.half_space.mean_is_free:  # full contact has one depth, at which forces are not known
         full = float(np.mean(surface.heights.max() - surface.heights))

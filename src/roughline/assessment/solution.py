@@ -20,9 +20,10 @@ from roughline.assessment.tiles import TiledCurves, coarse_shape
 from roughline.assessment.uncertainty import change, intervals_of
 from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
 from roughline.computing.arrays import Indices, Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
+from roughline.contact.selection import first_fields
 from roughline.engineering.intervals import Intervals
 from roughline.engineering.pressed import Sought
 from roughline.topography.body import Body, Line, Surface
@@ -55,15 +56,14 @@ def solution_of(case: Case, curves: Curves) -> Solution:
         beyond = case.beyond_gap if case.tells_of_larger else None
         of_larger = {key: each.of_larger(beyond) for key, each in larger.measures.items()}
         measured, place = {**measured, **of_larger}, which_surface(case.beyond_gap, "gap")
-    if larger is not None and case.question.joint is not None and intervals is not None:
+    is_part = case.question.joint is not None and intervals is not None
+    if larger is not None and is_part and isinstance(curve, SurfaceCurve):
         # the map is pressed as a part of the joint, and is uncertain as that is
         intervals = larger.intervals(curve)
     sought = replace(
         curves.sought.get(Way.AS_ASKED, Sought()), slip=slip_at_largest_load(case, curves)
     )
-    filled = curve.measured.get(ON_FILLED)
-    on_filled = None if filled is None else filled.values
-    return Solution(curve, intervals, larger, measured, place, sought, on_filled, note)
+    return Solution(curve, intervals, larger, measured, place, sought, _on_filled(curves), note)
 
 
 def solution_of_scan(case: Case, body: Line) -> Solution:
@@ -86,7 +86,7 @@ def solution_of_scan(case: Case, body: Line) -> Solution:
 def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None:
     """The larger surface behind the body of a variant."""
     body, curve = case.map, curves.by_name[name]
-    if body is None:
+    if body is None or not isinstance(curve, SurfaceCurve):
         return None
     repeated = name if case.loads.periodic else periodic(name)
     whole = curves.get(repeated)
@@ -131,7 +131,7 @@ def measured_of(
 def fields_of_gap(case: Case, curves: Curves) -> Fields | None:
     """Fields of one load of the contact that the measures of the body as asked are of."""
     curve = curves.get(_measured_on(case, Way.AS_ASKED))
-    return None if curve is None else next(filter(None, curve.fields), None)
+    return None if curve is None else first_fields(curve)
 
 
 def _measured_on(case: Case, name: str) -> str:
@@ -141,8 +141,15 @@ def _measured_on(case: Case, name: str) -> str:
 
 def _unsure(curves: Curves) -> Real | float:
     """By how much all values may differ, as force stands on points that nobody measured. [1]"""
-    filled = curves.as_asked.measured.get(ON_FILLED)
-    return 0.0 if filled is None else relative_error(filled.values)
+    share = _on_filled(curves)
+    return 0.0 if share is None else relative_error(share)
+
+
+def _on_filled(curves: Curves) -> Real | None:
+    """Share of the force that stands on filled points; None where that is not known. [1]"""
+    curve = curves.get(Way.AS_ASKED)
+    filled = None if curve is None else curve.measured.get(ON_FILLED)
+    return None if filled is None else filled.values
 
 
 def _beside(measured: Measured, other: Real, unsure: Real | float) -> Measured:
@@ -162,7 +169,9 @@ def _with_filling(
     case: Case, curves: Curves, name: str, body: Body
 ) -> tuple[Intervals | None, str]:
     """Intervals of a variant with the effect of the other filling, and a note on that."""
-    curve, other, note = curves.by_name[name], curves.get(filled_otherwise(name)), ""
+    curve, other, note = curves.get(name), curves.get(filled_otherwise(name)), ""
+    if curve is None:
+        return None, note
     if other is not None:
         asked = case.loads.asked_of(curve)
         stiffness = _most_changed(curve.stiffness, other.stiffness, asked)
@@ -179,16 +188,14 @@ def _with_filling(
     return intervals_of(curve, other, _unsure(curves)), note
 
 
-def _most_changed(before: Real | None, after: Real | None, asked: Indices) -> str:
+def _most_changed(before: Real, after: Real, asked: Indices) -> str:
     """By how many per cent the loads that were asked for change at most, in words."""
-    moved, share = change(before, after), 0.0
-    if before is not None and after is not None:
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = 100 * float(np.nanmax((moved / before)[asked], initial=0.0))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = 100 * float(np.nanmax((change(before, after) / before)[asked], initial=0.0))
     return f"up to {share:.2g}%" if share >= _SMALL else f"less than {_SMALL}%"
 
 
-def _tiled(curves: Curves, whole: Curve | None, body: Surface) -> TiledCurves | None:
+def _tiled(curves: Curves, whole: SurfaceCurve | None, body: Surface) -> TiledCurves | None:
     """Curves of a map and of its tiles, from its periodic curve; None if one is not known."""
     shape = coarse_shape(body.shape)
     if shape != body.shape:

@@ -8,7 +8,7 @@ from typing import Literal
 from roughline.assessment.case import Case
 from roughline.assessment.separation import separation_of
 from roughline.assessment.variants import Curves, Way, periodic
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.press import press
 from roughline.engineering.pressed import Sought
 from roughline.engineering.sealing import Closing
@@ -30,11 +30,13 @@ def sought_of(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]:
         return found, False
     try:
         if case.loads.attraction is not None:
-            found[Way.AS_ASKED] = Sought(separation=separation_of(case, curves.as_asked))
+            of_pull = curves.get(Way.AS_ASKED)
+            if of_pull is not None:
+                found[Way.AS_ASKED] = Sought(separation=separation_of(case, of_pull))
         elif (fluid := case.question.fluid) is not None and fluid.closure:
             for name in _WAYS:
                 curve = curves.get(periodic(name) if case.is_repeated_for_interface else name)
-                if curve is not None and curve.surface is not None:
+                if curve is not None:
                     is_judged = name == Way.AS_ASKED
                     found[name] = Sought(closing=_closing(case, curve, fluid.along, is_judged))
     except KeyboardInterrupt:
@@ -42,11 +44,11 @@ def sought_of(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]:
     return found, False
 
 
-def _closing(case: Case, curve: Curve, along: Along | Literal["both"], is_judged: bool) -> Closing:
+def _closing(
+    case: Case, curve: SurfaceCurve, along: Along | Literal["both"], is_judged: bool
+) -> Closing:
     """Bisect the loads of the surface of a curve."""
     surface, law = curve.surface, curve.law
-    assert surface is not None
-    assert law is None or law.memory != "path"  # questions ask for no adhesion
     interval = is_judged and case.loads.grid_error
     closes = sealing_pressure(
         surface,

@@ -11,7 +11,7 @@ import numpy as np
 
 from roughline.assessment.uncertainty import area_fraction, unloading_stiffness
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.fluid.measures import names_at_border
 from roughline.topography.body import Surface
@@ -163,11 +163,11 @@ class Tiles:
 class TiledCurves:
     """Curves of a map and of its tiles under the same mean pressures, all of them periodic."""
 
-    whole: Curve
-    halves: Sequence[Curve]  # 4, row by row
-    quarters: Sequence[Curve]  # 16
+    whole: SurfaceCurve
+    halves: Sequence[SurfaceCurve]  # 4, row by row
+    quarters: Sequence[SurfaceCurve]  # 16
     points: int  # of the whole map
-    border: Curve | None = None
+    border: SurfaceCurve | None = None
     """Of the whole map on few points, with measures that tell what its border does."""
 
     def stiffness_and_contact(self) -> tuple[Tiles, Tiles]:
@@ -212,7 +212,7 @@ class TiledCurves:
             return None
         return np.stack([self.border.measured[each].values for each in names])
 
-    def _tiles(self, of: Callable[[Curve, int], Real]) -> Tiles:
+    def _tiles(self, of: Callable[[SurfaceCurve, int], Real]) -> Tiles:
         halves, quarters = (
             np.stack([of(each, self.points // count**2) for each in curves]).reshape(
                 count, count, -1
@@ -222,13 +222,13 @@ class TiledCurves:
         return Tiles(of(self.whole, self.points), halves, quarters)
 
 
-def _stiffness(curve: Curve, points: int) -> Real:
+def _stiffness(curve: SurfaceCurve, points: int) -> Real:
     """Logarithm of the stiffness on unloading per area."""
     with np.errstate(divide="ignore"):
         return np.log(unloading_stiffness(curve) / curve.length**2)
 
 
-def _contact(curve: Curve, points: int) -> Real:
+def _contact(curve: SurfaceCurve, points: int) -> Real:
     """Logit of the contact area fraction; half a cell is left where all or none touch."""
     return logit(np.clip(area_fraction(curve), 0.5 / points, 1 - 0.5 / points))
 

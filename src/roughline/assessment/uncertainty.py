@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.engineering.intervals import Ends, Intervals
 
 _UNSURE = 5.0  # upper over lower end above which a stiffness near full contact may be infinite
 
 
 def intervals_of(
-    curve: Curve, other: Curve | None = None, unsure: Real | float = 0.0
+    curve: SurfaceCurve, other: SurfaceCurve | None = None, unsure: Real | float = 0.0
 ) -> Intervals | None:
     """Intervals of a curve, of its grid's errors and of how far another one is from it.
 
@@ -21,11 +21,9 @@ def intervals_of(
     choice alone would be too narrow.
     """
     value, error = curve.area_fraction_corrected, curve.area_fraction_error
-    most, stiffness_error = curve.area_fraction_most, curve.stiffness_error
+    stiffness_error = curve.stiffness_error
     unloading, unloading_error = curve.unloading_stiffness, curve.unloading_stiffness_error
-    if value is None or error is None or most is None or stiffness_error is None:
-        return None
-    if unloading is None or unloading_error is None:
+    if error is None or stiffness_error is None or unloading_error is None:
         return None
     other = other or curve
     area_change = change(value, other.area_fraction_corrected, unsure)
@@ -41,18 +39,21 @@ def intervals_of(
         low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
         loading = loading_under_unloading(loading, springing)
     # whole cells overstate an area under summits, and finer waves take away from it
-    return Intervals(loading, springing, (low, np.minimum(high, most + area_change)))
+    return Intervals(
+        loading, springing, (low, np.minimum(high, curve.area_fraction_most + area_change))
+    )
 
 
 def unloading_stiffness(curve: Curve) -> Real:
     """Stiffness on unloading; of a line, which has no yield, that on loading. [N / m]"""
-    return curve.stiffness if curve.unloading_stiffness is None else curve.unloading_stiffness
+    return curve.unloading_stiffness if isinstance(curve, SurfaceCurve) else curve.stiffness
 
 
 def area_fraction(curve: Curve) -> Real:
     """Corrected contact area fraction; NaN of a line, whose model does not predict it. [1]"""
-    share = curve.area_fraction_corrected
-    return np.full_like(curve.force, np.nan) if share is None else share
+    if isinstance(curve, SurfaceCurve):
+        return curve.area_fraction_corrected
+    return np.full_like(curve.force, np.nan)
 
 
 def interval(value: Real, error: Real) -> Ends:
@@ -93,13 +94,11 @@ def combined(first: Ends, second: Ends) -> Ends:
     return -np.hypot(first[0], second[0]), np.hypot(first[1], second[1])
 
 
-def change(before: Real | None, after: Real | None, unsure: Real | float = 0.0) -> Real:
-    """By how much each load changes; nothing does in what the model of a line does not predict.
+def change(before: Real, after: Real, unsure: Real | float = 0.0) -> Real:
+    """By how much each load changes.
 
     A further error `unsure`, relative to the values, is added to it as independent.
     """
-    if before is None or after is None:
-        return np.zeros(1)
     with np.errstate(invalid="ignore"):  # infinite in full contact
         moved = np.where(after == before, 0.0, np.abs(after - before))
         return np.hypot(moved, np.where(unsure == 0, 0.0, unsure * before))

@@ -31,7 +31,7 @@ from roughline.assessment.tiles import (
 )
 from roughline.computing.arrays import Mask
 from roughline.contact.arguments import law_of
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.measures import Measure
 from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.pressed import Sought, yields
@@ -77,12 +77,13 @@ class Curves:
         """Curve of the body as it was asked for."""
         return self.by_name[Way.AS_ASKED]
 
-    def get(self, name: str) -> Curve | None:
-        """The curve of a variant, whole or as far as it came."""
-        return self.by_name.get(name)
+    def get(self, name: str) -> SurfaceCurve | None:
+        """The curve of a surface in a variant, whole or as far as it came; None of a line."""
+        curve = self.by_name.get(name)
+        return curve if isinstance(curve, SurfaceCurve) else None
 
-    def whole(self, name: str) -> Curve | None:
-        """The curve of a variant; None if it is not whole."""
+    def whole(self, name: str) -> SurfaceCurve | None:
+        """The curve of a surface in a variant; None if it is not whole."""
         return None if name == self.stopped else self.get(name)
 
 
@@ -145,8 +146,9 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
                 curves = {**done, variant.name: case.spread(stop.curve)}
                 raise Stopped(Curves(curves, stopped=variant.name)) from stop
         if curve is not None:
-            # dents are large, and only those of the first are looked at
-            done[variant.name] = replace(curve, dents=()) if done else curve
+            if done and isinstance(curve, SurfaceCurve):
+                curve = replace(curve, dents=())  # large, and only those of the first are looked at
+            done[variant.name] = curve
         before += here
     if progress is not None:
         progress(total, total)
@@ -186,8 +188,8 @@ def variants_of(case: Case) -> list[Variant]:
 
 def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
     """Press the surface that the largest load left, up to that load."""
-    curve, largest = curves.as_asked, case.loads.largest
-    if not curve.converged[largest]:
+    curve, largest = curves.get(Way.AS_ASKED), case.loads.largest
+    if curve is None or not curve.converged[largest]:
         return None
     forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, _UNLOADING_LOADS)
     left = curve.surface_after(largest)
@@ -356,7 +358,10 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
 
 
 def _alike(
-    case: Case, curve: Curve | None, piece: Callable[[], Surface], measures: Sequence[Measure]
+    case: Case,
+    curve: SurfaceCurve | None,
+    piece: Callable[[], Surface],
+    measures: Sequence[Measure],
 ) -> LoadCase | None:
     """Press a piece, or the map on fewer points, periodically as the map was: no better known."""
     body = case.body

@@ -18,7 +18,7 @@ from roughline.halfspace.laws.jkr import JKR
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
-from roughline.topography.body import Body, Line
+from roughline.topography.body import Line
 from roughline.topography.profile import Profile
 
 LARGEST = 1e150  # beyond it, squares leave the range of double precision
@@ -60,24 +60,35 @@ def given_half_space(
     return half_space
 
 
-def given_law(law: ContactLaw | None, hardness: float | None, body: Body | Profile) -> ContactLaw:
-    """Return the law that bodies obey; a hardness is short for one, unless it is infinite."""
-    hardness = _given_hardness(hardness, body)
+def given_law(law: ContactLaw | None, hardness: float | None) -> ContactLaw:
+    """Return the law that a surface obeys; a hardness is short for one, unless it is infinite."""
+    hardness = _given_hardness(hardness)
     if law is None:
         return law_of(hardness)
-    if not isinstance(law, ContactLaw):
-        refuse(
-            "law",
-            law,
-            "a contact law is needed, such as rl.Unilateral(), rl.Yielding(hardness) or another "
-            "rl.ContactLaw",
-        )
+    _refuse_no_law(law)
     if hardness is not None:
         raise InputError(
             "law and hardness given together: hardness is short for law=rl.Yielding(hardness); "
             "give one of the two"
         )
+    return law
+
+
+def given_stickiness(
+    law: ContactLaw | None, hardness: float | None, body: Line | Profile
+) -> JKR | None:
+    """Return how springs stick; None if they do not, as those of a line."""
+    if _given_hardness(hardness) is not None:
+        name = type(body).__name__
+        raise InputError(
+            f"hardness belongs to the full model; the reduced model of a {name} has no yield: "
+            f"leave it out, and trust the {name.lower()} only while mean contact pressures stay "
+            "below about 0.4 of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
+        )
+    if law is None:
+        return None
     if isinstance(body, Line):
+        _refuse_no_law(law)
         reason = (
             "the springs of a Line only push"
             if law.only_pushes
@@ -87,7 +98,9 @@ def given_law(law: ContactLaw | None, hardness: float | None, body: Body | Profi
         raise InputError(
             f"law belongs to the full model; {reason}: leave it out, or press a Surface"
         )
-    if isinstance(body, Profile) and not isinstance(law, Unilateral | JKR):
+    if isinstance(law, Unilateral):
+        return None
+    if not isinstance(law, JKR):
         refuse(
             "law",
             law,
@@ -97,22 +110,24 @@ def given_law(law: ContactLaw | None, hardness: float | None, body: Body | Profi
     return law
 
 
-def _given_hardness(hardness: float | None, body: Body | Profile) -> float | None:
+def _refuse_no_law(law: object) -> None:
+    """Refuse what is no contact law."""
+    if not isinstance(law, ContactLaw):
+        refuse(
+            "law",
+            law,
+            "a contact law is needed, such as rl.Unilateral(), rl.Yielding(hardness) or another "
+            "rl.ContactLaw",
+        )
+
+
+def _given_hardness(hardness: float | None) -> float | None:
     """Return the hardness of bodies; None where they are elastic."""
     if hardness is None:
         return None
     needed = "a positive pressure, or none for elastic bodies, is needed"
     hardness = between("hardness", hardness, math.ulp(0), math.inf, needed)
-    if hardness == math.inf:
-        return None
-    if isinstance(body, Line | Profile):
-        name = type(body).__name__
-        raise InputError(
-            f"hardness belongs to the full model; the reduced model of a {name} has no yield: "
-            f"leave it out, and trust the {name.lower()} only while mean contact pressures stay "
-            "below about 0.4 of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
-        )
-    return hardness
+    return None if hardness == math.inf else hardness
 
 
 def sticking_law(name: str, work_of_adhesion: float, reach: float) -> ContactLaw:

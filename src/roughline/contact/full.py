@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
 from itertools import pairwise
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
 from roughline._version import __version__
 from roughline.computing import linear_algebra
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.borders import border_warnings, share_at_border
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.loads import Loads, comes_nearer
 from roughline.contact.measures import Measure, all_measured
-from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
+from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.scaled_surface import ScaledSurface
+from roughline.contact.selection import among_loads, at_loads
 from roughline.contact.status import Status
 from roughline.errors import Interrupted
 from roughline.halfspace.elasticity.half_space import HalfSpace
@@ -40,6 +41,8 @@ from roughline.topography.preparation import tilt_warnings
 from roughline.topography.repetition import border_jump
 from roughline.topography.settings import as_body
 
+_Kept = TypeVar("_Kept")
+
 
 def press_surface(
     surface: Surface,
@@ -51,77 +54,38 @@ def press_surface(
     kept: frozenset[int] = frozenset(),
     measures: Sequence[Measure] = (),
     progress: Callable[[int, int], None] | None = None,
-) -> Curve:
+) -> SurfaceCurve:
     """Press a surface as :func:`roughline.press` does; keep fields of loads by their numbers."""
     # where the order of loads does not matter, each is solved once, as they rise
     values, places = loads.values, np.arange(loads.values.size)
     if law.memory == "none":
         values, places = np.unique(loads.values, return_inverse=True)
-    results: list[_LoadResult] = []
+    scaled = ScaledSurface.of(surface, half_space, loads)
+    curve = _unsolved(scaled, half_space, loads, method, law, measures)
+    record = _Record(curve, scaled, kept, measures)
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
-        with linear_algebra.on_one_thread():
-            path, kept_there = replace(loads, values=values), {int(places[i]) for i in kept}
-            solved = _results(surface, half_space, path, method, law, kept_there, measures)
-            for result in solved:
-                results.append(result)
+        with linear_algebra.on_one_thread(), working_memory():
+            path = _path(scaled, loads.control, values)
+            solved = solve_path(_problem(scaled, law, method), path, method)
+            for i in range(len(path)):  # no contact is held while the next is solved
+                record.write(np.flatnonzero(places == i), *next(solved))
                 if progress is not None:
-                    progress(len(results), values.size)
+                    progress(i + 1, len(path))
     except KeyboardInterrupt:
         interrupted = True
-    results += [_LoadResult()] * (values.size - len(results))
-    results = _in_order(results, places.tolist())
-    curve = _curve(surface, half_space, loads, method, results, law)
-    if measures:
-        unknown = [math.nan] * len(measures)
-        taken = [each.measures or unknown for each in results]
-        curve = replace(curve, measured=all_measured(measures, taken))
-    if kept:
-        fields = [each.fields if i in kept else None for i, each in enumerate(results)]
-        curve = replace(curve, fields=tuple(fields))
+    curve = record.whole(loads)
     if interrupted:
         raise Interrupted(curve)
     return curve
 
 
-def _in_order(results: Sequence[_LoadResult], places: Sequence[int]) -> list[_LoadResult]:
-    """Return the result under each load; an equal load later on takes no convolutions."""
-    ordered, met = [], set()
-    for place in places:
-        result = results[place]
-        ordered.append(replace(result, convolutions=0) if place in met else result)
-        met.add(place)
-    return ordered
-
-
-def _results(
-    surface: Surface,
-    half_space: HalfSpace,
-    loads: Loads,
-    method: Method,
-    law: ContactLaw,
-    with_fields: Set[int],
-    measures: Sequence[Measure],
-) -> Iterator[_LoadResult]:
-    """Solve the contact under each load in turn."""
-    scaled = ScaledSurface.of(surface, half_space, loads)
-    if loads.control == "forces":
-        path = [Load(force=value) for value in (loads.values / scaled.force).tolist()]
-    else:
-        path = [Load(depth=value) for value in (loads.values / scaled.height).tolist()]
-    with working_memory():
-        solved = solve_path(_problem(scaled, law, method), path, method)
-        dents: Indentation | None = None
-        for i in range(len(path)):  # no contact is held while the next is solved
-            with_these = i in with_fields
-            result = _LoadResult.of(
-                *next(solved), scaled, law, with_fields=with_these, measures=measures
-            )
-            if dents is not None and result.dents is not None and result.dents.equals(dents):
-                result = replace(result, dents=dents)  # one memory for all loads that add none
-            dents = result.dents
-            yield result
+def _path(scaled: ScaledSurface, control: str, values: Real) -> list[Load]:
+    """Return the loads one by one, in the units of `scaled`."""
+    if control == "forces":
+        return [Load(force=value) for value in (values / scaled.force).tolist()]
+    return [Load(depth=value) for value in (values / scaled.height).tolist()]
 
 
 def _problem(scaled: ScaledSurface, law: ContactLaw, method: Method) -> Problem:
@@ -137,30 +101,38 @@ def _problem(scaled: ScaledSurface, law: ContactLaw, method: Method) -> Problem:
     return replace(bodies, law=bodies.pull.at_hand())
 
 
-def _curve(
-    surface: Surface,
+def _unsolved(
+    scaled: ScaledSurface,
     half_space: HalfSpace,
     loads: Loads,
     method: Method,
-    results: Sequence[_LoadResult],
     law: ContactLaw,
-) -> Curve:
-    """Put the results of all loads together, without fields."""
-    values = _columns(results)
-    values |= _along_the_path(values["depth"], values["force"], results, law)
-    # the prescribed value is returned unchanged; its error is part of the residual
-    prescribed = values[loads.control.removesuffix("s")]
-    np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
-    shares = np.array([result.border_share for result in results])
-    scaled = ScaledSurface.of(surface, half_space, loads)
-    law_there = scaled.law(law)
-    at_the_border = (
-        *_jump_warnings(surface, half_space.repeats),
-        *border_warnings(surface, values["force"], shares),
-    )
-    pull_off_depth, pull_off_force = _pull_off(results, values, law_there)
-    return Curve(
-        **values,
+    measures: Sequence[Measure],
+) -> SurfaceCurve:
+    """Return the curve of a surface of which no load is solved yet."""
+    surface, count = scaled.surface, loads.values.size
+    unknown = partial(np.full, count, math.nan)
+    return SurfaceCurve(
+        depth=unknown(),
+        force=unknown(),
+        stiffness=unknown(),
+        unloading_stiffness=unknown(),
+        area_fraction=unknown(),
+        area_fraction_corrected=unknown(),
+        area_fraction_most=unknown(),
+        plastic_fraction=unknown(),
+        indentation=unknown(),
+        work=unknown(),
+        dissipated_work=unknown(),
+        pulling_fraction=unknown(),
+        border_share=unknown(),
+        on_approach=np.zeros(count, dtype=bool),
+        status=np.full(count, Status.INTERRUPTED, dtype=np.int8),
+        residual=unknown(),
+        residual_of=(),
+        resolved=np.zeros(count, dtype=bool),
+        convolutions=np.zeros(count, dtype=np.int64),
+        measured=all_measured(measures, np.full((count, len(measures)), math.nan)),
         half_space=half_space,
         rms_height=surface.rms_height,
         length=surface.length,
@@ -175,141 +147,159 @@ def _curve(
             "precision": method.precision,
             **({} if isinstance(half_space, Homogeneous) else {"half_space": repr(half_space)}),
             **law.settings,
-            **resolution(law_there),
+            **resolution(scaled.law(law)),
             **as_body(surface.settings),
         },
-        warnings=(
-            *border_doubts(surface),
-            *grave_effects(surface),
-            *tilt_warnings(surface),
-            *at_the_border,
-            *remarks(law_there, scaled.separation()),
-        ),
-        pull_off_depth=pull_off_depth,
-        pull_off_force=pull_off_force,
-        border_share=shares,
-        residual_of=tuple(result.residual_of for result in results),
         surface=surface,
-        dents=tuple(result.dents for result in results) if law.memory == "dents" else (),
         law=law,
         control=loads.control,
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _LoadResult:
-    """Quantities of the curve under one load by their names, and more.
+class _Record:
+    """A curve that is written load by load, with what loads leave beside their numbers."""
 
-    The defaults are those of a load that was not solved.
-    """
-
-    status: Status = Status.INTERRUPTED
-    residual: float = math.nan
-    residual_of: str = ""
-    convolutions: int = 0
-    resolved: bool = False
-    depth: float = math.nan
-    force: float = math.nan
-    stiffness: float = math.nan
-    unloading_stiffness: float = math.nan
-    area_fraction: float = math.nan
-    area_fraction_corrected: float = math.nan
-    area_fraction_most: float = math.nan
-    plastic_fraction: float = math.nan
-    indentation: float = math.nan
-    work: float = math.nan
-    dissipated_work: float = math.nan
-    pulling_fraction: float = math.nan
-    on_approach: bool = False
-    stored_work: float = math.nan  # that bodies give back if they come apart slowly
-    border_share: float = math.nan  # of the force
-    fields: Fields | None = None  # if they are kept
-    measures: Sequence[float] = ()
-    dents: Indentation | None = None  # if the surface is indented
-    pull_off: tuple[float, float] | None = None  # depth and force, if bodies came off
-
-    @classmethod
-    def of(
-        cls,
-        contact: Contact,
-        response: Response | None,
+    def __init__(
+        self,
+        curve: SurfaceCurve,
         scaled: ScaledSurface,
-        law: ContactLaw,
-        *,
-        with_fields: bool,
+        kept: frozenset[int],
         measures: Sequence[Measure],
-    ) -> _LoadResult:
-        """Return what one load gives, by the contact in the units of a scaled, untouched surface.
+    ) -> None:
+        count = curve.status.size
+        self._curve = curve
+        self._scaled = scaled
+        self._kept = kept
+        self._measures = measures
+        self._fields: list[Fields | None] = [None] * count
+        self._dents: list[Indentation | None] = [None] * count
+        self._residual_of = [""] * count
+        self._pulls: list[tuple[float, float]] = []  # depth and force, where bodies came off
+
+    def write(self, at: Indices, contact: Contact, response: Response | None) -> None:
+        """Write the contact under one load, in the units of the scaled surface, to equal loads.
 
         There is no response where the contact was not certified.
         """
-        worst, of = contact.residuals.worst, contact.residuals.worst_is_of
-        if contact.outcome is Outcome.UNKNOWN_SURFACE:
-            return cls(Status.UNKNOWN_SURFACE)
-        if contact.outcome is Outcome.PULLED_OFF:
-            pull = contact.depth * scaled.height, contact.force * scaled.force
-            return cls(Status.PULLED_OFF, convolutions=contact.convolutions, pull_off=pull)
-        if response is None:
-            return cls(Status[contact.outcome.name], worst, of, contact.convolutions)
-        if not response.converged:
-            return cls(Status.NO_TANGENT, worst, of, contact.convolutions)
+        curve, scaled, outcome = self._curve, self._scaled, contact.outcome
+        status = Status[outcome.name]
+        if outcome is Outcome.PULLED_OFF:
+            self._pulls.append((contact.depth * scaled.height, contact.force * scaled.force))
+        elif outcome is not Outcome.UNKNOWN_SURFACE:
+            curve.residual[at] = contact.residuals.worst
+            for load in at.tolist():
+                self._residual_of[load] = contact.residuals.worst_is_of
+            if response is not None:
+                status = Status.CONVERGED if response.converged else Status.NO_TANGENT
+        if response is not None and status is Status.CONVERGED:
+            self._write_solved(at, contact, response)
+        curve.convolutions[at[0]] = contact.convolutions  # equal ones later on take none
+        curve.status[at] = status  # last: until then the load is interrupted
+
+    def _write_solved(self, at: Indices, contact: Contact, response: Response) -> None:
+        """Write the quantities of a contact that was solved."""
+        curve, scaled, law = self._curve, self._scaled, self._curve.law
         cells, nodes = int(np.count_nonzero(~contact.pulling)), contact.separation.size
         most, overstated = _overstated(contact, scaled, law)
-        dents = _dents(contact, scaled) if law.memory == "dents" else None
+        dents = self._dents_after(int(at[0]), contact) if law.memory == "dents" else None
         dissipated = indented = 0.0
         if dents is not None:
             work = law.bounds(dents.nodes)[1] * dents.depth
             dissipated, indented = scaled.cell_area * float(work.sum()), float(dents.depth.max())
-        fields = _fields(contact, scaled, dents) if with_fields or measures else None
+        self._keep_fields(at.tolist(), contact, dents)
         k = scaled.force / scaled.height
         stored = _elastic_energy(contact) + _energy_of_pull(contact)
-        return cls(
-            status=Status.CONVERGED,
-            residual=worst,
-            residual_of=of,
-            convolutions=contact.convolutions,
-            resolved=cells >= RESOLVED_FROM,
-            depth=contact.depth * scaled.height,
-            force=contact.force * scaled.force,
-            stiffness=response.loading.stiffness * k,
-            unloading_stiffness=response.unloading.stiffness * k,
-            area_fraction=cells / nodes,
-            area_fraction_corrected=cells / nodes - overstated / nodes,
-            area_fraction_most=(cells + most - overstated) / nodes,
-            plastic_fraction=float(contact.plastic.sum()) / cells if cells else 0.0,
-            indentation=indented,
-            work=stored * scaled.force * scaled.height + dissipated,
-            dissipated_work=dissipated,
-            stored_work=stored * scaled.force * scaled.height,
-            pulling_fraction=_pulling_nodes(contact) / nodes,
-            border_share=share_at_border(contact),
-            fields=fields if with_fields else None,
-            measures=[] if fields is None else [each.of(fields) for each in measures],
-            dents=dents,
+        curve.resolved[at] = cells >= RESOLVED_FROM
+        curve.depth[at] = contact.depth * scaled.height
+        curve.force[at] = contact.force * scaled.force
+        curve.stiffness[at] = response.loading.stiffness * k
+        curve.unloading_stiffness[at] = response.unloading.stiffness * k
+        curve.area_fraction[at] = cells / nodes
+        curve.area_fraction_corrected[at] = cells / nodes - overstated / nodes
+        curve.area_fraction_most[at] = (cells + most - overstated) / nodes
+        curve.plastic_fraction[at] = float(contact.plastic.sum()) / cells if cells else 0.0
+        curve.indentation[at] = indented
+        curve.work[at] = stored * scaled.force * scaled.height + dissipated
+        curve.dissipated_work[at] = dissipated
+        curve.pulling_fraction[at] = _pulling_nodes(contact) / nodes
+        curve.border_share[at] = share_at_border(contact)
+
+    def _keep_fields(self, at: list[int], contact: Contact, dents: Indentation | None) -> None:
+        """Keep the fields of loads that are asked for, and take measures from them."""
+        kept = self._kept.intersection(at)
+        if not kept and not self._measures:
+            return
+        fields = _fields(contact, self._scaled, dents)
+        for each, value in [(each, each.of(fields)) for each in self._measures]:
+            self._curve.measured[each.name].values[at] = value
+        for load in kept:
+            self._fields[load] = fields
+
+    def _dents_after(self, load: int, contact: Contact) -> Indentation | None:
+        """Return and keep the dents that a load leaves; one memory for all that add none."""
+        dents, before = _dents(contact, self._scaled), self._dents[load - 1] if load else None
+        if dents is not None and before is not None and dents.equals(before):
+            dents = before
+        self._dents[load] = dents
+        return dents
+
+    def whole(self, loads: Loads) -> SurfaceCurve:
+        """Return the curve over all loads, with what depends on the loads before."""
+        curve, scaled = self._curve, self._scaled
+        known = curve.status != Status.INTERRUPTED
+        if not known.all():  # one may have been interrupted as it was written
+            curve = among_loads(at_loads(curve, np.flatnonzero(known)), known)
+        curve = _along_the_path(curve)
+        # the prescribed value is returned unchanged; its error is part of the residual
+        prescribed = curve.force if loads.control == "forces" else curve.depth
+        np.copyto(prescribed, loads.values, where=curve.converged)
+        law_there, surface = scaled.law(curve.law), curve.surface
+        pull_off_depth, pull_off_force = self._pull_off(curve, law_there)
+        return replace(
+            curve,
+            pull_off_depth=pull_off_depth,
+            pull_off_force=pull_off_force,
+            residual_of=_of_known(self._residual_of, known, ""),
+            fields=_of_known(self._fields, known, None) if self._kept else (),
+            dents=_of_known(self._dents, known, None) if curve.law.memory == "dents" else (),
+            warnings=(
+                *border_doubts(surface),
+                *grave_effects(surface),
+                *tilt_warnings(surface),
+                *_jump_warnings(surface, curve.half_space.repeats),
+                *border_warnings(surface, curve.force, curve.border_share),
+                *remarks(law_there, scaled.separation()),
+            ),
         )
 
+    def _pull_off(self, curve: SurfaceCurve, law: ContactLaw) -> tuple[float, float]:
+        """Return the depth and the force of the largest pull; NaN unless the grid resolves them.
 
-def _columns(results: Sequence[_LoadResult]) -> dict[str, Any]:
-    """Return each quantity of the results as an array over the loads, by its name."""
-    return {
-        each.name: np.array(
-            [getattr(result, each.name) for result in results], QUANTITIES[each.name].dtype
-        )
-        for each in dataclasses.fields(_LoadResult)
-        if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
-    }
+        Bodies come off at a load on retreat after which they pull less, or between two forces.
+        """
+        unknown = math.nan, math.nan
+        if law.only_pushes or not resolves_pull_off(law):
+            return unknown
+        known = np.flatnonzero(np.isfinite(curve.depth))
+        force, depth, nearer = curve.force[known], curve.depth[known], curve.on_approach[known]
+        passed = ~nearer[:-1] & ~nearer[1:] & (force[1:] >= force[:-1]) & (force[:-1] < 0)
+        on_retreat = zip(depth[:-1][passed].tolist(), force[:-1][passed].tolist(), strict=True)
+        return min([*self._pulls, *on_retreat], key=lambda each: each[1], default=unknown)
 
 
-def _along_the_path(
-    depth: Real, force: Real, results: Sequence[_LoadResult], law: ContactLaw
-) -> dict[str, Any]:
-    """Return what depends on the loads before: the branch, and the work of bodies that stick."""
-    nearer = {"on_approach": comes_nearer(depth)}
-    if law.memory != "path":
-        return nearer
-    stored = np.array([result.stored_work for result in results])
-    work = _work_done(depth, force, stored)
-    return {**nearer, "work": work, "dissipated_work": work - stored}
+def _of_known(kept: Sequence[_Kept], known: Mask, other: _Kept) -> tuple[_Kept, ...]:
+    """Return what is kept of loads, where they are known."""
+    return tuple(each if is_known else other for each, is_known in zip(kept, known, strict=True))
+
+
+def _along_the_path(curve: SurfaceCurve) -> SurfaceCurve:
+    """Return a curve with what depends on the loads before: branch, and work where bodies stick."""
+    curve = replace(curve, on_approach=comes_nearer(curve.depth))
+    if curve.law.memory != "path":
+        return curve
+    stored = curve.work  # of each load by itself: nothing is dented
+    work = _work_done(curve.depth, curve.force, stored)
+    return replace(curve, work=work, dissipated_work=work - stored)
 
 
 def _work_done(depth: Real, force: Real, stored: Real) -> Real:
@@ -342,25 +332,6 @@ def _work_done(depth: Real, force: Real, stored: Real) -> Real:
             done[way] += along(at[way]) - along(at[first])
     work[known] = stored[known][0] + done
     return work
-
-
-def _pull_off(
-    results: Sequence[_LoadResult], values: Mapping[str, Any], law: ContactLaw
-) -> tuple[float, float]:
-    """Return the depth and the force of the largest pull; NaN unless the grid resolves them.
-
-    Bodies come off at a load on retreat after which they pull less, or between two forces.
-    """
-    unknown = math.nan, math.nan
-    if law.only_pushes or not resolves_pull_off(law):
-        return unknown
-    pulls = [each.pull_off for each in results if each.pull_off is not None]
-    known = np.flatnonzero(np.isfinite(values["depth"]))
-    force, depth = values["force"][known], values["depth"][known]
-    nearer = values["on_approach"][known]
-    passed = ~nearer[:-1] & ~nearer[1:] & (force[1:] >= force[:-1]) & (force[:-1] < 0)
-    pulls += zip(depth[:-1][passed].tolist(), force[:-1][passed].tolist(), strict=True)
-    return min(pulls, key=lambda each: each[1]) if pulls else unknown
 
 
 def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tuple[float, float]:

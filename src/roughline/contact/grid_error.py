@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.full_contact import in_full_contact
 from roughline.contact.loads import Loads
 from roughline.contact.measures import Measured
@@ -41,7 +41,7 @@ _FASTEST_OF_POINTS = 4 / 3
 _NEARLY_ALL = 0.9  # of a softer body at the hardness: as far as it is loaded at most
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
-_Press = Callable[..., Curve]
+_Press = Callable[..., SurfaceCurve]
 """Presses another surface under some loads, by a contact law, and measures as the first was."""
 
 
@@ -96,7 +96,9 @@ class _Grids:
         return max(1.0, self.full.rms_slope / half) if half > 0 else 1.0
 
 
-def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press) -> Curve:
+def with_grid_error(
+    curve: SurfaceCurve, surface: Surface, loads: Loads, press: _Press
+) -> SurfaceCurve:
     """Add to a curve the discretisation errors estimated from coarser grids.
 
     The error of a stiffness is the steepening m, by which two finer grids raise the rms slope,
@@ -126,9 +128,6 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
     """
     k, k_u, area = curve.stiffness, curve.unloading_stiffness, curve.area_fraction_corrected
     law = curve.law
-    assert k_u is not None
-    assert area is not None
-    assert law is not None
     grids = _Grids.of(surface)
     laws = grids.laws(law)
     try:
@@ -158,14 +157,14 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press)
         )
 
 
-def _of_pull_off(curve: Curve, coarser: Sequence[Curve]) -> float:
+def _of_pull_off(curve: SurfaceCurve, coarser: Sequence[SurfaceCurve]) -> float:
     """Discretisation error of the pull-off force. [force]"""
     return float(
         _between(np.array([each.pull_off_force for each in coarser]), curve.pull_off_force)
     )
 
 
-def _unknown(curve: Curve, error: InputError) -> Curve:
+def _unknown(curve: SurfaceCurve, error: InputError) -> SurfaceCurve:
     """Say of a curve why its errors are not known."""
     unknown = np.full(curve.depth.shape, np.nan)
     return replace(
@@ -191,7 +190,7 @@ def refuse_few_points(surface: Surface) -> None:
         )
 
 
-def _of_compliance(name: str, coarser: Sequence[Curve], curve: Curve) -> Real:
+def _of_compliance(name: str, coarser: Sequence[SurfaceCurve], curve: SurfaceCurve) -> Real:
     """Root of the squares by which a compliance differs between grids, over that of the surface."""
     full = getattr(curve, name)
     values = np.array([getattr(each, name) for each in coarser])
@@ -200,7 +199,9 @@ def _of_compliance(name: str, coarser: Sequence[Curve], curve: Curve) -> Real:
     return np.where(np.isinf(found) | is_apart, np.nan, found)
 
 
-def _of_rims(curve: Curve, surface: Surface, law: ContactLaw, press: _Press) -> tuple[Real, Real]:
+def _of_rims(
+    curve: SurfaceCurve, surface: Surface, law: ContactLaw, press: _Press
+) -> tuple[Real, Real]:
     """What the rims of plateaus change of the compliance and of the area's logarithm."""
     none = np.zeros(curve.depth.shape)
     whole = with_whole_plateaus(surface)
@@ -209,10 +210,6 @@ def _of_rims(curve: Curve, surface: Surface, law: ContactLaw, press: _Press) -> 
     found = _pressed_again(curve, whole, law, press)
     k, area = curve.unloading_stiffness, curve.area_fraction_corrected
     raised, wider = found.unloading_stiffness, found.area_fraction_corrected
-    assert k is not None
-    assert area is not None
-    assert raised is not None
-    assert wider is not None
     with np.errstate(invalid="ignore", divide="ignore"):
         of_k, of_area = np.abs(1 - k / raised), np.abs(np.log(wider / area))
     return np.where(k == raised, 0.0, of_k), np.where(area == wider, 0.0, of_area)
@@ -227,7 +224,7 @@ def _between(of_coarser: Sequence[Real] | Real, of_surface: Real | float) -> Rea
     )
 
 
-def _of_yield(alike: Curve, softer: Curve) -> Real:
+def _of_yield(alike: SurfaceCurve, softer: SurfaceCurve) -> Real:
     """Share that a softer body takes from the compliance on unloading.
 
     Near full contact a softer body is flattened more than waves alone would: it counts by the root
@@ -235,19 +232,19 @@ def _of_yield(alike: Curve, softer: Curve) -> Real:
     """
     before, after = alike.unloading_stiffness, softer.unloading_stiffness
     area = softer.area_fraction_corrected
-    assert before is not None
-    assert after is not None
-    assert area is not None
     share = 1 - np.minimum(before, after) / np.maximum(before, after)
     return np.where(before == after, 0.0, share * np.sqrt(np.maximum(1 - area, 0.0)))
 
 
 def _of_area(
-    curve: Curve, law: ContactLaw, coarser: Sequence[Curve], steepening: float, points: int
+    curve: SurfaceCurve,
+    law: ContactLaw,
+    coarser: Sequence[SurfaceCurve],
+    steepening: float,
+    points: int,
 ) -> Real:
     """Logarithm of the factor by which the contact area may differ."""
     area = curve.area_fraction_corrected
-    assert area is not None
     values = np.array([each.area_fraction_corrected for each in coarser])
     between = _between(np.log(np.where(values == area, 1.0, values / area)), 0.0)
     opened = np.hypot(_steeper(steepening**_OF_STEEPENING, area), _OF_AREA * between)
@@ -270,8 +267,8 @@ def _excess(squares: Sequence[float], acceleration: float) -> float:
 
 
 def _softer(
-    grids: _Grids, steepening: float, curve: Curve, law: ContactLaw, press: _Press
-) -> tuple[Curve, Curve]:
+    grids: _Grids, steepening: float, curve: SurfaceCurve, law: ContactLaw, press: _Press
+) -> tuple[SurfaceCurve, SurfaceCurve]:
     """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
 
     Where pressures have no upper bound, or where no slope is added, both are the curve of n / 2
@@ -286,8 +283,8 @@ def _softer(
 
 
 def _pressed_again(
-    curve: Curve, surface: Surface, law: ContactLaw, press: _Press, share: float = 1.0
-) -> Curve:
+    curve: SurfaceCurve, surface: Surface, law: ContactLaw, press: _Press, share: float = 1.0
+) -> SurfaceCurve:
     """Press a surface softer under a share of the forces of its curve, as far as it bears them."""
     known = np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
     if not known.any():
@@ -308,7 +305,11 @@ def _steeper(steepening: float, area: Real) -> Real:
 
 
 def _measured(
-    curve: Curve, surface: Surface, coarser: Sequence[Curve], steepening: float, press: _Press
+    curve: SurfaceCurve,
+    surface: Surface,
+    coarser: Sequence[SurfaceCurve],
+    steepening: float,
+    press: _Press,
 ) -> Mapping[str, Measured]:
     """Return the measures of a curve with the ends of their intervals.
 
@@ -320,7 +321,6 @@ def _measured(
         for name in curve.measured
     }
     steeper: Mapping[str, Measured] = {}
-    assert curve.law is not None
     pushed = curve.law.only_pushes
     if pushed and steepening > 1 and any((each == 0).any() for each in grids.values()):
         # pressures and gaps of the steeper surface, in units so many times larger

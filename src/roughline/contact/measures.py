@@ -154,7 +154,7 @@ def checked_measures(given: Any) -> tuple[Measure, ...]:
 
 
 def all_measured(
-    measures: Sequence[Measure], values: Sequence[Sequence[float]]
+    measures: Sequence[Measure], values: Sequence[Sequence[float]] | Real
 ) -> dict[str, Measured]:
     """Measures by their names, of which values stand in a row for each load."""
     table = np.array(values, dtype=float).reshape(len(values), len(measures))

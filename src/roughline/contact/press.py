@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Literal
+from typing import Literal, TypedDict, TypeVar, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,9 +15,10 @@ from roughline.contact.arguments import (
     checked_count,
     given_half_space,
     given_law,
+    given_stickiness,
     kept_loads,
 )
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.estimates import (
     bytes_of_layers,
     bytes_of_pull,
@@ -40,6 +41,37 @@ from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.profile import Profile
 
+_Curve = TypeVar("_Curve", bound=Curve)
+
+
+class _Asked(TypedDict, total=False):
+    """What :func:`press` takes beside the body, which alone decides the kind of curve."""
+
+    E_star: float | None
+    half_space: HalfSpace | None
+    hardness: float | None
+    law: ContactLaw | None
+    depths: ArrayLike | None
+    forces: ArrayLike | None
+    n_loads: int | None
+    periodic: Periodic | None
+    fields: bool | Sequence[int]
+    measures: Sequence[Measure]
+    grid_error: bool
+    rtol: float
+    max_iterations: int
+    precision: Literal["mixed", "float64", "float32"]
+    throw: bool
+    progress: Callable[[int, int], None] | None
+
+
+@overload
+def press(body: Surface, **asked: Unpack[_Asked]) -> SurfaceCurve: ...
+@overload
+def press(body: Line | Profile, **asked: Unpack[_Asked]) -> LineCurve: ...
+@overload
+def press(body: Body | Profile, **asked: Unpack[_Asked]) -> SurfaceCurve | LineCurve: ...
+
 
 @public_names
 def press(
@@ -61,7 +93,7 @@ def press(
     precision: Literal["mixed", "float64", "float32"] = "mixed",
     throw: bool = True,
     progress: Callable[[int, int], None] | None = None,
-) -> Curve:
+) -> SurfaceCurve | LineCurve:
     """Press a rough body into an elastic half-space.
 
     A :class:`~roughline.Surface` is solved with the full model (every interaction, the
@@ -141,9 +173,10 @@ def press(
 
     Returns
     -------
-    Curve
-        Depth, force, exact stiffness on loading and on unloading, and real contact area for each
-        load; with a hardness also how much yields, the indentation and the work.
+    SurfaceCurve or LineCurve
+        Depth, force and exact stiffness for each load. Of a surface also the stiffness on
+        unloading, the real contact area, how much yields, the indentation and the work. A line and
+        a profile give a :class:`~roughline.LineCurve`, which has no fields.
 
     Raises
     ------
@@ -186,7 +219,6 @@ def press(
     [0.308]
     """
     half_space = given_half_space(half_space, E_star, periodic)
-    law = given_law(law, hardness, body)
     rtol = between("rtol", rtol, 1e-12, 0.1, "a tolerance from 1e-12 to 0.1 is needed")
     max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = flag("grid_error", grid_error)
@@ -197,17 +229,19 @@ def press(
         refuse("progress", progress, "a function of (loads done, loads in all) is needed")
     given = GivenLoads(depths, forces, n_loads)
     if isinstance(body, Line | Profile):
-        sought = grid_error or fields is not False
-        homogeneous = _of_reduced(body, half_space, sought, measures)
+        stickiness = given_stickiness(law, hardness, body)
+        _refuse_fields(body, half_space, grid_error or fields is not False, measures)
+        springs = _half_space_of_springs(body, half_space)
         if isinstance(body, Line):
-            return _complete(body, press_line(body, homogeneous, given), throw)
-        return _complete(body, press_profile(body, homogeneous, law, given), throw)
+            return _complete(body, press_line(body, springs, given), throw)
+        return _complete(body, press_profile(body, springs, stickiness, given), throw)
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed, or a Profile of a "
             "body of revolution: wrap heights as Surface(heights, sizes=(Lx, Ly)) or Line(heights, "
             "length=L), and a topography of SurfaceTopography as Surface(topography)"
         )
+    law = given_law(law, hardness)
     half_space.refuse(body.spacing)
     law.refuse_grid(half_space, body.spacing)
     single = precision == "float32"
@@ -235,7 +269,7 @@ def press(
     return _complete(body, curve, throw)
 
 
-def _complete(body: Body | Profile, curve: Curve, throw: bool) -> Curve:
+def _complete(body: Body | Profile, curve: _Curve, throw: bool) -> _Curve:
     """Return a curve; with `throw`, refuse one of which a load was not solved."""
     warn_of_strain(body, curve)
     if throw and not curve.converged.all():
@@ -243,10 +277,10 @@ def _complete(body: Body | Profile, curve: Curve, throw: bool) -> Curve:
     return curve
 
 
-def _of_reduced(
+def _refuse_fields(
     body: Line | Profile, half_space: HalfSpace, fields: bool, measures: Sequence[Measure]
-) -> Homogeneous:
-    """Return the half-space of the reduced model; refuse what that does not have."""
+) -> None:
+    """Refuse what needs fields, which the reduced model does not have."""
     name = f"the reduced model of a {type(body).__name__}"
     if any(half_space.repeats) or fields:
         raise InputError(
@@ -259,6 +293,10 @@ def _of_reduced(
             "out, or press a Surface",
             "measures",
         )
+
+
+def _half_space_of_springs(body: Line | Profile, half_space: HalfSpace) -> Homogeneous:
+    """Return the half-space that springs stand for; refuse one that has no single modulus."""
     if not isinstance(half_space, Homogeneous):
         raise InputError(
             f"half_space is {shown(half_space)}; the springs of a {type(body).__name__} have one "
@@ -311,7 +349,8 @@ def _failure_message(curve: Curve) -> str:
                     f"; the largest is {-curve.pull_off_force:.4g}, at depth "
                     f"{curve.pull_off_depth:.4g}"
                 )
-            if status in (Status.STALLED, Status.MAX_ITERATIONS):
+            searched = status in (Status.STALLED, Status.MAX_ITERATIONS)
+            if searched and isinstance(curve, SurfaceCurve):
                 worst = failed[curve.residual[failed].argmax()]
                 residual, of = curve.residual[worst], curve.residual_of[worst]
                 parts[-1] += f"; worst residual {residual:.1e}, that of {of}"

@@ -28,13 +28,13 @@ from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import LARGEST, given_half_space
 from roughline.contact.creep import Creep, memory_of_strain, memory_of_stress
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.curve_files import checked_name, write_curve
 from roughline.contact.fading_memory import FadingMemory
 from roughline.contact.loads import checked_numbers, comes_nearer
 from roughline.contact.press import press
 from roughline.contact.quantities import QUANTITIES, Quantity
-from roughline.contact.selection import at_loads
+from roughline.contact.selection import at_loads, loads_with_fields
 from roughline.errors import InputError
 from roughline.errors.checks import between, refuse
 from roughline.errors.public import public_names
@@ -97,12 +97,12 @@ class CreepCurve:
         Exact dF/dd of a further load that is fast beside all relaxation times: that of the contact
         with the modulus E_0. A slow one meets less. [force / length]
     area_fraction, area_fraction_corrected : ndarray, shape (times,), or None
-        Real over nominal contact area, as in :class:`Curve`; None for a line.
+        Real over nominal contact area, as in :class:`SurfaceCurve`; None for a line.
     force_error : ndarray, shape (times,)
         Bound of the error of `force` where the depth moves, as the force between the depths that
         were pressed is known by its slopes; the tolerance of each press, 1e-6, comes on top. It is
         zero where force or depth is constant, or where the force is given. [force]
-    elastic : Curve
+    elastic : SurfaceCurve or LineCurve
         The same contacts of an elastic body with the modulus E_0: of the same depth, area, gap and
         displacement, under another force.
     creep : Creep
@@ -116,7 +116,7 @@ class CreepCurve:
     area_fraction: Real | None
     area_fraction_corrected: Real | None
     force_error: Real
-    elastic: Curve = field(repr=False)
+    elastic: SurfaceCurve | LineCurve = field(repr=False)
     creep: Creep = field(repr=False)
 
     __repr__ = summary
@@ -401,7 +401,7 @@ def _rising(history: _History) -> _History:
 
 def _pressed(
     body: Body | Profile, half_space: HalfSpace, control: str, loads: Real, *, fields: bool = False
-) -> Curve:
+) -> SurfaceCurve | LineCurve:
     """Press elastic bodies under forces or to depths, of which the first may be zero."""
     touching, given = loads > 0, loads
     if not touching.all():  # a press takes zero as its last load only
@@ -411,8 +411,7 @@ def _pressed(
     if given is loads:
         return curve
     curve = at_loads(curve, np.where(touching, np.cumsum(touching) - 1, -1))
-    nearer = None if curve.on_approach is None else comes_nearer(curve.depth)
-    return replace(curve, on_approach=nearer)
+    return replace(curve, on_approach=comes_nearer(curve.depth))
 
 
 def _relaxed(
@@ -530,7 +529,7 @@ def _refuse_falling_pressures(loads: Real, pressed: Callable[..., Curve]) -> Non
         return
     loads = np.geomspace(lowest, highest, _COMPARED_LOADS)
     curve = pressed("forces", loads, fields=True)
-    pressures = [each.pressure for each in curve.fields if each is not None]
+    pressures = [each.pressure for _, each in loads_with_fields(curve)]
     for i, (before, after) in enumerate(pairwise(pressures)):
         if np.maximum(before - after, 0.0).sum() > _FALL * after.sum():
             raise InputError(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from roughline._version import __version__
-from roughline.contact.curve import Curve
-from roughline.contact.loads import GivenLoads, line_loads
+from roughline.contact.curve import LineCurve
+from roughline.contact.loads import GivenLoads, comes_nearer, line_loads
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -17,7 +17,7 @@ from roughline.topography.effects import grave_effects
 from roughline.topography.settings import as_body
 
 
-def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> Curve:
+def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> LineCurve:
     """Press a reduced line on springs with the modulus of a half-space."""
     if line.kind == "profile":
         raise InputError(
@@ -33,15 +33,14 @@ def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> Curve:
     else:
         depth, touching = loads.values, springs.at_depths(loads.values)
         force = touching.force_at(depth)
-    return Curve(
+    return LineCurve(
         depth=depth,
         force=force,
         stiffness=touching.stiffness,
-        area_fraction=None,
-        area_fraction_corrected=None,
         status=np.zeros(depth.size, dtype=np.int8),
         resolved=touching.count >= RESOLVED_FROM,
         residual=np.zeros(depth.size),
+        on_approach=comes_nearer(depth),
         half_space=half_space,
         rms_height=line.rms_height,
         length=line.length,

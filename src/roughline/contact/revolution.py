@@ -8,25 +8,23 @@ import numpy as np
 
 from roughline._version import __version__
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import LineCurve
 from roughline.contact.loads import GivenLoads, comes_nearer, profile_loads
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.jkr import JKR
-from roughline.halfspace.laws.law import ContactLaw
 from roughline.reduction.revolution import Moved, Revolution
 from roughline.topography.profile import Profile
 
 
 def press_profile(
-    profile: Profile, half_space: Homogeneous, law: ContactLaw, given: GivenLoads
-) -> Curve:
+    profile: Profile, half_space: Homogeneous, law: JKR | None, given: GivenLoads
+) -> LineCurve:
     """Press a body of revolution by the reduction method."""
-    work_of_adhesion = law.work_of_adhesion if isinstance(law, JKR) else 0.0
+    work_of_adhesion = 0.0 if law is None else law.work_of_adhesion
     body = Revolution.of(profile.radii, profile.heights, half_space.E_star, work_of_adhesion)
-    sticks = not law.only_pushes
     if (falls := body.falls_at) is not None:
         raise InputError(
             f"this profile is so uneven from radius {falls:.3g} on that its contact would not be "
@@ -36,21 +34,19 @@ def press_profile(
     loads = profile_loads(profile, body, given)
     moves: list[Moved] = []
     for value in loads.values.tolist():
-        start = moves[-1].radius if moves and sticks else 0.0
+        start = moves[-1].radius if moves and law is not None else 0.0
         moves.append(body.moved(loads.control, start, value))
     radius = np.array([each.radius for each in moves])
     depth, force = _depths_and_forces(body, radius, loads.control == "forces", loads.values)
     is_solved = np.isfinite(depth)
     pulls = [each.pull_off for each in moves if each.pull_off is not None]
     pull_off_depth, pull_off_force = min(pulls, key=lambda pull: pull[1], default=[math.nan] * 2)
-    work, dissipated = _works(body, moves, depth) if sticks else (None, None)
-    share = np.where(is_solved, (radius / profile.largest_radius) ** 2, math.nan)
-    return Curve(
+    work, dissipated = (None, None) if law is None else _works(body, moves, depth)
+    return LineCurve(
         depth=depth,
         force=force,
         stiffness=np.where(is_solved, 2 * half_space.E_star * radius, math.nan),
-        area_fraction=share,
-        area_fraction_corrected=share,
+        area_fraction=np.where(is_solved, (radius / profile.largest_radius) ** 2, math.nan),
         status=np.where(is_solved, Status.CONVERGED, Status.PULLED_OFF).astype(np.int8),
         resolved=np.searchsorted(profile.radii, radius) >= RESOLVED_FROM,
         residual=np.where(is_solved, 0.0, math.nan),
@@ -62,15 +58,15 @@ def press_profile(
             "roughline_version": __version__,
             "model": "reduced",
             "control": loads.control,
-            **law.settings,
+            **({} if law is None else law.settings),
         },
         work=work,
         dissipated_work=dissipated,
-        on_approach=comes_nearer(depth) if sticks else None,
+        on_approach=comes_nearer(depth),
         pull_off_depth=pull_off_depth,
         pull_off_force=pull_off_force,
         warnings=_warnings(body, radius, depth),
-        law=law if sticks else None,
+        law=law,
         control=loads.control,
     )
 

@@ -10,18 +10,20 @@ from typing import Any, TypeVar
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 
 _Kept = TypeVar("_Kept")
+_Curve = TypeVar("_Curve", bound=Curve)
 
 
-def at_loads(curve: Curve, loads: Indices) -> Curve:
+def at_loads(curve: _Curve, loads: Indices) -> _Curve:
     """Return a curve at some of its loads, by their numbers; without its fields."""
     return _at_others(curve, lambda _name, values: values[loads])
 
 
-def among_loads(curve: Curve, solved: Mask, others: Status = Status.INTERRUPTED) -> Curve:
+def among_loads(curve: _Curve, solved: Mask, others: Status = Status.INTERRUPTED) -> _Curve:
     """Extend a curve to all loads, of which only these were solved: NaN at the others."""
 
     def spread(name: str, values: Any) -> Any:
@@ -30,12 +32,29 @@ def among_loads(curve: Curve, solved: Mask, others: Status = Status.INTERRUPTED)
         found[solved] = values
         return found
 
-    return replace(
-        _at_others(curve, spread),
-        fields=_spread(curve.fields, solved, None),
-        dents=_spread(curve.dents, solved, None),
-        residual_of=_spread(curve.residual_of, solved, ""),
-    )
+    kept: dict[str, Any] = {}
+    if isinstance(curve, SurfaceCurve):
+        kept["fields"] = _spread(curve.fields, solved, None)
+        kept["dents"] = _spread(curve.dents, solved, None)
+        kept["residual_of"] = _spread(curve.residual_of, solved, "")
+    return replace(_at_others(curve, spread), **kept)
+
+
+def first_fields(curve: Curve) -> Fields | None:
+    """Return the fields of the first load whose fields were kept; None where none were."""
+    kept = loads_with_fields(curve)
+    return kept[0][1] if kept else None
+
+
+def loads_with_fields(curve: Curve) -> list[tuple[int, Fields]]:
+    """Return the numbers of the loads whose fields were kept, each with these; none of a line."""
+    fields = curve.fields if isinstance(curve, SurfaceCurve) else ()
+    return [(load, each) for load, each in enumerate(fields) if each is not None]
+
+
+def without_fields(curve: _Curve) -> _Curve:
+    """Return a curve without the fields of its loads."""
+    return replace(curve, fields=()) if isinstance(curve, SurfaceCurve) else curve
 
 
 def _spread(kept: Sequence[_Kept], solved: Mask, other: _Kept) -> tuple[_Kept, ...]:
@@ -48,13 +67,15 @@ def _spread(kept: Sequence[_Kept], solved: Mask, other: _Kept) -> tuple[_Kept, .
     return tuple(found)
 
 
-def _at_others(curve: Curve, taken: Callable[[str, Any], Any]) -> Curve:
+def _at_others(curve: _Curve, taken: Callable[[str, Any], Any]) -> _Curve:
     """A curve at other loads, to which a function takes each quantity by its name and values."""
-    quantities = {item.name: getattr(curve, item.name) for item in fields(Curve)}
+    quantities = {item.name: getattr(curve, item.name) for item in fields(curve)}
     changed: dict[str, Any] = {
         name: taken(name, each) for name, each in quantities.items() if isinstance(each, np.ndarray)
     }
-    changed["measured"] = {
-        name: each.over(partial(taken, name)) for name, each in curve.measured.items()
-    }
-    return replace(curve, **changed, fields=(), dents=(), residual_of=())
+    if isinstance(curve, SurfaceCurve):
+        changed |= {"fields": (), "dents": (), "residual_of": ()}
+        changed["measured"] = {
+            name: each.over(partial(taken, name)) for name, each in curve.measured.items()
+        }
+    return replace(curve, **changed)

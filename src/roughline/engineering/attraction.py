@@ -12,7 +12,7 @@ from typing import Any
 
 from roughline.computing.arrays import Real
 from roughline.contact.arguments import STICKING, sticking_law
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.described import rows_of
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
@@ -136,7 +136,7 @@ class Separation:
     "In rows" are a value and, where they are known, both ends of its interval, (1 or 3,).
     """
 
-    curve: Curve  # over falling depths, from the largest load on
+    curve: SurfaceCurve  # over falling depths, from the largest load on
     pull_off: Real  # largest pull under a force that falls, in rows [N]
     area_fraction: Real  # that still touches under no load, in rows [1]
     work: float  # that is done from no load on until the bodies are apart [J]

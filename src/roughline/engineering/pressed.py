@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
 from roughline.contact.status import Status
@@ -171,7 +171,7 @@ class Pressed:
     @property
     def unloading(self) -> Real:
         """Contact stiffness on unloading k_u, in rows; of a line, which has no yield, k. [N / m]"""
-        if self.curve.unloading_stiffness is None:
+        if not isinstance(self.curve, SurfaceCurve):
             return self.loading
         ends = self.intervals.unloading if self.intervals else ()
         return np.stack([self.curve.unloading_stiffness, *ends]) * self.scale
@@ -189,7 +189,7 @@ class Pressed:
     @property
     def area_fraction(self) -> Real | None:
         """Corrected contact area fraction, in rows; None where the model has no area. [1]"""
-        if self.curve.area_fraction_corrected is None:
+        if not isinstance(self.curve, SurfaceCurve):
             return None
         ends = self.intervals.area if self.intervals else None
         return np.stack([self.curve.area_fraction_corrected, *(ends or ())])
@@ -218,6 +218,11 @@ class Pressed:
         return self.may_yield or self.hardest is not None
 
     @property
+    def yielded(self) -> SurfaceCurve | None:
+        """The curve, where points may yield; None where bodies are elastic."""
+        return self.curve if self.may_yield and isinstance(self.curve, SurfaceCurve) else None
+
+    @property
     def yields(self) -> bool:
         """Whether some of the contact is at the hardness, under any load."""
         return yields(self.curve)
@@ -237,4 +242,6 @@ class Pressed:
 
 def yields(curve: Curve) -> bool:
     """Whether some of the contact of a curve is at the hardness, under any load."""
-    return curve.plastic_fraction is not None and bool(np.nan_to_num(curve.plastic_fraction).any())
+    if not isinstance(curve, SurfaceCurve):
+        return False
+    return bool(np.nan_to_num(curve.plastic_fraction).any())

@@ -39,6 +39,7 @@ _CLASSES = {
     "Liquid": 'a Liquid, such as rl.fluid_of("water"),',
     "Gas": 'a Gas, such as rl.fluid_of("helium"),',
     "Curve": "a Curve, as rl.press returns it,",
+    "SurfaceCurve": "a SurfaceCurve, as rl.press returns it of a Surface,",
     "Flow": "a Flow, as rl.flow returns it,",
     "Comparison": "a Comparison, as rl.compare returns it,",
     "PowerLaw": "a PowerLaw, as rl.fit_power_law returns it,",
@@ -188,7 +189,9 @@ def _refuse_other_kinds(name: str, value: Any, parameter: inspect.Parameter) -> 
 
 def _how_to_make(value: Any, kinds: list[str]) -> str:
     """How a body is made of what came instead."""
-    if "Curve" in kinds and type(value).__name__ == "CreepCurve":
+    if type(value).__name__ == "LineCurve":
+        return ": the reduced model of a line gives no fields; press a Surface"
+    if {"Curve", "SurfaceCurve"} & {*kinds} and type(value).__name__ == "CreepCurve":
         return (
             ": draw one that creeps over the time, as creep.to_dataset().area_fraction.plot(xscale="
             '"log")'

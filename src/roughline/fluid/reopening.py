@@ -14,7 +14,7 @@ from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import checked_count
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import between, flag, one_of
@@ -84,7 +84,7 @@ class Reopening:
 
 @public_names
 def reopening(
-    curve: Curve,
+    curve: SurfaceCurve,
     load: int = -1,
     *,
     times: float = 10.0,
@@ -100,7 +100,7 @@ def reopening(
 
     Parameters
     ----------
-    curve : Curve
+    curve : SurfaceCurve
         Of a surface, by :func:`press`.
     load : int, optional
         Number of the load that is taken off, from 0; negative ones count from the last.
@@ -136,7 +136,6 @@ def reopening(
     rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
     interval = flag("interval", interval)
     left, law = curve.surface_after(load), curve.law
-    assert law is not None  # else there is no surface
     if law.memory == "path":
         raise InputError(
             f"is {type(law).__name__}, which remembers its path and not only dents: press the "
@@ -148,7 +147,7 @@ def reopening(
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
     search = _Search(curve.half_space, times, along, rtol)
     found = search.bracket(left, law, float(history[-1]))
-    if not interval or curve.surface is None or not is_judged(curve.surface, curve.half_space):
+    if not interval or not is_judged(curve.surface, curve.half_space):
         return found
     forces = np.array([np.nanmax(history), history[-1]])
     return search.with_interval(found, curve.surface, law, forces)

@@ -153,7 +153,7 @@ def sealing_pressure(
     if half_space is None and periodic is None:
         periodic = True
     half_space = given_half_space(half_space, E_star, periodic)
-    law = given_law(law, hardness, surface)
+    law = given_law(law, hardness)
     full = in_full_contact(surface, half_space)
     # in round numbers, so that it is sought alike wherever a repeated surface is cut
     share = float(f"{_PERCOLATING * _slope(full, half_space.repeats):.6g}")
@@ -228,7 +228,6 @@ class _Search:
             measures=[OPEN[self.along]],
             rtol=self.rtol / _FINER,
         )
-        assert curve.area_fraction is not None
         return bool(curve.measured[OPEN[self.along].name].values[0]), float(curve.area_fraction[0])
 
 

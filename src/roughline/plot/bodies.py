@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 from roughline.errors import InputError
@@ -74,12 +74,12 @@ def _draw_scale(
 
 
 @public
-def contact(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
+def contact(curve: SurfaceCurve, load: int = -1, axes: Axes | None = None) -> Axes:
     """Draw the real contact area at one load: black, and red where points are at the hardness.
 
     Parameters
     ----------
-    curve : Curve
+    curve : SurfaceCurve
         Of a surface, pressed with ``fields=True``.
     load : int, optional
         Number of the load, from 0; negative ones count from the last.
@@ -100,7 +100,7 @@ def contact(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
 
 
 @public
-def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
+def pressure(curve: SurfaceCurve, load: int = -1, axes: Axes | None = None) -> Axes:
     """Draw the pressure at one load; white where the bodies do not touch.
 
     Parameters
@@ -133,7 +133,7 @@ def draw_pressure(axes: Axes, fields: Fields, unit: str | None) -> None:
 
 
 def drawn_at(
-    curve: Curve,
+    curve: SurfaceCurve,
     load: int,
     axes: Axes | None,
     draw: Callable[[Axes, Fields, str | None], None],
@@ -155,8 +155,7 @@ def yield_key(fields: Fields) -> str:
     return "\nred: at the hardness" if fields.plastic.any() else ""
 
 
-def _title(curve: Curve, load: int) -> str:
-    assert curve.area_fraction_corrected is not None
+def _title(curve: SurfaceCurve, load: int) -> str:
     force = in_words(float(curve.force[load]), "N" if curve.unit == "m" else None)
     area, errors = float(curve.area_fraction_corrected[load]), curve.area_fraction_error
     digits = digits_known(area, None if errors is None else float(errors[load]))
@@ -164,12 +163,8 @@ def _title(curve: Curve, load: int) -> str:
     return f"corrected area {share}% at $F$ = {force}"
 
 
-def _at_load(curve: Curve, load: int) -> Fields | None:
+def _at_load(curve: SurfaceCurve, load: int) -> Fields | None:
     """Return the fields of a load; None where it was not solved."""
-    if curve.surface is None:
-        raise InputError(
-            "this curve is of a line: the reduced model gives no contact area and no pressure"
-        )
     if not curve.fields:
         raise InputError("this curve has no fields: press with fields=True")
     count = len(curve.fields)

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.errors.public import public
@@ -136,7 +136,7 @@ def rising(curve: Curve) -> Mask:
 
     Loads that were not solved count as such.
     """
-    if curve.on_approach is not None and _sticks(curve):
+    if _sticks(curve):
         return curve.on_approach | ~curve.converged
     return ~(curve.force < np.fmax.accumulate(curve.force))
 
@@ -169,13 +169,13 @@ def _explain(axes: Axes, curve: Curve) -> None:
 
 
 def _cells(curve: Curve) -> str:
-    return "springs" if curve.area_fraction is None else "cells"
+    return "cells" if isinstance(curve, SurfaceCurve) else "springs"
 
 
 def _values(curve: Curve, name: str) -> Real:
     """Return a quantity of a curve over its loads."""
     name_of(name)
-    values: Real | None = getattr(curve, name)
+    values: Real | None = getattr(curve, name, None)
     if values is None:
         raise InputError(
             f"this curve has no {name}: the glossary says which model gives which quantity"

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from matplotlib.axes import Axes
 
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.quantities import QUANTITIES
 from roughline.errors.checks import one_of
@@ -25,7 +25,7 @@ _TITLE = 8  # font size [pt]
 
 @public
 def distribution(
-    curve: Curve, of: Literal["gap", "pressure"], load: int = -1, axes: Axes | None = None
+    curve: SurfaceCurve, of: Literal["gap", "pressure"], load: int = -1, axes: Axes | None = None
 ) -> Axes:
     """Draw how the gap at one load is distributed over the area, or the pressure in contact.
 
@@ -44,7 +44,7 @@ def distribution(
 
 
 @public
-def patches(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
+def patches(curve: SurfaceCurve, load: int = -1, axes: Axes | None = None) -> Axes:
     """Draw how many contact patches at one load are at least so large, over their area.
 
     Parameters

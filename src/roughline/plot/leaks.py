@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.curve import Curve
+from roughline.contact.curve import SurfaceCurve
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, several
 from roughline.errors.public import public
@@ -25,7 +25,7 @@ _DASHES = (":", "-.")
 
 @public
 def hydraulic_aperture(
-    curves: Curve | Sequence[Curve],
+    curves: SurfaceCurve | Sequence[SurfaceCurve],
     theories: Sequence[Any] = (),
     labels: Sequence[str] = (),
     measure: str = "hydraulic_aperture_x",
@@ -38,7 +38,7 @@ def hydraulic_aperture(
 
     Parameters
     ----------
-    curves : Curve or sequence of Curve
+    curves : SurfaceCurve or sequence of SurfaceCurve
         Of surfaces, pressed with ``measures=[rl.hydraulic_aperture("x")]``.
     theories : sequence of TheoryCurve, optional
         What :func:`roughline.theory` gives for "critical-junction" and "bruggeman".
@@ -95,7 +95,7 @@ def hydraulic_aperture(
     return drawn
 
 
-def _axis_of_pressure(curve: Curve, pressures: Real) -> tuple[str, float]:
+def _axis_of_pressure(curve: SurfaceCurve, pressures: Real) -> tuple[str, float]:
     """Label of the axis, and the factor from mean pressures to it; over E* without a unit."""
     if curve.unit == "m":
         return in_unit("mean pressure $p$", pressures, "Pa")
@@ -188,10 +188,10 @@ def _add_leak(axes: Axes, of_length: str) -> None:
     cubed.set_ylabel(f"leak, in proportion to $u_h^3${of_length.replace(']', '³]')}")
 
 
-def _checked(curves: Any, measure: str, theories: Any, labels: Any) -> list[Curve]:
+def _checked(curves: Any, measure: str, theories: Any, labels: Any) -> list[SurfaceCurve]:
     """Curves that have a measure; theories of something else and other labels are refused."""
-    given = [curves] if isinstance(curves, Curve) else several(curves)
-    if not given or not all(isinstance(curve, Curve) for curve in given):
+    given = [curves] if isinstance(curves, SurfaceCurve) else several(curves)
+    if not given or not all(isinstance(curve, SurfaceCurve) for curve in given):
         refuse("curves", curves, "one or several curves, as rl.press returns them, are needed")
     if any(measure not in curve.measured for curve in given):
         raise InputError(

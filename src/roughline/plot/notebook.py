@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.press_creep import CreepCurve
 from roughline.contact.quantities import unit_of
@@ -64,19 +64,22 @@ def _of_curve(curve: Curve) -> str:
     columns: list[tuple[str, Real, Real | None, str | None]] = [
         ("depth d", curve.depth, None, "length"),
         ("force F", curve.force, None, "force"),
-        ("stiffness k", curve.stiffness, curve.stiffness_error, "force/length"),
     ]
-    if curve.hardness is not None and curve.unloading_stiffness is not None:
-        unloading = curve.unloading_stiffness, curve.unloading_stiffness_error
-        columns.append(("unloading stiffness", *unloading, "force/length"))
-    if curve.area_fraction is not None:
-        columns.append(("raw area", curve.area_fraction, None, None))
-    if curve.area_fraction_corrected is not None:
+    model = "reduced model"
+    if isinstance(curve, SurfaceCurve):
+        model = f"full model, {curve.half_space.boundary} half-space"
+        columns.append(("stiffness k", curve.stiffness, curve.stiffness_error, "force/length"))
+        if curve.hardness is not None:
+            unloading = curve.unloading_stiffness, curve.unloading_stiffness_error
+            columns.append(("unloading stiffness", *unloading, "force/length"))
         area = curve.area_fraction_corrected, curve.area_fraction_error
+        columns.append(("raw area", curve.area_fraction, None, None))
         columns.append(("corrected area A/A_0", *area, None))
-    model = "reduced model" if curve.area_fraction is None else "full model"
-    place = "" if curve.area_fraction is None else f", {curve.half_space.boundary} half-space"
-    title = f"Curve of the {model}{place}, E* = {_with_unit(curve.E_star, 'pressure', curve.unit)}"
+    else:
+        columns.append(("stiffness k", curve.stiffness, None, "force/length"))
+    if isinstance(curve, LineCurve) and curve.area_fraction is not None:
+        columns.append(("area A/A_0", curve.area_fraction, None, None))
+    title = f"Curve of the {model}, E* = {_with_unit(curve.E_star, 'pressure', curve.unit)}"
     header = ["load", *(name for name, *_ in columns), "remark"]
     reached = np.flatnonzero(curve.status != Status.INTERRUPTED)
     rows = [

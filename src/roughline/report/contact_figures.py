@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from itertools import cycle
 from pathlib import Path
@@ -12,6 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughline.contact.curve import SurfaceCurve
+from roughline.contact.selection import loads_with_fields, without_fields
 from roughline.plot.bodies import draw_contact, draw_heights, yield_key
 from roughline.plot.curves import draw_loads, rising
 from roughline.plot.pixels import any_marked, label_sides
@@ -46,7 +47,7 @@ def write_contact(assessment: Assessment, out: Path) -> list[Path]:
         If the folder cannot be written.
     """
     make_folder(out)
-    replace(assessment.curve, fields=()).write(out / "curve.nc")
+    without_fields(assessment.curve).write(out / "curve.nc")
     written = [out / "curve.nc"]
     with styled():
         written += save(curve_figure(assessment), out, "curve")
@@ -183,7 +184,7 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     y_label, stiffness = in_unit(name, curve.stiffness, "N/m", assessment.scale)
     draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve)
     _draw_interval(axes, curve, assessment.stiffness_interval, (force, stiffness))
-    if curve.hardness is not None and curve.unloading_stiffness is not None:
+    if isinstance(curve, SurfaceCurve) and curve.hardness is not None:
         loading = rising(curve)
         unloading = curve.unloading_stiffness[loading] * stiffness
         of_unloading = "k_u" if assessment.question.joint is None else "k_i"
@@ -198,7 +199,8 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
 def _draw_area(axes: Axes, assessment: Assessment) -> None:
     """Contact area over force with its interval, and theories."""
     curve = assessment.curve_over_loads
-    assert curve.area_fraction_corrected is not None
+    if not isinstance(curve, SurfaceCurve):
+        return
     label, force = _force_axis(assessment)
     draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve)
     _draw_interval(axes, curve, assessment.area_interval, (force, 1.0))
@@ -286,20 +288,15 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
 def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
     """Real contact area at the last load with stored fields; red where it yields."""
     curve = assessment.curve_over_loads
-    load = load_with_fields(curve)
-    fields = None if load is None else curve.fields[load]
-    if load is None or fields is None:
+    kept = loads_with_fields(curve)
+    if not kept:
         label_sides(axes, surface.sizes, "m")
         return
+    load, fields = kept[-1]
     draw_contact(axes, fields, "m")
     force = engineering(curve.force[load] * assessment.scale, "N")
     share = area_in_words(assessment, load)
     axes.set_title(f"corrected area {share} at {force}{yield_key(fields)}", fontsize=8)
-
-
-def load_with_fields(curve: Curve) -> int | None:
-    """Number of the last load whose fields are kept; None without any."""
-    return max((i for i, each in enumerate(curve.fields) if each is not None), default=None)
 
 
 def _has_falling_loads(assessment: Assessment) -> bool:

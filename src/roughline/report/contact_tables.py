@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
 from roughline.engineering.coated import Coated
@@ -42,7 +43,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     header = ["load", "depth", "force", "stiffness k"]
     if curve.hardness is not None:
         header += ["unloading k_u", "corrected A/A_0"]
-    elif curve.area_fraction is not None:
+    elif isinstance(curve, SurfaceCurve):
         header += ["raw area", "corrected A/A_0"]
     rows = []
     for i, heading in enumerate(starred(assessment)):
@@ -56,11 +57,11 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
             engineering(scale * force[i], _SI["force"]),
             _stiffness(curve.stiffness, loading, i, scale),
         ]
-        if curve.hardness is not None and curve.unloading_stiffness is not None:
-            row.append(_stiffness(curve.unloading_stiffness, unloading, i, scale))
-        elif curve.area_fraction is not None:
-            row.append(f"{curve.area_fraction[i]:.3%}")
-        if curve.area_fraction_corrected is not None:
+        if isinstance(curve, SurfaceCurve):
+            if curve.hardness is not None:
+                row.append(_stiffness(curve.unloading_stiffness, unloading, i, scale))
+            else:
+                row.append(f"{curve.area_fraction[i]:.3%}")
             share = float(curve.area_fraction_corrected[i])
             row.append(with_interval(share, _at(area, i), "%"))
         rows.append(row)
@@ -107,10 +108,11 @@ def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 def area_in_words(assessment: Assessment, load: int, write: Write = with_interval) -> str:
     """Write the corrected area fraction under a load of the curve, with the digits known of it."""
-    share = assessment.curve.area_fraction_corrected
-    if share is None:
+    curve = assessment.curve
+    if not isinstance(curve, SurfaceCurve):
         return "an area that is not known"
-    written = write(float(share[load]), _at(assessment.area_interval, load), "%")
+    share = float(curve.area_fraction_corrected[load])
+    written = write(share, _at(assessment.area_interval, load), "%")
     return value_and_interval(written)[0]
 
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
+from roughline.contact.selection import loads_with_fields
 from roughline.plot.distributions import draw_distribution, draw_patches
 from roughline.plot.flows import draw_flow
 from roughline.plot.style import PAGE, new_figure, save
-from roughline.report.contact_figures import load_with_fields
 from roughline.report.page import Picture, Section, Table
 from roughline.report.values import length
 from roughline.units import decimal, engineering
@@ -44,11 +44,10 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
 
     There are none where no fields are kept.
     """
-    load = load_with_fields(assessment.curve)
-    if load is None:
+    kept = loads_with_fields(assessment.curve)
+    if not kept:
         return [], []
-    fields = assessment.curve.fields[load]
-    assert fields is not None
+    load, fields = kept[-1]
     force = engineering(assessment.curve_over_loads.force[load] * assessment.scale, "N")
     files = save(fields_figure(fields), folder, "distributions")
     sections = [

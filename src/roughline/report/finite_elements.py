@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline._version import __version__
+from roughline.contact.curve import SurfaceCurve
 from roughline.errors import InputError, StoreError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
@@ -222,7 +223,7 @@ def _table_of(assessment: Assessment) -> _JointTable:
         )
     loading_ends, unloading_ends = (known.stiffness, known.unloading) if known else ((), ())
     columns = {_STIFFNESS: np.stack([curve.stiffness, *loading_ends]) / assessment.area}
-    if curve.hardness is not None and curve.unloading_stiffness is not None:
+    if isinstance(curve, SurfaceCurve) and curve.hardness is not None:
         unloading = np.stack([curve.unloading_stiffness, *unloading_ends])
         columns[_UNLOADING] = unloading / assessment.area
     columns |= _of_answers(assessment)

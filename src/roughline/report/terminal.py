@@ -11,6 +11,7 @@ from rich.text import Text
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.status import Status
 from roughline.errors.remark import grave_first
 from roughline.report.answers import (
@@ -57,7 +58,7 @@ def print_assessment(
     console.print(described(assessment.body), highlight=False, soft_wrap=True)
     curve, pair = assessment.curve, assessment.question.pair
     model = "reduced model, exact"
-    if curve.area_fraction is not None:
+    if isinstance(curve, SurfaceCurve):
         boundary = curve.half_space.boundary
         model = f"full model, {boundary} half-space, residuals below {curve.settings['rtol']}"
     console.print(f"{modulus_in_words(assessment)}; {model}", highlight=False)

@@ -73,11 +73,11 @@ def _beyond_elastic(pressed: Pressed) -> str:
 
 def _through_the_layer(pressed: Pressed) -> str:
     """Say where a layer is indented deeper than it is thick."""
-    softer, indentation = pressed.pair.softer, pressed.curve.indentation
-    if not pressed.may_yield or not isinstance(softer, Coated) or indentation is None:
+    softer, yielded = pressed.pair.softer, pressed.yielded
+    if yielded is None or not isinstance(softer, Coated):
         return ""
     (top, thickness), *_ = softer.layers
-    deepest = float(np.nanmax(indentation, initial=0.0))
+    deepest = float(np.nanmax(yielded.indentation, initial=0.0))
     if deepest <= thickness:
         return ""
     text = (
@@ -146,7 +146,7 @@ CONTACT = (
         formula="cells at the hardness over cells in contact",
         validity="elastic, perfectly plastic: no hardening, no pile-up",
         source="Almqvist et al. 2007",
-        value=lambda pressed: pressed.curve.plastic_fraction if pressed.may_yield else None,
+        value=lambda pressed: pressed.yielded.plastic_fraction if pressed.yielded else None,
         limits=lambda _pressed: (0.0, 1.0),
     ),
     _rule(
@@ -157,7 +157,7 @@ CONTACT = (
         formula="overlap at points at the hardness, which lowers the surface permanently",
         validity="at one point; the finest summits on the grid decide it",
         source="Almqvist et al. 2007",
-        value=lambda pressed: pressed.curve.indentation if pressed.may_yield else None,
+        value=lambda pressed: pressed.yielded.indentation if pressed.yielded else None,
         warning=_through_the_layer,
     ),
     _rule(

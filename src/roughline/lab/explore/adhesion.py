@@ -138,9 +138,8 @@ class Adhesion(Physics):
         """Whether the zone that pulls has enough cells."""
         return self.zone(state, n) >= RESOLVED_FROM
 
-    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Where bodies pull each other at the load, and how well the grid resolves that."""
-        assert pressed.pulling_fraction is not None
         cells, needed = self.zone(state, len(fields.gap)), RESOLVED_FROM
         is_resolved = cells >= needed
         return [
@@ -215,8 +214,8 @@ print("pull_off_force", off.pull_off_force, "N")
 class _Cycle:
     """Bodies that stick: to a load, beyond, back and off."""
 
-    by_forces: rl.Curve  # to the load, beyond, back to it, and to none
-    by_depths: rl.Curve  # from out of reach and back to it, over all that forces jump over
+    by_forces: rl.SurfaceCurve  # to the load, beyond, back to it, and to none
+    by_depths: rl.SurfaceCurve  # from out of reach and back to it, over all that forces jump over
     pull_off: tuple[float, float]  # depth and force; NaN where the grid does not resolve them
 
 
@@ -267,8 +266,6 @@ def _area_map(fields: rl.Fields) -> Map:
 def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
     """What the page draws of both ways, on so many points along a side."""
     by_forces, by_depths, (depth, pull) = found.by_forces, found.by_depths, found.pull_off
-    assert by_depths.on_approach is not None
-    assert by_depths.area_fraction is not None
     height, there = by_forces.rms_height, by_depths.on_approach
     depths, forces = by_depths.depth / height, state.force_bars(by_depths)
     here, is_known = [0, _BACK], math.isfinite(pull)
@@ -312,7 +309,6 @@ def _pull_off(found: _Cycle, state: ExploreState) -> str:
 def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
     """The contact on the way back, and the pull-off."""
     by_forces, pull = found.by_forces, found.pull_off[1]
-    assert by_forces.area_fraction_corrected is not None
     area = float(by_forces.area_fraction_corrected[_BACK])
     pressure = up_to_three_digits(pull / by_forces.length**2, None, "Pa")
     return [

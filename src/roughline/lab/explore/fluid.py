@@ -79,12 +79,12 @@ class Fluid(Physics):
         """The hydraulic aperture."""
         return (replace(_APERTURE, value=lambda fields: _flow(fields).hydraulic_aperture),)
 
-    def over_force(self, pressed: rl.Curve) -> dict[str, NDArray[np.float64]]:
+    def over_force(self, pressed: rl.SurfaceCurve) -> dict[str, NDArray[np.float64]]:
         """Hydraulic apertures over the rms height, zero where sealed. [1]"""
         measured = pressed.measured.get(_APERTURE.name)
         return {} if measured is None else {"aperture": measured.values / pressed.rms_height}
 
-    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """What comes through at the load, and the channel that carries most of it."""
         flow, ends = _flow(fields), None
         aperture = flow.hydraulic_aperture

@@ -111,7 +111,7 @@ class Layer(Physics):
         """Whether it is half a cell thick."""
         return self.t * n >= _THINNEST
 
-    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Its thickness on the grid, and its modulus."""
         thickness = up_to_three_digits(self.t * state.length, None, "m")
         modulus = up_to_three_digits(self.E_l * state.E_star, None, "Pa")

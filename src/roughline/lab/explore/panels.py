@@ -54,7 +54,9 @@ def kept(x: NDArray[Any], y: NDArray[Any], wanted: NDArray[np.bool_] | None = No
     return {"x": x[wanted], "y": y[wanted]}
 
 
-def loads(force_bar: NDArray[Any], values: NDArray[Any], pressed: rl.Curve) -> dict[str, Points]:
+def loads(
+    force_bar: NDArray[Any], values: NDArray[Any], pressed: rl.SurfaceCurve
+) -> dict[str, Points]:
     """Loads of a curve, apart from those with too few cells in contact."""
     is_known = pressed.converged & (values > 0)
     return {
@@ -63,7 +65,7 @@ def loads(force_bar: NDArray[Any], values: NDArray[Any], pressed: rl.Curve) -> d
     }
 
 
-def note_of(pressed: rl.Curve, n: int) -> str:
+def note_of(pressed: rl.SurfaceCurve, n: int) -> str:
     """Say what the marks of a curve are, and which loads have none."""
     failed = int((~pressed.converged).sum())
     unsure = "" if pressed.resolved.all() else "; * in the table: fewer than ten cells touch"

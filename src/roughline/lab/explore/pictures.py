@@ -252,7 +252,7 @@ def _lines(spectrum: rl.SelfAffine, springs: int, seed: int, count: int) -> tupl
     return tuple(spectrum.line(springs, seed + i) for i in range(count))
 
 
-def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> rl.Curve:
+def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> rl.LineCurve:
     """Press a line under dimensionless forces, scaled with its own rms height."""
     scale = state.E_star * line.rms_height * line.length
     return rl.press(line, E_star=state.E_star, forces=force_bars * scale)

@@ -27,7 +27,7 @@ def pressed_under(
     force_bar: NDArray[Any] | None,
     progress: Progress,
     **others: Any,
-) -> rl.Curve:
+) -> rl.SurfaceCurve:
     """Press a surface of the state under dimensionless forces, or under what others say."""
     return rl.press(
         surface,

@@ -99,15 +99,15 @@ class Physics:
         """What is measured of every load."""
         return ()
 
-    def over_force(self, pressed: rl.Curve) -> dict[str, NDArray[Any]]:
+    def over_force(self, pressed: rl.SurfaceCurve) -> dict[str, NDArray[Any]]:
         """What its panels show of loads, by their keys."""
         return {}
 
-    def beside_curve(self, pressed: rl.Curve, state: ExploreState) -> dict[str, Filled]:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> dict[str, Filled]:
         """What it adds to panels of the curve, by their keys."""
         return {}
 
-    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Its numbers of the answer strip at the load."""
         return []
 
@@ -260,7 +260,7 @@ class ExploreState:
         """Forces F = F̄ E* h L. [N]"""
         return force_bar * (self.E_star * self.rms_height * self.length)
 
-    def force_bars(self, pressed: rl.Curve) -> NDArray[np.float64]:
+    def force_bars(self, pressed: rl.SurfaceCurve) -> NDArray[np.float64]:
         """Dimensionless forces of a curve, over the E* of the state. [1]"""
         return pressed.force / self.force(1.0)
 
@@ -268,9 +268,8 @@ class ExploreState:
         """Stiffnesses of the full model, dimensionless over the E* of the state. [1]"""
         return stiffness_bar(stiffness, self.E_star, self.length, PAPER_PUNCH)
 
-    def over_force(self, pressed: rl.Curve) -> dict[str, NDArray[np.float64]]:
+    def over_force(self, pressed: rl.SurfaceCurve) -> dict[str, NDArray[np.float64]]:
         """What panels over force show of loads, by their keys."""
-        assert pressed.area_fraction_corrected is not None
         found = {
             "stiffness": self.stiffness_bars(pressed.stiffness),
             "area": pressed.area_fraction_corrected,

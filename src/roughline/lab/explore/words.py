@@ -37,7 +37,7 @@ def unlike(state: ExploreState) -> str:
 
 
 def contact_words(
-    pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surface, state: ExploreState
+    pressed: rl.SurfaceCurve, fields: rl.Fields | None, surface: rl.Surface, state: ExploreState
 ) -> list[Item]:
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
@@ -57,9 +57,8 @@ def contact_words(
     ]
 
 
-def _stiffness_and_area(pressed: rl.Curve, state: ExploreState) -> list[Item]:
+def _stiffness_and_area(pressed: rl.SurfaceCurve, state: ExploreState) -> list[Item]:
     intervals, unsure = intervals_of(pressed), not pressed.resolved[0]
-    assert pressed.area_fraction_corrected is not None
     stiffness, area = float(pressed.stiffness[0]), float(pressed.area_fraction_corrected[0])
     of_k, of_area = (
         (first(intervals.stiffness), first(intervals.area)) if intervals else (None, None)
@@ -91,7 +90,9 @@ def _stiffness_and_area(pressed: rl.Curve, state: ExploreState) -> list[Item]:
     ]
 
 
-def _pressure_and_depth(pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+def _pressure_and_depth(
+    pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState
+) -> list[Item]:
     force, depth = float(pressed.force[0]), float(pressed.depth[0])
     in_contact = float(fields.pressure[fields.contact].mean())
     over_hardness = f", {figure(in_contact / pressed.hardness)} H" if pressed.hardness else ""
@@ -122,9 +123,8 @@ def _pressure_and_depth(pressed: rl.Curve, fields: rl.Fields, state: ExploreStat
     ]
 
 
-def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str:
+def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool) -> str:
     """What was solved, how well, and how long it took."""
-    assert pressed.convolutions is not None
     certified = "certified" if pressed.converged[0] else "NOT CONVERGED"
     return (
         f"{n}²{' (coarse)' if is_coarse else ''}, {int(pressed.convolutions[0])} convolutions, "
@@ -143,7 +143,7 @@ def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
 
 
 def rows_of(
-    forces: NDArray[np.float64], values: NDArray[np.float64], pressed: rl.Curve, name: str
+    forces: NDArray[np.float64], values: NDArray[np.float64], pressed: rl.SurfaceCurve, name: str
 ) -> list[list[str]]:
     """Rows of loads and a quantity; a star marks those with too few cells in contact."""
     rows = [[*row, name] for row in number_rows(forces, values)]

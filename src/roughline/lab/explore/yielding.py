@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.assessment.loading import UNLOADING
@@ -76,17 +75,18 @@ class Yielding(Physics):
         """No more than the hardness."""
         return rl.Yielding(self.hardness(state))
 
-    def beside_curve(self, pressed: rl.Curve, state: ExploreState) -> dict[str, Filled]:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> dict[str, Filled]:
         """The stiffness on unloading of every load."""
-        forces, values = state.force_bars(pressed), state.stiffness_bars(_unloading(pressed))
+        forces, values = (
+            state.force_bars(pressed),
+            state.stiffness_bars(pressed.unloading_stiffness),
+        )
         rows = rows_of(forces, values, pressed, "3D, on unloading")
         return {"stiffness": Filled({"unloading": kept(forces, values)}, rows)}
 
-    def words(self, pressed: rl.Curve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
-        assert pressed.plastic_fraction is not None
-        assert pressed.indentation is not None
-        intervals, unloading = intervals_of(pressed), float(_unloading(pressed)[0])
+        intervals, unloading = intervals_of(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
         indentation = float(pressed.indentation[0])
         digits = supported_digits(unloading, ends, 3)
@@ -123,7 +123,7 @@ class Yielding(Physics):
         surface = state.surface(state.points(CURVE_POINTS))
         pressed = pressed_under(state, surface, forces, progress, measures=state.measures)
         values = state.over_force(pressed)
-        values["stiffness"] = state.stiffness_bars(_unloading(pressed))
+        values["stiffness"] = state.stiffness_bars(pressed.unloading_stiffness)
         panels = {
             panel: Filled({"back": kept(forces, each)}, rows_of(forces, each, pressed, BACK.legend))
             for panel, each in values.items()
@@ -144,8 +144,3 @@ class Yielding(Physics):
             state.in_words("hardness_bar", "Pa", self.hardness(state)),
             "--unload",
         ], ""
-
-
-def _unloading(pressed: rl.Curve) -> NDArray[np.float64]:
-    assert pressed.unloading_stiffness is not None
-    return pressed.unloading_stiffness

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import ModelComparison
 from roughline.assessment.description import Description
+from roughline.contact.curve import SurfaceCurve
+from roughline.contact.selection import loads_with_fields
 from roughline.engineering.intervals import Ends
 from roughline.lab.maps import Map, Scale, contact_maps, flux_map, height_map
 from roughline.lab.panels import Filled, Points
@@ -103,10 +105,10 @@ def of_contact(result: Assessment) -> Maps:
     along, heights = _scale(max(surface.sizes), 1.0), _about_mean(surface)
     up = _scale(_largest(np.abs(heights)), 1.0)
     topography = _map(heights, surface.sizes, along, up, caption="heights about their mean")
-    shown = next((i for i, each in enumerate(result.curve.fields) if each is not None), None)
-    fields = None if shown is None else result.curve.fields[shown]
-    if shown is None or fields is None:
+    kept = loads_with_fields(result.curve)
+    if not kept:
         return {"height": topography}
+    shown, fields = kept[0]
     force = up_to_three_digits(
         float(result.curve_over_loads.force[shown]) * result.scale, None, "N"
     )
@@ -154,9 +156,9 @@ def of_curve(result: Assessment) -> Panels:
     labels = {"stiffness": f"stiffness k [{unit}]", "area": "real contact area A / A₀"}
     factors = {"stiffness": scale * per_stiffness, "area": 1.0}
     drawn = {"stiffness": _of_loads(result, curve.stiffness, result.stiffness_interval)}
-    if curve.area_fraction_corrected is not None:
+    if isinstance(curve, SurfaceCurve):
         drawn["area"] = _of_loads(result, curve.area_fraction_corrected, result.area_interval)
-    if curve.hardness is not None and curve.unloading_stiffness is not None:
+    if isinstance(curve, SurfaceCurve) and curve.hardness is not None:
         unloading = _xy(curve.force[solved], curve.unloading_stiffness[solved])
         drawn["stiffness"]["unloading"] = unloading
     for each in result.theories:
