@@ -33,7 +33,7 @@ from roughline.halfspace.laws.pulling_zone import remarks, resolution, resolves_
 from roughline.halfspace.search.outline import overstated_cells
 from roughline.halfspace.search.path import solve_path
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
-from roughline.halfspace.search.tangent import Response
+from roughline.halfspace.search.response import Response
 from roughline.topography.body import Surface
 from roughline.topography.borders import border_doubts
 from roughline.topography.effects import grave_effects
@@ -70,7 +70,7 @@ def press_surface(
             path = _path(scaled, loads.control, values)
             solved = solve_path(_problem(scaled, law, method), path, method)
             for i in range(len(path)):  # no contact is held while the next is solved
-                record.write(np.flatnonzero(places == i), *next(solved))
+                record.write(np.flatnonzero(places == i), next(solved))
                 if progress is not None:
                     progress(i + 1, len(path))
     except KeyboardInterrupt:
@@ -176,12 +176,10 @@ class _Record:
         self._residual_of = [""] * count
         self._pulls: list[tuple[float, float]] = []  # depth and force, where bodies came off
 
-    def write(self, at: Indices, contact: Contact, response: Response | None) -> None:
-        """Write the contact under one load, in the units of the scaled surface, to equal loads.
-
-        There is no response where the contact was not certified.
-        """
+    def write(self, at: Indices, contact: Contact) -> None:
+        """Write the contact under one load, in the units of the scaled surface, to equal loads."""
         curve, scaled, outcome = self._curve, self._scaled, contact.outcome
+        response = contact.response
         status = Status[outcome.name]
         if outcome is Outcome.PULLED_OFF:
             self._pulls.append((contact.depth * scaled.height, contact.force * scaled.force))

@@ -18,7 +18,6 @@ import numpy as np
 
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.search.problem import Contact, Load, Outcome
-from roughline.halfspace.search.tangent import Response
 
 _FASTER = 2.0  # by which a step to the next depth may be longer than the one before
 _MOST_TRIALS = 100
@@ -34,7 +33,7 @@ _FINE = 1e-5
 class Path(Protocol):
     """A path of loads, which goes on from a copy of itself."""
 
-    def under(self, load: Load) -> tuple[Contact, Response | None]:
+    def under(self, load: Load) -> Contact:
         """Return the contact under the next load."""
 
     def from_apart(self) -> Path:
@@ -47,7 +46,6 @@ class State:
 
     path: Path
     contact: Contact
-    response: Response | None
 
     @property
     def depth(self) -> float:
@@ -62,7 +60,8 @@ class State:
     @property
     def is_solved(self) -> bool:
         """Whether the contact and its stiffness were found."""
-        return self.response is not None and self.response.converged
+        response = self.contact.response
+        return response is not None and response.converged
 
     def has_come_off(self, before: State) -> bool:
         """Whether bodies no longer touch, and hardly pull each other beside another state."""
@@ -91,31 +90,25 @@ class State:
     @property
     def stiffness(self) -> float:
         """Stiffness at a given reach of the pull, which no branch exceeds. [force / length]"""
-        assert self.response is not None
-        return self.response.loading.stiffness
+        response = self.contact.response
+        return math.nan if response is None else response.loading.stiffness
 
 
-def under_forces(
-    path: Path, loads: Sequence[Load], rtol: float
-) -> Iterator[tuple[Contact, Response | None]]:
+def under_forces(path: Path, loads: Sequence[Load], rtol: float) -> Iterator[Contact]:
     """Solve the contact under each force in turn."""
-    last: tuple[Contact, Response | None] | None = None
+    last: State | None = None
     for load in loads:
-        assert load.force is not None
-        found = _under_force(path, last, load.force, rtol)
-        path, last = found.path, (found.contact, found.response)
-        yield last
+        last = _under_force(path, last, load.value, rtol)
+        path = last.path
+        yield last.contact
 
 
-def _under_force(
-    path: Path, last: tuple[Contact, Response | None] | None, force: float, rtol: float
-) -> State:
+def _under_force(path: Path, state: State | None, force: float, rtol: float) -> State:
     """Return the path after a force, and the contact under it.
 
     Where bodies that do not touch are to be pulled they are first brought to rest without a force.
     """
     search = _Search(force, rtol)
-    state = None if last is None else State(path, *last)
     if state is None or not state.is_solved or not state.contact.nodes.size:
         first = _Search(max(force, 0.0), rtol)
         state = first.nearer(path, None)
@@ -136,9 +129,9 @@ class _Search:
     def at(self, path: Path, depth: float) -> State:
         """Follow a path to a depth."""
         path = copy(path)
-        contact, response = path.under(Load(depth=depth))
+        contact = path.under(Load(depth=depth))
         self.convolutions += contact.convolutions
-        return State(path, contact, response)
+        return State(path, contact)
 
     def is_at(self, state: State) -> bool:
         """Whether a contact bears the force."""
@@ -153,16 +146,16 @@ class _Search:
             contact = replace(contact, residuals=replace(contact.residuals, load=off))
             if off > self._rtol:
                 contact = replace(contact, outcome=Outcome.STALLED)
-        outcome = contact.outcome
-        response = state.response if outcome is Outcome.CONVERGED else None
-        return State(state.path, contact, response)
+        if contact.outcome is not Outcome.CONVERGED:
+            contact = replace(contact, response=None)
+        return State(state.path, contact)
 
     def given(self, path: Path) -> State:
         """Follow a path to the force itself."""
         path = copy(path)
-        contact, response = path.under(Load(force=self._force))
+        contact = path.under(Load(force=self._force))
         self.convolutions += contact.convolutions
-        return State(path, contact, response)
+        return State(path, contact)
 
     def nearer(self, path: Path, state: State | None) -> State:
         """Bring bodies nearer until they bear the force.
@@ -222,8 +215,8 @@ class _Search:
             # beside a push, a pull that still grows may be small
             if beyond.has_come_off(least if least.force < 0 else state):
                 least = self._least(lowest) if lowest else min(state, beyond, key=_force)
-                off = replace(least.contact, outcome=Outcome.PULLED_OFF)
-                return State(beyond.path.from_apart(), off, None)
+                off = replace(least.contact, outcome=Outcome.PULLED_OFF, response=None)
+                return State(beyond.path.from_apart(), off)
             before, state = state, beyond
             wanted = math.inf if passed else -self._step(before, state)
             step = min(max(wanted, step / _FASTER), _FASTER * step)

@@ -11,7 +11,6 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.pull import Shares
-from roughline.halfspace.search.turns import Turns
 from roughline.halfspace.search.window import Window
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
@@ -55,8 +54,7 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
     )
     start = _from_coarser(coarse, load) or _rigid_guess(coarse, load)
     window = Window.of(coarse, load, start)
-    found = Turns(window.bodies, load, window.inside(start), _ROUGH).guess()
-    found = replace(found, nodes=window.on_grid(found.nodes))
+    found = window.guess(window.turns(load, start, _ROUGH))
     return _spread(found, coarse_separation.shape[1], separation.shape)
 
 

@@ -8,7 +8,7 @@ therefore starts from the contact under that, as if there had been no unloading.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -24,9 +24,9 @@ from roughline.halfspace.search.problem import (
     Problem,
     Residuals,
 )
+from roughline.halfspace.search.response import Response, Tangent
 from roughline.halfspace.search.rounds import Rounds
-from roughline.halfspace.search.tangent import Response, Tangent, response
-from roughline.halfspace.search.turns import Turns
+from roughline.halfspace.search.tangent import response
 from roughline.halfspace.search.window import Window
 
 # Part of the misfit of shares to which their contact is solved while they are led to each other,
@@ -35,9 +35,7 @@ _OF_MISFIT, _ROUGHEST = 0.03, 1e-2
 _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
 
-def solve_path(
-    problem: Problem, loads: Sequence[Load], method: Method
-) -> Iterator[tuple[Contact, Response | None]]:
+def solve_path(problem: Problem, loads: Sequence[Load], method: Method) -> Iterator[Contact]:
     """Solve the contact under each load in turn; each meets the surfaces that the last one left."""
     path = Path(problem, method)
     if problem.law.only_pushes or loads[0].force is None:
@@ -46,27 +44,18 @@ def solve_path(
         yield from under_forces(path, loads, method.rtol)
 
 
-@dataclass(frozen=True, eq=False)
-class _Solved:
-    """A load, the contact under it, and how that answers a change of load, if it is certified."""
-
-    load: Load
-    contact: Contact
-    response: Response | None
-
-
 class Path:
     """The contact along a path of loads."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         self._untouched = self._problem = problem
         self._method = method
-        self._last: _Solved | None = None  # until the next search
+        self._last: Contact | None = None  # until the next search
         self._start: ContactSet | None = None  # of the search, which takes it
         self._before: Contact | None = None  # under other shares, with this start
         self._followed: tuple[Indices, Response] | None = None  # nodes and tangents that led to it
         self._largest: float | None = None
-        self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
+        self._furthest: Contact | None = None  # under the largest load, until a larger one follows
         self._unknown_below = -np.inf  # the largest load that was not solved
         self._has_yielded = False
 
@@ -74,42 +63,41 @@ class Path:
         """Return the path of bodies that have come apart, and remember nothing."""
         return Path(self._untouched, self._method)
 
-    def under(self, load: Load) -> tuple[Contact, Response | None]:
+    def under(self, load: Load) -> Contact:
         """Return the contact under the next load."""
         last, self._last = self._last, None
         if last is not None:
             self._prepare(load, last)
         del last  # no contact is held while the next is solved
         if load.value < self._unknown_below:
-            return _unsearched(self._problem, load, Outcome.UNKNOWN_SURFACE), None
+            return _unsearched(self._problem, load, Outcome.UNKNOWN_SURFACE)
         if self._furthest is not None and load.value > self._furthest.load.value:
             self._furthest = None
         if self._furthest is not None and load == self._furthest.load:
-            contact = replace(self._furthest.contact, convolutions=0)
-            solved = self._furthest = replace(self._furthest, contact=contact)
+            self._last = self._furthest = replace(self._furthest, convolutions=0)
         else:
-            solved = self._solved(load)
-        self._last = solved
-        return solved.contact, solved.response
+            self._last = self._solved(load)
+        return self._last
 
-    def _solved(self, load: Load) -> _Solved:
+    def _solved(self, load: Load) -> Contact:
         """Solve the contact under a load, and for its tangents."""
-        found, contact = self._found(load)
+        contact, window = self._found(load)
         if contact.outcome is not Outcome.CONVERGED:
             lost = {"none": -np.inf, "dents": load.value, "path": np.inf}
             self._unknown_below = lost[contact.problem.law.memory]
             self._problem = replace(self._problem, shares=contact.problem.shares)
-            return _Solved(load, contact, None)
+            return replace(contact, load=load)
         self._largest = load.value if self._largest is None else max(self._largest, load.value)
         if contact.separation is not self._problem.separation:
             self._furthest = None
         self._problem = contact.problem
-        answer = response(found, self._guesses(contact.nodes), self._method)
+        grid, nodes = window.bodies.grid, window.inside(contact.nodes)
+        answer = response(contact, grid, nodes, self._guesses(contact.nodes), self._method)
         spent = contact.convolutions + answer.convolutions
-        return _Solved(load, replace(contact, convolutions=spent), answer)
+        return replace(contact, load=load, response=answer, convolutions=spent)
 
-    def _found(self, load: Load) -> tuple[Contact, Contact]:
-        """Solve the contact under a load; return it in a window, and the same on the grid."""
+    def _found(self, load: Load) -> tuple[Contact, Window]:
+        """Solve the contact under a load; return it with the window in which it was found."""
         memory = self._problem.law.memory
         if memory == "path":
             return self._led_to_gaps(load)
@@ -117,23 +105,23 @@ class Path:
             return self._dented(load)
         return self._settled(load, self._problem, self._method)
 
-    def _dented(self, load: Load) -> tuple[Contact, Contact]:
+    def _dented(self, load: Load) -> tuple[Contact, Window]:
         """Solve for elastic bodies first, unless they have yielded and meet their largest load.
 
         That bodies yield shows before their elastic contact is found.
         """
         beyond = self._largest is None or load.value > self._largest
         problem = replace(self._problem, is_elastic=not (beyond and self._has_yielded))
-        found, contact = self._settled(load, problem, self._method)
+        contact, window = self._settled(load, problem, self._method)
         if contact.problem.exceeds(contact.nodes, contact.pressure):
             problem = replace(problem, is_elastic=False)
             if np.isfinite(contact.force):  # else there is nothing to start from
                 self._start = _under(problem, contact)
-            found, contact = self._settled(load, problem, self._method, found.convolutions)
+            contact, window = self._settled(load, problem, self._method, contact.convolutions)
         self._has_yielded |= not contact.problem.is_elastic
-        return found, contact
+        return contact, window
 
-    def _led_to_gaps(self, load: Load) -> tuple[Contact, Contact]:
+    def _led_to_gaps(self, load: Load) -> tuple[Contact, Window]:
         """Solve the contact in rounds, in which shares of the pull and gaps are led to each other.
 
         Contacts of shares that do not fit yet are solved roughly, in single precision while that
@@ -143,19 +131,17 @@ class Path:
         rounds = Rounds(problem.pull, problem.shares.above_zero)
         while True:
             method = self._method.to(rtol, single)
-            found, contact = self._settled(load, problem, method, spent)
-            spent = found.convolutions
+            contact, window = self._settled(load, problem, method, spent)
+            spent = contact.convolutions
             problem = contact.problem  # which does not hold the bounds any more
             if contact.outcome is Outcome.STALLED:
                 if contact.residuals.worst <= self._method.rtol:
-                    found, contact = (
-                        replace(x, outcome=Outcome.CONVERGED) for x in (found, contact)
-                    )
+                    contact = replace(contact, outcome=Outcome.CONVERGED)
                 elif method.precision == "float32" and self._method.precision == "mixed":
                     single = False
                     continue
             if contact.outcome is not Outcome.CONVERGED:
-                return found, contact
+                return contact, window
             following = rounds.then(contact.gap.ravel())
             misfit = following.misfit / contact.length_scale
             rtol = min(_OF_MISFIT * max(misfit, self._method.rtol), _ROUGHEST)
@@ -163,38 +149,36 @@ class Path:
                 rounds, problem = following, replace(problem, shares=following.shares)
             else:  # the shares fit, and their contact is to be known well
                 residuals = replace(contact.residuals, misfit=misfit)
-                found, contact = (replace(x, residuals=residuals) for x in (found, contact))
+                contact = replace(contact, residuals=residuals)
                 if method.rtol <= self._method.rtol:
-                    return found, contact
+                    return contact, window
             self._start = _under(problem, contact)
             self._before = contact
-            del found, contact, following  # none is held while the next is solved
+            del contact, window, following  # none is held while the next is solved
 
     def _settled(
         self, load: Load, problem: Problem, method: Method, spent: int = 0
-    ) -> tuple[Contact, Contact]:
+    ) -> tuple[Contact, Window]:
         """Solve the contact of bodies with fixed bounds, in the window in which they can touch."""
         most = method.max_iterations
         if contact := _known(problem, load, for_first_time=self._furthest is None):
-            return contact, contact
+            return contact, Window.whole(problem)
         if load.force is not None:
             load = Load(force=_attainable(load.force, problem))
         if self._start is None:
             self._start, problem = first_guess(problem, load)
         window = Window.of(problem, load, self._start)
-        self._start = window.inside(self._start)
         while True:
             method = replace(method, max_iterations=max(1, most - spent))
-            turns = Turns(window.bodies, load, self._start, method, self._before)
+            turns = window.turns(load, self._start, method, self._before)
             self._start = self._before = None
-            found = turns.contact()
-            spent += found.convolutions
-            holds = window.holds(found)
+            contact = window.contact(turns)
+            spent += contact.convolutions
+            holds = window.holds(contact)
             if holds or spent >= most:
-                outcome = found.outcome if holds else Outcome.MAX_ITERATIONS
-                found = replace(found, outcome=outcome, convolutions=spent)
-                return found, window.contact(found)
-            self._start, window = window.contact(found).contact_set, Window.whole(problem)
+                outcome = contact.outcome if holds else Outcome.MAX_ITERATIONS
+                return replace(contact, outcome=outcome, convolutions=spent), window
+            self._start, window = contact.contact_set, Window.whole(problem)
 
     def _guesses(self, nodes: Indices) -> tuple[Real, Real] | None:
         """Return dp/dF of the contact before, on loading and on unloading, on nodes of this one."""
@@ -209,21 +193,21 @@ class Path:
         )
         return loading, unloading
 
-    def _prepare(self, load: Load, solved: _Solved) -> None:
+    def _prepare(self, load: Load, contact: Contact) -> None:
         """Choose the contact from which the next load starts, if any, and follow its tangent."""
         self._start = self._followed = None
-        if solved.response is None:
+        if contact.response is None:
             return
         if self._problem.law.memory == "dents":
-            if load.value <= solved.load.value:
-                self._furthest = self._furthest or solved
+            if load.value <= contact.load.value:
+                self._furthest = self._furthest or contact
             elif self._furthest is not None and load.value > self._furthest.load.value:
-                solved = self._furthest
-        contact, answer = solved.contact, solved.response
+                contact = self._furthest
+        answer = contact.response
         if answer is None or not answer.converged or not contact.nodes.size:
             return
         self._followed = contact.nodes, answer
-        tangent = answer.loading if load.value > solved.load.value else answer.unloading
+        tangent = answer.loading if load.value > contact.load.value else answer.unloading
         self._start = _predicted(contact, tangent, load)
 
 
@@ -278,6 +262,7 @@ def _unsearched(problem: Problem, load: Load, outcome: Outcome, loaded: int = 0)
         residuals=Residuals(gap=largest),
         outcome=outcome,
         convolutions=0,
+        load=load,
     )
 
 

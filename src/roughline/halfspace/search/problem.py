@@ -22,6 +22,7 @@ from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.search.pull import Pull, Shares
+from roughline.halfspace.search.response import Response
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
 # epsilons of pi C F / A_0 on grids of 8 to 10^6 points. C is the compliance of the longest wave, in
@@ -301,6 +302,8 @@ class Contact:
     residuals: Residuals
     outcome: Outcome
     convolutions: int  # spent on this load
+    load: Load
+    response: Response | None = None  # to a change of the load, once the contact is certified
 
     @property
     def touching(self) -> Mask:

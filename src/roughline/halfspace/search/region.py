@@ -171,6 +171,7 @@ class Trial:
     """Pressures in a region under a load, and what follows from them."""
 
     region: Region
+    load: Load
     carriers: Carriers  # the nodes under pressure
     touching: Mask  # those between their bounds
     plastic: Mask  # those at the upper one
@@ -226,6 +227,7 @@ class Trial:
         )
         return cls(
             region,
+            load,
             carriers,
             touching,
             plastic,
@@ -300,6 +302,7 @@ class Trial:
             residuals=self.residuals,
             outcome=outcome,
             convolutions=convolutions,
+            load=self.load,
         )
 
 

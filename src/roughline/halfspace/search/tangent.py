@@ -7,7 +7,7 @@ is the contact without the nodes at the hardness; under less, it is all of the c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Contact, Grid, Method
+from roughline.halfspace.search.response import Response, Tangent
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.
@@ -22,71 +23,46 @@ _ENERGY_MARGIN = 0.01
 _SLOW = 0.01  # where a turn of a restricted operator gains more of the turn before, it is given up
 
 
-@dataclass(frozen=True, eq=False)
-class Tangent:
-    """Linear response of a contact to a change of load.
-
-    Its stiffness is infinite in full contact of the periodic half-space, zero where no node is
-    elastic, and NaN where the linear equations were not solved.
-    """
-
-    stiffness: float  # k = dF/dd [force / length]
-    pressure_per_force: Real  # dp/dF on the contact nodes; zero where they are not elastic [1/area]
-    convolutions: int = 0  # spent
-
-
-@dataclass(frozen=True, eq=False)
-class Response:
-    """How a contact answers a change of load; without yield both tangents are the same."""
-
-    loading: Tangent  # under more load; nodes at the upper bound bear no more
-    unloading: Tangent  # under less load; all nodes spring back
-
-    @property
-    def convolutions(self) -> int:
-        """Convolutions spent on both."""
-        again = 0 if self.unloading is self.loading else self.unloading.convolutions
-        return self.loading.convolutions + again
-
-    @property
-    def converged(self) -> bool:
-        """Whether both were solved."""
-        return not np.isnan([self.loading.stiffness, self.unloading.stiffness]).any()
-
-
-def response(contact: Contact, start: tuple[Real, Real] | None, method: Method) -> Response:
+def response(
+    contact: Contact, grid: Grid, nodes: Indices, start: tuple[Real, Real] | None, method: Method
+) -> Response:
     """Solve for the exact stiffness of a contact, on further loading and on unloading.
 
-    Nodes at a bound bear no more on loading. On unloading, those at the upper one follow, too, as
-    their overlap stays in the surface. The start are guesses of dp/dF on loading and on unloading,
-    such as those of the load before; without any, it is the pressures themselves.
+    It is solved on a grid that holds the contact, which has its nodes there. Nodes at a bound bear
+    no more on loading. On unloading, those at the upper one follow, too, as their overlap stays in
+    the surface. The start are guesses of dp/dF on loading and on unloading, such as those of the
+    load before; without any, it is the pressures themselves.
     """
     loading, unloading = start or (None, None)
-    back = _tangent(contact, ~contact.pulling, unloading, method)
+    pressure = contact.pressure
+    back = _tangent(grid, nodes, pressure, ~contact.pulling, unloading, method)
     if not contact.plastic.any():
         return Response(back, back)
-    return Response(_tangent(contact, contact.touching, loading, method), back)
+    return Response(_tangent(grid, nodes, pressure, contact.touching, loading, method), back)
 
 
-def _tangent(contact: Contact, follow: Mask, start: Real | None, method: Method) -> Tangent:
+def _tangent(
+    grid: Grid, nodes: Indices, pressure: Real, follow: Mask, start: Real | None, method: Method
+) -> Tangent:
     """Solve for the exact stiffness of a contact of which some nodes follow a change of the load.
 
     The stiffness is the energy form 1 / (w K w), so it errs upwards, by the square of the residual.
     """
-    operator, every = contact.problem.operator, bool(follow.all())
-    cell_area, nodes = operator.cell_area, contact.nodes if every else contact.nodes[follow]
-    if not nodes.size:
-        return Tangent(0.0, np.zeros(contact.nodes.size))
-    if operator.mean_is_free and nodes.size == contact.separation.size:  # full contact is rigid
-        even = np.full(nodes.size, 1 / (nodes.size * cell_area))
+    operator, every = grid.inverse.operator, bool(follow.all())
+    cell_area = operator.cell_area
+    following = nodes if every else nodes[follow]
+    if not following.size:
+        return Tangent(0.0, np.zeros(nodes.size))
+    if operator.mean_is_free and following.size == math.prod(grid.shape):  # rigid
+        even = np.full(following.size, 1 / (following.size * cell_area))
         return Tangent(np.inf, even)
-    pressure = _unit_force(follow, cell_area, start, contact.pressure)
-    compliance, convolutions = punch_compliance(contact.problem.grid, nodes, pressure, method)
+    change = _unit_force(follow, cell_area, start, pressure)
+    compliance, convolutions = punch_compliance(grid, following, change, method)
     if not every:
-        pressure_per_force = np.zeros(contact.nodes.size)
-        pressure_per_force[follow] = pressure
-        pressure = pressure_per_force
-    return Tangent(1 / compliance if compliance > 0 else np.nan, pressure, convolutions)
+        pressure_per_force = np.zeros(nodes.size)
+        pressure_per_force[follow] = change
+        change = pressure_per_force
+    return Tangent(1 / compliance if compliance > 0 else np.nan, change, convolutions)
 
 
 def punch_compliance(

@@ -14,7 +14,8 @@ import numpy as np
 
 from roughline.computing.arrays import Indices
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.search.problem import Contact, ContactSet, Load, Problem
+from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Problem
+from roughline.halfspace.search.turns import Turns
 
 _SMALLEST = 32  # points along a side, where that has so many
 
@@ -69,13 +70,17 @@ class Window:
             law=problem.law.on(lambda field: field[here]),
         )
 
-    def inside(self, contact_set: ContactSet) -> ContactSet:
-        """Return a contact set of the grid as one of the window."""
+    def turns(self, load: Load, start: ContactSet, method: Method) -> Turns:
+        """Return the search in the window, which starts from a contact set of the grid."""
+        start = replace(start, nodes=self.inside(start.nodes))
+        return Turns(self.bodies, load, start, method)
+
+    def inside(self, nodes: Indices) -> Indices:
+        """Return nodes of the grid as nodes of the window."""
         if self.bodies is self.problem:
-            return contact_set
-        x, y = np.divmod(contact_set.nodes, self.problem.separation.shape[1])
-        nodes = (x - self.rows.start) * self.bodies.separation.shape[1] + y - self.columns.start
-        return replace(contact_set, nodes=nodes)
+            return nodes
+        x, y = np.divmod(nodes, self.problem.separation.shape[1])
+        return (x - self.rows.start) * self.bodies.separation.shape[1] + y - self.columns.start
 
     def holds(self, contact: Contact) -> bool:
         """Whether nothing beyond the window can touch at the depth of a contact."""
@@ -83,11 +88,19 @@ class Window:
 
     def on_grid(self, nodes: Indices) -> Indices:
         """Return nodes of the window as nodes of the grid."""
+        if self.bodies is self.problem:
+            return nodes
         x, y = np.divmod(nodes, self.bodies.separation.shape[1])
         return (x + self.rows.start) * self.problem.separation.shape[1] + y + self.columns.start
 
-    def contact(self, found: Contact) -> Contact:
-        """Return a contact in the window as one of the grid."""
+    def guess(self, turns: Turns) -> ContactSet:
+        """Return the contact that a search in the window finds roughly, as one of the grid."""
+        found = turns.guess()
+        return replace(found, nodes=self.on_grid(found.nodes))
+
+    def contact(self, turns: Turns) -> Contact:
+        """Return the contact that a search in the window finds, as one of the grid."""
+        found = turns.contact()
         if self.bodies is self.problem:
             return found
         problem, shape = self.problem, self.problem.separation.shape
