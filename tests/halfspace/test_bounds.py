@@ -15,6 +15,7 @@ from roughline.halfspace.search.problem import Grid, Load, Method, Problem
 from roughline.halfspace.search.region import Region, Trial
 from roughline.halfspace.search.tangent import response
 from roughline.halfspace.search.turns import Turns
+from roughline.halfspace.search.window import Window
 
 ELASTIC = Bounds.of(Unilateral(), None)
 YIELDING = Bounds.of(Yielding(hardness=4.0), None)
@@ -164,7 +165,7 @@ def test_the_stiffness_on_loading_is_that_of_the_elastic_nodes_and_on_unloading_
     bodies, load = problem((x**2 + y**2) / 20, Yielding(hardness=0.1), 1.0), Load(depth=1.0)
     contact = Turns(bodies, load, first_guess(bodies, load)[0], method).contact()
     assert 0 < contact.plastic.sum() < contact.nodes.size
-    answer = response(contact, contact.problem.grid, contact.nodes, None, method)
+    answer = response(contact, Window.whole(bodies), None, method)
     assert answer.converged
     for tangent, follow in (
         (answer.loading, ~contact.plastic),

@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import InGrid, Mask, Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
@@ -113,7 +113,7 @@ def conductance(
     from roughline.halfspace.search.problem import Grid, Method
     from roughline.halfspace.search.tangent import punch_compliance
 
-    nodes = np.flatnonzero(contact)
+    nodes = InGrid(np.flatnonzero(contact))
     if not nodes.size:
         return 0.0
     if periodic and contact.all():

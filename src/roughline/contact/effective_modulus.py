@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from roughline.computing.arrays import InGrid
 from roughline.contact.fields import Fields
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
@@ -35,7 +36,7 @@ def effective_modulus(fields: Fields, E_star: float) -> float:
     pressure = fields.pressure
     spacing = fields.sizes[0] / pressure.shape[0], fields.sizes[1] / pressure.shape[1]
     operator = on_grid(Homogeneous(E_star, fields.periodic), pressure.shape, spacing)
-    nodes = np.flatnonzero(pressure)
+    nodes = InGrid(np.flatnonzero(pressure))
     if not nodes.size:
         return E_star
     alike = operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, pressure.shape))

@@ -35,7 +35,7 @@ import numpy as np
 from scipy.linalg import blas, lapack
 
 from roughline.computing import fft
-from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
+from roughline.computing.arrays import Floats, Indices, InGrid, Integers, Real, Single
 from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
@@ -167,7 +167,7 @@ class ApproximateInverse:
     @cached_property
     def kernel(self) -> Single:
         """Displacement under unit pressure on one node, by the distance from it in cells."""
-        corner = GridNodes.of(np.zeros(1, dtype=np.intp), self.operator.shape)
+        corner = GridNodes.of(InGrid(np.zeros(1, dtype=np.intp)), self.operator.shape)
         kernel = self.operator.displacement(np.ones(1), corner, None, "float32")
         kernel += _raised(self.operator)
         return kernel.astype(np.float32)

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Indices, InGrid, Mask, Real
 from roughline.halfspace.laws.law import ContactLaw
 
 
@@ -23,7 +23,7 @@ class Bounds:
     high: Real | float
 
     @classmethod
-    def of(cls, law: ContactLaw, nodes: Indices | None = None) -> Bounds:
+    def of(cls, law: ContactLaw, nodes: InGrid | None = None) -> Bounds:
         """Ask a law for the bounds of nodes of the grid, or of all of it."""
         return cls(*law.bounds(nodes))
 

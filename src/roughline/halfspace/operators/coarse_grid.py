@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Floats, Integers, Real, Single
+from roughline.computing.arrays import Floats, InGrid, Integers, Real, Single
 from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes
@@ -99,7 +99,7 @@ class CoarseGrid:
     @cached_property
     def _everywhere(self) -> GridNodes:
         nx, ny = self.convolution.shape
-        return GridNodes.of(np.arange(nx * ny), (nx, ny))
+        return GridNodes.of(InGrid(np.arange(nx * ny)), (nx, ny))
 
     def displacement(self, pressure: Single, sources: GridNodes, grid: PaddedGrid) -> Single:
         """Return the displacement of the coarse nodes, and leave the pressures on a fine grid."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Floats, Integers, Real
+from roughline.computing.arrays import Floats, InGrid, Integers, Real
 from roughline.computing.compiled import compiled
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision, unit_in_single
@@ -182,7 +182,7 @@ class Convolution:
 
 def displacement_field(operator: Convolution, pressure: Real) -> Real:
     """Return the displacement everywhere under the pressure on each cell, shape (nx, ny)."""
-    nodes = np.flatnonzero(pressure)
+    nodes = InGrid(np.flatnonzero(pressure))
     return operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, operator.shape))
 
 

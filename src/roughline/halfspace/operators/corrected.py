@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import InGrid, InRegion, Real, among
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.operators.restricted import RestrictedOperator
@@ -32,15 +32,15 @@ class CorrectedOperator:
         """R, which gives what changes of pressure add."""
         return self.restricted or self.exact
 
-    def on_grid(self, places: Indices) -> Indices:
+    def on_grid(self, places: InRegion) -> InGrid:
         """Return nodes as flat indices in the grid."""
-        return places if self.nodes is None else self.nodes.indices[places]
+        return InGrid(places) if self.nodes is None else among(self.nodes.indices, places)
 
-    def grid_nodes(self, places: Indices) -> GridNodes:
+    def grid_nodes(self, places: InRegion) -> GridNodes:
         """Return nodes listed row by row."""
         return GridNodes.of(self.on_grid(places), self.exact.shape)
 
-    def displacement(self, pressure: Real, places: Indices | None, precision: Precision) -> Real:
+    def displacement(self, pressure: Real, places: InRegion | None, precision: Precision) -> Real:
         """Return the displacement of all nodes under the pressure on some; None: on all."""
         if self.restricted is None:
             return self._exactly(pressure, places, precision)
@@ -51,7 +51,7 @@ class CorrectedOperator:
         return moved if self.moved is None else np.add(moved, self.moved, out=moved)
 
     def recentred(
-        self, pressure: Real, places: Indices | None, precision: Precision
+        self, pressure: Real, places: InRegion | None, precision: Precision
     ) -> CorrectedOperator:
         """Return the operator that is exact for the pressure on some nodes; None: on all."""
         moved = self._exactly(pressure, places, precision)
@@ -59,7 +59,7 @@ class CorrectedOperator:
         before[slice(None) if places is None else places] = pressure
         return replace(self, before=before, moved=moved)
 
-    def _exactly(self, pressure: Real, places: Indices | None, precision: Precision) -> Real:
+    def _exactly(self, pressure: Real, places: InRegion | None, precision: Precision) -> Real:
         sources = self.nodes if places is None else self.grid_nodes(places)
         assert sources is not None
         return self.exact.displacement(pressure, sources, self.nodes, precision).ravel()

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.computing.arrays import Indices, Integers, Real
+from roughline.computing.arrays import Indices, InGrid, Integers, Real
 from roughline.computing.compiled import compiled
 
 Precision = Literal["float32", "float64"]
@@ -23,14 +23,14 @@ _SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divid
 class GridNodes:
     """Some nodes of a grid, listed row by row."""
 
-    indices: Indices  # in the flat grid, ascending
+    indices: InGrid  # ascending
     rows: Indices  # that hold any of the nodes, ascending
     starts: Indices  # where each of these rows begins among the nodes; one more follows
     columns: NDArray[np.int32]  # of each node
     shape: tuple[int, int]  # of the grid
 
     @classmethod
-    def of(cls, indices: Indices, shape: tuple[int, int]) -> GridNodes:
+    def of(cls, indices: InGrid, shape: tuple[int, int]) -> GridNodes:
         """List the nodes with these ascending flat indices."""
         most = min(shape[0], indices.size)
         rows, starts = np.empty(most, dtype=np.intp), np.empty(most + 1, dtype=np.intp)

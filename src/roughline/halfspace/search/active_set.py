@@ -33,7 +33,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import InRegion, Mask, Real, among
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.operators.grid_nodes import Precision
 from roughline.halfspace.search.carriers import Carriers, merged
@@ -156,7 +156,7 @@ class _Wrong:
         overlapping[self.overlapping] = join
         return replace(self, overlapping=overlapping, overlap=self.overlap[join])
 
-    def last_alone(self, places: Indices, watched: Indices) -> _Wrong:
+    def last_alone(self, places: InRegion, watched: InRegion) -> _Wrong:
         """Leave only the wrong node of highest place."""
         among = places[self.below | self.above | self.leaving]
         last = max(among.max(initial=-1), watched[self.overlapping].max(initial=-1))
@@ -185,7 +185,7 @@ class _Relaxation:
 def _relaxed(
     trial: Trial,
     load: Load,
-    watched: Indices,
+    watched: InRegion,
     rtol: float,
     precision: Precision,
     *,
@@ -233,20 +233,20 @@ class Sides:
 
     touching: Mask  # carriers between their bounds
     bounds: Bounds  # of the touching nodes
-    places: Indices  # nodes without pressure that are watched, and carriers at a bound
+    places: InRegion  # nodes without pressure that are watched, and carriers at a bound
     is_watched: Mask  # which of these places are watched
     is_plastic: Mask  # and which are at the upper bound
     gap: Real  # there, negative where bodies overlap [length]
 
     @classmethod
-    def of(cls, trial: Trial, watched: Indices) -> Sides:
+    def of(cls, trial: Trial, watched: InRegion) -> Sides:
         """Tell the nodes of a trial apart."""
         carriers, touching, plastic = trial.carriers, trial.touching, trial.plastic
         bounds = trial.region.bounds.at(carriers.places[touching])
         if touching.all():
             every = np.ones(watched.size, dtype=bool)
             return cls(touching, bounds, watched, every, ~every, trial.gap[watched])
-        places, order = merged(watched, carriers.places[~touching])
+        places, order = merged(watched, among(carriers.places, ~touching))
         is_watched = order < watched.size
         is_plastic = np.zeros(places.size, dtype=bool)
         is_plastic[~is_watched] = plastic[~touching]
@@ -326,7 +326,7 @@ class _ExchangeRule:
         """Whether only one node changes sides at a time."""
         return self.to_tolerance and self._rounds > 2 * _PATIENCE
 
-    def applied(self, region: Region, relaxation: _Relaxation, watched: Indices) -> Carriers:
+    def applied(self, region: Region, relaxation: _Relaxation, watched: InRegion) -> Carriers:
         """Return the carriers after wrong nodes have changed sides."""
         wrong, carriers = relaxation.wrong, relaxation.carriers
         self.wrong = wrong.count
@@ -341,7 +341,7 @@ class _ExchangeRule:
         return exchanged(region, carriers, watched, wrong)
 
 
-def exchanged(region: Region, carriers: Carriers, watched: Indices, wrong: _Wrong) -> Carriers:
+def exchanged(region: Region, carriers: Carriers, watched: InRegion, wrong: _Wrong) -> Carriers:
     """Return carriers after wrong nodes have changed sides; their pressures are overwritten."""
     bounds, pressure = region.bounds.at(carriers.places), carriers.pressure
     pressure[wrong.above] = bounds.at(wrong.above).high
@@ -352,7 +352,11 @@ def exchanged(region: Region, carriers: Carriers, watched: Indices, wrong: _Wron
     most = _RELIEF * np.abs(bound)
     pressure[wrong.leaving] -= np.clip(wrong.off / region.problem.inverse.diagonal, -most, most)
     free = wrong.below & (pressure == 0)
-    return Carriers(carriers.places, pressure).without(free).joined_by(watched[wrong.overlapping])
+    return (
+        Carriers(carriers.places, pressure)
+        .without(free)
+        .joined_by(among(watched, wrong.overlapping))
+    )
 
 
 class _StoppingRule:

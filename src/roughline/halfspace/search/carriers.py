@@ -3,27 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar, cast
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Indices, InRegion, Mask, Real, among
 from roughline.halfspace.laws.bounds import Bounds
+
+_Places = TypeVar("_Places", bound=Indices)
 
 
 @dataclass(frozen=True, eq=False)
 class Carriers:
     """Nodes that carry pressure, by their ascending places in a region, and the pressures."""
 
-    places: Indices
+    places: InRegion
     pressure: Real
 
     def without(self, leaving: Mask) -> Carriers:
         """Return the carriers without some of them."""
         if not leaving.any():
             return self
-        return Carriers(self.places[~leaving], self.pressure[~leaving])
+        return Carriers(among(self.places, ~leaving), self.pressure[~leaving])
 
-    def joined_by(self, others: Indices, pressure: Real | float = 0.0) -> Carriers:
+    def joined_by(self, others: InRegion, pressure: Real | float = 0.0) -> Carriers:
         """Return the carriers with other nodes as well, on which there is a pressure."""
         if not others.size:
             return self
@@ -52,14 +55,14 @@ class Carriers:
         gaps[self.places] = np.inf
         nearest = np.argsort(gaps, kind="stable")[: gap.size - self.places.size]
         more = 1 + int(np.searchsorted(np.cumsum(high[nearest]), lacking, side="right"))
-        return self.joined_by(np.sort(nearest[:more]))
+        return self.joined_by(InRegion(np.sort(nearest[:more])))
 
 
-def merged(places: Indices, others: Indices) -> tuple[Indices, Indices]:
+def merged(places: _Places, others: _Places) -> tuple[_Places, Indices]:
     """Merge two ascending lists without common entries.
 
     Return with the list where each of its entries stood in the chain of the two.
     """
     chain = np.concatenate([places, others])
     order = np.argsort(chain, kind="stable")
-    return chain[order], order
+    return cast("_Places", chain[order]), order

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import InGrid, Real
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.pull import Shares
 from roughline.halfspace.search.window import Window
@@ -74,7 +74,7 @@ def _halved_shares(shares: Shares, shape: tuple[int, int]) -> Shares:
     if not shares.nodes.size:
         return shares
     halved = _halved(shares.field(math.prod(shape)).reshape(shape)).ravel()
-    nodes = np.flatnonzero(halved)
+    nodes = InGrid(np.flatnonzero(halved))
     return Shares(nodes, halved[nodes])
 
 
@@ -92,7 +92,7 @@ def _spread(coarse: ContactSet, width: int, shape: tuple[int, int]) -> ContactSe
     order = np.argsort(nodes)
     count = inside.sum(axis=1)  # at the end of an odd side one node takes the force of two
     pressure = np.repeat(coarse.pressure[loaded] * (4 / count), count)[order]
-    return ContactSet(nodes[order], pressure, coarse.depth) if loaded.any() else None
+    return ContactSet(InGrid(nodes[order]), pressure, coarse.depth) if loaded.any() else None
 
 
 def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
@@ -117,5 +117,5 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
         depth = depth_of(counts[reached])
         fewest = np.nan_to_num(force / problem.bounds.largest_force(problem.grid.cell_area))
         depth = max(depth, float(separations[min(int(fewest), separations.size - 1)]))
-    nodes = np.flatnonzero(separation < depth)
+    nodes = InGrid(np.flatnonzero(separation < depth))
     return ContactSet(nodes, depth - separation.flat[nodes], load.depth)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask
+from roughline.computing.arrays import InGrid, InPatch, Mask
 from roughline.halfspace.search.problem import Contact
 
 # Gap beyond the outline over (pressure within it times spacing over E*). On a summit it is of order
@@ -46,14 +46,15 @@ def overstated_cells(
             outer = touching & ~np.roll(touching, -step, axis)
             if not repeats[axis]:
                 np.moveaxis(outer, axis, 0)[-1 if step > 0 else 0] = False
-            outline = np.flatnonzero(outer)
+            outline = InGrid(np.flatnonzero(outer))
             beyond, _ = _neighbours(outline, shape, axis, step, repeats[axis])
             within, loaded_too = _neighbours(outline, shape, axis, -step, repeats[axis])
-            at, gap = np.searchsorted(contact.nodes, outline), contact.gap_at(beyond)
+            at = InPatch(np.searchsorted(contact.nodes, outline))
+            gap = contact.gap_at(beyond)
             edge = above[at]
             loaded_too &= touching.flat[within]
             rising = np.zeros(edge.size, dtype=bool)
-            inner = np.searchsorted(contact.nodes, within[loaded_too])
+            inner = InPatch(np.searchsorted(contact.nodes, within[loaded_too]))
             rising[loaded_too] = edge[loaded_too] > above[inner] * (1 + 1e-6)
             rising |= contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
             smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
@@ -65,8 +66,8 @@ def overstated_cells(
 
 
 def _neighbours(
-    nodes: Indices, shape: tuple[int, ...], axis: int, step: int, repeated: bool
-) -> tuple[Indices, Mask]:
+    nodes: InGrid, shape: tuple[int, ...], axis: int, step: int, repeated: bool
+) -> tuple[InGrid, Mask]:
     """Flat indices of the neighbours along an axis, and whether there are any."""
     position = list(np.divmod(nodes, shape[1]))
     position[axis] = position[axis] + step
@@ -74,4 +75,4 @@ def _neighbours(
     if not repeated:
         exist = (position[axis] >= 0) & (position[axis] < shape[axis])
     position[axis] %= shape[axis]
-    return position[0] * shape[1] + position[1], exist
+    return InGrid(position[0] * shape[1] + position[1]), exist

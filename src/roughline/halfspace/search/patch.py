@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import InGrid, Mask, Real
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
@@ -35,7 +35,7 @@ class Patch:
         self._nodes = nodes
         self.precondition = preconditioner(inverse, nodes)
         self._targets: GridNodes | None = nodes
-        self._parts: tuple[Indices, Indices] | tuple[Mask, Mask] | None = None
+        self._parts: tuple[InGrid, InGrid] | tuple[Mask, Mask] | None = None
         if watched is None or not watched.indices.size:
             return
         looked_at = nodes.indices.size + watched.indices.size

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import InGrid, InPatch, Real, among
 from roughline.halfspace.search.by_depths import under_forces
 from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.problem import (
@@ -53,7 +53,7 @@ class Path:
         self._last: Contact | None = None  # until the next search
         self._start: ContactSet | None = None  # of the search, which takes it
         self._before: Contact | None = None  # under other shares, with this start
-        self._followed: tuple[Indices, Response] | None = None  # nodes and tangents that led to it
+        self._followed: tuple[InGrid, Response] | None = None  # nodes and tangents that led to it
         self._largest: float | None = None
         self._furthest: Contact | None = None  # under the largest load, until a larger one follows
         self._unknown_below = -np.inf  # the largest load that was not solved
@@ -91,8 +91,7 @@ class Path:
         if contact.separation is not self._problem.separation:
             self._furthest = None
         self._problem = contact.problem
-        grid, nodes = window.bodies.grid, window.inside(contact.nodes)
-        answer = response(contact, grid, nodes, self._guesses(contact.nodes), self._method)
+        answer = response(contact, window, self._guesses(contact.nodes), self._method)
         spent = contact.convolutions + answer.convolutions
         return replace(contact, load=load, response=answer, convolutions=spent)
 
@@ -180,12 +179,12 @@ class Path:
                 return replace(contact, outcome=outcome, convolutions=spent), window
             self._start, window = contact.contact_set, Window.whole(problem)
 
-    def _guesses(self, nodes: Indices) -> tuple[Real, Real] | None:
+    def _guesses(self, nodes: InGrid) -> tuple[Real, Real] | None:
         """Return dp/dF of the contact before, on loading and on unloading, on nodes of this one."""
         if self._followed is None:
             return None
         before, answer = self._followed
-        places = np.minimum(np.searchsorted(before, nodes), before.size - 1)
+        places = InPatch(np.minimum(np.searchsorted(before, nodes), before.size - 1))
         known = before[places] == nodes
         loading, unloading = (
             np.where(known, each.pressure_per_force[places], 0.0)
@@ -216,7 +215,7 @@ def _under(problem: Problem, contact: Contact) -> ContactSet:
     low = problem.bounds_at(contact.nodes).low
     pressure = np.where(contact.pulling, low, contact.pressure)
     bears = pressure != 0
-    return ContactSet(contact.nodes[bears], pressure[bears], contact.depth)
+    return ContactSet(among(contact.nodes, bears), pressure[bears], contact.depth)
 
 
 def _attainable(force: float, problem: Problem) -> float:
@@ -252,7 +251,7 @@ def _unsearched(problem: Problem, load: Load, outcome: Outcome, loaded: int = 0)
         problem=problem,
         depth=depth,
         force=largest,
-        nodes=np.arange(loaded),
+        nodes=InGrid(np.arange(loaded)),
         pressure=np.full(loaded, np.inf),
         plastic=nowhere,
         pulling=nowhere,
@@ -283,4 +282,4 @@ def _predicted(contact: Contact, tangent: Tangent, load: Load) -> ContactSet | N
     if not contact.problem.law.only_pushes:
         loaded[:] = True
     depth = contact.depth + change / tangent.stiffness
-    return ContactSet(contact.nodes[loaded], pressure[loaded], depth)
+    return ContactSet(among(contact.nodes, loaded), pressure[loaded], depth)

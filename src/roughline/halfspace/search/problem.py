@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import InGrid, InRegion, Mask, Real
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
@@ -62,7 +62,7 @@ class Grid:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
 
-    def nodes(self, indices: Indices) -> GridNodes:
+    def nodes(self, indices: InGrid) -> GridNodes:
         """List the nodes with these ascending flat indices."""
         return GridNodes.of(indices, self.shape)
 
@@ -140,7 +140,7 @@ class Problem:
         """The bounds that the pressures of all nodes have now."""
         return self.bounds_at(None)
 
-    def bounds_at(self, nodes: Indices | None) -> Bounds:
+    def bounds_at(self, nodes: InGrid | None) -> Bounds:
         """Return the bounds that the pressures of ascending nodes have now, or of all."""
         low, high = self.law.bounds(nodes)
         if not self.law.only_pushes:
@@ -154,7 +154,7 @@ class Problem:
         half_space, compliance = self.grid.half_space, self.grid.inverse.diagonal
         return Pull(self.law, self.separation, compliance, half_space.repeats)
 
-    def exceeds(self, nodes: Indices, pressure: Real, times: float = 1.0) -> bool:
+    def exceeds(self, nodes: InGrid, pressure: Real, times: float = 1.0) -> bool:
         """Whether elastic bodies bear more than so many times an upper bound, on some of nodes."""
         most = Bounds.of(self.law, nodes).high
         return self.is_elastic and bool(np.any(pressure > times * np.asarray(most)))
@@ -235,7 +235,7 @@ class Load:
 class ContactSet:
     """Nodes in contact, ascending flat indices in the grid, and the pressures on them."""
 
-    nodes: Indices
+    nodes: InGrid
     pressure: Real
     depth: float | None = None  # that goes with them, about; None where it is not known [length]
 
@@ -289,7 +289,7 @@ class Contact:
     problem: Problem
     depth: float  # approach since first touch [length]
     force: float
-    nodes: Indices  # with a pressure, ascending flat indices
+    nodes: InGrid  # with a pressure, ascending flat indices
     pressure: Real
     # which of them are at the upper bound, and at a lower bound that is not zero; at the other ones
     # the bodies touch, and the pressure follows the load
@@ -332,11 +332,11 @@ class Contact:
         gap.flat[self.looked_at.indices] = self.gaps
         return gap
 
-    def gap_at(self, nodes: Indices) -> Real:
+    def gap_at(self, nodes: InGrid) -> Real:
         """Return the gap at nodes that were looked at: those in contact and their neighbours."""
-        places = nodes
+        places = InRegion(nodes)  # all of the grid, unless less was looked at
         if self.looked_at is not None:
-            places = np.searchsorted(self.looked_at.indices, nodes)
+            places = InRegion(np.searchsorted(self.looked_at.indices, nodes))
             places[places == self.gaps.size] = 0
             if not np.array_equal(self.looked_at.indices[places], nodes):
                 return self.gap.ravel()[nodes]

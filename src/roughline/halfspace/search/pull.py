@@ -15,7 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
-from roughline.computing.arrays import Floats, Indices, Integers, Real
+from roughline.computing.arrays import Floats, Indices, InGrid, Integers, Real, among
 from roughline.computing.compiled import compiled
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import LEAST_SHARE, ContactLaw
@@ -32,21 +32,21 @@ from roughline.halfspace.laws.unilateral import Unilateral
 class Shares:
     """Shares of the largest pull that nodes bear, ascending flat indices; others bear none."""
 
-    nodes: Indices
+    nodes: InGrid
     values: Real
 
     @classmethod
     def none(cls) -> Shares:
         """No node is pulled."""
-        return cls(np.empty(0, np.intp), np.empty(0))
+        return cls(InGrid(np.empty(0, np.intp)), np.empty(0))
 
     @property
     def above_zero(self) -> Shares:
         """The same, without nodes that bear none."""
         pulled = self.values > 0
-        return Shares(self.nodes[pulled], self.values[pulled])
+        return Shares(among(self.nodes, pulled), self.values[pulled])
 
-    def at(self, nodes: Indices) -> Real:
+    def at(self, nodes: InGrid) -> Real:
         """Return the shares of some nodes, ascending ones."""
         if np.array_equal(nodes, self.nodes):
             return self.values
@@ -54,7 +54,7 @@ class Shares:
         _find(self.nodes, self.values, nodes, found)
         return found
 
-    def but(self, nodes: Indices, values: Real) -> Shares:
+    def but(self, nodes: InGrid, values: Real) -> Shares:
         """Return the same, with other values at some of their nodes."""
         changed = self.values.copy()
         changed[np.searchsorted(self.nodes, nodes)] = values
@@ -113,20 +113,21 @@ class Pull:
         followed = self._shares(gap[nodes] if nodes.size < gap.size else gap, nodes)
         taken = shares.at(nodes)
         places = np.flatnonzero(followed != taken)
-        moved, there, before = nodes[places], followed[places], taken[places]
+        moved, there, before = among(nodes, places), followed[places], taken[places]
         apart = self._apart(there, before, moved)
         return Shares(nodes, followed), Shares(moved, there - before), float(apart.max(initial=0.0))
 
-    def _near(self, gap: Real, shares: Shares) -> Indices:
+    def _near(self, gap: Real, shares: Shares) -> InGrid:
         """Return the nodes that a gap leaves within reach, and those of shares, in one memory."""
         if math.isinf(self.law.cutoff):
-            return shares.nodes if shares.nodes.size == gap.size else np.arange(gap.size)
+            everywhere = shares.nodes.size == gap.size
+            return shares.nodes if everywhere else InGrid(np.arange(gap.size))
         near = gap < farthest_pulled(self.law)
         near[shares.nodes] = True
-        nodes = np.flatnonzero(near)
+        nodes = InGrid(np.flatnonzero(near))
         return nodes if nodes.size > shares.nodes.size else shares.nodes
 
-    def _shares(self, gap: Real, nodes: Indices) -> Real:
+    def _shares(self, gap: Real, nodes: InGrid) -> Real:
         """Return the shares that the gaps of nodes leave."""
         law = self.law
         shares = law.share_at(np.clip(gap, 0.0, law.cutoff))
@@ -140,7 +141,7 @@ class Pull:
         shares += within
         return shares
 
-    def _apart(self, shares: Real, others: Real, nodes: Indices) -> Real:
+    def _apart(self, shares: Real, others: Real, nodes: InGrid) -> Real:
         """Return by how much the gaps of nodes differ that go with shares. [length]"""
         least = self.jump or LEAST_SHARE
         gaps = [self.law.gap_at(np.maximum(each, least)) for each in (shares, others)]
@@ -156,7 +157,8 @@ class Pull:
         The gap is that of all nodes, shape (nx * ny,). [pressure * length]
         """
         law = self.law
-        nodes = np.flatnonzero(gap < (farthest_pulled(law) if self.jump else law.cutoff))
+        farthest = farthest_pulled(law) if self.jump else law.cutoff
+        nodes = InGrid(np.flatnonzero(gap < farthest))
         gap = np.maximum(gap[nodes], 0.0)
         work = law.work_beyond(np.minimum(gap, law.cutoff))
         if self.jump:
@@ -173,7 +175,7 @@ class Pull:
         within /= 2 * ramp
         return np.clip(within, 0.0, 1.0, out=within)
 
-    def _ramp(self, nodes: Indices) -> Real:
+    def _ramp(self, nodes: InGrid) -> Real:
         """Return half of the width over which the pull ends at nodes. [length]"""
         steps = _steps(self.separation, nodes, *self.repeats)
         steps /= 2

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.computing.arrays import Floats, Indices, Mask, Real
+from roughline.computing.arrays import Floats, InGrid, InRegion, Mask, Real, among
 from roughline.computing.compiled import compiled
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.operators.corrected import CorrectedOperator
@@ -47,7 +47,7 @@ class Region:
         return cls(problem, operator, separation, problem.bounds, math.inf)
 
     @classmethod
-    def possible(cls, problem: Problem, contact: Indices, reach: float) -> Region:
+    def possible(cls, problem: Problem, contact: InGrid, reach: float) -> Region:
         """All nodes that lie nearer than a reach, with the exact operator.
 
         The nodes of a contact and their neighbours are among them, too.
@@ -59,7 +59,7 @@ class Region:
         for step in (-1, 0, 1):
             shown[(x + step) % shown.shape[0], y] = True
             shown[x, (y + step) % shown.shape[1]] = True
-        places = np.flatnonzero(shown)
+        places = InGrid(np.flatnonzero(shown))
         if places.size > _LARGEST * shown.size:
             return cls.whole(problem)
         nodes = GridNodes.of(places, shown.shape)
@@ -73,11 +73,11 @@ class Region:
 
         Nodes whose bounds allow no zero pressure are among them.
         """
-        nodes = contact_set.nodes
+        places = InRegion(contact_set.nodes)  # all of the grid, unless there are fewer nodes
         if self.operator.nodes is not None:
-            nodes = np.searchsorted(self.operator.nodes.indices, nodes)
-        found = Carriers(nodes, self.bounds.at(nodes).nearest(contact_set.pressure))
-        pulled = np.setdiff1d(self.bounds.pulled, nodes, assume_unique=True)
+            places = InRegion(np.searchsorted(self.operator.nodes.indices, contact_set.nodes))
+        found = Carriers(places, self.bounds.at(places).nearest(contact_set.pressure))
+        pulled = InRegion(np.setdiff1d(self.bounds.pulled, places, assume_unique=True))
         return found.joined_by(pulled, self.bounds.at(pulled).low)
 
     def near(self, trial: Trial, reach: float) -> tuple[Region, Carriers] | None:
@@ -89,7 +89,7 @@ class Region:
         carriers, grid = trial.carriers, self.problem.grid.shape
         most = max(0, int(_LARGEST * math.prod(grid)) - carriers.places.size)
         places, order = merged(carriers.places, trial.close(reach, most))
-        found = Carriers(np.flatnonzero(order < carriers.places.size), carriers.pressure)
+        found = Carriers(InRegion(np.flatnonzero(order < carriers.places.size)), carriers.pressure)
         moved = trial.gap[places]
         moved[found.places[trial.plastic]] -= trial.overlap
         moved += trial.approach
@@ -108,20 +108,20 @@ class Region:
         """
         bears = np.zeros(problem.separation.size, dtype=bool)
         bears[contact.nodes] = bears[problem.shares.above_zero.nodes] = True
-        places = np.flatnonzero(bears)
+        places = InGrid(np.flatnonzero(bears))
         bounds = problem.bounds_at(places)
-        before = Carriers(np.searchsorted(places, contact.nodes), contact.pressure)
+        before = Carriers(InRegion(np.searchsorted(places, contact.nodes)), contact.pressure)
         moved = contact.gap_at(places)
         moved += contact.depth - problem.touch
         region = _restricted(problem, problem.grid.nodes(places), bounds, before, moved)
         if region is None:
             return None
-        carriers = np.searchsorted(places, start.nodes)
+        carriers = InRegion(np.searchsorted(places, start.nodes))
         pressure = np.broadcast_to(bounds.low, places.shape).copy()
         pressure[carriers] = bounds.at(carriers).nearest(start.pressure)
         bears = pressure != 0
         bears[carriers] = True
-        return region, Carriers(np.flatnonzero(bears), pressure[bears])
+        return region, Carriers(InRegion(np.flatnonzero(bears)), pressure[bears])
 
     def recentred(self, carriers: Carriers, precision: Precision) -> Region:
         """Return the region with the operator that is exact for the pressures of carriers."""
@@ -255,15 +255,15 @@ class Trial:
         return ContactSet(nodes, self.carriers.pressure, self.depth)
 
     @property
-    def watched(self) -> Indices:
+    def watched(self) -> InRegion:
         """The nodes without pressure that may come into contact, about as many as carriers."""
         others, most = self.close(REACH, self.gap.size), self.carriers.places.size
         if others.size <= most:
             return others
         gaps = self.gap[others]
-        return others[gaps <= np.partition(gaps, most)[most]]
+        return among(others, gaps <= np.partition(gaps, most)[most])
 
-    def close(self, reach: float, most: int) -> Indices:
+    def close(self, reach: float, most: int) -> InRegion:
         """Return the nodes without pressure whose gap is small, at most so many.
 
         Small is less than `reach` times the error where the bodies touch.
@@ -273,10 +273,10 @@ class Trial:
         error = float(np.sqrt(np.mean(on_contact**2))) if on_contact.size else 0.0
         close = self.gap < (reach if math.isinf(reach) else reach * error)
         close[places] = False
-        others = np.flatnonzero(close)
+        others = InRegion(np.flatnonzero(close))
         if others.size <= most:
             return others
-        return others[np.sort(np.argpartition(self.gap[others], most)[:most])]
+        return among(others, np.sort(np.argpartition(self.gap[others], most)[:most]))
 
     def contact(self, outcome: Outcome, convolutions: int) -> Contact:
         """Return the trial as the contact with which a search ended."""
@@ -292,7 +292,7 @@ class Trial:
             problem=replace(problem, separation=separation),
             depth=self.depth,
             force=self.force,
-            nodes=nodes[loaded],
+            nodes=among(nodes, loaded),
             pressure=pressure[loaded],
             plastic=self.plastic[loaded],
             pulling=~(self.touching | self.plastic)[loaded],

@@ -18,7 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import InGrid, Mask, Real, among
 from roughline.halfspace.search.carriers import merged
 from roughline.halfspace.search.pull import Pull, Shares
 
@@ -32,14 +32,14 @@ _NEAR, _ROUNDS, _NEARER, _FASTEST = 0.1, 6, 0.9, 8.0
 class _History:
     """What followed from shares in the last rounds, at the nodes that have moved in any."""
 
-    nodes: Indices
+    nodes: InGrid
     followed: tuple[Real, ...] = ()
     moved: tuple[Real, ...] = ()  # by which these differ from the shares of the contact
 
     @classmethod
     def none(cls) -> _History:
         """No rounds."""
-        return cls(np.empty(0, np.intp))
+        return cls(InGrid(np.empty(0, np.intp)))
 
     @property
     def change(self) -> float:
@@ -52,7 +52,7 @@ class _History:
         joining = moved.nodes
         if 2 * joining.size > followed.nodes.size:  # soon all of them will have moved
             joining = followed.nodes
-        joining = joining[Shares(nodes, np.ones(nodes.size)).at(joining) == 0]
+        joining = among(joining, Shares(nodes, np.ones(nodes.size)).at(joining) == 0)
         if joining.size:
             nodes, order = merged(nodes, joining)
             rested, nothing = taken.at(joining), np.zeros(joining.size)
@@ -74,7 +74,7 @@ class _History:
             _steps(self.moved, moving).T, self.moved[-1][moving], rcond=1e-10
         )
         there = self.followed[-1][moving] - steps @ _steps(self.followed, moving)
-        return shares.but(self.nodes[moving], np.clip(there, 0.0, 1.0))
+        return shares.but(among(self.nodes, moving), np.clip(there, 0.0, 1.0))
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,11 +11,12 @@ import math
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import InGrid, Mask, Real, among
 from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Contact, Grid, Method
 from roughline.halfspace.search.response import Response, Tangent
+from roughline.halfspace.search.window import Window
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.
@@ -24,17 +25,18 @@ _SLOW = 0.01  # where a turn of a restricted operator gains more of the turn bef
 
 
 def response(
-    contact: Contact, grid: Grid, nodes: Indices, start: tuple[Real, Real] | None, method: Method
+    contact: Contact, window: Window, start: tuple[Real, Real] | None, method: Method
 ) -> Response:
     """Solve for the exact stiffness of a contact, on further loading and on unloading.
 
-    It is solved on a grid that holds the contact, which has its nodes there. Nodes at a bound bear
-    no more on loading. On unloading, those at the upper one follow, too, as their overlap stays in
-    the surface. The start are guesses of dp/dF on loading and on unloading, such as those of the
+    It is solved in the window in which the contact was found. Nodes at a bound bear no more on
+    loading. On unloading, those at the upper one follow, too, as their overlap stays in the
+    surface. The start are guesses of dp/dF on loading and on unloading, such as those of the
     load before; without any, it is the pressures themselves.
     """
     loading, unloading = start or (None, None)
-    pressure = contact.pressure
+    grid, pressure = window.bodies.grid, contact.pressure
+    nodes = InGrid(window.inside(contact.nodes))  # the window is the grid here
     back = _tangent(grid, nodes, pressure, ~contact.pulling, unloading, method)
     if not contact.plastic.any():
         return Response(back, back)
@@ -42,7 +44,7 @@ def response(
 
 
 def _tangent(
-    grid: Grid, nodes: Indices, pressure: Real, follow: Mask, start: Real | None, method: Method
+    grid: Grid, nodes: InGrid, pressure: Real, follow: Mask, start: Real | None, method: Method
 ) -> Tangent:
     """Solve for the exact stiffness of a contact of which some nodes follow a change of the load.
 
@@ -50,7 +52,7 @@ def _tangent(
     """
     operator, every = grid.inverse.operator, bool(follow.all())
     cell_area = operator.cell_area
-    following = nodes if every else nodes[follow]
+    following = nodes if every else among(nodes, follow)
     if not following.size:
         return Tangent(0.0, np.zeros(nodes.size))
     if operator.mean_is_free and following.size == math.prod(grid.shape):  # rigid
@@ -66,7 +68,7 @@ def _tangent(
 
 
 def punch_compliance(
-    grid: Grid, nodes: Indices, pressure: Real, method: Method
+    grid: Grid, nodes: InGrid, pressure: Real, method: Method
 ) -> tuple[float, int]:
     """Lead pressures of unit force, which are overwritten, to those that displace all nodes alike.
 

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from roughline.computing.arrays import Indices
+from roughline.computing.arrays import Indices, InGrid, InWindow
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Problem
 from roughline.halfspace.search.turns import Turns
@@ -70,33 +70,42 @@ class Window:
             law=problem.law.on(lambda field: field[here]),
         )
 
-    def turns(self, load: Load, start: ContactSet, method: Method) -> Turns:
-        """Return the search in the window, which starts from a contact set of the grid."""
-        start = replace(start, nodes=self.inside(start.nodes))
-        return Turns(self.bodies, load, start, method)
+    def turns(
+        self, load: Load, start: ContactSet, method: Method, before: Contact | None = None
+    ) -> Turns:
+        """Return the search in the window, which starts from a contact set of the grid.
 
-    def inside(self, nodes: Indices) -> Indices:
+        The contact before, under other bounds, serves it if the window is all of the grid.
+        """
+        nodes = InGrid(self.inside(start.nodes))  # the window is the grid of what is sought there
+        start = replace(start, nodes=nodes)
+        before = before if self.bodies is self.problem else None
+        return Turns(self.bodies, load, start, method, before)
+
+    def inside(self, nodes: InGrid) -> InWindow:
         """Return nodes of the grid as nodes of the window."""
         if self.bodies is self.problem:
-            return nodes
+            return InWindow(nodes)
         x, y = np.divmod(nodes, self.problem.separation.shape[1])
-        return (x - self.rows.start) * self.bodies.separation.shape[1] + y - self.columns.start
+        x, y = x - self.rows.start, y - self.columns.start
+        return InWindow(x * self.bodies.separation.shape[1] + y)
 
     def holds(self, contact: Contact) -> bool:
         """Whether nothing beyond the window can touch at the depth of a contact."""
         return self.problem.reach(contact.depth) <= self.reach
 
-    def on_grid(self, nodes: Indices) -> Indices:
+    def on_grid(self, nodes: InWindow) -> InGrid:
         """Return nodes of the window as nodes of the grid."""
         if self.bodies is self.problem:
-            return nodes
+            return InGrid(nodes)
         x, y = np.divmod(nodes, self.bodies.separation.shape[1])
-        return (x + self.rows.start) * self.problem.separation.shape[1] + y + self.columns.start
+        x, y = x + self.rows.start, y + self.columns.start
+        return InGrid(x * self.problem.separation.shape[1] + y)
 
     def guess(self, turns: Turns) -> ContactSet:
         """Return the contact that a search in the window finds roughly, as one of the grid."""
         found = turns.guess()
-        return replace(found, nodes=self.on_grid(found.nodes))
+        return replace(found, nodes=self.on_grid(InWindow(found.nodes)))
 
     def contact(self, turns: Turns) -> Contact:
         """Return the contact that a search in the window finds, as one of the grid."""
@@ -112,8 +121,8 @@ class Window:
         return replace(
             found,
             problem=problem,
-            nodes=self.on_grid(found.nodes),
-            looked_at=GridNodes.of(self.on_grid(looked_at), shape),
+            nodes=self.on_grid(InWindow(found.nodes)),
+            looked_at=GridNodes.of(self.on_grid(InWindow(looked_at)), shape),
         )
 
 
