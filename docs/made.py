@@ -45,6 +45,8 @@ SECTIONS = {
             "Creep",
             "CreepCurve",
             "Curve",
+            "SurfaceCurve",
+            "LineCurve",
             "Fields",
             "Distribution",
             "Patches",
