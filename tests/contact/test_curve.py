@@ -1,11 +1,13 @@
 """What a curve is of: a surface, or the line or profile of the reduced model."""
 
+import inspect
 from dataclasses import fields
 
 import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.contact.press import _Asked
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, rms_height=0.01)
 SURFACE, LINE = SPECTRUM.surface(16, 7), SPECTRUM.line(64, 7)
@@ -47,3 +49,12 @@ def test_the_contact_of_a_profile_is_a_disc_and_a_line_has_no_area():
     ball = rl.press(BALL, E_star=1.0, forces=[1e-3])
     assert ball.area_fraction_corrected is ball.area_fraction
     assert rl.press(LINE, E_star=1.0, forces=[1e-3]).area_fraction_corrected is None
+
+
+def test_types_of_a_press_are_those_of_its_signature():
+    """Its overloads tell the kind of curve, and group the arguments beside the body."""
+    arguments = inspect.signature(rl.press).parameters
+    typed = {name: each.__forward_arg__ for name, each in _Asked.__annotations__.items()}
+    assert {"body": arguments["body"].annotation, **typed} == {
+        name: each.annotation for name, each in arguments.items()
+    }
