@@ -55,7 +55,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "curve": {
             "of": "map" if question.joint is not None else "body",
             **{
-                quantity.name: getattr(curve, quantity.name)
+                quantity.name: getattr(curve, quantity.name, None)  # of a line, not all
                 for quantity in IN_JSON
                 if quantity.is_left_by("none" if curve.law is None else curve.law.memory)
             },
