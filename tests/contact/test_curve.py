@@ -37,8 +37,8 @@ def test_a_surface_has_all_that_was_not_asked_for_but_errors_of_the_grid():
 def test_what_the_reduced_model_does_not_have_is_told_in_a_line(name):
     curve = rl.press(LINE, E_star=1.0, forces=[1e-3])
     assert not hasattr(curve, name)
-    told = f"a LineCurve has no {name}: that is of the full model; press a Surface"
-    with pytest.raises(AttributeError) as missing:
+    told = f"a LineCurve has no {name}, which the reduced model does not give: press a Surface"
+    with pytest.raises(rl.InputError) as missing:
         getattr(curve, name)
     assert str(missing.value) == told
     with pytest.raises(AttributeError, match="object has no attribute 'feilds'"):

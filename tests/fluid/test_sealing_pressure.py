@@ -188,7 +188,7 @@ def test_what_cannot_be_taken_off_is_refused(pressed):
     with pytest.raises(rl.InputError, match="a factor above 1"):
         rl.reopening(curve, times=1.0)
     line = rl.press(rl.SelfAffine(hurst=0.8, rms_height=1.0).line(64, 1), E_star=1.0, forces=[1.0])
-    with pytest.raises(rl.InputError, match="reduced model of a line"):
+    with pytest.raises(rl.InputError, match="the reduced model does not give: press a Surface"):
         rl.reopening(line)
 
 

@@ -398,6 +398,10 @@ class SurfaceCurve(Curve):
         return 0 < len(self._with_fields) < int(self.converged.sum())
 
 
+class _NotOfLinesError(InputError, AttributeError):
+    """A line is asked for what a surface has; ``hasattr`` finds that it is not there."""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class LineCurve(Curve):
     """Contact quantities of a line or a profile over its loads, by the reduced model.
@@ -432,8 +436,9 @@ class LineCurve(Curve):
 
         def __getattr__(self, name):
             if name in SurfaceCurve.__dataclass_fields__ or hasattr(SurfaceCurve, name):
-                raise AttributeError(
-                    f"a LineCurve has no {name}: that is of the full model; press a Surface"
+                raise _NotOfLinesError(
+                    f"a LineCurve has no {name}, which the reduced model does not give: press a "
+                    "Surface"
                 )
             raise AttributeError(f"'LineCurve' object has no attribute {name!r}")
 
