@@ -22,7 +22,7 @@ from trials import (
 import roughline as rl
 from roughline.assessment.assumptions import broken
 from roughline.assessment.larger_surface import larger_surface, roll_offs_along_a_side
-from roughline.assessment.tiles import Beyond, TiledCurves, coarsened, tiles_of
+from roughline.assessment.tiles import Extrapolation, TiledCurves, coarsened, cut_tiles
 
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 COUNTS = (2, 3, 5, 10)
@@ -199,10 +199,10 @@ def _of_tiles(piece, whole, truth, press):
     """Intervals of one map for a joint as large as the whole; none if an assumption is broken."""
     level = piece.detrended()
     curve = press(level)
-    beyond = Beyond.of(roll_offs_along_a_side(piece), piece.area, whole.area)
+    beyond = Extrapolation.of(roll_offs_along_a_side(piece), piece.area, whole.area)
     k, area = curve.unloading_stiffness, curve.area_fraction_corrected
     coarse = coarsened(level)
-    sizes = [coarse], tiles_of(coarse, 2), tiles_of(coarse, 4)
+    sizes = [coarse], cut_tiles(coarse, 2), cut_tiles(coarse, 4)
     (of_map,), *of_tiles = ([press(each, rtol=1e-4) for each in some] for some in sizes)
     tiled = TiledCurves(of_map, *of_tiles, coarse.heights.size)
     tiles = tiled.stiffness_and_contact()

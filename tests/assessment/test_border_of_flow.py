@@ -10,12 +10,12 @@ import roughline as rl
 from roughline.assessment.behind_maps import behind_maps
 from roughline.assessment.border_of_flow import what_borders_do
 from roughline.assessment.larger_measure import LargerMeasure
-from roughline.assessment.tiles import POINTS_OF_BORDER, Beyond, TiledCurves, coarse_shape
+from roughline.assessment.tiles import POINTS_OF_BORDER, Extrapolation, TiledCurves, coarse_shape
 from roughline.contact.measures import Measured
 from roughline.fluid import border
 from roughline.fluid.measures import LIQUID, aperture_of, names_at_border
 
-SEEN = Beyond(6.0)
+SEEN = Extrapolation(6.0)
 APERTURE = "hydraulic_aperture_x"
 SEALED = {"inlet": "6 bar", "seal": "1 mm x 1 mm"}
 WATER = rl.Fluid("water", **SEALED)
@@ -40,28 +40,28 @@ def measure_of(whole, tiles, at_border):
 
 def test_nothing_but_the_border_leaves_open_what_lies_between_both():
     """Were map and tiles alike, and the grid exact; in the second load the flow given is more."""
-    found = measure_of([2, 2], [2, 2], ([2, 2], [1, 3], [4, 5])).of_larger(SEEN)
+    found = measure_of([2, 2], [2, 2], ([2, 2], [1, 3], [4, 5])).with_larger_surface(SEEN)
     assert found.low == pytest.approx([1, 2])
     assert found.high == pytest.approx([4, 5])
 
 
 def test_it_lies_within_an_interval_that_holds_more():
     """Tiles have borders, too: both together leave open what the wider one does."""
-    rest = measure_of([2], [1.8], ([2], [2], [2])).of_larger(SEEN)
-    narrower = measure_of([2], [1.8], ([2], [1.99], [2.01])).of_larger(SEEN)
+    rest = measure_of([2], [1.8], ([2], [2], [2])).with_larger_surface(SEEN)
+    narrower = measure_of([2], [1.8], ([2], [1.99], [2.01])).with_larger_surface(SEEN)
     assert (narrower.low, narrower.high) == (rest.low, max(rest.high, 2.01))
-    wider = measure_of([2], [1.8], ([2], [1], [4])).of_larger(SEEN)
+    wider = measure_of([2], [1.8], ([2], [1], [4])).with_larger_surface(SEEN)
     assert (wider.low, wider.high) == (pytest.approx(1), pytest.approx(4))
 
 
 def test_a_sealed_map_that_its_border_opens_may_leak_so_much():
-    found = measure_of([0, 0], [0, 0], ([0, 0], [0.4, 0], [0.5, 0])).of_larger(SEEN)
+    found = measure_of([0, 0], [0, 0], ([0, 0], [0.4, 0], [0.5, 0])).with_larger_surface(SEEN)
     assert found.low.tolist() == found.values.tolist() == [0, 0]
     assert found.high == pytest.approx([0.5, 0])
 
 
 def test_a_border_that_was_not_solved_leaves_all_open():
-    found = measure_of([2], [2], ([np.nan], [np.nan], [np.nan])).of_larger(SEEN)
+    found = measure_of([2], [2], ([np.nan], [np.nan], [np.nan])).with_larger_surface(SEEN)
     assert (found.low, found.high) == (0, np.inf)
 
 
@@ -105,7 +105,7 @@ def test_it_is_in_the_interval_of_the_leak(assessment):
     for name in (APERTURE, "hydraulic_aperture_y"):
         measure, answer = assessment.larger.measures[name], assessment.answers[name]
         bare = replace(measure, at_border=None)
-        without, whole = (each.of_larger(Beyond(2.5)) for each in (bare, measure))
+        without, whole = (each.with_larger_surface(Extrapolation(2.5)) for each in (bare, measure))
         given, held = measure.values_at_border
         assert whole.low == pytest.approx(np.minimum(without.low, given))
         assert whole.high == pytest.approx(np.maximum(without.high, held))
@@ -180,7 +180,7 @@ def test_of_many_maps_the_mean_of_their_borders_is_left_open(parent):
         without.append(replace(each, larger=replace(each.larger, measures=measures)))
     borders = [each.larger.measures[APERTURE].border for each in maps]
     mean = np.mean(borders, axis=0)
-    found, bare = (behind_maps(each).alike.measures[APERTURE] for each in (maps, without))
+    found, bare = (behind_maps(each).common.measures[APERTURE] for each in (maps, without))
     assert found[0] == pytest.approx(np.minimum(bare[0], mean[0]))
     assert found[1] == pytest.approx(np.maximum(bare[1], mean[1]))
     assert abs(mean).max() > 0

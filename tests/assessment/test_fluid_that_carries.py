@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from typer.testing import CliRunner
 
 import roughline as rl
-from roughline.assessment.told import question_of
+from roughline.assessment.from_fields import build_question
 from roughline.cli import app
 from roughline.engineering.sealing import ATMOSPHERE
 from roughline.report.json_output import of_assessment, to_json
@@ -350,6 +350,6 @@ def test_the_command_line_has_a_switch(body, switch, tmp_path):
 def test_whether_it_carries_load_belongs_to_an_inlet(body):
     told = {"materials": ("rubber", "steel"), "fluid": "water", "carries": False}
     with pytest.raises(rl.InputError, match="^carries= belongs to inlet=: give that too$"):
-        question_of(body, told)
+        build_question(body, told)
     with pytest.raises(rl.InputError, match="carries is 3; True or False is needed"):
         fluid_of("water", carries=3)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.doubts import warnings_of
+from roughline.assessment.doubts import collect_warnings
 from roughline.assessment.notes import listed_in_short
 
 PAIR = "steel,copper"
@@ -143,7 +143,7 @@ def test_how_stiff_a_full_contact_is_follows_from_the_half_space(surface, half_s
     smooth = rl.Surface(surface.heights / 1000, surface.sizes, "m")
     result = said(smooth, loads=["1 mN", "20 N"], periodic=True, elastic=True)
     curve = rl.press(smooth, half_space=half_space, forces=result.curve.force)
-    found = warnings_of(replace(result, curve=curve), None, False)
+    found = collect_warnings(replace(result, curve=curve), None, False)
     assert any(each.endswith(f"no gap is left, and {rest}") for each in found)
     assert np.isinf(curve.stiffness[-1]) == (rest == "stiffness is infinite")
 

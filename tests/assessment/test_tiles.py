@@ -11,11 +11,11 @@ import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of, piece_of
 from roughline.assessment.larger_measure import LargerMeasure
 from roughline.assessment.larger_surface import larger_surface
-from roughline.assessment.tiles import Beyond, TiledCurves, Tiles
+from roughline.assessment.tiles import Extrapolation, TiledCurves, Tiles
 from roughline.contact.measures import MEAN_GAP, Measured
 
 MATERIALS = "E=200 GPa nu=0.3, E=200 GPa nu=0.3"
-SEEN, NOT_SEEN = Beyond(6.0), Beyond(None)
+SEEN, NOT_SEEN = Extrapolation(6.0), Extrapolation(None)
 
 
 def drawn(rng, of_map=0.0, of_tile=1.0, loads=400):
@@ -27,12 +27,12 @@ def drawn(rng, of_map=0.0, of_tile=1.0, loads=400):
 
 def test_the_mean_of_independent_tiles_is_held_in_95_of_100():
     tiles = drawn(np.random.default_rng(1))
-    low, high = tiles.beyond(SEEN)
-    held = np.mean((tiles.whole + low <= 0) & (tiles.whole + high >= 0))
+    low, high = tiles.extrapolated(SEEN)
+    held = np.mean((tiles.of_map + low <= 0) & (tiles.of_map + high >= 0))
     assert 0.95 <= held < 0.995
     width = np.median(high - low) / 2 / 1.96 * 4  # over that which just holds as many
     assert 1.0 < width < 1.4
-    assert (tiles.beyond(NOT_SEEN)[1] > high).all()
+    assert (tiles.extrapolated(NOT_SEEN)[1] > high).all()
 
 
 def test_a_lay_makes_tiles_count_for_less():
@@ -41,8 +41,8 @@ def test_a_lay_makes_tiles_count_for_less():
     rows = rng.normal(size=(4, 1, 400)) + 0.1 * rng.normal(size=(4, 4, 400))
     halves = rows.reshape(2, 2, 2, 2, 400).mean(axis=(1, 3))
     tiles = Tiles(halves.mean(axis=(0, 1)), halves, rows)
-    low, high = tiles.beyond(SEEN)
-    assert np.mean((tiles.whole + low <= 0) & (tiles.whole + high >= 0)) >= 0.9
+    low, high = tiles.extrapolated(SEEN)
+    assert np.mean((tiles.of_map + low <= 0) & (tiles.of_map + high >= 0)) >= 0.9
     assert np.median(tiles.scatter(SEEN)) > 1.5 * np.median(drawn(rng).scatter(SEEN))
 
 
@@ -62,7 +62,7 @@ def test_full_contact_of_a_tile_leaves_no_upper_end():
     tiles = drawn(np.random.default_rng(3), loads=3)
     tiles.quarters[0, 0, 1] = np.inf
     tiles.quarters[..., 2] = np.nan
-    low, high = tiles.beyond(SEEN)
+    low, high = tiles.extrapolated(SEEN)
     assert np.isinf(high).tolist() == [False, True, True]
     assert np.isfinite(low).tolist() == [True, True, False]
 
@@ -82,22 +82,22 @@ def measure_of(whole, halves, quarters, own=(0.9, 1.1)):
 
 def test_a_measure_scatters_as_its_tiles_do():
     """Tiles that are alike leave what the grid does; others are combined with that."""
-    alike = measure_of(2, [2] * 4, [2] * 16).of_larger(SEEN)
+    alike = measure_of(2, [2] * 4, [2] * 16).with_larger_surface(SEEN)
     assert [alike.low[0], alike.high[0]] == pytest.approx([1.8, 2.2])
     rng = np.random.default_rng(6)
     quarters = 2 * np.exp(0.3 * rng.normal(size=16))
-    apart = measure_of(2, [1.8, 2.2, 2.0, 2.0], quarters).of_larger(SEEN)
+    apart = measure_of(2, [1.8, 2.2, 2.0, 2.0], quarters).with_larger_surface(SEEN)
     assert 0.5 < apart.low[0] < 1.8
     assert 2.2 < apart.high[0] < 4
 
 
 def test_sealed_tiles_open_an_interval_towards_zero_and_not_to_infinity():
-    some = measure_of(1, [1.2, 0.8, 1, 0], [0] * 6 + [1.5] * 10).of_larger(SEEN)
+    some = measure_of(1, [1.2, 0.8, 1, 0], [0] * 6 + [1.5] * 10).with_larger_surface(SEEN)
     assert 0 < some.low[0] < 0.5
     assert 1.1 < some.high[0] < 20
-    most = measure_of(0.2, [1.2, 0, 0, 0], [0] * 12 + [1.5] * 4).of_larger(SEEN)
+    most = measure_of(0.2, [1.2, 0, 0, 0], [0] * 12 + [1.5] * 4).with_larger_surface(SEEN)
     assert most.low[0] == 0
-    sealed = measure_of(0, [0, 0.5, 0, 0], [0] * 10 + [0.4] * 6).of_larger(SEEN)
+    sealed = measure_of(0, [0, 0.5, 0, 0], [0] * 10 + [0.4] * 6).with_larger_surface(SEEN)
     assert sealed.low[0] == sealed.values[0] == 0
     assert 0 < sealed.high[0] < 5
 
@@ -112,22 +112,22 @@ def test_without_a_roll_off_a_gap_may_go_on_to_either_side():
 
 def test_where_map_and_tiles_are_sealed_nothing_but_the_grid_leaves_it_open():
     closed = measure_of(0, [0] * 4, [0] * 16)
-    assert closed.of_larger(SEEN).high[0] == 0
+    assert closed.with_larger_surface(SEEN).high[0] == 0
     opened = replace(closed, of_map=replace(closed.of_map, high=np.array([0.3])))
-    assert opened.of_larger(SEEN).high[0] == 0.3
+    assert opened.with_larger_surface(SEEN).high[0] == 0.3
 
 
 def test_a_measure_of_a_joint_too_large_to_be_told_of_has_no_interval():
     found = measure_of(1, [1] * 4, [1] * 16)
-    assert found.of_larger(Beyond(None, 5.0, "seal")).low is None
-    assert found.of_larger(None).high is None
+    assert found.with_larger_surface(Extrapolation(None, 5.0, "seal")).low is None
+    assert found.with_larger_surface(None).high is None
 
 
 def test_a_map_without_roll_off_tells_of_joints_up_to_sixteen_times_as_long():
-    for side, is_told in ((4, True), (16, True), (17, False)):
-        assert Beyond.of(None, 1.0, side**2).is_told == is_told
-    assert Beyond.of(5.0, 1.0, 1e6).is_told
-    assert Beyond.of(None, 1.0, None).doublings == 2
+    for side, is_supported in ((4, True), (16, True), (17, False)):
+        assert Extrapolation.of(None, 1.0, side**2).is_supported == is_supported
+    assert Extrapolation.of(5.0, 1.0, 1e6).is_supported
+    assert Extrapolation.of(None, 1.0, None).doublings == 2
 
 
 @pytest.fixture(scope="module", params=[32, 64])

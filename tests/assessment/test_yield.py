@@ -11,7 +11,7 @@ from attrs import evolve
 import roughline as rl
 from roughline.assessment import case as cases
 from roughline.assessment import loads as load_cases
-from roughline.assessment.behind_maps import BehindMaps, missed_of_map
+from roughline.assessment.behind_maps import BehindMaps, ends_in_common
 from roughline.assessment.larger_surface import Differences
 from roughline.engineering.formulas import electrical_resistance, partial_slip
 from roughline.report.answers import answer_table, elastic_in_words
@@ -349,7 +349,7 @@ def test_the_interface_of_a_map_springs_back_with_the_surface_around_it(n):
     # the hardness is the same for all maps of a part, so none of its scatter averages out
     low, high = result.hardness_scatter["interface_stiffness"]
     nothing = Differences((np.zeros(1),) * 2, (np.zeros(1),) * 2)
-    missed, _ = missed_of_map(result, BehindMaps(None, nothing, nothing))
+    missed, _ = ends_in_common(result, BehindMaps(None, nothing, nothing))
     missed_low, missed_high = missed["interface_stiffness"]
     assert k_i.low < missed_low < k_i.values * low
     assert k_i.high > missed_high > k_i.values * high

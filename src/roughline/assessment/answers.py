@@ -28,7 +28,7 @@ from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Surface
 
 
-def answers_of(
+def work_out_answers(
     case: Case, solution: Solution, *, body: Body | None = None, hardness: float | None = None
 ) -> tuple[Mapping[str, Answer], Sequence[str]]:
     """Answers at the loads that were asked for, by their keys, and which are left out, and why.
@@ -40,7 +40,7 @@ def answers_of(
         question = evolve(question, hardness=hardness)
     if question.pair is None:
         return {}, []
-    asked = case.loads.asked_of(solution.curve)
+    asked = case.loads.asked_loads(solution.curve)
     curve = at_loads(solution.curve, asked)
     intervals = taken(solution.intervals, asked)
     interface = None
@@ -93,12 +93,12 @@ def ends_from_many(
         }
     for key, ends in further.measures.items():
         measured[key] = larger.measures[key].widened(ends, with_grid=with_grid)
-    given, _ = rules.answers(
+    found_answers, _ = rules.answers(
         replace(
             pressed, measured=measured, is_repeated=True, sought=result.sought, fields=result.fields
         )
     )
-    return {key: each.ends for key, each in given.items() if each.ends is not None}
+    return {key: each.ends for key, each in found_answers.items() if each.ends is not None}
 
 
 def _pressed(

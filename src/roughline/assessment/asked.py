@@ -8,8 +8,8 @@ from typing import Any, get_args
 
 from attrs import field, frozen
 
+from roughline.assessment.arguments import quantity, several
 from roughline.assessment.fields import asked_in
-from roughline.assessment.given import quantity, several
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated
 from roughline.engineering.sealing import Fluid
@@ -23,7 +23,7 @@ from roughline.units import engineering
 
 _MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4
 _LARGEST_JOINT = 1e6  # [m²]
-_ROUNDING = 1e-9  # of the area of a map, which is a product of its sides
+_AREA_ROUNDING = 1e-9  # of the area of a map, which is a product of its sides
 
 
 def _attraction(given: float | str | Dugdale | Exponential | Attraction) -> Attraction:
@@ -152,7 +152,7 @@ class Joint:
 
     def refuse_map(self, area: float) -> None:
         """Refuse a map with a larger area [m²] than the joint that it is a part of."""
-        if area > self.area * (1 + _ROUNDING):
+        if area > self.area * (1 + _AREA_ROUNDING):
             raise InputError(
                 f"the joint has an area of {engineering(self.area, 'm²')}, less than the map, "
                 f"which has {engineering(area, 'm²')}: crop the map, or leave "
@@ -190,7 +190,12 @@ Asked = Adhesion | Friction | Ultrasound | Joint | Theories | Fluid
 KINDS: Mapping[str, type[Asked]] = {each.__name__: each for each in get_args(Asked)}
 """Classes of what is asked, by their names."""
 
-_OF_MATERIALS = {Friction: "friction", Ultrasound: "frequency", Joint: "joint_area", Fluid: "fluid"}
+_NEEDING_MATERIALS = {
+    Friction: "friction",
+    Ultrasound: "frequency",
+    Joint: "joint_area",
+    Fluid: "fluid",
+}
 """What is answered of two materials alone, free or repeated both ways, and its first field."""
 
 _NOT_OF_LINES = {
@@ -219,16 +224,16 @@ def asked(given: Asked | Iterable[Asked] | None) -> tuple[Asked, ...]:
     return found
 
 
-def asked_for(told: Mapping[str, Any]) -> tuple[Asked, ...]:
+def asked_for(values: Mapping[str, Any]) -> tuple[Asked, ...]:
     """Return what is asked, from values by the names of fields; None and False ask nothing."""
-    return tuple(KINDS[of](*by_place, **by_name) for of, by_place, by_name in asked_in(told))
+    return tuple(KINDS[of](*by_place, **by_name) for of, by_place, by_name in asked_in(values))
 
 
-def _fields_of(each: Asked) -> dict[str, str]:
+def _field_names(each: Asked) -> dict[str, str]:
     """Fields by which something is asked, and what they are called."""
     if not isinstance(each, Fluid):
         name = f"rl.{type(each).__name__}"
-        return {_OF_MATERIALS.get(type(each), "ask"): called(name)}
+        return {_NEEDING_MATERIALS.get(type(each), "ask"): called(name)}
     fluid = {} if each.fluid is None else {"fluid": called("rl.Fluid")}
     return fluid | ({"closure": called("closure", True)} if each.closure else {})
 
@@ -236,15 +241,15 @@ def _fields_of(each: Asked) -> dict[str, str]:
 def refuse_without_materials(ask: Iterable[Asked]) -> None:
     """Refuse what is answered of two materials alone."""
     for each in ask:
-        if type(each) in _OF_MATERIALS:
-            argument, name = next(iter(_fields_of(each).items()))
+        if type(each) in _NEEDING_MATERIALS:
+            argument, name = next(iter(_field_names(each).items()))
             text = f"{name} needs two materials ({called('materials')})"
             raise InputError(text, None, argument)
 
 
-def refuse_of_strip(ask: Iterable[Asked], along: str, *, has_materials: bool) -> None:
+def refuse_on_strip(ask: Iterable[Asked], along: str, *, has_materials: bool) -> None:
     """Refuse answers of a body that is repeated along one side alone, all of them at once."""
-    fields = [_fields_of(each) for each in ask if type(each) in _OF_MATERIALS]
+    fields = [_field_names(each) for each in ask if type(each) in _NEEDING_MATERIALS]
     names = [name for each in fields for name in each.values()]
     materials, take = called("materials"), []
     if has_materials:
@@ -261,9 +266,9 @@ def refuse_of_strip(ask: Iterable[Asked], along: str, *, has_materials: bool) ->
         )
 
 
-def refuse_of_line(ask: Iterable[Asked]) -> None:
+def refuse_on_line(ask: Iterable[Asked]) -> None:
     """Refuse what is asked of a line and belongs to a surface."""
     for each in ask:
         if (why := _NOT_OF_LINES.get(type(each))) is not None:
-            name = next(iter(_fields_of(each).values()))
+            name = next(iter(_field_names(each).values()))
             raise InputError(f"{name} belongs to a surface: {why}")

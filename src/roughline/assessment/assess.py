@@ -6,19 +6,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughline.assessment.answers import answers_of
+from roughline.assessment.answers import work_out_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
-from roughline.assessment.cost import Announce, tell_cost
-from roughline.assessment.doubts import warnings_of
+from roughline.assessment.cost import Announce, announce_cost
+from roughline.assessment.doubts import collect_warnings
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadProgress
-from roughline.assessment.notes import notes_of
+from roughline.assessment.notes import collect_notes
 from roughline.assessment.question import Question
-from roughline.assessment.scatter import elastic_answers, scatter_of
-from roughline.assessment.solution import Solution, fields_of_gap, solution_of, solution_of_scan
-from roughline.assessment.sought import sought_of
-from roughline.assessment.variants import Curves, Stopped, Way, press_all, variants_of
+from roughline.assessment.scatter import elastic_answers, widen_by_scatter
+from roughline.assessment.solution import Solution, combine_curves, fields_of_gap, solve_scan
+from roughline.assessment.sought import find_sought
+from roughline.assessment.variants import Curves, Stopped, Way, list_variants, press_all
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
@@ -57,10 +57,10 @@ def assess_body(
     """
     case = Case.of(question)
     curves, solution = _solved(case, announce, progress)
-    answers, left_out = answers_of(case, solution)
+    answers, left_out = work_out_answers(case, solution)
     theories, others = _theories(question, case.body, solution.curve)
-    scatter, answers, intervals = scatter_of(case, curves, solution, answers)
-    asked = case.loads.asked_of(solution.curve)
+    scatter, answers, intervals = widen_by_scatter(case, curves, solution, answers)
+    asked = case.loads.asked_loads(solution.curve)
     result = Assessment(
         question,
         case.parts,
@@ -80,8 +80,8 @@ def assess_body(
         sought=solution.sought,
         theories=theories,
     )
-    warnings = warnings_of(result, case.moments, case.loads.grid_error)
-    return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
+    warnings = collect_warnings(result, case.moments, case.loads.grid_error)
+    return replace(result, warnings=warnings, notes=collect_notes(result, solution.note))
 
 
 def _solved(
@@ -89,32 +89,34 @@ def _solved(
 ) -> tuple[Curves, Solution]:
     """Press a body, or a line scan through its spectrum."""
     if case.scan is not None:
-        solution = solution_of_scan(case, case.scan)
+        solution = solve_scan(case, case.scan)
         curves = Curves({Way.AS_ASKED: solution.curve})
     else:
         curves = _pressed(case, announce, progress)
-        solution = solution_of(case, curves)
+        solution = combine_curves(case, curves)
         _refuse_all_at_the_hardness(case, solution.curve)
     return curves, solution
 
 
 def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | None) -> Curves:
     """Press the body in all ways that are needed, until Ctrl-C comes."""
-    variants = variants_of(case)
-    tell_cost(case, variants, announce)
+    variants = list_variants(case)
+    announce_cost(case, variants, announce)
     try:
         curves = press_all(variants, case.loads.count, progress)
     except Stopped as stop:
         return stop.curves
-    sought, is_stopped = sought_of(case, curves)
+    sought, is_stopped = find_sought(case, curves)
     return replace(curves, sought=sought, stopped="sought" if is_stopped else "")
 
 
 def _refuse_all_at_the_hardness(case: Case, curve: Curve) -> None:
     """Refuse depths at which all of the area is at the hardness; of forces it is known before."""
-    beyond = np.flatnonzero((curve.converged & ~case.loads.borne(curve))[list(case.loads.asked)])
-    if case.loads.depths and beyond.size:
-        heading = case.question.loading.headings[beyond[0]]
+    all_at_hardness = np.flatnonzero(
+        (curve.converged & ~case.loads.solved_loads(curve))[list(case.loads.asked)]
+    )
+    if case.loads.depths and all_at_hardness.size:
+        heading = case.question.loading.headings[all_at_hardness[0]]
         raise InputError(
             f"depth {heading} indents all of the body: its whole area "
             "is at the hardness, and bears no more at any larger depth; give smaller ones"

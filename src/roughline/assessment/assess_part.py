@@ -12,12 +12,12 @@ from typing import Any
 import attrs
 import numpy as np
 
+from roughline.assessment.arguments import has_forces
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import broken
-from roughline.assessment.behind_maps import BehindMaps, behind_maps, missed_of_map
+from roughline.assessment.behind_maps import BehindMaps, behind_maps, ends_in_common
 from roughline.assessment.cost import Announce
-from roughline.assessment.given import has_forces
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.part_remarks import differ_in_size, remarks_of_part
@@ -86,7 +86,7 @@ def assess(
     if not question.is_of_several:
         return assess_body(question, announce=announce, progress=progress)
     return assess_part(
-        question.of_each(), announce=announce, progress=progress, map_progress=map_progress
+        question.one_by_one(), announce=announce, progress=progress, map_progress=map_progress
     )
 
 
@@ -128,7 +128,7 @@ def assess_part(
     answer = answer or partial(assess_body, announce=announce, progress=progress)
     _refuse_unlike(questions)
     done = _Pressed()
-    todo = list(zip(names or _names_of(questions), questions, strict=True))
+    todo = list(zip(names or _map_names(questions), questions, strict=True))
     for i, (name, question) in enumerate(todo):
         if map_progress is not None:
             map_progress(i, len(todo))
@@ -146,10 +146,10 @@ def assess_part(
             alike.setdefault(why, []).append(name)
         reasons = "; ".join(_reason(", ".join(some), why) for why, some in alike.items())
         raise InputError(f"none of the {len(todo)} maps can be pressed: {reasons}")
-    return _part_of(done)
+    return _combined(done)
 
 
-def _names_of(questions: Sequence[Question]) -> list[str]:
+def _map_names(questions: Sequence[Question]) -> list[str]:
     """What maps are called: their files' names, with folders where these are the same."""
     paths = [each.body if isinstance(each.body, Path) else None for each in questions]
     names = [
@@ -188,7 +188,7 @@ def _press(
     return True
 
 
-def _part_of(done: _Pressed) -> PartAssessment:
+def _combined(done: _Pressed) -> PartAssessment:
     """What the maps that were pressed say together."""
     results = list(done.assessments.values())
     first = results[0].question
@@ -217,8 +217,8 @@ def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mappin
     if question.joint is None and differ_in_size(results):
         forced = has_forces(question.loads)
         keys = [key for key in keys if not forced and not results[0].answers[key].rule.is_extensive]
-    missed = [missed_of_map(each, behind) for each in results] if behind is not None else []
-    sides = list(zip(*missed, strict=True))  # what all miss alike, and by sharing the load
+    common = [ends_in_common(each, behind) for each in results] if behind is not None else []
+    sides = list(zip(*common, strict=True))  # what all miss alike, and by sharing the load
     measured = not any(broken("grid", each.body) for each in results)
     answers = {}
     for key in keys:
@@ -229,7 +229,8 @@ def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mappin
         answers[key] = PartAnswer.of(
             [each.answers[key] for each in results],
             *([[each[key] for each in side] for side in sides] if is_known else ()),
-            is_told=measured and not (is_of_part and behind is not None and behind.untold),
+            is_supported=measured
+            and not (is_of_part and behind is not None and behind.why_unknown),
         )
     return {key: _bounded(each, answers) for key, each in answers.items()}
 
@@ -246,7 +247,7 @@ def _elastic(
 
 
 def _bounded(answer: PartAnswer, answers: Mapping[str, PartAnswer]) -> PartAnswer:
-    """The same with no upper end over that of an answer which it never exceeds."""
+    """Lower the upper end of an answer to that of another which it never exceeds."""
     bounds = [each.under for each in answer.of_maps if each.under is not None]
     if not bounds or bounds[0][0] not in answers:
         return answer

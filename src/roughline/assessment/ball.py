@@ -10,11 +10,11 @@ from typing import NoReturn
 import numpy as np
 from attrs import field, frozen
 
-from roughline.assessment.given import (
+from roughline.assessment.arguments import (
     modulus,
-    pair_of,
     quantities,
     quantity,
+    read_pair,
     refuse_unless_one_modulus,
 )
 from roughline.computing.arrays import Real
@@ -34,10 +34,10 @@ from roughline.units import as_si, decimal, engineering
 _RADIUS = 1e-12, 1e6  # of balls [m]
 _RADII = 800  # of a profile: a sphere's force is right to 1e-5 where nine tenths of it touch
 _FINEST = 1e-6  # least radius of a profile over that of the ball, without its zero
-_BEYOND = 10.0  # radii of depth, or E* R² of force, that surely press in all of the ball
+_ALL_PRESSED_IN = 10.0  # radii of depth, or E* R² of force, that surely press in all of the ball
 _STRAINED = 0.1  # mean contact pressure over E*, above which a warning says so
 _YIELDS_FROM = 1.5 * ELASTIC_UP_TO  # largest pressure over hardness; Hertz's mean is 2/3 of it
-_SHORT = 5.0  # Tabor's parameter, from which on the pull is as good as without a range
+_SHORT_RANGE = 5.0  # Tabor's parameter, from which on the pull is as good as without a range
 
 
 def _radius(given: float | str) -> float:
@@ -93,7 +93,7 @@ class BallQuestion:
     """
 
     radius: float = field(converter=_radius)
-    materials: tuple[Solid, Solid] | None = field(default=None, converter=pair_of)
+    materials: tuple[Solid, Solid] | None = field(default=None, converter=read_pair)
     E_star: float | None = field(default=None, converter=modulus)
     hardness: float | None = field(default=None, converter=_hardness)
     adhesion: Attraction | None = field(default=None, converter=_adhesion)
@@ -159,9 +159,9 @@ class BallQuestion:
     def values(self) -> list[float]:
         """Forces [N] or depths [m], in their order."""
         name, unit, given = "loads", "N", self.loads
-        largest = _BEYOND * self.modulus * self.radius**2
+        largest = _ALL_PRESSED_IN * self.modulus * self.radius**2
         if self.depths:
-            name, unit, given, largest = "depths", "m", self.depths, _BEYOND * self.radius
+            name, unit, given, largest = "depths", "m", self.depths, _ALL_PRESSED_IN * self.radius
         values = [as_si(each, unit, name) for each in given]
         for i, (each, value) in enumerate(zip(given, values, strict=True)):
             if not math.isfinite(value):
@@ -231,41 +231,42 @@ class PressedBall:
     @property
     def warnings(self) -> list[str]:
         """Where what is assumed breaks."""
-        told = []
+        texts = []
         hardness = self.question.softer_hardness
         largest = float(np.nanmax(self.largest_pressure, initial=0.0))
         if hardness is not None and largest > _YIELDS_FROM * hardness:
-            told.append(
+            texts.append(
                 f"the largest pressure reaches {decimal(largest / hardness, 2)} times the softer "
                 f"body's hardness, {engineering(hardness, 'Pa', 3)}: from {_YIELDS_FROM:g} of it "
                 "on the body yields below the contact, so these elastic answers do not hold"
             )
         strain = float(np.nanmax(self.mean_pressure, initial=0.0)) / self.curve.E_star
         if strain > _STRAINED:
-            told.append(
+            texts.append(
                 f"the mean contact pressure reaches {decimal(strain, 2)} times the contact "
                 "modulus: bodies that are strained so far are not linear elastic"
             )
-        return told
+        return texts
 
     @property
     def notes(self) -> list[str]:
         """Where the law of adhesion holds, and whether it is known where yield begins."""
-        told = []
+        texts = []
         asked = self.question
         if asked.adhesion is not None:
             work, modulus = asked.adhesion.work, self.curve.E_star
-            reach = (asked.radius * work**2 / modulus**2) ** (1 / 3) / _SHORT
-            told.append(
+            reach = (asked.radius * work**2 / modulus**2) ** (1 / 3) / _SHORT_RANGE
+            texts.append(
                 "the pull has no range here (JKR): that holds for a range below about "
-                f"{engineering(reach, 'm', 2)}, from which on Tabor's parameter is above {_SHORT:g}"
+                f"{engineering(reach, 'm', 2)}, from which on Tabor's parameter is "
+                f"above {_SHORT_RANGE:g}"
             )
         if asked.softer_hardness is None:
-            told.append(
+            texts.append(
                 "the hardness of the softer body is not known, so it is not known whether it "
                 f"yields; give it with {called('hardness', '2 GPa')}"
             )
-        return told
+        return texts
 
 
 def press_ball(question: BallQuestion) -> PressedBall:
@@ -289,7 +290,7 @@ def press_ball(question: BallQuestion) -> PressedBall:
             _refuse_all_of_it("loads" if question.loads else "depths", given)
     if law is None:
         return PressedBall(question, curve)
-    unbearable = -_BEYOND * math.sqrt(
+    unbearable = -_ALL_PRESSED_IN * math.sqrt(
         8 * np.pi * question.radius**3 * E_star * law.work_of_adhesion
     )
     pulled = press(profile, E_star=E_star, law=law, forces=[0.0, unbearable], throw=False)

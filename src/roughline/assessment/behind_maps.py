@@ -30,9 +30,9 @@ import numpy as np
 
 from roughline.assessment.answers import ends_from_many
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.larger_measure import UNTOLD
-from roughline.assessment.larger_surface import Differences, LargerSurface, roll_offs_of
-from roughline.assessment.tiles import FEWEST, MOST_DOUBLINGS, Beyond, Tiles, logit
+from roughline.assessment.larger_measure import UNBOUNDED
+from roughline.assessment.larger_surface import Differences, LargerSurface, fitted_roll_offs
+from roughline.assessment.tiles import FEWEST_POINTS, MOST_DOUBLINGS, Extrapolation, Tiles, logit
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
@@ -46,9 +46,9 @@ from roughline.topography.body import Surface
 from roughline.units import engineering
 
 _EDGE = 2.0  # standard deviations from the middle to the roughest places
-_SAME_SIDE = 0.05  # logarithm of sides, up to which maps have the same waves
+_SIDE_TOLERANCE = 0.05  # logarithm of sides, up to which maps have the same waves
 _CHANCE = 0.01  # of a tilt and bow that the waves of the maps explain
-_FEWEST = 16  # points along a side, whose quarters have an rms height
+_FEWEST_POINTS = 16  # points along a side, whose quarters have an rms height
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,9 +56,9 @@ class BehindMaps:
     """The surface behind several maps, under the loads that were asked for."""
 
     agreement: Agreement | None  # of logarithms of rms heights, between maps and their quarters
-    alike: Differences  # from the mean of its places, as the tiles of maps show it
+    common: Differences  # from the mean of its places, as the tiles of maps show it
     sharing: Differences  # as places share the load
-    untold: str = ""  # why the maps do not tell of it; empty where they do
+    why_unknown: str = ""  # why the maps do not tell of it; empty where they do
 
 
 def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
@@ -67,20 +67,21 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     surfaces = [each.body for each in results if isinstance(each.body, Surface)]
     if len(results) < 2 or min(len(larger), len(surfaces)) < len(results):
         return None
-    first, same = results[0], _of_one_size(surfaces)
-    law = _law_of(same)
-    roll_offs = None if law is None else roll_offs_of(law)
+    first, same = results[0], _same_size(surfaces)
+    law = _mean_law(same)
+    roll_offs = None if law is None else fitted_roll_offs(law)
     area = float(np.mean([each.area for each in surfaces]))
-    beyond = Beyond.of(roll_offs, area, first.question.joint)
-    beyond_gap = Beyond.of(roll_offs, area, *first.question.whole_of_gap)
+    extrapolation = Extrapolation.of(roll_offs, area, first.question.joint)
+    gap_extrapolation = Extrapolation.of(roll_offs, area, *first.question.gap_assembly)
     tiles = [each.tiles for each in larger if each.tiles is not None]
     nothing = np.zeros(first.asked.size)
-    alike = Differences((nothing, nothing), (nothing, nothing))
+    common = Differences((nothing, nothing), (nothing, nothing))
     if tiles:
         of_stiffness, of_area = (
-            Tiles.mean(each).beyond(beyond, mean=True) for each in zip(*tiles, strict=True)
+            Tiles.mean(each).extrapolated(extrapolation, mean=True)
+            for each in zip(*tiles, strict=True)
         )
-        alike = Differences(of_stiffness, of_area, _of_measures(larger, beyond_gap))
+        common = Differences(of_stiffness, of_area, _measure_differences(larger, gap_extrapolation))
     agree = _agreement(surfaces)
     curves = [each.curve_as_asked for each in results]
     areas = [each.area_fraction_corrected for each in curves if isinstance(each, SurfaceCurve)]
@@ -91,49 +92,55 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
         float(first.curve.half_space.modulus(np.array([math.pi / math.sqrt(area)]))[0]),
         1.0 if agree is None else agree.of_places,
     )
-    untold = "" if law is None else _longer_waves(same, law)
-    if not untold and not beyond.is_told:
-        untold = (
-            f"the maps show no roll-off together, and the joint is {2**beyond.doublings:.3g} times "
-            "as long: the longer waves that they lack leave its stiffness open: map areas at least "
-            f"1/{2**MOST_DOUBLINGS:g} as long as the joint"
+    why_unknown = "" if law is None else _longer_waves(same, law)
+    if not why_unknown and not extrapolation.is_supported:
+        why_unknown = (
+            "the maps show no roll-off together, and the joint is "
+            f"{2**extrapolation.doublings:.3g} times as long: the longer waves that they lack "
+            f"leave its stiffness open: map areas at least 1/{2**MOST_DOUBLINGS:g} as long as "
+            "the joint"
         )
     if first.question.coated:
-        untold = (
+        why_unknown = (
             "how maps differ from the part behind them is known of bodies of one material each, "
             f"and {first.question.coated[0].name} is coated"
         )
-    if not untold and not tiles:
-        untold = (
+    if not why_unknown and not tiles:
+        why_unknown = (
             f"maps without the error of their grid ({called('grid_error', True)}), or with fewer "
-            f"than {FEWEST} points a side, do not tell how they differ from the part behind them"
+            f"than {FEWEST_POINTS} points a side, do not tell how they differ from the part behind "
+            "them"
         )
-    return BehindMaps(agree, alike, sharing, untold)
+    return BehindMaps(agree, common, sharing, why_unknown)
 
 
-def _of_measures(larger: Sequence[LargerSurface], beyond: Beyond) -> Mapping[str, Ends]:
+def _measure_differences(
+    larger: Sequence[LargerSurface], extrapolation: Extrapolation
+) -> Mapping[str, Ends]:
     """How measures of the surface behind maps differ from the mean of its places."""
     found: dict[str, Ends] = {}
     for name in larger[0].measures:
         if all(name in each.measures for each in larger):
             measures = [each.measures[name] for each in larger]
-            mean = Tiles.mean([each.tiles for each in measures]).beyond(beyond, mean=True)
+            mean = Tiles.mean([each.tiles for each in measures]).extrapolated(
+                extrapolation, mean=True
+            )
             border = np.mean([each.border for each in measures], axis=0)
             both = np.minimum(mean[0], border[0]), np.maximum(mean[1], border[1])
-            found[name] = both if beyond.is_told else UNTOLD
+            found[name] = both if extrapolation.is_supported else UNBOUNDED
     return found
 
 
-def missed_of_map(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, Ends], ...]:
+def ends_in_common(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, Ends], ...]:
     """What a map misses as all others do of each answer, and how sharing its load changes it."""
-    alike = ends_from_many(result, behind.alike, with_grid=True)
+    common = ends_from_many(result, behind.common, with_grid=True)
     moved = result.hardness_scatter
     with np.errstate(invalid="ignore"):  # nothing, times infinity
-        alike = {
+        common = {
             key: (ends[0] * moved[key][0], ends[1] * moved[key][1]) if key in moved else ends
-            for key, ends in alike.items()
+            for key, ends in common.items()
         }
-    return alike, ends_from_many(result, behind.sharing, with_grid=False)
+    return common, ends_from_many(result, behind.sharing, with_grid=False)
 
 
 def shared_load(
@@ -170,18 +177,18 @@ def _scatter_and_middle(scale: Callable[[Real], Real], values: Real) -> tuple[Re
     return np.sqrt(squares / np.maximum(count - 1, 1)), middle
 
 
-def _of_one_size(surfaces: Sequence[Surface]) -> list[Surface]:
+def _same_size(surfaces: Sequence[Surface]) -> list[Surface]:
     """Maps with the points and sides of the first, and so with its waves."""
     first = surfaces[0]
 
     def is_as_large(other: Surface) -> bool:
         ratios = np.divide(other.sizes, first.sizes)
-        return other.shape == first.shape and bool((abs(np.log(ratios)) < _SAME_SIDE).all())
+        return other.shape == first.shape and bool((abs(np.log(ratios)) < _SIDE_TOLERANCE).all())
 
     return [each for each in surfaces if is_as_large(each)]
 
 
-def _law_of(surfaces: Sequence[Surface]) -> SelfAffineFit | None:
+def _mean_law(surfaces: Sequence[Surface]) -> SelfAffineFit | None:
     """Law of the mean spectrum of maps of one size; None where there are too few points."""
     try:
         return nearest_law(mean_spectrum([isotropic_spectrum(each) for each in surfaces]))
@@ -201,21 +208,23 @@ def _longer_waves(surfaces: Sequence[Surface], law: SelfAffineFit) -> str:
     unit = surfaces[0].unit or ""
     rms, explained = (engineering(each, unit, 2).strip() for each in (worst.rms, worst.explained))
     tilted = worst.degree == 1
-    said = "are tilted differently" if tilted else "are bowed" if worst.degree == 2 else "are bent"
+    departure = (
+        "are tilted differently" if tilted else "are bowed" if worst.degree == 2 else "are bent"
+    )
     cause = "either they were mounted differently, or the" if tilted else "the"
     remedy = "map larger areas"
     if tilted:
         remedy += ", or say that the tilt is the mounting's"
     return (
-        f"the maps {said}, by an rms height of {rms}, and their own waves explain {explained}: "
-        f"{cause} part has longer waves, on which its highest places bear more than the maps show: "
-        f"{remedy}"
+        f"the maps {departure}, by an rms height of {rms}, and their own waves explain "
+        f"{explained}: {cause} part has longer waves, on which its highest places bear more than "
+        f"the maps show: {remedy}"
     )
 
 
 def _agreement(surfaces: Sequence[Surface]) -> Agreement | None:
     """Whether maps agree: their rms heights, compared with those of their quarters."""
-    if min(min(each.shape) for each in surfaces) < _FEWEST:
+    if min(min(each.shape) for each in surfaces) < _FEWEST_POINTS:
         return None
     with np.errstate(divide="ignore"):
         logs = np.log([[each.rms_height for each in _quarters(surface)] for surface in surfaces])

@@ -23,19 +23,20 @@ class _Border:
 
     along: Along
     of_map: Real  # as it repeats [m]
-    given: Real  # with the flow given there [m]
-    held: Real  # with the pressure held even [m]
+    with_flow: Real  # with the flow given there [m]
+    with_pressure: Real  # with the pressure held even [m]
     over: Real  # by how much their logarithms differ where they are an end of the interval, else 0
     has_interval: bool
 
     def words(self, load: int) -> str:
         """All three under a load."""
-        of_map, given, held = (
-            engineering(float(each[load]), "m", 3) for each in (self.of_map, self.given, self.held)
+        of_map, with_flow, with_pressure = (
+            engineering(float(each[load]), "m", 3)
+            for each in (self.of_map, self.with_flow, self.with_pressure)
         )
         return (
-            f"along {self.along} u_h is {of_map} as the map repeats, {held} with the pressure held "
-            f"even along the border, and {given} with the flow given there"
+            f"along {self.along} u_h is {of_map} as the map repeats, {with_pressure} with the "
+            f"pressure held even along the border, and {with_flow} with the flow given there"
         )
 
 
@@ -49,13 +50,13 @@ def what_borders_do(result: Assessment) -> list[str]:
     if not found:
         return []
     load = int(np.argmax(np.maximum.reduce([each.over for each in found])))
-    told = [each for each in found if each.over[load] > 0]
+    differing = [each for each in found if each.over[load] > 0]
     rest = (
         "leaves open more than all else does"
-        if all(each.has_interval for each in told)
+        if all(each.has_interval for each in differing)
         else "moves what flows, and no interval holds that"
     )
-    listed = "; ".join(each.words(load) for each in told)
+    listed = "; ".join(each.words(load) for each in differing)
     return [f"under {result.headings[load]} the border of the map {rest}: {listed}"]
 
 
@@ -71,12 +72,12 @@ def _borders(result: Assessment) -> Iterator[_Border]:
         values = None if measure is None else measure.values_at_border
         if values is None or answer is None:
             continue
-        given, held = values
-        apertures = np.stack([answer.values, given, held])
+        with_flow, with_pressure = values
+        apertures = np.stack([answer.values, with_flow, with_pressure])
         least, most = apertures.min(axis=0), apertures.max(axis=0)
         low, high = answer.ends or (least, most)
         with np.errstate(divide="ignore", invalid="ignore"):
             of_border = np.nan_to_num(np.log(most / least), nan=0.0)
         is_end = (low >= least * _ALMOST) | (high <= most / _ALMOST)
         over = np.where(is_end & (of_border > math.log(_COUNTS)), of_border, 0.0)
-        yield _Border(along, answer.values, given, held, over, answer.ends is not None)
+        yield _Border(along, answer.values, with_flow, with_pressure, over, answer.ends is not None)

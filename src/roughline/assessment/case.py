@@ -10,10 +10,10 @@ from roughline.assessment.assumptions import broken
 from roughline.assessment.filled import filled_points
 from roughline.assessment.kinds import has_spectrum, is_map, nominal_area
 from roughline.assessment.larger_surface import roll_offs_along_a_side
-from roughline.assessment.loads import Hardness, LoadCase, hardness_of
+from roughline.assessment.loads import Hardness, LoadCase, find_hardness
 from roughline.assessment.question import Question
 from roughline.assessment.source import Topography, pressed_body, topographies
-from roughline.assessment.tiles import Beyond
+from roughline.assessment.tiles import Extrapolation
 from roughline.computing.arrays import Mask
 from roughline.contact.measures import Measure
 from roughline.engineering.pair import MaterialPair
@@ -65,7 +65,7 @@ class Case:
     @property
     def hardness(self) -> Hardness | None:
         """Hardness of the softer body; None of a line, and where both are elastic."""
-        return hardness_of(self.question) if isinstance(self.body, Surface) else None
+        return find_hardness(self.question) if isinstance(self.body, Surface) else None
 
     @property
     def scan(self) -> Line | None:
@@ -124,7 +124,7 @@ class Case:
         ]
 
     @cached_property
-    def judged(self) -> Body:
+    def scatter_body(self) -> Body:
         """On which the scatter of the hardness is judged: the body, or a large one coarsened.
 
         Half as many points along a side need not resolve a layer.
@@ -137,17 +137,17 @@ class Case:
         return body if body.shape[0] % 2 or body.shape[1] % 2 else body.coarsened()
 
     @cached_property
-    def beyond(self) -> Beyond:
+    def extrapolation(self) -> Extrapolation:
         """The larger surface that the map is a piece of."""
         body = self.body
         roll_offs = roll_offs_along_a_side(body) if isinstance(body, Surface) else None
-        return Beyond.of(roll_offs, nominal_area(body), self.question.joint)
+        return Extrapolation.of(roll_offs, nominal_area(body), self.question.joint)
 
     @property
-    def beyond_gap(self) -> Beyond:
-        """The same for what flows in the gap: of a seal, if one is given."""
-        whole = self.question.whole_of_gap
-        return Beyond.of(self.beyond.roll_offs, nominal_area(self.body), *whole)
+    def gap_extrapolation(self) -> Extrapolation:
+        """The larger surface of what flows in the gap: of the seal, if there is one."""
+        assembly = self.question.gap_assembly
+        return Extrapolation.of(self.extrapolation.roll_offs, nominal_area(self.body), *assembly)
 
     @cached_property
     def moments(self) -> Moments | None:

@@ -26,8 +26,8 @@ from roughline.topography.body import Surface
 Announce = Callable[[str], None]
 """Called with the cost of a large run in words, before it starts."""
 
-_LARGE = 2**20  # points from which on the cost is announced
-_MANY = 1000  # loads from which on the cost is announced
+_ANNOUNCED_POINTS = 2**20  # points from which on the cost is announced
+_ANNOUNCED_LOADS = 1000  # loads from which on the cost is announced
 # Memory of whole commands on 1024² and 2048² points, as measured. [bytes], and per point
 _BYTES_TO_READ = 30_000_000  # beside that of a press
 _BYTES_OF_OTHER_CURVES = 30  # with materials
@@ -37,12 +37,12 @@ _SECONDS_OF_FLOW, _POWER_OF_FLOW = 1e-7, 1.25  # of points, as measured from 256
 _BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
 
 
-def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None) -> None:
+def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | None) -> None:
     """Refuse variants for the interface alone that do not fit into memory; tell of large runs."""
     body = case.body
     if not isinstance(body, Surface):
         return
-    large, yielding = body.heights.size >= _LARGE, case.hardness is not None
+    large, yielding = body.heights.size >= _ANNOUNCED_POINTS, case.hardness is not None
     share = _expected_share(case, body) if large else None
     for each in variants:
         if each.purpose == "interface":
@@ -53,12 +53,12 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
                 f"take a smaller piece or every other point, or {called('E_star')} instead of "
                 "materials",
             )
-    if announce is None or not (large or case.loads.count >= _MANY):
+    if announce is None or not (large or case.loads.count >= _ANNOUNCED_LOADS):
         return
     keeps_fields = ("as asked",) if case.question.sealing is None else ("as asked", "interface")
     fields = [0] if case.question.fields else False
 
-    def cost_of(each: Variant) -> Estimate:
+    def estimated(each: Variant) -> Estimate:
         return estimate(
             each.shape,
             n_loads=case.loads.count,
@@ -68,31 +68,31 @@ def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None
             area_fraction=share,
         )
 
-    costs = [(each, cost_of(each)) for each in variants]
+    costs = [(each, estimated(each)) for each in variants]
     memory = _most_memory(case, body, max(cost.memory for _, cost in costs))
 
     def seconds(purpose: Purpose) -> float:
         return sum(each.share * cost.seconds for each, cost in costs if each.purpose == purpose)
 
-    told = f"about {gigabytes(memory)} and {duration(seconds('as asked'))}"
+    text = f"about {gigabytes(memory)} and {duration(seconds('as asked'))}"
     if of_filling := seconds("filling"):
-        told += f", {duration(of_filling)} with missing points filled otherwise"
+        text += f", {duration(of_filling)} with missing points filled otherwise"
     if of_interface := seconds("interface"):
-        told += f", then {duration(of_interface)} for the interface"
+        text += f", then {duration(of_interface)} for the interface"
     if of_flow := _seconds_of_flow(case, variants):
-        told += f", {duration(of_flow)} for what flows"
+        text += f", {duration(of_flow)} for what flows"
     if case.question.fluid is not None and case.question.fluid.closure:
         of_load = seconds("as asked") / case.loads.count
-        told += f", {duration(_LOADS_TO_SEAL * of_load)} for the pressure that seals"
+        text += f", {duration(_LOADS_TO_SEAL * of_load)} for the pressure that seals"
     if of_larger := seconds("larger surface"):
-        told += f", and {duration(of_larger)} for the surface around the map"
+        text += f", and {duration(of_larger)} for the surface around the map"
     of_one = sum(each.purpose in ("as asked", "interface") for each in variants)
     if more := math.fsum(each.share for each in variants if each.purpose == "hardness") / of_one:
-        told += (
+        text += (
             f"; where points yield, up to {more:g} times as long in addition, for elastic "
             "bodies and for the scatter of the hardness"
         )
-    announce(f"{body.shape[0]} x {body.shape[1]} points, {case.loads.count} loads: {told}")
+    announce(f"{body.shape[0]} x {body.shape[1]} points, {case.loads.count} loads: {text}")
 
 
 def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
@@ -124,5 +124,5 @@ def _expected_share(case: Case, body: Surface) -> float | None:
     loads = case.loads
     if loads.n_loads is not None:
         return None
-    given = Loads("forces" if loads.forces else "depths", np.array(loads.forces or loads.depths))
-    return expected_area_fraction(body, loads.half_space, given, law_of(loads.hardness))
+    spaced = Loads("forces" if loads.forces else "depths", np.array(loads.forces or loads.depths))
+    return expected_area_fraction(body, loads.half_space, spaced, law_of(loads.hardness))

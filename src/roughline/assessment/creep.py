@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 from attrs import field, frozen
 
-from roughline.assessment.given import (
+from roughline.assessment.arguments import (
     modulus,
     one_body,
-    pair_of,
     quantities,
+    read_pair,
     refuse_unless_one_modulus,
     several,
 )
@@ -132,7 +132,7 @@ class CreepQuestion:
 
     body: Body | Path = field(converter=one_body)
     prony: Creep = field(converter=_prony)
-    materials: tuple[Solid, Solid] | None = field(default=None, converter=pair_of)
+    materials: tuple[Solid, Solid] | None = field(default=None, converter=read_pair)
     E_star: float | None = field(default=None, converter=modulus)
     times: tuple[float | str, ...] = field(default=(), converter=_times)
     loads: tuple[float | str, ...] = field(default=(), converter=quantities)
@@ -266,26 +266,26 @@ class PressedCreep:
     def warnings(self) -> list[str]:
         """What a user of the numbers must know."""
         body, strain = self.body, self.question.strain(self.body)
-        told = [*suspicions(body), *grave_effects(body), *self.curve.warnings]
+        texts = [*suspicions(body), *grave_effects(body), *self.curve.warnings]
         if strain > _STRAINED:
-            told.append(
+            texts.append(
                 f"the bodies are strained by about {decimal(strain, 2)} in the end, and bodies "
                 "that are strained so far are not linear elastic"
             )
-        return list(dict.fromkeys(told))
+        return list(dict.fromkeys(texts))
 
     @property
     def notes(self) -> list[str]:
         """Which bodies are taken to creep, and how the topography was prepared."""
-        asked, told = self.question, []
+        asked, texts = self.question, []
         if asked.elastic_share:
-            told.append(
+            texts.append(
                 f"{asked.stiffer} is taken to creep as the other body does, which is of no "
                 f"account: its share of the compliance at once is {asked.elastic_share:.1g}"
             )
         elif asked.both_give_way:
-            told.append("both bodies are taken to creep alike")
-        return told + what_was_prepared(self.body)
+            texts.append("both bodies are taken to creep alike")
+        return texts + what_was_prepared(self.body)
 
 
 def press_with_creep(question: CreepQuestion) -> PressedCreep:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from roughline.assessment.notes import what_was_prepared
 from roughline.assessment.reading import Reading
-from roughline.assessment.source import measured_body, of_piece
+from roughline.assessment.source import crop_first, measured_body
 from roughline.errors import InputError
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.texture.iso import IsoParameters, iso
@@ -81,7 +81,7 @@ def describe_measurement(
     piece = content = content.with_mask(reading.mask)
     obstacles = content.scale_obstacles(reading.unit, reading.sizes)
     if not obstacles:
-        piece, reading, preparation = of_piece(content, reading, preparation)
+        piece, reading, preparation = crop_first(content, reading, preparation)
     filling = Missing(reading.missing, reading.most_missing)
     obstacles = piece.obstacles(reading.unit, reading.sizes, filling)
     missing = missing_pattern(piece.unknown, piece.sizes)

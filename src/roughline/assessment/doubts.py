@@ -14,7 +14,7 @@ from roughline.assessment.notes import (
     how_far_a_line_serves,
     listed_in_short,
     not_answered,
-    of_each,
+    texts_on_each,
 )
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices
@@ -47,7 +47,7 @@ _WIDE = 4.0  # upper over lower end from which on the causes of an interval are 
 _COUNTS = 1.2  # upper over lower end of what counts as a cause
 
 
-def warnings_of(
+def collect_warnings(
     result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
 ) -> list[Remark]:
     """What is suspicious, where assumptions break, and why there is no interval."""
@@ -55,21 +55,25 @@ def warnings_of(
     borders, are_grave = borders_of_repeated(result.question, body)
     of_line, is_grave = how_far_a_line_serves(result.question, body)
     # what a curve says of where it is repeated is said below, as a warning or as a note
-    said_below = {borders, *grave_effects(body), *_of_border(result, np.arange(curve.status.size))}
-    of_curve = [text for text in curve.warnings if text not in said_below]
+    warned_below = {
+        borders,
+        *grave_effects(body),
+        *_border_texts(result, np.arange(curve.status.size)),
+    }
+    of_curve = [text for text in curve.warnings if text not in warned_below]
     is_scan = isinstance(body, Line) and body.kind == "profile"
     warnings = [
         *(of_curve if is_scan else _departures_in_words(result)),
         *not_answered(result),
-        *remarks(of_each(bodies, suspicions), is_grave=True),
-        *remarks(of_each(bodies, grave_effects), is_grave=True),
+        *remarks(texts_on_each(bodies, suspicions), is_grave=True),
+        *remarks(texts_on_each(bodies, grave_effects), is_grave=True),
         *_broken_assumptions(result, spectrum),
-        *_of_filled_points(result),
-        *remarks(_of_full_contact(result), is_grave=True),
-        *remarks(_of_wide_interval(result), INTERVALS),
+        *_filled_points_warnings(result),
+        *remarks(_full_contact_warnings(result), is_grave=True),
+        *remarks(_wide_interval_warnings(result), INTERVALS),
         *remarks([of_line] if is_grave else [], is_grave=True),
         *([] if is_scan else of_curve),
-        *_of_border(result, result.asked),
+        *_border_texts(result, result.asked),
         *remarks([borders] if are_grave else [], is_grave=True),
     ]
     if isinstance(body, Surface) and not _knows_grid_error(curve):
@@ -83,7 +87,7 @@ def _knows_grid_error(curve: Curve) -> bool:
     return isinstance(curve, SurfaceCurve) and curve.stiffness_error is not None
 
 
-def _of_border(result: Assessment, loads: Indices) -> tuple[str, ...]:
+def _border_texts(result: Assessment, loads: Indices) -> tuple[str, ...]:
     """Say what the border carries under some loads, which need not be all that were pressed."""
     curve = result.curve
     if not isinstance(curve, SurfaceCurve):
@@ -102,7 +106,7 @@ def _departures_in_words(result: Assessment) -> list[Remark]:
         "larger surface": is_map(result.body) and bool(result.answers),
         "theories": bool(result.theories),
     }
-    said = []
+    texts = []
     for departure in departures(result.body):
         down = {
             prediction: _without_interval(result, prediction)
@@ -111,8 +115,8 @@ def _departures_in_words(result: Assessment) -> list[Remark]:
         }
         if down:
             text = "; ".join([departure.text, *filter(None, dict.fromkeys(down.values()))])
-            said.append(Remark(text, INTERVALS, is_grave="grid" in down))
-    return said
+            texts.append(Remark(text, INTERVALS, is_grave="grid" in down))
+    return texts
 
 
 def _without_interval(result: Assessment, prediction: Prediction) -> str:
@@ -127,16 +131,16 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
         for each in result.answers.values()
         if (is_joint or each.rule.is_of_interface) and not each.rule.is_given
     ]
-    bare = [each.name for each in meant if each.low is None]
-    if not bare:
+    unbounded = [each.name for each in meant if each.low is None]
+    if not unbounded:
         return ""
-    names = listed_in_short(bare)
-    if MOST_NAMED < len(bare) == len(meant):
+    names = listed_in_short(unbounded)
+    if MOST_NAMED < len(unbounded) == len(meant):
         names = f"all answers of the {'joint' if is_joint else 'larger surface'}"
-    return f"{names} {'comes' if len(bare) == 1 else 'come'} without an interval"
+    return f"{names} {'comes' if len(unbounded) == 1 else 'come'} without an interval"
 
 
-def _of_filled_points(result: Assessment) -> list[Remark]:
+def _filled_points_warnings(result: Assessment) -> list[Remark]:
     """Say how much of the force stands on points that nobody measured."""
     if result.on_filled is None:
         return []
@@ -172,10 +176,10 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[Re
                 "touch; under repeated loads they deform elastically about their flattened shape"
             )
     found = remarks(broken, is_grave=True)
-    if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
+    if question.theories and isinstance(body, Surface) and (ratio := isotropy(body)) < ALIKE:
         text = (
             "theories assume an isotropic surface, and the rms slope depends on direction: the "
-            f"least is {alike:.2f} of the largest"
+            f"least is {ratio:.2f} of the largest"
         )
         found.append(Remark(text))
     if question.theories and question.attraction is not None:
@@ -185,11 +189,11 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[Re
 
 def _strained(result: Assessment) -> list[str]:
     """Say how far bodies are strained beyond what is linear elastic, by what strains them most."""
-    question, told = result.question, []
+    question, texts = result.question, []
     ratio, text = max(question.strains(result.body), default=(0.0, ""))
     if ratio > _STRAINED:
         so_far = "bodies that are strained so far are not linear elastic"
-        told.append((ratio, f"{text}: {so_far}, and no interval includes that"))
+        texts.append((ratio, f"{text}: {so_far}, and no interval includes that"))
     pressed = result.answers.get("contact_pressure")
     if question.coated and pressed is not None:
         ratio = float(np.nanmax(pressed.values, initial=0.0)) / question.half_space.softest
@@ -200,11 +204,11 @@ def _strained(result: Assessment) -> list[str]:
                 "lies deep, it is strained beyond what is linear elastic, and no interval includes "
                 "that"
             )
-            told.append((ratio, text))
-    return [max(told)[1]] if told else []
+            texts.append((ratio, text))
+    return [max(texts)[1]] if texts else []
 
 
-def _of_full_contact(result: Assessment) -> list[str]:
+def _full_contact_warnings(result: Assessment) -> list[str]:
     """Say under which loads all points touch, or all but a few."""
     curve, body = result.curve_as_asked, result.body
     if not isinstance(curve, SurfaceCurve):
@@ -215,9 +219,11 @@ def _of_full_contact(result: Assessment) -> list[str]:
         on_base = all(curve.half_space.repeats)
         rest = f"k is that of {'even pressure on the rigid base' if on_base else 'a flat punch'}"
     notes = []
-    apart = np.rint((1 - curve.area_fraction) * body.heights.size)
-    full = [name for name, n in zip(result.headings, apart, strict=True) if n == 0]
-    nearly = [name for name, n in zip(result.headings, apart, strict=True) if 0 < n < RESOLVED_FROM]
+    open_points = np.rint((1 - curve.area_fraction) * body.heights.size)
+    full = [name for name, n in zip(result.headings, open_points, strict=True) if n == 0]
+    nearly = [
+        name for name, n in zip(result.headings, open_points, strict=True) if 0 < n < RESOLVED_FROM
+    ]
     if full:
         notes.append(f"all points touch under {', '.join(full)}: no gap is left, and {rest}")
     if nearly:
@@ -229,20 +235,20 @@ def _of_full_contact(result: Assessment) -> list[str]:
     return notes
 
 
-def _of_wide_interval(result: Assessment) -> list[str]:
+def _wide_interval_warnings(result: Assessment) -> list[str]:
     """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
     curve, points = result.curve_as_asked, result.body.heights.size
     rules = (INTERFACE_STIFFNESS, UNLOADING_STIFFNESS, CONTACT_STIFFNESS)
-    shown = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
-    ends = None if shown is None else shown.ends
-    if shown is None or ends is None or not isinstance(curve, SurfaceCurve):
+    answer = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
+    ends = None if answer is None else answer.ends
+    if answer is None or ends is None or not isinstance(curve, SurfaceCurve):
         return []
     error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
     if error is None:
         return []
     with np.errstate(divide="ignore", invalid="ignore"):
         widths, of_grid = np.log(ends[1] / ends[0]), 2 * np.log1p(error / k)
-        scatter = result.hardness_scatter.get(shown.key)
+        scatter = result.hardness_scatter.get(answer.key)
         of_hardness = 0 * widths if scatter is None else np.log(scatter[1] / scatter[0])
         of_piece = np.sqrt(np.maximum((widths - of_hardness) ** 2 - of_grid**2, 0))
     widths = np.where(np.isfinite(widths), widths, 0)
@@ -254,16 +260,16 @@ def _of_wide_interval(result: Assessment) -> list[str]:
         (of_grid[i], f"the grid, with {cells} of {points} points in contact", "finer pixels"),
         (of_hardness[i], "the scatter of the hardness", "a measured hardness"),
     ]
-    if shown.rule is INTERFACE_STIFFNESS:
+    if answer.rule is INTERFACE_STIFFNESS:
         causes.append((of_piece[i], "what one map does not show", "a larger map, or several maps"))
     causes = sorted((each for each in causes if each[0] > np.log(_COUNTS)), reverse=True)
     if not causes:
         return []
-    told = [f"{what} (a factor of {decimal(float(np.exp(w)), 2)})" for w, what, _ in causes]
+    texts = [f"{what} (a factor of {decimal(float(np.exp(w)), 2)})" for w, what, _ in causes]
     return [
-        f"the {shown.name} under {result.headings[i]} is known to a factor of "
+        f"the {answer.name} under {result.headings[i]} is known to a factor of "
         f"{decimal(float(np.exp(widths[i])), 2)} between both ends; it is left open by "
-        f"{', then by '.join(told)}: {causes[0][2]} would narrow it most"
+        f"{', then by '.join(texts)}: {causes[0][2]} would narrow it most"
     ]
 
 

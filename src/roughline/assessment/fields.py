@@ -572,16 +572,16 @@ FIELDS: tuple[Field, ...] = (
 """All fields, in the order of their groups' panels and of the form."""
 
 
-def asked_in(told: Mapping[str, Any]) -> Iterator[tuple[str, tuple[Any, ...], dict[str, Any]]]:
+def asked_in(values: Mapping[str, Any]) -> Iterator[tuple[str, tuple[Any, ...], dict[str, Any]]]:
     """Give the classes of what is asked, each with its arguments by place and by name."""
     for of in dict.fromkeys(each.of for each in FIELDS if each.is_asked):
         first, *others = (each for each in FIELDS if each.of == of)
-        value = told.get(first.name)
+        value = values.get(first.name)
         by_place = () if value is None else (value,)
         if first.separator and isinstance(value, list | tuple):
             by_place = tuple(value)
-        given = {each: told.get(each.name) for each in others}
-        by_name = {each.argument: value for each, value in given.items() if each.says(value)}
+        other_values = {each: values.get(each.name) for each in others}
+        by_name = {each.argument: value for each, value in other_values.items() if each.says(value)}
         if by_place or by_name:
             yield of, by_place, by_name
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.assessment.loads import hardness_of
+from roughline.assessment.loads import find_hardness
 from roughline.assessment.question import Question
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
@@ -37,7 +37,7 @@ class Film:
     below: Material
 
 
-def film_of(question: Question) -> Film | None:
+def find_film(question: Question) -> Film | None:
     """The film whose hardness a question is answered with; None if that is given, or not asked."""
     if question.pair is None or question.hardness is not None or question.elastic:
         return None
@@ -51,7 +51,7 @@ def film_of(question: Question) -> Film | None:
 def film_that_spots_exceed(question: Question, curve: Curve) -> tuple[Film, float] | None:
     """The film, and the radius of the spots where these are wider than it is thick; else None."""
     measured = curve.measured if isinstance(curve, SurfaceCurve) else {}
-    film, radii = film_of(question), measured.get(SPOT_RADIUS.name)
+    film, radii = find_film(question), measured.get(SPOT_RADIUS.name)
     if film is None or radii is None:
         return None
     radius = float(np.nanmax(radii.values, initial=0.0))
@@ -64,7 +64,7 @@ def hardness_ends(question: Question, curve: Curve) -> tuple[float, float] | Non
     Spots that are wider than a film is thick press into what lies below it, so that the hardness
     they meet lies between both. One that is given with the material is taken as exact.
     """
-    hardness = hardness_of(question)
+    hardness = find_hardness(question)
     if hardness is None:
         return None
     low, high = hardness.ends

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.tiles import Beyond, TiledCurves, Tiles
+from roughline.assessment.tiles import Extrapolation, TiledCurves, Tiles
 from roughline.assessment.uncertainty import widened
 from roughline.computing.arrays import Real
 from roughline.contact.measures import Measured
 from roughline.engineering.intervals import Ends
 
-UNTOLD: Ends = (np.array(-np.inf), np.array(np.inf))
+UNBOUNDED: Ends = (np.array(-np.inf), np.array(np.inf))
 """Ends of a difference from a larger surface that a map does not tell of."""
 
 
@@ -31,7 +31,7 @@ class LargerMeasure:
         """A measure with the tiles of its map."""
         name = of_map.quantity.name
         tiles, floor = curves.measure(name)
-        return cls(of_map, tiles, floor, curves.border_of(name, floor))
+        return cls(of_map, tiles, floor, curves.border_differences(name, floor))
 
     @property
     def border(self) -> Ends:
@@ -44,15 +44,15 @@ class LargerMeasure:
         ends = np.minimum.reduce(self.at_border), np.maximum.reduce(self.at_border)
         unknown = np.isnan(ends[0])
         low, high = np.minimum(ends[0], 0.0), np.maximum(ends[1], 0.0)
-        return np.where(unknown, UNTOLD[0], low), np.where(unknown, UNTOLD[1], high)
+        return np.where(unknown, UNBOUNDED[0], low), np.where(unknown, UNBOUNDED[1], high)
 
     @property
     def values_at_border(self) -> tuple[Real, Real] | None:
         """The measure with the flow given along the border, and with the pressure held."""
         if self.at_border is None:
             return None
-        given, held = (self._moved(each) for each in self.at_border)
-        return given, held
+        with_flow, with_pressure = (self._moved(each) for each in self.at_border)
+        return with_flow, with_pressure
 
     def _moved(self, difference: Real) -> Real:
         """The measure whose logarithm, with the floor, differs from that of the map."""
@@ -60,21 +60,21 @@ class LargerMeasure:
             moved = (self.of_map.values + self.floor) * np.exp(difference) - self.floor
         return np.where(self.floor > 0, np.maximum(moved, 0.0), self.of_map.values)
 
-    def of_larger(self, beyond: Beyond | None) -> Measured:
-        """The same with an interval that holds a larger surface; none if the map tells of none.
+    def with_larger_surface(self, extrapolation: Extrapolation | None) -> Measured:
+        """The measure with an interval that holds a larger surface; none if the map tells of none.
 
         What the border leaves open lies within it. Tiles have borders, too, so that both are not
         independent.
         """
-        if beyond is None or not beyond.is_told:
+        if extrapolation is None or not extrapolation.is_supported:
             return replace(self.of_map, low=None, high=None)
-        found = self.widened(self.tiles.beyond(beyond), with_grid=True)
+        found = self.widened(self.tiles.extrapolated(extrapolation), with_grid=True)
         least, most = (self._moved(end) for end in self.border)
         _, low, high = found.rows
         return replace(found, low=np.minimum(low, least), high=np.maximum(high, most))
 
     def widened(self, further: Ends, *, with_grid: bool) -> Measured:
-        """The same with ends of the difference of its logarithm.
+        """The measure with an interval that its logarithm may differ by.
 
         With the grid, they are combined with what that leaves open, as independent.
         """

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from roughline.assessment.larger_measure import LargerMeasure
-from roughline.assessment.tiles import MOST_DOUBLINGS, Beyond, Tiles, logit
+from roughline.assessment.tiles import MOST_DOUBLINGS, Extrapolation, Tiles, logit
 from roughline.assessment.uncertainty import (
     area_fraction,
     combined,
@@ -65,7 +65,7 @@ class LargerSurface:
     """What a larger surface has as well, by names; empty without tiles."""
 
     def from_many(self, area: Real, further: Differences, *, with_grid: bool) -> LargerSurface:
-        """The same with intervals that many pieces leave open; `area` is the piece's area fraction.
+        """Give it the intervals that many pieces leave open; `area` is the piece's area fraction.
 
         With the grid, `further` is combined with what that leaves open, as independent.
         """
@@ -116,10 +116,10 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
         _, fit = fitted(surface)
     except InputError:
         return None
-    return roll_offs_of(fit)
+    return fitted_roll_offs(fit)
 
 
-def roll_offs_of(fit: SelfAffineFit) -> float | None:
+def fitted_roll_offs(fit: SelfAffineFit) -> float | None:
     """Roll-off wavelengths along a side of the surface that a law was fitted to."""
     return fit.q_roll / fit.q_low if fit.q_roll and fit.shows_roll_off else None
 
@@ -172,7 +172,7 @@ def saturated_stiffness(surface: Surface, curve: Curve) -> float:
 
 def larger_surface(
     curve: Curve,
-    beyond: Beyond,
+    extrapolation: Extrapolation,
     tiles: tuple[Tiles, Tiles] | None,
     stiffness: Ends | None = None,
     area: Ends | None = None,
@@ -188,38 +188,49 @@ def larger_surface(
     formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"
     grid = stiffness, area
     if tiles is None:
-        return LargerSurface(Interface(k, None, which_surface(beyond), formula), of_grid=grid)
+        return LargerSurface(
+            Interface(k, None, which_surface(extrapolation), formula), of_grid=grid
+        )
     of_stiffness, of_area = tiles
-    ends = widened(k, stiffness, of_stiffness.beyond(beyond))
-    interface = Interface(k, ends, which_surface(beyond), formula)
-    share = None if area is None else _widened_share(touching, area, of_area.beyond(beyond))
+    ends = widened(k, stiffness, of_stiffness.extrapolated(extrapolation))
+    interface = Interface(k, ends, which_surface(extrapolation), formula)
+    share = (
+        None
+        if area is None
+        else _widened_share(touching, area, of_area.extrapolated(extrapolation))
+    )
     return LargerSurface(interface, share, grid, tiles)
 
 
-def which_surface(beyond: Beyond, of: Literal["stiffness", "gap"] = "stiffness") -> str:
+def which_surface(
+    extrapolation: Extrapolation, of: Literal["stiffness", "gap"] = "stiffness"
+) -> str:
     """Say which larger surface is meant, and how much of its waves the map holds."""
-    if beyond.roll_offs is not None:
+    if extrapolation.roll_offs is not None:
         return (
             "of the larger surface that the map was cut out of; the map holds "
-            f"{beyond.roll_offs:.2g} roll-off wavelengths along a side"
+            f"{extrapolation.roll_offs:.2g} roll-off wavelengths along a side"
         )
-    times = f"{decimal(2**beyond.doublings, 2)} times as long as the map, which shows no roll-off"
-    if beyond.whole is None:
+    factor = decimal(2**extrapolation.doublings, 2)
+    times = f"{factor} times as long as the map, which shows no roll-off"
+    if extrapolation.assembly is None:
         further = "lower the stiffness" if of == "stiffness" else "open the gap"
         return (
             f"of a surface {times}: on a larger one longer waves {further} further; give "
             f"the joint's area ({called('rl.Joint')}), or measure a larger map"
         )
-    if beyond.is_told:
-        return f"of a {beyond.whole} {times}: the interval allows for waves as long as that"
+    if extrapolation.is_supported:
+        return (
+            f"of a {extrapolation.assembly} {times}: the interval allows for waves as long as that"
+        )
     return (
-        f"of a {beyond.whole} {times}: what its longer waves do is not known; measure a map at "
-        f"least 1/{2**MOST_DOUBLINGS:g} as long"
+        f"of a {extrapolation.assembly} {times}: what its longer waves do is not known; "
+        f"measure a map at least 1/{2**MOST_DOUBLINGS:g} as long"
     )
 
 
 def _widened_share(values: Real, ends: Ends, further: Ends) -> Ends:
-    """The same of shares of the area, and of their logits."""
+    """Widen shares of the area by ends of the differences of their logits."""
     logits, *own = (
         logit(np.clip(each, _LEAST_SHARE, 1 - _LEAST_SHARE)) for each in (values, *ends)
     )

@@ -119,11 +119,13 @@ def press_scan(
     scans = [each for each in (scan, against) if each is not None]
     bins = [ScanBins.of(profile_spectrum(each)) for each in scans]
     curves = _pressed(scans, bins, E_star, forces, rng)
-    curve, low, high = _of_surfaces(_median(curves, scan, rng), curves, bins[0])
+    curve, low, high = _surface_stiffness(_median(curves, scan, rng), curves, bins[0])
     doubts = []
     for which, each in enumerate(scans):
         seed = np.random.SeedSequence(rng, spawn_key=(_SCAN_LINES, which, 1))
-        found = _doubts_of(each, bins[which], curve.force_bar, is_known_gaussian=gaussian, rng=seed)
+        found = _gaussian_doubt(
+            each, bins[which], curve.force_bar, is_known_gaussian=gaussian, rng=seed
+        )
         whose = f"{('first', 'second')[which]} body: " if len(scans) > 1 else ""
         doubts += [whose + doubt for doubt in found]
     if doubts:
@@ -179,7 +181,7 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:
     )
 
 
-def _of_surfaces(
+def _surface_stiffness(
     median: Curve, curves: Sequence[Curve], bins: ScanBins
 ) -> tuple[Curve, Real, Real]:
     """The stiffness that the full model is expected to have, and both ends of its interval."""
@@ -230,7 +232,7 @@ def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real, Real]:
     return value, low, high
 
 
-def _doubts_of(
+def _gaussian_doubt(
     scan: Line,
     bins: ScanBins,
     forces: Real,
@@ -246,7 +248,7 @@ def _doubts_of(
     levelled = scan.detrended()
     found = [each.text for each in broken("line scan", levelled)]
     if not found:
-        found = _of_stiffness(levelled.heights, bins, forces, rng)
+        found = _stiffness_doubt(levelled.heights, bins, forces, rng)
     heights = independent_heights(levelled)
     if not found and not is_known_gaussian and heights < _LEAST_HEIGHTS:
         found = [
@@ -263,7 +265,7 @@ def independent_heights(scan: Line) -> float:
     return 0.0 if own is None else own.of_heights.independent(3)
 
 
-def _of_stiffness(
+def _stiffness_doubt(
     heights: Real, bins: ScanBins, forces: Real, rng: np.random.SeedSequence
 ) -> list[str]:
     """Compare a scan with Gaussian cuts of its spectrum, each pressed as independent springs.

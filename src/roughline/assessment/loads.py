@@ -28,8 +28,10 @@ from roughline.units import engineering
 LoadProgress = Callable[[int, int], None]
 """Called with (loads done, loads in all)."""
 
-_ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
-_LIGHT = 1e-6  # over the contact modulus, of a pressure under which any body can be pressed
+_FORCE_ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
+_LIGHT_PRESSURE = (
+    1e-6  # over the contact modulus, of a pressure under which any body can be pressed
+)
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,7 @@ class Hardness:
         return self.value / self.factor, self.value * self.factor
 
 
-def hardness_of(question: Question) -> Hardness | None:
+def find_hardness(question: Question) -> Hardness | None:
     """Return the hardness that a question is answered with; None if the bodies are elastic."""
     if question.elastic:
         return None
@@ -91,7 +93,7 @@ class LoadCase:
                 forces = forces or ([] if depths else _spaced(question, body))
                 n_loads = None
             _refuse_beyond_hardness(question, area)
-            known = hardness_of(question)
+            known = find_hardness(question)
             hardness = None if known is None else known.value
         elif body.kind == "profile" and not forces:
             forces = _forces_of_a_scan(body, question.modulus, n_loads or DEFAULT_LOADS)
@@ -125,26 +127,26 @@ class LoadCase:
         values = self.forces or self.depths
         return values.index(max(values)) if values else self.count - 1
 
-    def asked_of(self, curve: Curve) -> Indices:
+    def asked_loads(self, curve: Curve) -> Indices:
         """Which loads of the curve were asked for, in the order asked; all if none was named."""
         return np.array(self.asked) if self.asked else np.arange(curve.status.size)
 
-    def borne(self, curve: Curve) -> Mask:
+    def solved_loads(self, curve: Curve) -> Mask:
         """Which loads of a curve were solved, and leave some of the area below the hardness."""
         if self.hardness is None or not isinstance(curve, SurfaceCurve):
             return curve.converged
         most = self.hardness * curve.length**2
-        return curve.converged & (np.nan_to_num(curve.force) < most * (1 - _ROUNDING))
+        return curve.converged & (np.nan_to_num(curve.force) < most * (1 - _FORCE_ROUNDING))
 
-    def under_forces_of(self, curve: Curve) -> LoadCase:
-        """The same under the forces of a curve that were solved, and that the body bears."""
-        borne = self.borne(curve)
-        forces, numbers = curve.force[borne].tolist(), np.cumsum(borne) - 1
-        fields = [int(numbers[load]) for load in self.fields if borne[load]]
+    def under_forces_from(self, curve: Curve) -> LoadCase:
+        """These loads as the forces of a curve that were solved, and that the body bears."""
+        solved = self.solved_loads(curve)
+        forces, numbers = curve.force[solved].tolist(), np.cumsum(solved) - 1
+        fields = [int(numbers[load]) for load in self.fields if solved[load]]
         others = replace(self, forces=forces, depths=[], n_loads=None, fields=fields)
-        return replace(others, among=borne, lifted=None)
+        return replace(others, among=solved, lifted=None)
 
-    def of_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
+    def with_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
         """Some of the same loads on a body of another hardness, without the grid's errors.
 
         Spaced loads are those of the curve that was solved under them.
@@ -166,7 +168,7 @@ class LoadCase:
         """The loads that press, or a light one where there is none, as a curve has one."""
         numbers = np.flatnonzero(~lifted).tolist()
         fields = [numbers.index(load) for load in self.fields if not lifted[load]]
-        light = _LIGHT * self.half_space.softest * nominal_area(self.body)
+        light = _LIGHT_PRESSURE * self.half_space.softest * nominal_area(self.body)
         forces = [self.forces[load] for load in numbers] or [light]
         return replace(self, forces=forces, fields=fields, lifted=None)
 
@@ -207,8 +209,8 @@ def _lifted(question: Question, forces: Sequence[float]) -> Mask | None:
 
 def _spaced(question: Question, body: Surface) -> list[float]:
     """Forces for bodies that stick, those of the same ones if they only push. [N]"""
-    given = GivenLoads(None, None, question.loading.n_loads)
-    loads = surface_loads(body, question.half_space, given, 1e-6, single=False, law=law_of(None))
+    spaced = GivenLoads(None, None, question.loading.n_loads)
+    loads = surface_loads(body, question.half_space, spaced, 1e-6, single=False, law=law_of(None))
     return [float(each) for each in loads.values]
 
 
@@ -220,7 +222,7 @@ def _forces_of_a_scan(line: Line, E_star: float, count: int) -> list[float]:
 
 def _refuse_beyond_hardness(question: Question, area: float) -> None:
     """Refuse loads under which all of a body of some nominal area [m²] would yield."""
-    hardness = hardness_of(question)
+    hardness = find_hardness(question)
     if hardness is None:
         return
     bearer = "the softer body" if question.pair is None else question.pair.bearer

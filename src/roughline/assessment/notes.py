@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from roughline.assessment.arguments import has_forces, several
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.border_of_flow import what_borders_do
 from roughline.assessment.films import film_that_spots_exceed
-from roughline.assessment.given import has_forces, several
 from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
-from roughline.assessment.loads import hardness_of
+from roughline.assessment.loads import find_hardness
 from roughline.assessment.question import Question
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.coated import Coated
@@ -30,26 +30,26 @@ MOST_NAMED = 3
 """Answers that a sentence names one by one."""
 
 
-def notes_of(result: Assessment, of_filling: str) -> list[Remark]:
+def collect_notes(result: Assessment, filling_note: str) -> list[Remark]:
     """What is left out, what was filled, how the loads were meant, and what was cropped."""
     question, body, pair = result.question, result.body, result.question.pair
     of_line, is_grave = how_far_a_line_serves(question, body)
     borders, are_grave = borders_of_repeated(question, body)
-    notes = [*_of_yield(result), _without_pull_off(question)]
+    notes = [*_yield_notes(result), _without_pull_off(question)]
     if pair is not None:
         notes += [] if is_grave else [of_line]
         notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
-        notes += of_unknown_hardness(pair)
-        notes += remarks(_of_films(pair), INTERVALS)
+        notes += unknown_hardness_notes(pair)
+        notes += remarks(_layer_modulus_notes(pair), INTERVALS)
         notes += remarks(what_borders_do(result), INTERVALS)
         above = not_answered(result)
         notes += [each for each in result.left_out if each not in above]
-        notes += _of_layers(result, pair)
+        notes += _layer_notes(result, pair)
         if not isinstance(result.curve, SurfaceCurve):
             notes.append("no contact area: the reduced model of a line does not predict it")
     bodies = [each.body for each in result.topographies]
-    notes += remarks(of_each(bodies, _filled_spikes_and_effects), DATA)
-    notes += [Remark(of_filling, INTERVALS)]
+    notes += remarks(texts_on_each(bodies, _filled_spikes_and_effects), DATA)
+    notes += [Remark(filling_note, INTERVALS)]
     notes += [*remarks(meaning_of_loads(question, body), DATA), "" if are_grave else borders]
     notes += remarks([_pressures(question)], DATA)
     notes += remarks(_cropping_and_resampling(body), DATA)
@@ -84,9 +84,9 @@ def not_answered(result: Assessment) -> list[Remark]:
     return [each for each in remarks(result.left_out) if each.is_grave]
 
 
-def _of_yield(result: Assessment) -> list[str]:
+def _yield_notes(result: Assessment) -> list[str]:
     """Say what yields at the largest load, with which hardness, and how far its scatter matters."""
-    curve, pair, hardness = result.curve, result.question.pair, hardness_of(result.question)
+    curve, pair, hardness = result.curve, result.question.pair, find_hardness(result.question)
     if curve.hardness is None or hardness is None or not isinstance(curve, SurfaceCurve):
         return []
     whose = "given" if pair is None or hardness.factor == 1 else f"of {pair.bearer}"
@@ -152,7 +152,7 @@ def _scatter_in_words(result: Assessment, yielded: float) -> str:
     )
 
 
-def of_unknown_hardness(pair: MaterialPair) -> list[str]:
+def unknown_hardness_notes(pair: MaterialPair) -> list[str]:
     """Say of which body the hardness is not known, and what is taken for it."""
     lacking = pair.lacking("hardness")
     if not lacking:
@@ -172,7 +172,7 @@ def of_unknown_hardness(pair: MaterialPair) -> list[str]:
     ]
 
 
-def _of_films(pair: MaterialPair) -> list[str]:
+def _layer_modulus_notes(pair: MaterialPair) -> list[str]:
     """Say of which materials layers have another modulus than the table has."""
     found = dict.fromkeys((*pair.first.materials, *pair.second.materials))
     return [
@@ -183,7 +183,7 @@ def _of_films(pair: MaterialPair) -> list[str]:
     ]
 
 
-def _of_film(result: Assessment) -> list[Remark]:
+def _film_notes(result: Assessment) -> list[Remark]:
     """Say which hardness spots wider than a film is thick feel, and which way that goes."""
     found = film_that_spots_exceed(result.question, result.curve)
     if found is None:
@@ -206,7 +206,7 @@ def _of_film(result: Assessment) -> list[Remark]:
     return [Remark(text, INTERVALS)]
 
 
-def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
+def _layer_notes(result: Assessment, pair: MaterialPair) -> list[str]:
     """Say what a hardness is of coated bodies, and what is not known of them."""
     if not pair.coated:
         return []
@@ -217,7 +217,7 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
             "bulk: one that was measured through a thin layer is of what lies below as well, which "
             "may yield first"
         )
-        notes += _of_film(result)
+        notes += _film_notes(result)
         if (top := softer.surface).layer_hardness and top.hardness:
             text = (
                 f"the hardness of {top.name} is {engineering(top.hardness, 'Pa')} here, of "
@@ -230,16 +230,16 @@ def _of_layers(result: Assessment, pair: MaterialPair) -> list[str]:
             pair.refuses_layers("plasticity index", "it is of summits of one material each")
         )
     if is_map(result.body) or question.joint is not None:
-        bare = [each.name for each in result.answers.values() if each.rule.is_of_interface]
+        names = [each.name for each in result.answers.values() if each.rule.is_of_interface]
         text = (
             "how far a larger surface may be from its map is not known of coated bodies, so no "
-            f"interval of {listed_in_short(bare)} includes it"
+            f"interval of {listed_in_short(names)} includes it"
         )
         notes.append(Remark(text, INTERVALS))
-    return notes + _of_currents(result, pair)
+    return notes + _current_notes(result, pair)
 
 
-def _of_currents(result: Assessment, pair: MaterialPair) -> list[str]:
+def _current_notes(result: Assessment, pair: MaterialPair) -> list[str]:
     """Say what is not known of currents through layers, and what layers add to them."""
     is_repeated = result.question.is_repeated
     flows = (("resistivity", "electricity", "Ω m²"), ("conductivity", "heat", "m² K/W"))
@@ -280,21 +280,21 @@ def how_far_a_line_serves(question: Question, body: Body) -> tuple[str, bool]:
     if pair is None or pair.hardness is None or not isinstance(body, Line):
         return "", False
     most = 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
-    said = (
+    text = (
         f"the reduced model {WITHOUT_YIELD}; rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
         f"{decimal(most, 2)} exceed that"
     )
     if body.kind == "profile":
-        said += f"; the rms slope of the scan is {decimal(body.rms_slope, 2)}"
+        text += f"; the rms slope of the scan is {decimal(body.rms_slope, 2)}"
     if body.kind != "profile" or body.rms_slope <= most:
-        return said, False
+        return text, False
     return (
-        f"{said}, so these elastic answers do not hold, and come without intervals: press a map, "
+        f"{text}, so these elastic answers do not hold, and come without intervals: press a map, "
         "whose model has yield"
     ), True
 
 
-def of_each(bodies: Sequence[Body], say: Callable[[Body], Sequence[str]]) -> list[str]:
+def texts_on_each(bodies: Sequence[Body], say: Callable[[Body], Sequence[str]]) -> list[str]:
     """Say something of each topography, and of which of two it is."""
     if len(bodies) == 1:
         return list(say(bodies[0]))
@@ -312,7 +312,7 @@ def what_was_prepared(body: Body) -> list[str]:
 
 def _filled_spikes_and_effects(body: Body) -> list[str]:
     """Say what was filled, what spikes there are, and what the preparation did, unless grave."""
-    notes, known = _of_the_file(body), body.provenance
+    notes, known = _file_notes(body), body.provenance
     if filled := known.filled:
         notes.append(f"{filled.points} missing points ({filled.share:.2%}) filled: {filled.method}")
     if text := told_of_filled(body):
@@ -333,7 +333,7 @@ def _filled_spikes_and_effects(body: Body) -> list[str]:
     return notes + [each.text for each in effects(body) if not each.is_grave]
 
 
-def _of_the_file(body: Body) -> list[str]:
+def _file_notes(body: Body) -> list[str]:
     """Say what was corrected as the file was read, and what became of points that it masks."""
     notes, known = [], body.provenance
     if known.corrected:

@@ -48,10 +48,10 @@ class PartAnswer:
     def of(
         cls,
         of_maps: Sequence[Answer],
-        missed: Sequence[Ends] = (),
+        common: Sequence[Ends] = (),
         sharing: Sequence[Ends] = (),
         *,
-        is_told: bool = True,
+        is_supported: bool = True,
     ) -> PartAnswer:
         """Average the answers of one or more maps, within the limits of each of them.
 
@@ -61,10 +61,10 @@ class PartAnswer:
         """
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
-        missed = missed or [each.ends or (unknown, unknown) for each in of_maps]
+        common = common or [each.ends or (unknown, unknown) for each in of_maps]
         by_sharing = _stacked(sharing) if sharing else None
-        found = average_of_places(values, *_stacked(missed), by_sharing)
-        if len(of_maps) == 1 or not is_told:
+        found = average_of_places(values, *_stacked(common), by_sharing)
+        if len(of_maps) == 1 or not is_supported:
             # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
         least, most = zip(*(each.limits for each in of_maps), strict=True)

@@ -21,8 +21,8 @@ from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
 _NUMBER = re.compile(r"\d[\d.]*(e[-+]?\d+)?( ?[afpnµmkMGT]?(m²|m|N/m|N|Pa|Ω|%)(?!\w))?")
-_SAME_SIZE = 1.05  # largest area over smallest, up to which forces on maps are compared
-_FEW = 5  # maps up to which it is said how much more would help
+_LARGEST_AREA_RATIO = 1.05  # largest area over smallest, up to which forces on maps are compared
+_ADVISED_MAPS = 5  # maps up to which it is said how much more would help
 
 # Largest over smallest from which on maps are not of one kind. Places of one surface differ in
 # their long waves, and so in rms height; an instrument does not change its lens by a tenth.
@@ -40,9 +40,9 @@ def remarks_of_part(
     maps = list(results.values())
     is_joint = maps[0].question.joint is not None
     of_part, agreement = _what_they_tell_of_the_part(behind, answers, is_joint)
-    judged = {name: _judged_together(each.body) for name, each in results.items()}
+    common = {name: _common_departures(each.body) for name, each in results.items()}
     own = {
-        name: [text for text in each.warnings if not text.startswith(judged[name])]
+        name: [text for text in each.warnings if not text.startswith(common[name])]
         for name, each in results.items()
     }
     warnings = own if len(maps) > 1 else {name: each.warnings for name, each in results.items()}
@@ -62,16 +62,16 @@ def remarks_of_part(
     )
 
 
-def _judged_together(body: Body) -> tuple[str, ...]:
+def _common_departures(body: Body) -> tuple[str, ...]:
     """How what is said of a map alone begins where the maps judge it together."""
-    alike = ("stationary", "steady", "longer waves", "roll-off")
-    return tuple(each.text for each in departures(body) if each.assumption in alike)
+    common = ("stationary", "steady", "longer waves", "roll-off")
+    return tuple(each.text for each in departures(body) if each.assumption in common)
 
 
 def differ_in_size(results: Sequence[Assessment]) -> bool:
     """Whether maps differ so much in size that quantities of a whole map cannot be compared."""
     areas = [each.area for each in results]
-    return max(areas) > _SAME_SIZE * min(areas)
+    return max(areas) > _LARGEST_AREA_RATIO * min(areas)
 
 
 def _differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
@@ -129,7 +129,7 @@ def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[str
             "two more places, better four"
         ]
     student = float(stdtrit(count - 1, 0.975))
-    whole = (
+    scope = (
         "the whole part, its places sharing the load"
         if is_joint
         else "the mean over all its places"
@@ -137,16 +137,16 @@ def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[str
     notes = [
         f"mean: geometric, over {count} maps, taken to be of places chosen at random; scatter: "
         "about two of three places lie within this factor of the mean",
-        f"interval of the part: 95 % for {whole}; Student's t on logarithms "
+        f"interval of the part: 95 % for {scope}; Student's t on logarithms "
         f"({student:.3g} standard errors for {count} maps), widened by errors that all maps may "
         "have in common and that do not average out, such as the grid's"
         + (", and by how a map differs from the part behind it" if is_joint else ""),
     ]
-    if count < _FEW:
-        more = float(stdtrit(_FEW - 1, 0.975))
+    if count < _ADVISED_MAPS:
+        more = float(stdtrit(_ADVISED_MAPS - 1, 0.975))
         notes[1] += (
-            f"; with {_FEW} maps it is {more:.3g}, and intervals are narrower by a factor of "
-            f"{student / more * (_FEW / count) ** 0.5:.2g} for the same scatter"
+            f"; with {_ADVISED_MAPS} maps it is {more:.3g}, and intervals are narrower by a factor "
+            f"of {student / more * (_ADVISED_MAPS / count) ** 0.5:.2g} for the same scatter"
         )
     if any(each.intervals is None for each in results):
         notes.append(
@@ -164,11 +164,11 @@ def _what_they_tell_of_the_part(
         return [], []
     warnings: list[str] = []
     notes: list[str] = []
-    bare = [each.name for each in answers.values() if each.of_maps[0].rule.is_of_interface]
-    if behind.untold and bare:
-        names = "answers of the joint" if is_joint else listed_in_short(bare)
-        verb = "comes" if len(bare) == 1 and not is_joint else "come"
-        warnings.append(f"{behind.untold}; {names} {verb} without an interval")
+    of_interface = [each.name for each in answers.values() if each.of_maps[0].rule.is_of_interface]
+    if behind.why_unknown and of_interface:
+        names = "answers of the joint" if is_joint else listed_in_short(of_interface)
+        verb = "comes" if len(of_interface) == 1 and not is_joint else "come"
+        warnings.append(f"{behind.why_unknown}; {names} {verb} without an interval")
     found = behind.agreement
     if found is None:
         return warnings, notes
@@ -190,23 +190,23 @@ def _what_they_tell_of_the_part(
     return warnings, notes
 
 
-def _once(said: Mapping[str, Sequence[str]]) -> list[Remark]:
+def _once(texts_by_map: Mapping[str, Sequence[str]]) -> list[Remark]:
     """Each remark once, with the names of the maps that it is of, unless it is of all.
 
     Remarks of different maps that differ in their numbers alone are one; it has the numbers of its
     first map. Those of one map, such as of its loads, stay apart.
     """
     remarks: dict[tuple[str, int], dict[str, str]] = {}
-    for name, texts in said.items():
+    for name, texts in texts_by_map.items():
         count: Counter[str] = Counter()
         for text in dict.fromkeys(texts):
-            alike = _NUMBER.sub("#", text)
-            count[alike] += 1
-            remarks.setdefault((alike, count[alike]), {})[name] = text
+            pattern = _NUMBER.sub("#", text)
+            count[pattern] += 1
+            remarks.setdefault((pattern, count[pattern]), {})[name] = text
     found = []
     for of_maps in remarks.values():
         first, *others = of_maps
-        of = "" if len(of_maps) == len(said) else f"of {', '.join(of_maps)}: "
+        of = "" if len(of_maps) == len(texts_by_map) else f"of {', '.join(of_maps)}: "
         differ = others and len(set(of_maps.values())) > 1
         whose = f" (so for {first}; the numbers of the other maps differ)" if differ else ""
         found.append(Remark(of_maps[first]).reworded(f"{of}{of_maps[first]}{whose}"))

@@ -10,6 +10,14 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 import numpy as np
 from attrs import evolve, field, frozen
 
+from roughline.assessment.arguments import (
+    bodies,
+    modulus,
+    opposite,
+    quantities,
+    read_pair,
+    refuse_unless_one_modulus,
+)
 from roughline.assessment.asked import (
     Adhesion,
     Asked,
@@ -18,17 +26,9 @@ from roughline.assessment.asked import (
     Theories,
     Ultrasound,
     asked,
-    refuse_of_line,
-    refuse_of_strip,
+    refuse_on_line,
+    refuse_on_strip,
     refuse_without_materials,
-)
-from roughline.assessment.given import (
-    bodies,
-    modulus,
-    opposite,
-    pair_of,
-    quantities,
-    refuse_unless_one_modulus,
 )
 from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.loading import Loading
@@ -157,7 +157,7 @@ class Question:
     """
 
     body: Body | Path | tuple[Body | Path, ...] = field(converter=bodies)
-    materials: tuple[Solid, Solid] | None = field(default=None, converter=pair_of)
+    materials: tuple[Solid, Solid] | None = field(default=None, converter=read_pair)
     E_star: float | None = field(default=None, converter=modulus)
     loads: tuple[float | str, ...] = field(default=(), converter=quantities)
     depths: tuple[float | str, ...] = field(default=(), converter=quantities)
@@ -204,7 +204,7 @@ class Question:
                 f"{called('reading')} says how files are read, but no file is given: leave it out"
             )
         if isinstance(self.periodic, str):
-            refuse_of_strip(self.ask, self.periodic, has_materials=self.materials is not None)
+            refuse_on_strip(self.ask, self.periodic, has_materials=self.materials is not None)
         if self.materials is None:
             refuse_without_materials(self.ask)
         refuse_unless_one_modulus(self.E_star, self.materials)
@@ -247,11 +247,11 @@ class Question:
 
     @property
     def sealing(self) -> Fluid | None:
-        """The same where a fluid is named; None if none flows."""
+        """What is asked of the flow of a named fluid; None if none flows."""
         return None if self.fluid is None or self.fluid.fluid is None else self.fluid
 
     @property
-    def whole_of_gap(self) -> tuple[float | None, Literal["joint", "seal"]]:
+    def gap_assembly(self) -> tuple[float | None, Literal["joint", "seal"]]:
         """Nominal area of what the gap belongs to [m²], the seal or else the joint, and which."""
         seal = None if self.fluid is None else self.fluid.seal
         return (self.joint, "joint") if seal is None else (seal.area, "seal")
@@ -276,8 +276,8 @@ class Question:
         """The body, or all maps of the part."""
         return self.body if isinstance(self.body, tuple) else (self.body,)
 
-    def of_each(self) -> list[Question]:
-        """The same question of each body alone."""
+    def one_by_one(self) -> list[Question]:
+        """Ask the question of each body alone."""
         return [evolve(self, body=body) for body in self.bodies]
 
     @property
@@ -393,7 +393,7 @@ class Question:
                 "hardness, history and unload belong to a surface; the reduced model of a line "
                 f"{WITHOUT_YIELD} (rms slopes below 0.8 H / E*): leave {came} out, or press a map"
             )
-        refuse_of_line(self.ask)
+        refuse_on_line(self.ask)
 
     def _refuse_maps(self) -> None:
         """Refuse several maps without what they are compared by."""

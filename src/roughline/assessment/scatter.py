@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.answers import answers_of
+from roughline.assessment.answers import work_out_answers
 from roughline.assessment.case import Case
-from roughline.assessment.solution import Solution, larger_behind, measured_of
+from roughline.assessment.solution import Solution, larger_behind, variant_measures
 from roughline.assessment.variants import Curves, Way, hardness_in, periodic
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
@@ -20,7 +20,7 @@ from roughline.topography.body import Body
 
 
 @dataclass(frozen=True, eq=False)
-class _Way:
+class _AtHardness:
     """The body with another hardness: its curve over all loads, and its answers."""
 
     curve: Curve
@@ -36,10 +36,10 @@ def elastic_answers(case: Case, curves: Curves) -> Mapping[str, Answer]:
     """The answers of elastic bodies; none where nothing yields, and before they were pressed."""
     if curves.stopped in (Way.ELASTIC, periodic(Way.ELASTIC)) or curves.get(Way.ELASTIC) is None:
         return {}
-    return _of_way(case, curves, Way.ELASTIC, case.body).answers
+    return _answer_at_hardness(case, curves, Way.ELASTIC, case.body).answers
 
 
-def scatter_of(
+def widen_by_scatter(
     case: Case, curves: Curves, solution: Solution, answers: Mapping[str, Answer]
 ) -> _Widened:
     """Widen all intervals by the effect of the scatter of the hardness.
@@ -56,26 +56,29 @@ def scatter_of(
         return {}, answers, solution.intervals
     if curves.stopped:
         return {}, {key: each.bare for key, each in answers.items()}, None
-    judged = case.judged
-    moved = [_of_way(case, curves, way, judged) for way in (Way.SOFTEST, Way.HARDEST)]
-    nominal = _Way(solution.curve, answers)
-    if judged is not case.body:
-        nominal = _of_way(case, curves, Way.AS_HARD, judged)
+    pressed = case.scatter_body
+    moved = [_answer_at_hardness(case, curves, way, pressed) for way in (Way.SOFTEST, Way.HARDEST)]
+    nominal = _AtHardness(solution.curve, answers)
+    if pressed is not case.body:
+        nominal = _answer_at_hardness(case, curves, Way.AS_HARD, pressed)
     return _widened(solution.intervals, answers, nominal, moved)
 
 
-def _of_way(case: Case, curves: Curves, name: Way, judged: Body) -> _Way:
+def _answer_at_hardness(case: Case, curves: Curves, name: Way, pressed: Body) -> _AtHardness:
     """Answer the same of a body of another hardness, or elastic; without intervals."""
     hardness = hardness_in(case, name, curves.as_asked)
     curve = curves.by_name[name]
-    larger, measured = larger_behind(case, curves, name), measured_of(case, curves, name)
+    larger, measured = larger_behind(case, curves, name), variant_measures(case, curves, name)
     sought = curves.sought.get(name, Sought())
     solution = Solution(curve, None, larger, measured, sought=sought)
-    return _Way(curve, answers_of(case, solution, body=judged, hardness=hardness)[0])
+    return _AtHardness(curve, work_out_answers(case, solution, body=pressed, hardness=hardness)[0])
 
 
 def _widened(
-    known: Intervals | None, answers: Mapping[str, Answer], nominal: _Way, moved: Sequence[_Way]
+    known: Intervals | None,
+    answers: Mapping[str, Answer],
+    nominal: _AtHardness,
+    moved: Sequence[_AtHardness],
 ) -> _Widened:
     """Widen the intervals of answers by the ratios of others to nominal ones."""
     scatter = {
@@ -99,21 +102,21 @@ def _widened(
             high = np.where(_values(nominal, each) == 0, opened, high)
         widened[key] = replace(each, low=low, high=high)
 
-    def of_curve(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:
+    def scaled(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:
         values = [getattr(each.curve, name) for each in (nominal, *moved)]
         return _times(ends, _ratios(values[0], values[1:]), (0.0, most))
 
     if known is not None:
-        unloading = of_curve(known.unloading, "unloading_stiffness")
+        unloading = scaled(known.unloading, "unloading_stiffness")
         known = Intervals(
-            of_curve(known.stiffness, "stiffness", unloading[1]),
+            scaled(known.stiffness, "stiffness", unloading[1]),
             unloading,
-            None if known.area is None else of_curve(known.area, "area_fraction_corrected", 1.0),
+            None if known.area is None else scaled(known.area, "area_fraction_corrected", 1.0),
         )
     return scatter, widened, known
 
 
-def _values(way: _Way, answer: Answer) -> Real:
+def _values(way: _AtHardness, answer: Answer) -> Real:
     """Values of an answer with another hardness; NaN where it is left out there."""
     of_way = way.answers.get(answer.key)
     return np.full_like(answer.values, np.nan) if of_way is None else of_way.values

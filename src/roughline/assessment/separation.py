@@ -22,7 +22,7 @@ _STEPS = 8  # from no load to the largest pull, on to where bodies come apart, a
 _NEARLY = 1 - 1e-6  # of the depth of full contact
 
 
-def separation_of(case: Case, curve: SurfaceCurve) -> Separation | None:
+def draw_apart(case: Case, curve: SurfaceCurve) -> Separation | None:
     """Draw a surface apart from the largest load of a curve; None if that was not solved.
 
     Pull-off and area are uncertain by the grid's errors. They have no interval where other places
@@ -32,13 +32,13 @@ def separation_of(case: Case, curve: SurfaceCurve) -> Separation | None:
     if not curve.converged[largest]:
         return None
     force = float(curve.force[largest])
-    is_judged = case.loads.grid_error and case.question.joint is None and not case.filled
+    with_interval = case.loads.grid_error and case.question.joint is None and not case.filled
     under = press(
         surface,
         half_space=curve.half_space,
         law=law,
         forces=[force, 0.0, unbearable_pull(law, surface.area)],
-        grid_error=is_judged,
+        grid_error=with_interval,
         throw=False,
     )
     if not under.converged[:2].all():  # no contact bears the last
@@ -47,7 +47,7 @@ def separation_of(case: Case, curve: SurfaceCurve) -> Separation | None:
         unsolved = f"the load that is taken off was not solved: {reason}"
         return Separation(under, unknown, unknown, math.nan, unsolved)
     share, error = under.area_fraction_corrected, under.area_fraction_error
-    drawn, depths = _drawn_apart(surface, under)
+    drawn, depths = _drawn(surface, under)
     return Separation(
         drawn,
         _rows(-under.pull_off_force, under.pull_off_force_error),
@@ -82,7 +82,7 @@ def _unsolved(under: SurfaceCurve, drawn: SurfaceCurve, depths: Real) -> str:
     return ""
 
 
-def _drawn_apart(surface: Surface, under: SurfaceCurve) -> tuple[SurfaceCurve, Real]:
+def _drawn(surface: Surface, under: SurfaceCurve) -> tuple[SurfaceCurve, Real]:
     """Draw bodies apart at falling depths, through those of no load and of the pull-off.
 
     Where they come apart is looked for first, as it bounds the work that they take.
@@ -95,10 +95,10 @@ def _drawn_apart(surface: Surface, under: SurfaceCurve) -> tuple[SurfaceCurve, R
     if not np.isfinite(off):  # the grid does not resolve it
         off = unloaded
     pressed = partial(press, surface, half_space=under.half_space, law=law, throw=False)
-    beyond = np.linspace(off, depth_apart(surface, under.half_space, law, loaded), _STEPS + 1)
-    looked = pressed(depths=[loaded, unloaded, *beyond])
+    last_depths = np.linspace(off, depth_apart(surface, under.half_space, law, loaded), _STEPS + 1)
+    looked = pressed(depths=[loaded, unloaded, *last_depths])
     last = max(0, int(np.flatnonzero(looked.force < 0).max(initial=0)) - 2)
-    ends = [unloaded, off, *beyond[last : last + 2].tolist()]
+    ends = [unloaded, off, *last_depths[last : last + 2].tolist()]
     steps = [np.linspace(start, end, _STEPS + 1) for start, end in pairwise(ends)]
     depths = np.array([loaded, *np.unique(np.concatenate(steps))[::-1]])
     return pressed(depths=depths), depths

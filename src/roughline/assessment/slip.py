@@ -21,7 +21,7 @@ def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:
     largest = case.loads.largest
     if pair is None or friction is None or not curve.converged[largest]:
         return None
-    branch = curve if curve.hardness is None else curves.whole(Way.UNLOADED)
+    branch = curve if curve.hardness is None else curves.complete(Way.UNLOADED)
     if branch is None:
         return None
     force = float(curve.force[largest])

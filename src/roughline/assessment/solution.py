@@ -17,7 +17,7 @@ from roughline.assessment.notes import how_far_a_line_serves
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.source import Topography
 from roughline.assessment.tiles import TiledCurves, coarse_shape
-from roughline.assessment.uncertainty import change, intervals_of
+from roughline.assessment.uncertainty import change, estimate_intervals
 from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -29,7 +29,7 @@ from roughline.engineering.pressed import Sought
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Missing
 
-_SMALL = 0.001  # changes below this are reported as less than this [%]
+_SMALLEST_CHANGE = 0.001  # changes below this are reported as less than this [%]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,16 +46,18 @@ class Solution:
     note: str = ""  # what another way to fill missing points changes, if that was tried
 
 
-def solution_of(case: Case, curves: Curves) -> Solution:
+def combine_curves(case: Case, curves: Curves) -> Solution:
     """The solution of a case from the curves of its variants."""
     curve = curves.as_asked
     intervals, note = _with_filling(case, curves, Way.AS_ASKED, case.body)
-    measured = measured_of(case, curves, Way.AS_ASKED, are_known=intervals is not None)
+    measured = variant_measures(case, curves, Way.AS_ASKED, are_known=intervals is not None)
     larger, place = larger_behind(case, curves, Way.AS_ASKED), ""
     if larger is not None and larger.measures:
-        beyond = case.beyond_gap if case.tells_of_larger else None
-        of_larger = {key: each.of_larger(beyond) for key, each in larger.measures.items()}
-        measured, place = {**measured, **of_larger}, which_surface(case.beyond_gap, "gap")
+        extrapolation = case.gap_extrapolation if case.tells_of_larger else None
+        of_larger = {
+            key: each.with_larger_surface(extrapolation) for key, each in larger.measures.items()
+        }
+        measured, place = {**measured, **of_larger}, which_surface(case.gap_extrapolation, "gap")
     is_part = case.question.joint is not None and intervals is not None
     if larger is not None and is_part and isinstance(curve, SurfaceCurve):
         # the map is pressed as a part of the joint, and is uncertain as that is
@@ -66,7 +68,7 @@ def solution_of(case: Case, curves: Curves) -> Solution:
     return Solution(curve, intervals, larger, measured, place, sought, _on_filled(curves), note)
 
 
-def solution_of_scan(case: Case, body: Line) -> Solution:
+def solve_scan(case: Case, body: Line) -> Solution:
     """Press a line scan, of one or of two bodies, through its spectrum.
 
     There is no interval where it is so steep that metals yield.
@@ -89,28 +91,28 @@ def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None
     if body is None or not isinstance(curve, SurfaceCurve):
         return None
     repeated = name if case.loads.periodic else periodic(name)
-    whole = curves.get(repeated)
+    map_curve = curves.get(repeated)
     intervals = tiled = None
-    if whole is None:  # no load is borne, or Ctrl-C came before
-        whole = replace(curve, unloading_stiffness=np.full(curve.status.size, np.nan))
+    if map_curve is None:  # no load is borne, or Ctrl-C came before
+        map_curve = replace(curve, unloading_stiffness=np.full(curve.status.size, np.nan))
     elif case.loads.grid_error:
         intervals, _ = _with_filling(case, curves, repeated, body)
-        tiled = _tiled(curves, whole, body) if intervals is not None else None
-    beyond = case.beyond
+        tiled = _tiled(curves, map_curve, body) if intervals is not None else None
+    extrapolation = case.extrapolation
     ends = (intervals.unloading, intervals.area) if intervals else (None, None)
     tiles = tiled.stiffness_and_contact() if tiled is not None else None
-    larger = larger_surface(whole, beyond, tiles, *ends)
+    larger = larger_surface(map_curve, extrapolation, tiles, *ends)
     if tiled is not None:
-        of_map = measured_of(case, curves, name, are_known=True)
+        of_map = variant_measures(case, curves, name, are_known=True)
         names = [each.name for each in case.measures if each.intensive]
         measures = {each: LargerMeasure.of(of_map[each], tiled) for each in names}
         larger = replace(larger, measures=measures)
-    if beyond.is_told and case.tells_of_larger:
+    if extrapolation.is_supported and case.tells_of_larger:
         return larger
     return replace(larger, stiffness=larger.stiffness.bare, area=None)
 
 
-def measured_of(
+def variant_measures(
     case: Case, curves: Curves, name: str, *, are_known: bool = False
 ) -> Mapping[str, Measured]:
     """Measures of a variant, or of the same pressed periodically, with intervals if `are_known`.
@@ -173,7 +175,7 @@ def _with_filling(
     if curve is None:
         return None, note
     if other is not None:
-        asked = case.loads.asked_of(curve)
+        asked = case.loads.asked_loads(curve)
         stiffness = _most_changed(curve.stiffness, other.stiffness, asked)
         area = _most_changed(curve.area_fraction_corrected, other.area_fraction_corrected, asked)
         method = Missing(case.parts[0].reading.missing).other
@@ -185,29 +187,29 @@ def _with_filling(
         note = _why_filling_changes_nothing(case.filled)
     if broken("grid", body):
         return None, note
-    return intervals_of(curve, other, _unsure(curves)), note
+    return estimate_intervals(curve, other, _unsure(curves)), note
 
 
 def _most_changed(before: Real, after: Real, asked: Indices) -> str:
     """By how many per cent the loads that were asked for change at most, in words."""
     with np.errstate(invalid="ignore", divide="ignore"):
         share = 100 * float(np.nanmax((change(before, after) / before)[asked], initial=0.0))
-    return f"up to {share:.2g}%" if share >= _SMALL else f"less than {_SMALL}%"
+    return f"up to {share:.2g}%" if share >= _SMALLEST_CHANGE else f"less than {_SMALLEST_CHANGE}%"
 
 
-def _tiled(curves: Curves, whole: SurfaceCurve | None, body: Surface) -> TiledCurves | None:
+def _tiled(curves: Curves, map_curve: SurfaceCurve | None, body: Surface) -> TiledCurves | None:
     """Curves of a map and of its tiles, from its periodic curve; None if one is not known."""
     shape = coarse_shape(body.shape)
     if shape != body.shape:
-        whole = curves.whole(Way.COARSE)
+        map_curve = curves.complete(Way.COARSE)
     halves, quarters = (
-        [each for i in range(count**2) if (each := curves.whole(tile(count, i))) is not None]
+        [each for i in range(count**2) if (each := curves.complete(tile(count, i))) is not None]
         for count in (2, 4)
     )
-    if whole is None or len(halves) < 4 or len(quarters) < 16:
+    if map_curve is None or len(halves) < 4 or len(quarters) < 16:
         return None
-    border = curves.whole(Way.BORDER)
-    return TiledCurves(whole, halves, quarters, shape[0] * shape[1], border)
+    border = curves.complete(Way.BORDER)
+    return TiledCurves(map_curve, halves, quarters, shape[0] * shape[1], border)
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Literal
 
 from roughline.assessment.case import Case
-from roughline.assessment.separation import separation_of
+from roughline.assessment.separation import draw_apart
 from roughline.assessment.variants import Curves, Way, periodic
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.press import press
@@ -20,7 +20,7 @@ _RTOL = 0.02  # between both ends of a bracket
 _WAYS = (Way.AS_ASKED, Way.ELASTIC, Way.AS_HARD, Way.SOFTEST, Way.HARDEST)
 
 
-def sought_of(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]:
+def find_sought(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]:
     """What is sought, by the names of variants, and whether Ctrl-C came before all of it.
 
     What grid and size leave open is found of the body as it was asked for.
@@ -32,24 +32,24 @@ def sought_of(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]:
         if case.loads.attraction is not None:
             of_pull = curves.get(Way.AS_ASKED)
             if of_pull is not None:
-                found[Way.AS_ASKED] = Sought(separation=separation_of(case, of_pull))
+                found[Way.AS_ASKED] = Sought(separation=draw_apart(case, of_pull))
         elif (fluid := case.question.fluid) is not None and fluid.closure:
             for name in _WAYS:
                 curve = curves.get(periodic(name) if case.is_repeated_for_interface else name)
                 if curve is not None:
-                    is_judged = name == Way.AS_ASKED
-                    found[name] = Sought(closing=_closing(case, curve, fluid.along, is_judged))
+                    with_interval = name == Way.AS_ASKED
+                    found[name] = Sought(closing=_closing(case, curve, fluid.along, with_interval))
     except KeyboardInterrupt:
         return found, True
     return found, False
 
 
 def _closing(
-    case: Case, curve: SurfaceCurve, along: Along | Literal["both"], is_judged: bool
+    case: Case, curve: SurfaceCurve, along: Along | Literal["both"], with_interval: bool
 ) -> Closing:
     """Bisect the loads of the surface of a curve."""
     surface, law = curve.surface, curve.law
-    interval = is_judged and case.loads.grid_error
+    interval = with_interval and case.loads.grid_error
     closes = sealing_pressure(
         surface,
         half_space=curve.half_space,

@@ -46,10 +46,10 @@ class Topography:
         if isinstance(given, Surface | Line):
             return cls(as_prepared(given, preparation), None, None, reading, preparation)
         content = measurement(given, reading.channel, reading.name).with_mask(reading.mask)
-        content, reading, preparation = of_piece(content, reading, preparation)
-        kept = content if not content.by_roughline and content.unknown.any() else None
-        body = measured_body(content, reading, preparation, in_place=kept is None)
-        return cls(as_prepared(body, preparation), given, kept, reading, preparation)
+        content, reading, preparation = crop_first(content, reading, preparation)
+        unfilled = content if not content.by_roughline and content.unknown.any() else None
+        body = measured_body(content, reading, preparation, in_place=unfilled is None)
+        return cls(as_prepared(body, preparation), given, unfilled, reading, preparation)
 
     @property
     def is_filled(self) -> bool:
@@ -82,7 +82,7 @@ class Topography:
         return replace(marks, heights=np.sign(marks.heights))
 
 
-def of_piece(
+def crop_first(
     content: Measurement, reading: Reading, preparation: Preparation | None
 ) -> tuple[Measurement, Reading, Preparation | None]:
     """Crop what a file holds before anything is filled; return how to read and prepare the rest."""

@@ -16,13 +16,13 @@ from roughline.engineering.intervals import Ends
 from roughline.fluid.measures import names_at_border
 from roughline.topography.body import Surface
 
-FEWEST = 32
+FEWEST_POINTS = 32
 """Points along the shorter side of a map, from which on it has tiles."""
 
 MOST_DOUBLINGS = 4
 """From a map without a roll-off to the larger surface: maps a sixteenth as long were tried."""
 
-_USUAL = 2.0  # doublings where the larger surface has no size
+_USUAL_DOUBLINGS = 2.0  # doublings where the larger surface has no size
 
 POINTS_OF_TILES = 2**16
 """Points of a map whose tiles are pressed; a finer one is coarsened before."""
@@ -35,29 +35,31 @@ _DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a 
 _FLOOR = 0.3  # of a measure, added before its logarithm is taken: what is sealed has none
 
 
-Whole = Literal["joint", "seal"]
+Assembly = Literal["joint", "seal"]
 """What a map is a piece of."""
 
 
 @dataclass(frozen=True)
-class Beyond:
+class Extrapolation:
     """The larger surface that a map was cut out of."""
 
     roll_offs: float | None  # wavelengths along a side of the map; None if it shows none
-    doublings: float = _USUAL  # of the map's side until it is as long as the larger surface
-    whole: Whole | None = None  # what it is, if its area is known
+    doublings: float = (
+        _USUAL_DOUBLINGS  # of the map's side until it is as long as the larger surface
+    )
+    assembly: Assembly | None = None  # what it is, if its area is known
 
     @classmethod
     def of(
-        cls, roll_offs: float | None, area: float, joint: float | None, whole: Whole = "joint"
-    ) -> Beyond:
+        cls, roll_offs: float | None, area: float, joint: float | None, assembly: Assembly = "joint"
+    ) -> Extrapolation:
         """The larger surface behind a map of a nominal area [m²], a joint's whose area is known."""
         if joint is None:
             return cls(roll_offs)
-        return cls(roll_offs, max(0.0, math.log2(joint / area) / 2), whole)
+        return cls(roll_offs, max(0.0, math.log2(joint / area) / 2), assembly)
 
     @property
-    def is_told(self) -> bool:
+    def is_supported(self) -> bool:
         """Whether a map's tiles tell of a surface as large as that."""
         return self.roll_offs is not None or self.doublings <= MOST_DOUBLINGS
 
@@ -70,14 +72,14 @@ class Tiles:
     where it is not known.
     """
 
-    whole: Real  # (loads,)
+    of_map: Real  # (loads,)
     halves: Real  # of tiles half as long as the map, (2, 2, loads)
     quarters: Real  # (4, 4, loads)
     either_way: bool = False
     """Whether steps may go on to either side where there is no roll-off: longer waves open a gap,
     and the border of a map, whose opposite sides do not fit, keeps it open too."""
 
-    def steps(self, beyond: Beyond) -> Ends:
+    def steps(self, extrapolation: Extrapolation) -> Ends:
         """Both ends of the mean difference between the larger surface and maps of this size.
 
         It is due to waves that a map does not hold, and to its border. The steps from quarters to
@@ -87,8 +89,8 @@ class Tiles:
         `either_way` on the other side as well.
         """
         first, last = self._first_and_last()
-        if beyond.roll_offs is None:
-            further = [beyond.doublings * first, beyond.doublings * last]
+        if extrapolation.roll_offs is None:
+            further = [extrapolation.doublings * first, extrapolation.doublings * last]
             if self.either_way:
                 further += [-each for each in further]
         else:
@@ -100,10 +102,10 @@ class Tiles:
         """Steps from quarters to halves, and from halves to the map."""
         with np.errstate(invalid="ignore"):
             first = _mean(self.halves) - _mean(self.quarters)
-            last = np.where(np.isfinite(self.whole), self.whole, np.nan) - _mean(self.halves)
+            last = np.where(np.isfinite(self.of_map), self.of_map, np.nan) - _mean(self.halves)
             return first, last
 
-    def scatter(self, beyond: Beyond) -> Real:
+    def scatter(self, extrapolation: Extrapolation) -> Real:
         """Half width of the scatter of maps about their mean, from that of tiles.
 
         A map is the mean of its four halves and of its sixteen quarters, and scatters as the one or
@@ -114,34 +116,34 @@ class Tiles:
         """
         halves = _variance(self.halves)
         quarters = np.maximum(_variance(self.quarters), _variance_across(self.quarters))
-        if beyond.roll_offs is not None:
-            waves = min(4.0, max(1.0, beyond.roll_offs))
+        if extrapolation.roll_offs is not None:
+            waves = min(4.0, max(1.0, extrapolation.roll_offs))
             return _STUDENT * np.sqrt(np.maximum(halves / 4, quarters / waves**2))
-        return _STUDENT * np.sqrt(beyond.doublings / 2 * (halves + quarters) / 2)
+        return _STUDENT * np.sqrt(extrapolation.doublings / 2 * (halves + quarters) / 2)
 
-    def beyond(self, beyond: Beyond, *, mean: bool = False) -> Ends:
+    def extrapolated(self, extrapolation: Extrapolation, *, mean: bool = False) -> Ends:
         """Both ends of the difference between the larger surface and the map.
 
         Where the map is above its quarters by more than it scatters, as a map of a plateau is that
         its own plane tilts, the map is not large yet under this load, and its roll-off does not
         count. `mean` says that the map stands for the mean of many, in which chance cancels.
         """
-        low, high = self._beyond(beyond, mean=mean)
-        if beyond.roll_offs is not None:
-            unlike = self.whole - _mean(self.quarters) > self.scatter(beyond)
-            ends = self._beyond(Beyond(None), mean=mean)
+        low, high = self._extrapolated(extrapolation, mean=mean)
+        if extrapolation.roll_offs is not None:
+            unlike = self.of_map - _mean(self.quarters) > self.scatter(extrapolation)
+            ends = self._extrapolated(Extrapolation(None), mean=mean)
             low = np.where(unlike, np.fmin(low, ends[0]), low)
             high = np.where(unlike, np.fmax(high, ends[1]), high)
         if mean:  # of one map, chance hides that steps grow and do not say where they end
             first, last = self._first_and_last()
-            grow = (last > first) & (last + first > 0) & (last > self.scatter(beyond) / 2)
+            grow = (last > first) & (last + first > 0) & (last > self.scatter(extrapolation) / 2)
             high = np.where(grow, np.inf, high)
-        full = np.isinf(self.whole) | np.isinf(self.quarters).any(axis=(0, 1))
+        full = np.isinf(self.of_map) | np.isinf(self.quarters).any(axis=(0, 1))
         return np.where(np.isnan(low), -np.inf, low), np.where(full | np.isnan(high), np.inf, high)
 
-    def _beyond(self, beyond: Beyond, *, mean: bool) -> Ends:
-        low, high = self.steps(beyond)
-        scatter = 0.0 if mean else self.scatter(beyond)
+    def _extrapolated(self, extrapolation: Extrapolation, *, mean: bool) -> Ends:
+        low, high = self.steps(extrapolation)
+        scatter = 0.0 if mean else self.scatter(extrapolation)
         return low - scatter, high + scatter
 
     @classmethod
@@ -152,7 +154,7 @@ class Tiles:
             return np.mean(values, axis=0)
 
         return cls(
-            over([each.whole for each in tiles]),
+            over([each.of_map for each in tiles]),
             over([each.halves for each in tiles]),
             over([each.quarters for each in tiles]),
             all(each.either_way for each in tiles),
@@ -163,7 +165,7 @@ class Tiles:
 class TiledCurves:
     """Curves of a map and of its tiles under the same mean pressures, all of them periodic."""
 
-    whole: SurfaceCurve
+    of_map: SurfaceCurve
     halves: Sequence[SurfaceCurve]  # 4, row by row
     quarters: Sequence[SurfaceCurve]  # 16
     points: int  # of the whole map
@@ -182,18 +184,18 @@ class TiledCurves:
         zero where all is sealed, even with the pressure held along the border.
         """
         values = self._tiles(lambda curve, _points: curve.measured[name].values)
-        means = [values.whole, _mean(values.halves), _mean(values.quarters)]
+        means = [values.of_map, _mean(values.halves), _mean(values.quarters)]
         largest = np.fmax.reduce(means)
         if (border := self._at_border(name)) is not None:
             largest = np.where(largest == 0, np.nan_to_num(border.max(axis=0)), largest)
         floor = _FLOOR * largest
         with np.errstate(divide="ignore"):
-            whole, halves, quarters = (
-                np.log(each + floor) for each in (values.whole, values.halves, values.quarters)
+            of_map, halves, quarters = (
+                np.log(each + floor) for each in (values.of_map, values.halves, values.quarters)
             )
-        return Tiles(whole, halves, quarters, either_way=True), floor
+        return Tiles(of_map, halves, quarters, either_way=True), floor
 
-    def border_of(self, name: str, floor: Real) -> tuple[Real, Real] | None:
+    def border_differences(self, name: str, floor: Real) -> tuple[Real, Real] | None:
         """By how much the logarithm of a measure and the floor differs as the border is held.
 
         That is with the flow given along it, and with the pressure; None if that was not measured.
@@ -202,8 +204,8 @@ class TiledCurves:
         if values is None:
             return None
         with np.errstate(divide="ignore", invalid="ignore"):
-            of_map, given, held = np.log(values + floor)
-            return given - of_map, held - of_map
+            of_map, with_flow, with_pressure = np.log(values + floor)
+            return with_flow - of_map, with_pressure - of_map
 
     def _at_border(self, name: str) -> Real | None:
         """A measure of the map as it repeats, with the flow given, and the pressure, (3, loads)."""
@@ -219,7 +221,7 @@ class TiledCurves:
             )
             for count, curves in ((2, self.halves), (4, self.quarters))
         )
-        return Tiles(of(self.whole, self.points), halves, quarters)
+        return Tiles(of(self.of_map, self.points), halves, quarters)
 
 
 def _stiffness(curve: SurfaceCurve, points: int) -> Real:
@@ -241,7 +243,7 @@ def logit(share: Real) -> Real:
 
 def coarse_shape(shape: tuple[int, int], points: int = POINTS_OF_TILES) -> tuple[int, int]:
     """Points along the sides of a map whose tiles are pressed, or one of fewer points."""
-    while shape[0] * shape[1] > points and min(shape) >= 4 * FEWEST:
+    while shape[0] * shape[1] > points and min(shape) >= 4 * FEWEST_POINTS:
         shape = shape[0] // 2, shape[1] // 2
     return shape
 
@@ -254,7 +256,7 @@ def coarsened(piece: Surface, points: int = POINTS_OF_TILES) -> Surface:
     return piece
 
 
-def tiles_of(piece: Surface, count: int) -> list[Surface]:
+def cut_tiles(piece: Surface, count: int) -> list[Surface]:
     """Cut a map into so many tiles along each side, each without its tilt."""
     ends = [np.linspace(0, n, count + 1).astype(int) for n in piece.shape]
     return [

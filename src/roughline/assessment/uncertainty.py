@@ -8,10 +8,12 @@ from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.engineering.intervals import Ends, Intervals
 
-_UNSURE = 5.0  # upper over lower end above which a stiffness near full contact may be infinite
+_UNSURE_RATIO = (
+    5.0  # upper over lower end above which a stiffness near full contact may be infinite
+)
 
 
-def intervals_of(
+def estimate_intervals(
     curve: SurfaceCurve, other: SurfaceCurve | None = None, unsure: Real | float = 0.0
 ) -> Intervals | None:
     """Intervals of a curve, of its grid's errors and of how far another one is from it.
@@ -64,7 +66,7 @@ def interval(value: Real, error: Real) -> Ends:
 
 def _open(ends: Ends, may_be_full: Mask) -> Ends:
     """Ends of a stiffness, without an upper one where contact may be full and little is known."""
-    unsure = ends[1] > _UNSURE * ends[0]
+    unsure = ends[1] > _UNSURE_RATIO * ends[0]
     return ends[0], np.where(may_be_full & unsure, np.inf, ends[1])
 
 

@@ -18,16 +18,16 @@ import numpy as np
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
 from roughline.assessment.filled import force_on
-from roughline.assessment.films import SPOT_RADIUS, film_of, hardness_ends
+from roughline.assessment.films import SPOT_RADIUS, find_film, hardness_ends
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import pressed_body
 from roughline.assessment.tiles import (
-    FEWEST,
+    FEWEST_POINTS,
     POINTS_OF_BORDER,
     coarse_shape,
     coarsened,
-    tiles_of,
+    cut_tiles,
 )
 from roughline.computing.arrays import Mask
 from roughline.contact.arguments import law_of
@@ -82,7 +82,7 @@ class Curves:
         curve = self.by_name.get(name)
         return curve if isinstance(curve, SurfaceCurve) else None
 
-    def whole(self, name: str) -> SurfaceCurve | None:
+    def complete(self, name: str) -> SurfaceCurve | None:
         """The curve of a surface in a variant; None if it is not whole."""
         return None if name == self.stopped else self.get(name)
 
@@ -160,14 +160,14 @@ def _tell(progress: LoadProgress, before: int, here: int, total: int, done: int,
     progress(before + here * done // max(of, 1), total)
 
 
-def variants_of(case: Case) -> list[Variant]:
+def list_variants(case: Case) -> list[Variant]:
     """All ways in which the body of a case may be pressed, in their order."""
     loads, body = case.loads, case.body
     if not case.is_repeated_for_interface:
         loads = replace(loads, measures=case.measures)
     if case.filled_points is not None:
         loads = replace(loads, measures=[*loads.measures, force_on(case.filled_points)])
-    if film_of(case.question) is not None:
+    if find_film(case.question) is not None:
         loads = replace(loads, measures=[*loads.measures, SPOT_RADIUS])
     if case.question.fields:  # of the largest load asked for, or of one at three quarters of them
         loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
@@ -177,8 +177,8 @@ def variants_of(case: Case) -> list[Variant]:
         return listed
     if case.filled:
         listed.append(_filled_otherwise(case, listed[0], body))
-    listed += _of_the_larger_surface(case, listed[0], with_tiles=True)
-    listed += _of_other_hardness(case)
+    listed += _larger_surface_variants(case, listed[0], with_tiles=True)
+    listed += _hardness_variants(case)
     if case.question.friction is not None and case.hardness is not None:
         share = _UNLOADING_LOADS / loads.count
         needed = partial(_unloaded, case)
@@ -197,7 +197,7 @@ def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
 
 
 def _filled_otherwise(case: Case, variant: Variant, body: Surface) -> Variant:
-    """The same with missing points filled by the other method, if that changes something."""
+    """Press with missing points filled by the other method, if that changes something."""
 
     def needed(curves: Curves) -> LoadCase | None:
         first, curve = variant.needed(curves), curves.get(variant.name)
@@ -208,30 +208,30 @@ def _filled_otherwise(case: Case, variant: Variant, body: Surface) -> Variant:
         if np.array_equal(other.heights, body.heights):
             return None
         if first.n_loads is not None and curve.converged.all():
-            first = first.under_forces_of(curve)  # the same forces, not new ones
+            first = first.under_forces_from(curve)  # the same forces, not new ones
         return replace(first, body=other, fields=(), grid_error=False)
 
     name = filled_otherwise(variant.name)
     return replace(variant, name=name, purpose="filling", needed=needed)
 
 
-def _of_other_hardness(case: Case) -> list[Variant]:
+def _hardness_variants(case: Case) -> list[Variant]:
     """The body without yield, and as soft and as hard as it may be."""
     hardness, body = case.hardness, case.body
     if hardness is None or case.pair is None or not isinstance(body, Surface):
         return []
     ways: list[tuple[Way, Body]] = [(Way.ELASTIC, body)]
     if hardness.factor != 1:
-        judged = case.judged
-        if judged is not body:
-            ways.append((Way.AS_HARD, judged))
-        ways += [(Way.SOFTEST, judged), (Way.HARDEST, judged)]
+        scatter_body = case.scatter_body
+        if scatter_body is not body:
+            ways.append((Way.AS_HARD, scatter_body))
+        ways += [(Way.SOFTEST, scatter_body), (Way.HARDEST, scatter_body)]
     listed = []
     for name, pressed in ways:
         needed = partial(_as_hard, case, name, pressed)
         share = pressed.heights.size / body.heights.size
         variant = Variant(name, "hardness", needed, body.shape, case.loads.periodic, share)
-        listed += [variant, *_of_the_larger_surface(case, variant)]
+        listed += [variant, *_larger_surface_variants(case, variant)]
     return listed
 
 
@@ -256,15 +256,15 @@ def _as_hard(case: Case, way: Way, body: Body, curves: Curves) -> LoadCase | Cur
         if body is case.body and hardness >= (curve.hardness or 0):
             settings = {**curve.settings, "hardness": hardness}
             return replace(curve, law=law_of(hardness), settings=settings)
-    loads = _borne_by(case, curve, hardness)
+    loads = _loads_below(case, curve, hardness)
     if not loads.any():
         return among_loads(at_loads(curve, np.flatnonzero(loads)), loads)
     measures = () if case.is_repeated_for_interface else case.measures
-    of_hardness = case.loads.of_hardness(hardness, loads, curve)
+    of_hardness = case.loads.with_hardness(hardness, loads, curve)
     return replace(of_hardness, body=body, measures=measures)
 
 
-def _borne_by(case: Case, curve: Curve, hardness: float | None) -> Mask:
+def _loads_below(case: Case, curve: Curve, hardness: float | None) -> Mask:
     """Which loads of the curve as asked were solved, and are borne by a body of a hardness.
 
     What a load leaves that is too large is not known, nor are those after it.
@@ -275,10 +275,10 @@ def _borne_by(case: Case, curve: Curve, hardness: float | None) -> Mask:
     return curve.converged & (largest < hardness * nominal_area(case.body))
 
 
-def _of_the_larger_surface(
+def _larger_surface_variants(
     case: Case, variant: Variant, *, with_tiles: bool = False
 ) -> list[Variant]:
-    """The same into a periodic half-space, and the tiles of the map, for what it is a piece of."""
+    """A variant in a periodic half-space, and the tiles of the map, for what it is a piece of."""
     body = case.map
     if body is None:
         return []
@@ -310,33 +310,33 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
         return replace(
             first, half_space=interface, levelled=True, fields=(), measures=case.measures
         )
-    if not first.borne(curve).any():
+    if not first.solved_loads(curve).any():
         return None
-    under = first.under_forces_of(curve)
+    under = first.under_forces_from(curve)
     loads = replace(under, half_space=under.half_space.interface, levelled=True)
     if case.question.sealing is None:
         loads = replace(loads, fields=())  # nobody looks into its gap
     return replace(loads, measures=case.measures)
 
 
-def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
+def _tiles(case: Case, map_name: str, body: Surface) -> list[Variant]:
     """The map on fewer points, and its tiles, under the mean pressures of its periodic curve."""
-    if not case.loads.grid_error or min(body.shape) < FEWEST or case.question.coated:
+    if not case.loads.grid_error or min(body.shape) < FEWEST_POINTS or case.question.coated:
         return []
     shape = coarse_shape(body.shape)
     measures = [each for each in case.measures if each.intensive]
 
     @cache
     def pieces(count: int) -> list[Surface]:
-        return tiles_of(pieces(1)[0], count) if count > 1 else [coarsened(body.detrended())]
+        return cut_tiles(pieces(1)[0], count) if count > 1 else [coarsened(body.detrended())]
 
     def needed(count: int, i: int, curves: Curves) -> LoadCase | None:
-        return _alike(case, curves.get(whole), lambda: pieces(count)[i], measures)
+        return _press_piece(case, curves.get(map_name), lambda: pieces(count)[i], measures)
 
     def needed_for_border(curves: Curves) -> LoadCase | None:
         taken = [*measures, *case.measures_at_border]
-        return _alike(
-            case, curves.get(whole), lambda: coarsened(pieces(1)[0], POINTS_OF_BORDER), taken
+        return _press_piece(
+            case, curves.get(map_name), lambda: coarsened(pieces(1)[0], POINTS_OF_BORDER), taken
         )
 
     listed = [
@@ -357,7 +357,7 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
     return listed
 
 
-def _alike(
+def _press_piece(
     case: Case,
     curve: SurfaceCurve | None,
     piece: Callable[[], Surface],
@@ -367,7 +367,7 @@ def _alike(
     body = case.body
     if curve is None or curve.stiffness_error is None or broken("grid", body):
         return None
-    loads = case.loads.under_forces_of(curve)
+    loads = case.loads.under_forces_from(curve)
     if not loads.forces:
         return None
     pressed, attraction = piece(), loads.attraction

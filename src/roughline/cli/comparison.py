@@ -52,12 +52,12 @@ def compare_command(
     spectrum are pressed.
     """
     from roughline.assessment.comparison import compare_models
-    from roughline.assessment.told import reading_of
+    from roughline.assessment.from_fields import build_reading
     from roughline.report.comparison import print_comparison, write_comparison
     from roughline.report.json_output import of_comparison
     from roughline.report.progress import load_progress
 
-    reading = reading_of(told)
+    reading = build_reading(told)
     if file is None:
         said, usual = vars(reading), vars(rl.Reading())
         of_file = {name: value for name, value in said.items() if value != usual[name]}

@@ -113,7 +113,7 @@ def press_command(
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.told import question_of
+    from roughline.assessment.from_fields import build_question
     from roughline.computing.fft import set_threads
 
     if threads is not None:
@@ -131,7 +131,7 @@ def press_command(
     against = told.get("against")
     if against is not None and not os.path.isfile(against):  # noqa: PTH113 - of a name too long, too
         refuse("against", against, "no such file: give a file with a topography")
-    question = question_of(
+    question = build_question(
         file[0] if len(file) == 1 else file,
         {**told, "whole_curve": report is not None},
         fields=report is not None or out is not None,
@@ -199,7 +199,7 @@ def _press_part(
     with interruptible("no map was done"), part_progress() as (maps, loads):
         with writable(report, out):  # a folder that cannot be written is refused before the work
             part = assess_part(
-                question.of_each(), announce=announce, progress=loads, map_progress=maps
+                question.one_by_one(), announce=announce, progress=loads, map_progress=maps
             )
         files: list[Path] = []
         if report or out:

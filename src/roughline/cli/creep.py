@@ -80,7 +80,7 @@ def creep_command(
     --load "0 N" --load "1 N" --load "1 N" --out creep.nc
     """
     from roughline.assessment.creep import CreepQuestion, press_with_creep
-    from roughline.assessment.told import preparation_of, reading_of
+    from roughline.assessment.from_fields import build_preparation, build_reading
     from roughline.report.creep import of_creep, print_creep
 
     question = CreepQuestion(
@@ -92,8 +92,8 @@ def creep_command(
         loads=load,
         depths=depth,
         periodic=periodic,
-        reading=reading_of(told),
-        preparation=preparation_of(told),
+        reading=build_reading(told),
+        preparation=build_preparation(told),
     )
     with interruptible("there is no result"), writable_file(out):
         result = press_with_creep(question)

@@ -56,7 +56,7 @@ def info(
     the spectrum.
     """
     from roughline.assessment.description import describe, with_texture
-    from roughline.assessment.told import preparation_of, reading_of
+    from roughline.assessment.from_fields import build_preparation, build_reading
     from roughline.report.curve_file import as_json, print_curve_file
     from roughline.report.description_table import print_description
     from roughline.report.json_output import of_description
@@ -72,7 +72,7 @@ def info(
             raise InputError("--iso is of topographies, and this file is a curve; leave it out")
         return print_json(as_json(curve)) if json else print_curve_file(curve)
     with writable(out, None if prepared is None else checked_name(prepared).parent):
-        result = describe(file, reading_of(told), preparation_of(told))
+        result = describe(file, build_reading(told), build_preparation(told))
         if iso:
             lengths = {
                 name: None if text is None else in_si(text, "m", name)

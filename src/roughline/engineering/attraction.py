@@ -84,7 +84,7 @@ class Attraction:
         return found
 
     def on_grid(self, spacing: float, E_star: float) -> Attraction:
-        """The same with its range, or else with a short one for a grid.
+        """Attraction with its range, or else with a short one for a grid.
 
         The zone that pulls about a contact is then nine cells wide, so that grids of half and of a
         quarter of the points resolve it too. The spacing is in m, the contact modulus in Pa.

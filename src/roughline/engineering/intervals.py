@@ -26,7 +26,7 @@ class Intervals:
 
 
 def taken(value: _Value, loads: Indices) -> _Value:
-    """The same at some of the loads, by their numbers: they are the last axis of all its arrays."""
+    """Pick some of the loads, by their numbers: they are the last axis of all arrays of a value."""
     found: Any = value
     if isinstance(value, np.ndarray):
         found = value[..., loads]

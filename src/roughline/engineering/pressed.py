@@ -37,7 +37,7 @@ class Interface:
 
     @property
     def bare(self) -> Interface:
-        """The same without its interval."""
+        """Stiffness without its interval."""
         return replace(self, ends=None)
 
 
@@ -153,7 +153,7 @@ class Pressed:
 
     @property
     def load_pressure(self) -> Real:
-        """The same as a mean pressure p over the nominal area, (loads,). [Pa]"""
+        """Mean pressure p of the load over the nominal area, (loads,). [Pa]"""
         on_body = self.curve.force if self.load_on_body is None else self.load_on_body
         return on_body / self.area
 

@@ -297,7 +297,7 @@ class Answer:
 
     @property
     def bare(self) -> Answer:
-        """The same without its interval."""
+        """Answer without its interval."""
         return replace(self, low=None, high=None)
 
 

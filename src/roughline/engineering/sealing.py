@@ -260,7 +260,7 @@ class Fluid:
 
     @property
     def excess_in_ring(self) -> tuple[float, float]:
-        """The same in the mean of the area of a ring, if it enters inside, and if outside. [Pa]
+        """Mean excess over the area of a ring, if the fluid enters inside, and if outside. [Pa]
 
         The pressure of a liquid falls evenly with the logarithm of the radius, and the square of
         that of a gas. Of a strip both are the excess.

@@ -31,7 +31,7 @@ class Remark(str):
         return made
 
     def reworded(self, text: str) -> Remark:
-        """The same in other words."""
+        """Say it in other words."""
         return Remark(text, self.about, is_grave=self.is_grave)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 import roughline as rl
 from roughline.assessment.loading import UNLOADING
-from roughline.assessment.uncertainty import intervals_of
+from roughline.assessment.uncertainty import estimate_intervals
 from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import Quantity
 from roughline.lab.explore.panels import BACK, kept
@@ -86,7 +86,7 @@ class Yielding(Physics):
 
     def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
-        intervals, unloading = intervals_of(pressed), float(pressed.unloading_stiffness[0])
+        intervals, unloading = estimate_intervals(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
         indentation = float(pressed.indentation[0])
         digits = supported_digits(unloading, ends, 3)

@@ -12,9 +12,9 @@ from typing import Any
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.fields import FIELDS, asked_in
+from roughline.assessment.from_fields import arguments_for
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.reading import Reading
-from roughline.assessment.told import told_of
 from roughline.errors.words import speaking
 from roughline.lab.controls import is_number
 from roughline.lab.frames import frame
@@ -141,12 +141,12 @@ def as_python(said: Said, names: Sequence[str]) -> str:
     told = _told(said) | {"whole_curve": bool(loads_of(said))}
     written = {each.name: told[each.name] for each in FIELDS if each.says(told.get(each.name))}
     question = [f"[{', '.join(map(repr, names))}]" if is_part else repr(names[0])]
-    question += [f"{name}={value!r}" for name, value in told_of("Question", written).items()]
+    question += [f"{name}={value!r}" for name, value in arguments_for("Question", written).items()]
     if asked := [_in_python(*each) for each in asked_in(written)]:
         question.append(f"ask=[{', '.join(asked)}]")
     for kind in (Reading, Preparation):
         usual = vars(kind())
-        of_kind = told_of(kind.__name__, written).items()
+        of_kind = arguments_for(kind.__name__, written).items()
         if given := [f"{name}={value!r}" for name, value in of_kind if value != usual[name]]:
             question.append(f"{kind.__name__.lower()}=rl.{kind.__name__}({', '.join(given)})")
     values = "answer.mean, answer.scatter" if is_part else "answer.values"

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import roughline as rl
-from roughline.assessment import told
+from roughline.assessment import from_fields
 from roughline.assessment.fields import FILE, LOADS, PREPARATION, names_by
+from roughline.assessment.from_fields import refuse_alone
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
-from roughline.assessment.told import refuse_alone
 from roughline.engineering.materials import material
 from roughline.errors.words import Words
 from roughline.lab.controls import ControlError, refuse_strange, texts_of, usable
@@ -144,19 +144,19 @@ def _split(text: str, separator: str) -> str | list[str]:
 
 def reading_of(said: Said, name: str | None) -> Reading:
     """How the file is read."""
-    return told.reading_of(told_in(said, FILE), name)
+    return from_fields.build_reading(told_in(said, FILE), name)
 
 
 def preparation_of(said: Said) -> Preparation | None:
     """What is done to the topography; None where nothing is set, as on the command line."""
-    return told.preparation_of(told_in(said, PREPARATION))
+    return from_fields.build_preparation(told_in(said, PREPARATION))
 
 
 def question_of(said: Said, source: Source) -> Question:
     """The question that the page asks of one of its files."""
     given = bodies_of(said) | told_in(said) | {"whole_curve": bool(loads_of(said))}
     with at(""):
-        return told.question_of(source.path, given, source.name)
+        return from_fields.build_question(source.path, given, source.name)
 
 
 def bodies_of(said: Said) -> dict[str, Any]:

@@ -7,54 +7,56 @@ from typing import Any
 
 import attrs
 
+from roughline.assessment.arguments import several
 from roughline.assessment.asked import KINDS, asked_for
 from roughline.assessment.fields import FIELDS, Field
-from roughline.assessment.given import several
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.topography.preparation import Preparation
 
-Told = Mapping[str, Any]
+FieldValues = Mapping[str, Any]
 """Values by the names of fields; None where nothing is told."""
 
 
-def told_of(kind: str, told: Told) -> dict[str, Any]:
+def arguments_for(kind: str, values: FieldValues) -> dict[str, Any]:
     """Return what is told of one class, as its arguments."""
-    given = [each for each in FIELDS if each.of == kind and told.get(each.name) is not None]
-    told_by: dict[str, Field] = {}
-    for each in given:
-        other = told_by.setdefault(each.argument, each)
-        if other is not each and told[other.name]:
+    fields = [each for each in FIELDS if each.of == kind and values.get(each.name) is not None]
+    first_by: dict[str, Field] = {}
+    for each in fields:
+        other = first_by.setdefault(each.argument, each)
+        if other is not each and values[other.name]:
             raise InputError(
                 f"{called(other.name)} and {called(each.name)} are both given: give one of them",
                 None,
                 other.name,
                 each.name,
             )
-    return {each.argument: told[each.name] for each in given}
+    return {each.argument: values[each.name] for each in fields}
 
 
-def reading_of(told: Told, name: str | None = None) -> Reading:
+def build_reading(values: FieldValues, name: str | None = None) -> Reading:
     """Return how files are read; the first is called by a name, if one is given."""
-    return Reading(name=name, **told_of("Reading", told))
+    return Reading(name=name, **arguments_for("Reading", values))
 
 
-def preparation_of(told: Told) -> Preparation | None:
+def build_preparation(values: FieldValues) -> Preparation | None:
     """Return how topographies are prepared; None where nothing is told."""
-    found = Preparation(**told_of("Preparation", told))
+    found = Preparation(**arguments_for("Preparation", values))
     return None if found == Preparation() else found
 
 
-def question_of(body: Any, told: Told, name: str | None = None, **others: Any) -> Question:
+def build_question(
+    body: Any, values: FieldValues, name: str | None = None, **others: Any
+) -> Question:
     """Return the question of a body or a file that is told, with arguments that have no control."""
     return Question(
         body,
-        ask=asked_for(told),
-        reading=reading_of(told, name),
-        preparation=preparation_of(told),
-        **told_of("Question", told),
+        ask=asked_for(values),
+        reading=build_reading(values, name),
+        preparation=build_preparation(values),
+        **arguments_for("Question", values),
         **others,
     )
 

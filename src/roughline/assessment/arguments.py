@@ -105,7 +105,7 @@ def refuse_unless_one_modulus(E_star: Any, materials: Any) -> None:
         )
 
 
-def pair_of(given: str | Sequence[Solid | str] | None) -> tuple[Solid, Solid] | None:
+def read_pair(given: str | Sequence[Solid | str] | None) -> tuple[Solid, Solid] | None:
     """Two materials, from themselves, their descriptions, or one text with a comma between.
 
     One of them gives way.
@@ -122,12 +122,12 @@ def pair_of(given: str | Sequence[Solid | str] | None) -> tuple[Solid, Solid] | 
             given,
             'give two with a comma between, such as "steel,copper" or "rubber 2 mm on steel,rigid"',
         )
-    first, second = (_material_of(each) for each in parts)
+    first, second = (_read_material(each) for each in parts)
     contact_modulus(first.surface, second.surface)  # refuses two rigid ones
     return first, second
 
 
-def _material_of(given: Any) -> Solid:
+def _read_material(given: Any) -> Solid:
     """A material, from itself or from its description."""
     if isinstance(given, Material | Coated):
         return given
