@@ -20,7 +20,7 @@ from roughline.cli import app
 from roughline.cli.help import PanelsFirst
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering import formulas, leak
-from roughline.engineering.described import formulas_of
+from roughline.engineering.described import chemical_formulas
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
@@ -214,7 +214,7 @@ def page_of_commands() -> str:
 
 def page_of_materials() -> str:
     """The table of materials with its sources."""
-    chemical = formulas_of("materials.csv")
+    chemical = chemical_formulas("materials.csv")
     rows = [
         (
             each.name,
@@ -242,7 +242,7 @@ def page_of_materials() -> str:
 
 def page_of_fluids() -> str:
     """The table of fluids with its sources."""
-    chemical = formulas_of("fluids.csv")
+    chemical = chemical_formulas("fluids.csv")
     rows = [
         (
             each.name,

@@ -164,7 +164,7 @@ def test_both_are_told_where_one_is_an_end_of_the_interval(assessment):
     wide = {APERTURE: replace(answers[APERTURE], low=np.array([0.5e-6]))}
     assert what_borders_do(replace(result, answers={**answers, **wide})) == []
     assert what_borders_do(assessment) == []
-    bare = {APERTURE: answers[APERTURE].bare}
+    bare = {APERTURE: answers[APERTURE].without_interval}
     (told,) = what_borders_do(replace(result, answers={**answers, **bare}))
     assert told.startswith("under 50 MPa the border of the map moves what flows, and no interval")
 

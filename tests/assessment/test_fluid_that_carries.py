@@ -136,14 +136,14 @@ def test_at_the_pressure_that_opens_it_nothing_is_left_of_the_load():
     for fluid in (WATER, AIR):
         (opens,) = fluid_of(fluid).opens_at(np.array([3e5]))
         assert fluid_of(fluid, float(opens)).excess == pytest.approx(3e5, rel=1e-12)
-        (left,) = fluid_of(fluid, 0.99 * float(opens)).left_of(np.array([3e5]), 1.0)
+        (left,) = fluid_of(fluid, 0.99 * float(opens)).force_on_bodies(np.array([3e5]), 1.0)
         assert 0 < left < 0.02 * 3e5
 
 
 @pytest.mark.parametrize("carries", [None, True, False])
 def test_loads_follow_from_what_is_left_of_them(carries):
     asked, loads = fluid_of(WATER, carries=carries), np.geomspace(1e5, 1e8, 100) * 1e-6
-    left = asked.left_of(loads, 1e-6)
+    left = asked.force_on_bodies(loads, 1e-6)
     assert asked.load_on(left, 1e-6) == pytest.approx(loads, rel=1e-12)
     assert (np.diff(left) > 0).all()
 

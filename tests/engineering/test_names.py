@@ -3,10 +3,10 @@
 import pytest
 
 import roughline as rl
-from roughline.engineering.described import formulas_of
-from roughline.engineering.names import name_of
+from roughline.engineering.described import chemical_formulas
+from roughline.engineering.names import find_name
 
-OF_MATERIALS, OF_FLUIDS = formulas_of("materials.csv"), formulas_of("fluids.csv")
+OF_MATERIALS, OF_FLUIDS = chemical_formulas("materials.csv"), chemical_formulas("fluids.csv")
 SYMBOLS = {
     "Al": "aluminium",
     "Cu": "copper",
@@ -38,7 +38,7 @@ TABLES = (("material", OF_MATERIALS), ("fluid", OF_FLUIDS))
 def found(typed, what, table):
     """The name that a text is read as, or what is said where it is refused."""
     try:
-        return name_of(typed, what, table, "...")
+        return find_name(typed, what, table, "...")
     except rl.InputError as error:
         return str(error)
 

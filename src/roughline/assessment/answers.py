@@ -47,7 +47,7 @@ def work_out_answers(
     if solution.larger is not None:
         interface = taken(solution.larger.stiffness, asked)
         # what one piece leaves open is narrower than what is unknown without the grid's error
-        interface = interface.bare if intervals is None else interface
+        interface = interface.without_interval if intervals is None else interface
     elif not question.periodic:
         ends = intervals.unloading if intervals else None
         is_layered = bool(question.coated)

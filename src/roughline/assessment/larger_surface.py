@@ -134,10 +134,10 @@ def stiffness_of_the_piece(
     """
     k = unloading_stiffness(curve)
     if isinstance(body, Line):
-        saturated, error, told_from = curve.E_star * body.length, 0.0, 0.0
+        saturated, error, warned_from = curve.E_star * body.length, 0.0, 0.0
         validity = "of the reduced line alone; waves longer than the scan are missing"
     else:
-        saturated, told_from = saturated_stiffness(body, curve), _PUNCH_MATTERS
+        saturated, warned_from = saturated_stiffness(body, curve), _PUNCH_MATTERS
         # as a share of k_s, which is a little more
         error = PUNCH_GRID_ERROR / math.sqrt(body.heights.size)
         validity = "of this piece alone, a punch with its outline; "
@@ -156,7 +156,7 @@ def stiffness_of_the_piece(
     ends = interface_stiffness(low, saturated), interface_stiffness(high, saturated)
     formula = "1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch"
     return Interface(
-        interface_stiffness(k, saturated), ends if known else None, validity, formula, told_from
+        interface_stiffness(k, saturated), ends if known else None, validity, formula, warned_from
     )
 
 

@@ -349,7 +349,7 @@ class Question:
         forces, fluid = self.loading.forces(area), self.sealing
         if fluid is None:
             return forces
-        left: list[float] = fluid.left_of(np.array(forces), area).tolist()
+        left: list[float] = fluid.force_on_bodies(np.array(forces), area).tolist()
         return left
 
     def refuse_misfit(self, body: Body) -> None:
@@ -359,7 +359,7 @@ class Question:
         else:
             self._asked(Joint, lambda asked: asked.refuse_map(body.area))
             if self.attraction is not None:
-                self.attraction.refuse_beyond(min(body.sizes), self.modulus)
+                self.attraction.refuse_too_strong(min(body.sizes), self.modulus)
         for ratio, text in self.strains(body):
             if ratio > LARGEST_STRAIN:
                 raise InputError(f"{text}, and {BEYOND}: give a smaller one, and check its unit")

@@ -55,7 +55,7 @@ def widen_by_scatter(
     if hardness is None or hardness.factor == 1:
         return {}, answers, solution.intervals
     if curves.stopped:
-        return {}, {key: each.bare for key, each in answers.items()}, None
+        return {}, {key: each.without_interval for key, each in answers.items()}, None
     pressed = case.scatter_body
     moved = [_answer_at_hardness(case, curves, way, pressed) for way in (Way.SOFTEST, Way.HARDEST)]
     nominal = _AtHardness(solution.curve, answers)

@@ -109,7 +109,7 @@ def larger_behind(case: Case, curves: Curves, name: str) -> LargerSurface | None
         larger = replace(larger, measures=measures)
     if extrapolation.is_supported and case.tells_of_larger:
         return larger
-    return replace(larger, stiffness=larger.stiffness.bare, area=None)
+    return replace(larger, stiffness=larger.stiffness.without_interval, area=None)
 
 
 def variant_measures(

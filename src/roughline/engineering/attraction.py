@@ -13,7 +13,7 @@ from typing import Any
 from roughline.computing.arrays import Real
 from roughline.contact.arguments import STICKING, sticking_law
 from roughline.contact.curve import SurfaceCurve
-from roughline.engineering.described import rows_of
+from roughline.engineering.described import table_rows
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
@@ -93,7 +93,7 @@ class Attraction:
             return self
         return replace(self, range=math.sqrt(_CELLS * math.pi * self.work * spacing / E_star))
 
-    def refuse_beyond(self, side: float, E_star: float) -> None:
+    def refuse_too_strong(self, side: float, E_star: float) -> None:
         """Refuse bodies that pull each other farther, or more, than a body of a side [m] stands.
 
         The contact modulus is in Pa.
@@ -123,7 +123,7 @@ class Attraction:
 def attractions() -> Mapping[str, Attraction]:
     """Return the table of works of adhesion by name."""
     found = {}
-    for name, row in rows_of("adhesion.csv").items():
+    for name, row in table_rows("adhesion.csv").items():
         reach = float(row["range"]) if row["range"] else None
         found[name] = Attraction(name, float(row["work"]), reach, row["law"], row["source"])
     return MappingProxyType(found)

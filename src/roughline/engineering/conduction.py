@@ -44,7 +44,7 @@ def _spreading(layers: Resistances, fields: Fields) -> float:
     return of_surfaces * found
 
 
-def of_contact(pressed: Pressed, quantity: str) -> Real | None:
+def contact_conduction(pressed: Pressed, quantity: str) -> Real | None:
     """k_u, or the stiffness with which Barber's identity holds through layers, in rows. [N / m]
 
     Of a map that is pressed freely it is not known: through layers, the map repeated is measured.
@@ -55,7 +55,7 @@ def of_contact(pressed: Pressed, quantity: str) -> Real | None:
     return None if is_of_map else _measured(pressed, quantity, pressed.unloading)
 
 
-def of_interface(pressed: Pressed, quantity: str) -> Real | None:
+def interface_conduction(pressed: Pressed, quantity: str) -> Real | None:
     """k_i, or the stiffness with which Barber's identity holds through layers, in rows. [N / m]
 
     Of a free piece it is not known through layers.

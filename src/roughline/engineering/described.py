@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from importlib import resources
 
-from roughline.engineering.names import name_of
+from roughline.engineering.names import find_name
 from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
 from roughline.units import in_si, refuse_decimal_comma
@@ -27,15 +27,15 @@ def described(
     start = re.search(r"\w+\s*=", description)
     typed = (description[: start.start()] if start else description).strip(" ;")
     given = _settings(description[start.start() :] if start else "", description, what, units)
-    return name_of(typed, what, formulas, example) if typed else "", given
+    return find_name(typed, what, formulas, example) if typed else "", given
 
 
-def formulas_of(table: str) -> dict[str, str]:
+def chemical_formulas(table: str) -> dict[str, str]:
     """Return the chemical formulas in a table, with spaces between, by what they name."""
-    return {name: row["formula"] for name, row in rows_of(table).items()}
+    return {name: row["formula"] for name, row in table_rows(table).items()}
 
 
-def rows_of(table: str) -> dict[str, dict[str, str]]:
+def table_rows(table: str) -> dict[str, dict[str, str]]:
     """Return the lines of a table that comes with the package, by what they name."""
     text = resources.files("roughline.engineering").joinpath(table).read_text(encoding="utf-8")
     rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))

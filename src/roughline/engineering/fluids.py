@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from types import MappingProxyType
 
-from roughline.engineering.described import described, formulas_of, rows_of
+from roughline.engineering.described import chemical_formulas, described, table_rows
 from roughline.errors import InputError
 from roughline.errors.checks import between, refuse, shown
 from roughline.errors.public import public
@@ -35,8 +35,8 @@ _EXAMPLE = "viscosity=40 mPa s, or viscosity=18 uPa s molar_mass=29 g/mol of a g
 _SYNONYMS = {"glycol": "ethylene-glycol", "glycerine": "glycerol", "natural-gas": "methane"}
 _TEMPERATURE = re.compile(r"temperature\s*=\s*(.+?)(?=\s+\w+\s*=|$)")
 _AT = re.compile(r"\s+at\s+(-?[\d.]+)\s*(?:°|deg)?\s*([CK])\b", re.IGNORECASE)
-_OF_OILS = 1.3  # factor of their viscosities' uncertainty: grade 10 %, index 80 to 140
-_OF_IRON = 55.85  # molar mass of the wall [g / mol]
+_OIL_FACTOR = 1.3  # factor of their viscosities' uncertainty: grade 10 %, index 80 to 140
+_IRON_MOLAR_MASS = 55.85  # molar mass of the wall [g / mol]
 _COLDEST, _HOTTEST = 273.15, 373.15  # between which the table knows how fluids change [K]
 _GRADE = re.compile(r"^\W*(?:(?:iso|oil)\W*)*vg\W*(\d+)(?:\W*oil\b)?", re.IGNORECASE)
 
@@ -179,7 +179,7 @@ class Gas:
             return self.accommodation
         is_monatomic = self.heat_capacity_ratio > 1.6
         mass = 1e3 * self.molar_mass * (1.0 if is_monatomic else 1.4)
-        ratio = 1e3 * self.molar_mass / _OF_IRON
+        ratio = 1e3 * self.molar_mass / _IRON_MOLAR_MASS
         cold = math.exp(-0.57 * (self.temperature / 273.15 - 1))
         return cold * mass / (6.8 + mass) + (1 - cold) * 2.4 * ratio / (1 + ratio) ** 2
 
@@ -215,7 +215,7 @@ def fluid_of(description: str | Liquid | Gas) -> Liquid | Gas:
         return description
     if not isinstance(description, str):
         refuse("fluid", description, 'a name such as "water", a Liquid or a Gas is needed')
-    known, formulas = fluids(), formulas_of(_TABLE)
+    known, formulas = fluids(), chemical_formulas(_TABLE)
     text = _known_name(description)
     name, given = described(text, "fluid", formulas, _UNITS, "viscosity=40 mPa s")
     if not name and "viscosity" not in given:
@@ -287,12 +287,12 @@ def fluids() -> Mapping[str, Liquid | Gas]:
         numbers = {key: float(row[key]) for key in _UNITS if row.get(key)}
         kind = Gas if "molar_mass" in numbers else Liquid
         if name.startswith("oil-"):
-            numbers["viscosity_factor"] = _OF_OILS
+            numbers["viscosity_factor"] = _OIL_FACTOR
         found[name] = kind(**numbers, name=name, source=row["source"])
     return MappingProxyType(found)
 
 
-_rows = functools.cache(partial(rows_of, _TABLE))
+_rows = functools.cache(partial(table_rows, _TABLE))
 
 
 def _refuse_senseless(fluid: Liquid | Gas) -> None:

@@ -16,7 +16,7 @@ from roughline.errors import InputError
 
 _Value = TypeVar("_Value", float, NDArray[np.float64])
 
-_FULL = 1e-6  # of the saturated stiffness, which may be missing in full contact
+_FULL_CONTACT = 1e-6  # of the saturated stiffness, which may be missing in full contact
 
 COMPARED = "estimates for comparison", "they are of bodies of one material each"
 """What Holm's, Mikic's and Yovanovich's formulas are called, and why they are not of layers."""
@@ -37,7 +37,7 @@ def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
     k = np.asarray(stiffness, dtype=np.float64)
     left = saturated - k
     with np.errstate(divide="ignore", invalid="ignore"):
-        of_interface = np.where(left > _FULL * saturated, k * saturated / left, np.inf)
+        of_interface = np.where(left > _FULL_CONTACT * saturated, k * saturated / left, np.inf)
     return np.where(np.isnan(left), np.nan, of_interface)
 
 

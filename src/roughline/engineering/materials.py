@@ -9,7 +9,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from roughline.engineering.coated import Coated, Solid
-from roughline.engineering.described import described, formulas_of, rows_of
+from roughline.engineering.described import chemical_formulas, described, table_rows
 from roughline.engineering.material import Material
 from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
@@ -85,7 +85,7 @@ def material(description: str) -> Solid:
 
 def _bulk(text: str) -> Material:
     """A material that is not coated, or one of a coated body."""
-    known, formulas = materials(), formulas_of(_TABLE)
+    known, formulas = materials(), chemical_formulas(_TABLE)
     name, given = described(text, "material", formulas, _UNITS, "E=70 GPa nu=0.33")
     if not name:
         if not {"E", "nu"} <= given.keys():
@@ -143,6 +143,6 @@ def materials() -> Mapping[str, Material]:
             layer_hardness=row["layer_hardness"],
             source=row["source"],
         )
-        for name, row in rows_of(_TABLE).items()
+        for name, row in table_rows(_TABLE).items()
     }
     return MappingProxyType(found)

@@ -18,12 +18,14 @@ _ELEMENTS = (
 )
 _SYMBOL = re.compile("[A-Z][a-z]?")
 _COUNTED = re.compile(r"\(?(?:[A-Z][a-z]?[\d.()]*)+")
-_ALIKE = 0.8  # share of letters that a hint has in common with what was typed: tialn is not tin
-_LISTED = 24  # names in a message
-_SHORTEST = 3  # letters of a text that gets a hint: "in" is indium, and not tin
+_HINT_SIMILARITY = (
+    0.8  # share of letters that a hint has in common with what was typed: tialn is not tin
+)
+_LISTED_NAMES = 24  # names in a message
+_SHORTEST_HINTED = 3  # letters of a text that gets a hint: "in" is indium, and not tin
 
 
-def name_of(typed: str, what: str, formulas: Mapping[str, str], example: str) -> str:
+def find_name(typed: str, what: str, formulas: Mapping[str, str], example: str) -> str:
     """Return the name in a table of a substance that is given by its name or chemical formula.
 
     `formulas` are those of each name, with spaces between. Names are read in any case. Capitals
@@ -54,9 +56,13 @@ def name_of(typed: str, what: str, formulas: Mapping[str, str], example: str) ->
         return name
     if formula:
         return by_formula[formula]
-    is_short = len(joined) < _SHORTEST
-    near = [] if is_formula or is_short else difflib.get_close_matches(name, formulas, 1, _ALIKE)
-    known, more = ", ".join([*formulas][:_LISTED]), len(formulas) - _LISTED
+    is_short = len(joined) < _SHORTEST_HINTED
+    near = (
+        []
+        if is_formula or is_short
+        else difflib.get_close_matches(name, formulas, 1, _HINT_SIMILARITY)
+    )
+    known, more = ", ".join([*formulas][:_LISTED_NAMES]), len(formulas) - _LISTED_NAMES
     known += f" and {more} more" if more > 0 else ""
     hint = f'; did you mean "{near[0]}"?' if near else f". Known are {known}."
     raise InputError(f'no {what} is called {shown(typed)}{hint} Others are given as "{example}"')

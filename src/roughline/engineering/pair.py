@@ -31,7 +31,7 @@ class MaterialPair:
         return contact_modulus(self.first.surface, self.second.surface)
 
     @property
-    def of_bases(self) -> float:
+    def base_modulus(self) -> float:
         """Contact modulus of both without their layers; infinite of rigid bases. [Pa]"""
         compliance = sum(
             (1 - each.nu**2) / each.E

@@ -27,7 +27,7 @@ class Interface:
     ends: Ends | None  # of its interval; None where it is not known [N / m]
     validity: str  # which interface it is
     formula: str  # how it was found
-    told_from: float = 0.0
+    warned_from: float = 0.0
     """Share of 1 / k_u that it leaves to the bodies, from which a warning says which it is. [1]"""
 
     @property
@@ -36,7 +36,7 @@ class Interface:
         return np.stack([self.values, *(self.ends or ())])
 
     @property
-    def bare(self) -> Interface:
+    def without_interval(self) -> Interface:
         """Stiffness without its interval."""
         return replace(self, ends=None)
 
@@ -182,7 +182,7 @@ class Pressed:
         return self.unloading if self.interface is None else self.interface.rows * self.scale
 
     @property
-    def of_interface(self) -> str:
+    def interface_note(self) -> str:
         """Says which interface is meant, after a semicolon; nothing where there is but one."""
         return "" if self.interface is None else f"; k_i {self.interface.validity}"
 

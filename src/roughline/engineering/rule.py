@@ -201,8 +201,8 @@ class Rule:
         values, *ends = self._checked_rows(rows)
         limits = self._checked_limits(self.limits(pressed))
         low, high = within((np.minimum(*ends), np.maximum(*ends)), limits) if ends else (None, None)
-        told = ("name", "symbol", "formula", "validity", "source")
-        texts = {name: getattr(self, name) for name in told}
+        names = ("name", "symbol", "formula", "validity", "source")
+        texts = {name: getattr(self, name) for name in names}
         texts |= self.differing(pressed)
         is_first = self.answers_question(pressed)
         for name in ("formula", "validity"):
@@ -296,7 +296,7 @@ class Answer:
         return np.stack([self.values, *(self.ends or ())])
 
     @property
-    def bare(self) -> Answer:
+    def without_interval(self) -> Answer:
         """Answer without its interval."""
         return replace(self, low=None, high=None)
 
@@ -379,7 +379,7 @@ class Rules:
         """
         answers: dict[str, Answer] = {}
         left_out: dict[str, list[str]] = {}  # names by why
-        missed = set()  # why something that was asked for is not answered
+        unanswered = set()  # why something that was asked for is not answered
         for rule in self:
             lacks = rule.lacking(pressed.pair, pressed.frequency)
             answer = None if lacks else rule.answer(pressed)
@@ -390,14 +390,14 @@ class Rules:
                 loads = "" if share == 1 else f" under {share:.0%} of the loads"
                 left_out.setdefault(why, []).append(f"no {answer.name}{loads}")
                 if rule.answers_question(pressed):
-                    missed.add(why)
+                    unanswered.add(why)
             if share < 1:
                 answers[rule.key] = answer
         lacking = self.left_out(pressed.pair, pressed.frequency)
         return _in_order(answers), [
             *lacking,
             *(
-                Remark(f"{', '.join(of)}: {why}", is_grave=why in missed)
+                Remark(f"{', '.join(of)}: {why}", is_grave=why in unanswered)
                 for why, of in left_out.items()
             ),
         ]

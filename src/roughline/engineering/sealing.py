@@ -29,7 +29,7 @@ ATMOSPHERE = 101325.0
 
 _CARRIES = 0.05  # of the load, from which share on the fluid is taken to carry it
 _NODES = 40  # of Gauss over the area of a ring
-_ROUNDING = 1e-9  # of a load, by which it may miss that share
+_SHARE_ROUNDING = 1e-9  # of a load, by which it may miss that share
 
 _MARKED = re.compile(
     r"(?P<pressure>.*(?:Pa|bar|psi|atm))\s*\(?(?P<mark>gauge|g|absolute|abs|a)\.?\)?\s*",
@@ -281,11 +281,11 @@ class Fluid:
 
     def _is_carried(self, load: Real, area: float) -> Mask:
         """Whether the fluid carries a part of forces [N] on an area [m²] that counts."""
-        least = 0.0 if self.carries else _CARRIES * (1 - _ROUNDING)
+        least = 0.0 if self.carries else _CARRIES * (1 - _SHARE_ROUNDING)
         counts = self.carries is not False and self.excess > 0
         return counts & (self.excess * area >= least * np.asarray(load))
 
-    def left_of(self, load: Real, area: float) -> Real:
+    def force_on_bodies(self, load: Real, area: float) -> Real:
         """Forces with which bodies of an area [m²] press under forces on them. [N]
 
         A uniform pressure of the fluid moves nothing but the mean of a half-space, so that the

@@ -62,7 +62,7 @@ def hardness(pressed: Pressed) -> Symbol:
     return Symbol("H", "hardness of the softer body", "Pa", pressed.hardness)
 
 
-def of_both(
+def both_bodies(
     letter: str, meaning: str, unit: str, values: tuple[float, float] | None
 ) -> list[Symbol]:
     """A property of both bodies, numbered."""

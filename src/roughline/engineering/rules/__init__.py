@@ -18,9 +18,9 @@ rules = Rules([rule for group in _ALL for rule in group])
 """By which all answers are worked out; more can be added."""
 
 
-def _rule_of(key: str) -> Rule:
+def _find_rule(key: str) -> Rule:
     """A rule, found by its key in another process: the functions of a rule cannot be written."""
     return rules[key]
 
 
-copyreg.pickle(Rule, lambda rule: (_rule_of, (rule.key,)))
+copyreg.pickle(Rule, lambda rule: (_find_rule, (rule.key,)))

@@ -11,7 +11,7 @@ from roughline.engineering.formulas import reflection
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
-from roughline.engineering.symbols import Symbol, nominal_area, of_both
+from roughline.engineering.symbols import Symbol, both_bodies, nominal_area
 
 
 def _lacking(pair: MaterialPair, frequency: float | None) -> str:
@@ -32,12 +32,12 @@ def _reflection(pressed: Pressed) -> Real | None:
     return reflection(per_area, pressed.frequency, impedances)
 
 
-def _of_wave(pressed: Pressed) -> Mapping[str, str]:
+def _wave_texts(pressed: Pressed) -> Mapping[str, str]:
     if pressed.frequency is None:
         return {}
     return {
         "name": f"{_REFLECTION.name} at {pressed.frequency / 1e6:g} MHz",
-        "validity": _REFLECTION.validity + pressed.of_interface,
+        "validity": _REFLECTION.validity + pressed.interface_note,
     }
 
 
@@ -52,7 +52,7 @@ def _limits(pressed: Pressed) -> Limits:
 
 def _symbols(pressed: Pressed) -> list[Symbol]:
     return [
-        *of_both("z", "acoustic impedance", "Pa s/m", pressed.pair.both("impedance")),
+        *both_bodies("z", "acoustic impedance", "Pa s/m", pressed.pair.both("impedance")),
         Symbol("i", "imaginary unit"),
         Symbol("omega", "angular frequency of the wave", "1/s"),
         Symbol("K", "stiffness per area of the interface", "N/m³"),
@@ -73,7 +73,7 @@ _REFLECTION = Rule(
     "as their amplitude is small, so that all of the contact springs back",
     source="Tattersall 1973",
     value=_reflection,
-    differing=_of_wave,
+    differing=_wave_texts,
     lacking=_lacking,
     limits=_limits,
     is_of_interface=True,

@@ -43,13 +43,13 @@ def _why_unknown(pressed: Pressed) -> str:
     return "the largest load was not solved" if separation is None else separation.unsolved
 
 
-def _of_work(separation: Separation, pressed: Pressed) -> Real:
+def _work_ratio(separation: Separation, pressed: Pressed) -> Real:
     """Work of separation over that of smooth bodies, in a row. [1]"""
     assert pressed.attraction is not None
     return np.array([separation.work / (pressed.attraction.work * pressed.area)])
 
 
-def _of_range(name: str, pressed: Pressed) -> Mapping[str, str]:
+def _range_texts(name: str, pressed: Pressed) -> Mapping[str, str]:
     """Of which attraction an answer is, and of which surface."""
     law, attraction = pressed.curve.law, pressed.attraction
     if attraction is None or not isinstance(law, Adhesive):
@@ -112,7 +112,7 @@ def _rule(name: str, **others: Any) -> Rule:
         group="adhesion",
         source="Maugis 1992",
         unknown=_why_unknown,
-        differing=partial(_of_range, name),
+        differing=partial(_range_texts, name),
         **others,
     )
 
@@ -155,7 +155,7 @@ ADHESION = (
         symbol="W_s/(w A_0)",
         unit="1",
         formula="integral of the pull over the depth from no load until apart, to about 3 %",
-        value=partial(_found, _of_work),
+        value=partial(_found, _work_ratio),
         in_per_cent=True,
     ),
 )

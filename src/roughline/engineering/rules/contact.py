@@ -55,7 +55,7 @@ def _over_hardness(pressed: Pressed) -> Real | None:
     return pressure / pressed.hardness
 
 
-def _beyond_elastic(pressed: Pressed) -> str:
+def _elastic_limit(pressed: Pressed) -> str:
     """Say where the elastic assumption breaks."""
     ratio = _over_hardness(pressed)
     if pressed.may_yield or ratio is None or not np.isfinite(ratio[0]).any():
@@ -135,7 +135,7 @@ CONTACT = (
         symbols=lambda pressed: [hardness(pressed)],
         validity=f"elastic below {ELASTIC_UP_TO:g}, all of the contact yields at 1",
         value=_over_hardness,
-        warning=_beyond_elastic,
+        warning=_elastic_limit,
         limits=lambda pressed: (0.0, np.inf if pressed.hardest is None else 1.0),
     ),
     _rule(

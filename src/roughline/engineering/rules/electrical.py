@@ -7,12 +7,18 @@ from functools import partial
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.engineering.conduction import of_contact, spreading, through_layers
+from roughline.engineering.conduction import contact_conduction, spreading, through_layers
 from roughline.engineering.formulas import COMPARED, electrical_resistance, holm_resistance
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
-from roughline.engineering.symbols import Symbol, contact_modulus, hardness, nominal_area, of_both
+from roughline.engineering.symbols import (
+    Symbol,
+    both_bodies,
+    contact_modulus,
+    hardness,
+    nominal_area,
+)
 
 _rule = partial(Rule, group="electrical")
 
@@ -23,7 +29,7 @@ def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
 
 def _resistance(pressed: Pressed) -> Real | None:
     resistivities = pressed.pair.at_surfaces("resistivity")
-    stiffness = of_contact(pressed, "resistivity")
+    stiffness = contact_conduction(pressed, "resistivity")
     if resistivities is None or stiffness is None:
         return None
     with np.errstate(divide="ignore"):
@@ -35,7 +41,7 @@ def _specific_resistance(pressed: Pressed) -> Real | None:
     return None if resistance is None or pressed.joint is None else resistance * pressed.joint
 
 
-def _of_single_spot(pressed: Pressed) -> Real | None:
+def _single_spot(pressed: Pressed) -> Real | None:
     resistivities, hardness = pressed.pair.both("resistivity"), pressed.pair.hardness
     if resistivities is None or hardness is None:
         return None
@@ -45,7 +51,7 @@ def _of_single_spot(pressed: Pressed) -> Real | None:
 
 def _resistivities(pressed: Pressed) -> list[Symbol]:
     values = pressed.pair.at_surfaces("resistivity")
-    return of_both("rho", "electrical resistivity", "Ω m", values)
+    return both_bodies("rho", "electrical resistivity", "Ω m", values)
 
 
 ELECTRICAL = (
@@ -94,7 +100,7 @@ ELECTRICAL = (
         validity="for comparison: all of the load on one plastic spot; separate spots have less "
         "resistance, and elastic spots, which are smaller, have more",
         source="Holm 1967",
-        value=_of_single_spot,
+        value=_single_spot,
         lacking=lambda pair, _frequency: pair.refuses_layers(*COMPARED),
         is_extensive=True,
         is_of_hardness_alone=True,

@@ -21,7 +21,7 @@ def _until_sliding(pressed: Pressed) -> Real | None:
     return np.where(pressed.curve.converged, slip.displacement[-1], np.nan)
 
 
-def _of_slip(pressed: Pressed) -> Mapping[str, str]:
+def _slip_texts(pressed: Pressed) -> Mapping[str, str]:
     """With which coefficient of friction bodies slip, and under which force they slide."""
     slip = pressed.sought.slip
     if slip is None:
@@ -52,7 +52,7 @@ _SLIP = Rule(
     "problems uncoupled",
     source="Ciavarella 1998",
     value=_until_sliding,
-    differing=_of_slip,
+    differing=_slip_texts,
     answers_question=always,
     is_given=True,
 )

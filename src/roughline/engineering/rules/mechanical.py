@@ -18,23 +18,23 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule
 from roughline.engineering.symbols import (
     Symbol,
+    both_bodies,
     contact_modulus,
     nominal_area,
-    of_both,
     tangential_modulus,
 )
 from roughline.units import decimal, engineering
 
 _rule = partial(Rule, group="mechanics")
 
-_OF_KEPT_VOLUME = (
+_INCOMPRESSIBLE_LAYERS = (
     "even pressure does not compress layers that keep their volume, nu = 0.5: as a whole they give "
     "way at their rim alone, where they can widen, and no answer holds that"
 )
 _IN_SERIES_MATTERS = 0.1  # of the interface's stiffness over that of what lies in series with it
 
 
-def _of_joint(**texts: str) -> Callable[[Pressed], Mapping[str, str]]:
+def _joint_texts(**texts: str) -> Callable[[Pressed], Mapping[str, str]]:
     """Texts that differ where answers are those of a joint."""
     return lambda pressed: {} if pressed.joint is None else texts
 
@@ -44,7 +44,7 @@ def _contact_stiffness(pressed: Pressed) -> Real | None:
     return pressed.loading if pressed.joint is None or pressed.tells_unloading else None
 
 
-def _of_map(slope: str) -> str:
+def _map_formula(slope: str) -> str:
     return (
         f"{slope} of the map in a periodic half-space at the same mean pressure, times A_0 over "
         "the area of the map"
@@ -72,7 +72,7 @@ def _which_interface(pressed: Pressed) -> Mapping[str, str]:
         return {}
     texts = {"validity": pressed.interface.validity, "formula": pressed.interface.formula}
     if pressed.joint is not None:
-        texts["formula"] = _of_map("dF/dd on unloading")
+        texts["formula"] = _map_formula("dF/dd on unloading")
         if pressed.tells_unloading:
             texts["name"] = f"{INTERFACE_STIFFNESS.name} on unloading"
     return texts
@@ -84,7 +84,7 @@ def _which_surface(pressed: Pressed) -> str:
         return ""
     with np.errstate(divide="ignore", invalid="ignore"):  # bodies apart, and full contact
         left = 1 - pressed.unloading[0] / pressed.interface_stiffness[0]
-    if np.nanmax(left, initial=0.0) < pressed.interface.told_from:
+    if np.nanmax(left, initial=0.0) < pressed.interface.warned_from:
         return ""
     return f"the interface stiffness k_i is {pressed.interface.validity}"
 
@@ -135,7 +135,7 @@ def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
     if bool(np.nanmax(share, initial=0.0) > _IN_SERIES_MATTERS) != layers_matter:
         return ""
     if np.isinf(of_layers).any():
-        return _OF_KEPT_VOLUME
+        return _INCOMPRESSIBLE_LAYERS
     k_i = pressed.symbols["k_i"]
     pressure = float(np.nanmax(pressed.load_pressure))  # a fluid compresses them as well
     compressed = engineering(pressure * pressed.pair.layers_compliance, "m")
@@ -148,13 +148,13 @@ def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
     )
 
 
-def _of_energy(pair: MaterialPair) -> Sequence[Measure]:
+def _energy_measures(pair: MaterialPair) -> Sequence[Measure]:
     """What is measured of coated bodies: which contact modulus their contact feels."""
-    return [_felt(pair.E_star)] if pair.coated else []
+    return [_effective_modulus(pair.E_star)] if pair.coated else []
 
 
 @functools.cache
-def _felt(E_star: float) -> Measure:
+def _effective_modulus(E_star: float) -> Measure:
     meaning = "contact modulus of one material that stores as much energy"
     value = partial(effective_modulus, E_star=E_star)
     return Measure("effective_modulus", "E^*_e", "pressure", meaning, value)
@@ -165,8 +165,8 @@ def _between_moduli(pressed: Pressed) -> Mapping[str, str]:
     if not pressed.pair.coated:
         return {}
     top = engineering(pressed.pair.E_star, "Pa")
-    of_bases = pressed.pair.of_bases
-    base = engineering(of_bases, "Pa") if np.isfinite(of_bases) else "infinity"
+    base_modulus = pressed.pair.base_modulus
+    base = engineering(base_modulus, "Pa") if np.isfinite(base_modulus) else "infinity"
     of_map = pressed.is_repeated and pressed.interface is not None
     place = "; of the map in a periodic half-space" if of_map else ""
     return {
@@ -175,7 +175,7 @@ def _between_moduli(pressed: Pressed) -> Mapping[str, str]:
     }
 
 
-def _of_contact(pressed: Pressed) -> Mapping[str, str]:
+def _contact_texts(pressed: Pressed) -> Mapping[str, str]:
     """What the contact is taken to be, and what k is called of a joint."""
     validity = f"without friction; bodies are {pressed.curve.assumption}"
     if pressed.joint is None:
@@ -183,12 +183,12 @@ def _of_contact(pressed: Pressed) -> Mapping[str, str]:
     return {
         "name": "interface stiffness on further loading",
         "symbol": "k_load",  # k is a free body's
-        "formula": _of_map("dF/dd on further loading"),
+        "formula": _map_formula("dF/dd on further loading"),
         "validity": f"of the interface alone; {validity}",
     }
 
 
-_OF_PUNCH = Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m")
+_PUNCH_STIFFNESS = Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m")
 
 
 CONTACT_STIFFNESS = _rule(
@@ -199,7 +199,7 @@ CONTACT_STIFFNESS = _rule(
     formula="dF/dd at frozen contact on further loading, exact",
     validity="without friction; what bodies are taken to be, their law says",
     value=_contact_stiffness,
-    differing=_of_contact,
+    differing=_contact_texts,
     under=_under_unloading,
     leads=lambda pressed: pressed.joint is None,
     is_extensive=True,
@@ -227,7 +227,7 @@ INTERFACE_STIFFNESS = _rule(
     symbol="k_i",
     unit="N/m",
     formula="1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch",
-    symbols=lambda _pressed: [_OF_PUNCH],
+    symbols=lambda _pressed: [_PUNCH_STIFFNESS],
     value=lambda pressed: None if pressed.interface is None else pressed.interface_stiffness,
     differing=_which_interface,
     warning=_which_surface,
@@ -256,7 +256,7 @@ MECHANICAL = (
         formula="F / A_0, A_0 the nominal area",
         symbols=lambda pressed: [nominal_area(pressed)],
         value=lambda pressed: pressed.load_pressure,
-        differing=_of_joint(formula="F / A_0, A_0 the nominal area of the joint"),
+        differing=_joint_texts(formula="F / A_0, A_0 the nominal area of the joint"),
         is_given=True,
     ),
     _rule(
@@ -266,7 +266,7 @@ MECHANICAL = (
         unit="m",
         formula="of remote points",
         value=lambda pressed: pressed.curve.depth,
-        differing=_of_joint(
+        differing=_joint_texts(
             validity="of the map, from the touch of its highest point; the joint has higher points"
         ),
         is_given=True,
@@ -288,7 +288,7 @@ MECHANICAL = (
         value=lambda pressed: pressed.measure("effective_modulus"),
         differing=_between_moduli,
         leads=lambda pressed: bool(pressed.pair.coated),
-        measured_of=_of_energy,
+        measured_of=_energy_measures,
     ),
     _rule(
         key="layer_stiffness",
@@ -322,7 +322,7 @@ MECHANICAL = (
         formula="k / A_0",
         symbols=lambda pressed: [nominal_area(pressed)],
         value=_per_area,
-        differing=_of_joint(symbol="k_i/A_0", formula="k_i / A_0"),
+        differing=_joint_texts(symbol="k_i/A_0", formula="k_i / A_0"),
         under=lambda pressed: (_under_unloading(pressed)[0], 1 / pressed.nominal_area),
         warning=partial(_meaning_of_joint, bodies_matter=True),
         note=partial(_meaning_of_joint, bodies_matter=False),
@@ -338,8 +338,8 @@ MECHANICAL = (
         symbols=lambda pressed: [
             tangential_modulus(pressed),
             contact_modulus(pressed),
-            *of_both("nu", "Poisson's ratio", "1", pressed.pair.both("nu")),
-            *of_both("G", "shear modulus", "Pa", pressed.pair.both("shear_modulus")),
+            *both_bodies("nu", "Poisson's ratio", "1", pressed.pair.both("nu")),
+            *both_bodies("G", "shear modulus", "Pa", pressed.pair.both("shear_modulus")),
         ],
         validity="before any slip; normal and tangential problems uncoupled; k_u, as a small shear "
         "causes no yield",

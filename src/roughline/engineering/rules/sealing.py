@@ -42,21 +42,23 @@ _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
 _RARE = 0.1  # free path over the aperture beyond which how walls reflect molecules counts
 _WIDE = 0.1  # of the mean pressure of the fluid, by which a ring's may differ from a strip's
-_TOLD = 0.1  # pressure of the fluid over that of the load, from which on it is said if left out
+_MENTIONED = (
+    0.1  # pressure of the fluid over that of the load, from which on it is said if left out
+)
 _MOLECULES = 3e-9  # ten diameters of a molecule of water; those of oils are larger [m]
 _MBAR_LITRES = 10.0  # in a Pa m³
 
 _THIN, _STILL = "laminar, thin gap", "a thin gap without convection or radiation"
-_OF_THE_MAP = (
+_MAP_VALIDITY = (
     "of the map, which is one place of the seal: near sealing, another place may leak far more or "
     f"less; {_THIN}"
 )
-_OF_QUARTERS = "of the map; the interval holds what its quarters and its grid leave open"
-_OF_STIFF_FACES = (
+_QUARTERS_VALIDITY = "of the map; the interval holds what its quarters and its grid leave open"
+_STIFF_FACES = (
     "stiff faces, which stay parallel, and a ring narrow beside its radius; soft ones open from "
     "the inlet on, as soon as the fluid is p above the outside there"
 )
-_rule = partial(Rule, group="sealing", validity=_OF_THE_MAP, source="Reynolds 1886")
+_rule = partial(Rule, group="sealing", validity=_MAP_VALIDITY, source="Reynolds 1886")
 
 _Needed = Callable[[Fluid], Sequence[Measure]]
 """What is taken from the fields of every load, from what is asked."""
@@ -214,7 +216,7 @@ def _in_a_wide_ring(asked: Fluid) -> str:
 def _left_out(pressed: Pressed) -> str:
     """Say where the fluid would carry a part of the load, but is not to."""
     asked, lift = pressed.sealing, _lift(pressed)
-    part = lift[(lift >= _TOLD) & (lift < 1)]
+    part = lift[(lift >= _MENTIONED) & (lift < 1)]
     if asked is None or asked.carries is not False or not part.size:
         return ""
     return (
@@ -245,7 +247,7 @@ def _opening_pressure(pressed: Pressed) -> Real | None:
     return None if asked is None or asked.inlet is None else asked.opens_at(pressed.load_pressure)
 
 
-def _of_opening(pressed: Pressed) -> Mapping[str, str]:
+def _opening_texts(pressed: Pressed) -> Mapping[str, str]:
     """How the mean pressure follows along the way, and of which outlet."""
     asked = pressed.sealing
     if asked is None:
@@ -253,7 +255,7 @@ def _of_opening(pressed: Pressed) -> Mapping[str, str]:
     mean = "(P1 + P2) / 2" if asked.gas is None else "2/3 (P1² + P1 P2 + P2²) / (P1 + P2)"
     texts = {"formula": f"P1 at which {mean} is p above the outside"}
     if pressed.attraction is not None:
-        texts["validity"] = f"{_OF_STIFF_FACES}; bodies that stick hold out longer"
+        texts["validity"] = f"{_STIFF_FACES}; bodies that stick hold out longer"
     return texts
 
 
@@ -277,7 +279,7 @@ def _load_that_seals(pressed: Pressed) -> str:
     )
 
 
-def _of_bodies_alone(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
+def _bodies_alone_texts(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
     """What the fluid adds to pressures and loads that are of the contact alone."""
     asked, carried = pressed.sealing, _carried_at_sealing(pressed)
     if asked is None or pressed.sought.closing is None:
@@ -288,14 +290,14 @@ def _of_bodies_alone(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
         return {}
     excess = engineering(carried, "Pa")
     own = f"of what the bodies press with, beside the {excess} that the fluid carries"
-    return {"validity": f"{own}; {_OF_QUARTERS}"}
+    return {"validity": f"{own}; {_QUARTERS_VALIDITY}"}
 
 
-def _of_liquid(pressed: Pressed) -> Real | None:
+def _liquid_leak(pressed: Pressed) -> Real | None:
     return None if pressed.sealing is None or pressed.sealing.gas else _leak(pressed)
 
 
-def _of_gas(quantity: Callable[[Real, Gas], Real], pressed: Pressed) -> Real | None:
+def _gas_leak(quantity: Callable[[Real, Gas], Real], pressed: Pressed) -> Real | None:
     """What follows from the pressure times volume of a gas that leaks."""
     gas = None if pressed.sealing is None else pressed.sealing.gas
     leak = None if gas is None else _leak(pressed)
@@ -318,7 +320,7 @@ def _through_seal(pressed: Pressed) -> Mapping[str, str]:
     medium = asked.medium
     factor = 1.0 if isinstance(medium, Gas) else medium.viscosity_factor
     known = "" if factor == 1 else f", viscosity known to a factor of {factor:g}"
-    place = _placed(pressed).get("validity", _OF_THE_MAP)
+    place = _placed(pressed).get("validity", _MAP_VALIDITY)
     if asked.gas is not None:
         place += "; kinetic theory at the local pressure and gap (Cercignani 1963)"
     return {
@@ -370,7 +372,7 @@ def _sealed(pressed: Pressed) -> str:
     )
 
 
-def _untold(pressed: Pressed) -> str:
+def _why_no_interval(pressed: Pressed) -> str:
     """Say why a leak has no interval where the contact has."""
     aperture = _largest(pressed, _APERTURES)
     if aperture is None or len(aperture) > 1 or pressed.intervals is None or not pressed.place:
@@ -378,7 +380,7 @@ def _untold(pressed: Pressed) -> str:
     return f"what leaks has no interval: it is {pressed.place}"
 
 
-def _beyond_reynolds(pressed: Pressed) -> str:
+def _thin_gap_limits(pressed: Pressed) -> str:
     """Say where the equation of thin gaps is no longer good, and where walls count."""
     asked, steep = pressed.sealing, _largest(pressed, _SLOPES)
     aperture = _largest(pressed, _APERTURES)
@@ -456,13 +458,13 @@ def _joint_conductance(pressed: Pressed) -> Real | None:
     return gas + solid if gas.shape == solid.shape else gas[:1] + solid[:1]
 
 
-def _of_fluid(pressed: Pressed) -> list[Symbol]:
+def _fluid_symbols(pressed: Pressed) -> list[Symbol]:
     """What formulas name of a fluid, of the gap and of the seal that it crosses."""
     asked = pressed.sealing
     if asked is None:
         return []
     found = [
-        *_of_seal(asked.seal),
+        *_seal_symbols(asked.seal),
         Symbol("P1", "absolute pressure at the inlet", "Pa", asked.inlet),
         Symbol("P2", "absolute pressure at the outlet", "Pa", asked.outlet),
         Symbol("eta", f"viscosity of {asked.medium.name}", "Pa s", asked.medium.viscosity),
@@ -480,7 +482,7 @@ def _of_fluid(pressed: Pressed) -> list[Symbol]:
     ]
 
 
-def _of_seal(seal: SealShape | None) -> list[Symbol]:
+def _seal_symbols(seal: SealShape | None) -> list[Symbol]:
     """The face that a fluid crosses; sides of a ring have no value of their own."""
     if seal is not None and seal.is_ring:
         meaning = "of the ring, whose radii are r and R: 2 pi / ln(R/r)"
@@ -499,10 +501,10 @@ SEALING = (
         symbol="p_s",
         unit="Pa",
         formula="mean pressure at which the last channel closes on first loading, by bisection",
-        validity=_OF_QUARTERS,
+        validity=_QUARTERS_VALIDITY,
         source="Dapp et al. 2012",
         value=partial(_bisected, lambda closing: closing.pressure),
-        differing=partial(_of_bodies_alone, share=False),
+        differing=partial(_bodies_alone_texts, share=False),
         note=_load_that_seals,
         answers_question=always,
     ),
@@ -512,10 +514,10 @@ SEALING = (
         symbol="F_10/F",
         unit="1",
         formula="share of the largest load down to which it may be taken off, by bisection",
-        validity=_OF_QUARTERS,
+        validity=_QUARTERS_VALIDITY,
         source="Pérez-Ràfols, Larsson and Almqvist 2016",
         value=partial(_bisected, lambda closing: closing.reopening),
-        differing=partial(_of_bodies_alone, share=True),
+        differing=partial(_bodies_alone_texts, share=True),
         note=_stays_tight,
         answers_question=always,
         limits=lambda _pressed: (0.0, 1.0),
@@ -527,9 +529,9 @@ SEALING = (
         symbol="Q",
         unit="m³/s",
         formula="(W/B) u_h³ (P1 - P2) / (12 eta)",
-        symbols=_of_fluid,
+        symbols=_fluid_symbols,
         is_of_interface=True,
-        value=_of_liquid,
+        value=_liquid_leak,
         unknown=_lifts,
         differing=_through_seal,
         answers_question=always,
@@ -540,10 +542,10 @@ SEALING = (
         symbol="q_pV",
         unit="mbar l/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta), at 20 °C; u_s with slip",
-        symbols=_of_fluid,
+        symbols=_fluid_symbols,
         unknown=_lifts,
         is_of_interface=True,
-        value=partial(_of_gas, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
+        value=partial(_gas_leak, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
         differing=_through_seal,
         answers_question=always,
     ),
@@ -553,9 +555,9 @@ SEALING = (
         symbol="m_dot",
         unit="kg/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta R_s T)",
-        symbols=_of_fluid,
+        symbols=_fluid_symbols,
         is_of_interface=True,
-        value=partial(_of_gas, mass_of_throughput),
+        value=partial(_gas_leak, mass_of_throughput),
         unknown=_lifts,
         differing=_through_seal,
     ),
@@ -565,11 +567,11 @@ SEALING = (
         symbol="P_o",
         unit="Pa",
         formula="P1 at which the fluid is p above the outside, in the mean of the gap",
-        symbols=_of_fluid,
-        validity=_OF_STIFF_FACES,
+        symbols=_fluid_symbols,
+        validity=_STIFF_FACES,
         source="",
         value=_opening_pressure,
-        differing=_of_opening,
+        differing=_opening_texts,
         warning=_opens,
         leads=lambda pressed: bool((_carried(pressed) > 0).any()),
         is_given=True,
@@ -593,12 +595,12 @@ SEALING = (
         symbol="u_h",
         unit="m",
         formula="gap of flat plates that let as much through, (12 eta Q B/(W (P1 - P2)))^(1/3)",
-        symbols=_of_fluid,
+        symbols=_fluid_symbols,
         is_of_interface=True,
         value=partial(_largest, needed=_APERTURES),
         differing=partial(_with_direction, "hydraulic aperture"),
         warning=lambda pressed: "; ".join(
-            filter(None, (_left_out(pressed), _untold(pressed), _beyond_reynolds(pressed)))
+            filter(None, (_left_out(pressed), _why_no_interval(pressed), _thin_gap_limits(pressed)))
         ),
         note=_sealed,
         leads=always,
@@ -661,7 +663,7 @@ SEALING = (
         unit="W/(m² K)",
         group="thermal",
         formula="k_g <1 / (u + M)> of the open gap, M the temperature jump length",
-        symbols=_of_fluid,
+        symbols=_fluid_symbols,
         validity=f"of the map; {_STILL}",
         differing=lambda pressed: {"validity": f"{pressed.place or 'of the map'}; {_STILL}"},
         source="Yovanovich 2005",

@@ -6,7 +6,12 @@ from collections.abc import Mapping
 from functools import partial
 
 from roughline.computing.arrays import Real
-from roughline.engineering.conduction import of_contact, of_interface, spreading, through_layers
+from roughline.engineering.conduction import (
+    contact_conduction,
+    interface_conduction,
+    spreading,
+    through_layers,
+)
 from roughline.engineering.formulas import (
     COMPARED,
     harmonic_conductivity,
@@ -17,19 +22,25 @@ from roughline.engineering.formulas import (
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
-from roughline.engineering.symbols import Symbol, contact_modulus, hardness, nominal_area, of_both
+from roughline.engineering.symbols import (
+    Symbol,
+    both_bodies,
+    contact_modulus,
+    hardness,
+    nominal_area,
+)
 
 _rule = partial(Rule, group="thermal")
 
 _IN_VACUUM = "solid spots alone, as in vacuum: gas in the gap adds to it"
-_OF_INTERFACE = f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i"
+_INTERFACE_VALIDITY = f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i"
 
 
 def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
     return pair.lacks("conductivity", "thermal conductance")
 
 
-def _conductance_of(stiffness: Real | None, pressed: Pressed) -> Real | None:
+def _conductance(stiffness: Real | None, pressed: Pressed) -> Real | None:
     conductivities = pressed.pair.at_surfaces("conductivity")
     if conductivities is None or stiffness is None:
         return None
@@ -38,12 +49,12 @@ def _conductance_of(stiffness: Real | None, pressed: Pressed) -> Real | None:
 
 def conductance_of_interface(pressed: Pressed) -> Real | None:
     """Conductance per area of the solid spots, in rows. [W / (m² K)]"""
-    stiffness = of_interface(pressed, "conductivity")
-    return None if stiffness is None else _conductance_of(stiffness / pressed.nominal_area, pressed)
+    stiffness = interface_conduction(pressed, "conductivity")
+    return None if stiffness is None else _conductance(stiffness / pressed.nominal_area, pressed)
 
 
 def _which_interface(pressed: Pressed) -> Mapping[str, str]:
-    validity = f"{_OF_INTERFACE}{pressed.of_interface}"
+    validity = f"{_INTERFACE_VALIDITY}{pressed.interface_note}"
     return through_layers(validity, pressed) or {"validity": validity}
 
 
@@ -87,7 +98,7 @@ def _conductivities(pressed: Pressed) -> list[Symbol]:
     mean = values and harmonic_conductivity(values)
     return [
         Symbol("kappa_s", "harmonic mean of both thermal conductivities", "W/(m K)", mean),
-        *of_both("kappa", "thermal conductivity", "W/(m K)", values),
+        *both_bodies("kappa", "thermal conductivity", "W/(m K)", values),
     ]
 
 
@@ -110,7 +121,7 @@ THERMAL = (
         validity=f"{_IN_VACUUM}. k_u, as heat spreads from the contact spots however they were "
         "formed",
         source="Barber 2003",
-        value=lambda pressed: _conductance_of(of_contact(pressed, "conductivity"), pressed),
+        value=lambda pressed: _conductance(contact_conduction(pressed, "conductivity"), pressed),
         differing=partial(through_layers, _IN_VACUUM),
         lacking=_lacking,
         measured_of=partial(spreading, quantity="conductivity"),
@@ -128,7 +139,7 @@ THERMAL = (
             contact_modulus(pressed),
             nominal_area(pressed),
         ],
-        validity=_OF_INTERFACE,
+        validity=_INTERFACE_VALIDITY,
         source="Barber 2003",
         value=conductance_of_interface,
         differing=_which_interface,
