@@ -10,7 +10,7 @@ from roughline.topography.effects import effects
 from roughline.topography.files.read import suspicions
 from roughline.topography.line_levels import LEVELLINGS, line_levels
 from roughline.topography.preparation import Preparation
-from roughline.topography.scan_lines import line_jumps, scars, told_of_lines
+from roughline.topography.scan_lines import line_jump_warning, line_jumps, scars
 
 NOISE, SHAPE = 0.01, (64, 48)
 ROUGH = rl.SelfAffine(hurst=0.8, rms_height=1.0, q_roll=2 * np.pi * 8.001)
@@ -150,9 +150,9 @@ def test_rows_that_jump_are_told_of_with_what_to_do(rng):
     jumping = measured(surface + 0.3 * rng.normal(size=128))
     (said,) = [each for each in suspicions(jumping) if "rows jump" in each]
     assert 'level them line by line (lines="median")' in said
-    assert told_of_lines(Preparation(lines="median").applied(jumping)) == ""
+    assert line_jump_warning(Preparation(lines="median").applied(jumping)) == ""
     across = measured((surface + 0.3 * rng.normal(size=128)).T)
-    assert told_of_lines(across) == ""
+    assert line_jump_warning(across) == ""
 
 
 @pytest.mark.parametrize("hurst", [0.1, 0.5, 1.0])
@@ -160,8 +160,8 @@ def test_rows_that_jump_are_told_of_with_what_to_do(rng):
 def test_rows_of_rough_and_of_grooved_surfaces_do_not_jump(hurst, seed):
     spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0)
     whole = spectrum.surface(128, seed, "gaussian").heights
-    assert told_of_lines(measured(whole[:64, :64])) == ""
-    assert told_of_lines(measured(0.3 * whole + whole[:1])) == ""  # the lay runs along x
+    assert line_jump_warning(measured(whole[:64, :64])) == ""
+    assert line_jump_warning(measured(0.3 * whole + whole[:1])) == ""  # the lay runs along x
 
 
 def test_jumps_are_measured_by_their_medians(rng):

@@ -33,7 +33,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called, speaking
 from roughline.halfspace.elasticity.half_space import HalfSpace
-from roughline.topography.body import Body, Line, sides_of
+from roughline.topography.body import Body, Line, side_lengths
 from roughline.topography.effects import grave_effects
 from roughline.topography.files.read import suspicions
 from roughline.topography.preparation import Preparation
@@ -231,7 +231,7 @@ class CreepQuestion:
         That is what the mean pressure does to the modulus that remains, or the depth over the
         shorter side, which is none of repeated bodies.
         """
-        area, side = nominal_area(body), min(sides_of(body))
+        area, side = nominal_area(body), min(side_lengths(body))
         largest = max(self.values(area))
         if self.depths:
             return 0.0 if self.periodic else largest / side

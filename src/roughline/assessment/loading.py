@@ -13,7 +13,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace
-from roughline.topography.body import Body, sides_of
+from roughline.topography.body import Body, side_lengths
 from roughline.units import as_si, decimal, engineering, load_in_newtons
 
 DEFAULT_LOADS = 20
@@ -129,7 +129,7 @@ class Loading:
 
         A fluid that carries a part of the load acts on all of the surface, and deforms little.
         """
-        area, side = nominal_area(body), min(sides_of(body))
+        area, side = nominal_area(body), min(side_lengths(body))
         if depths := self.heights():
             what = "depth {} is {} times the shorter side of the body"
             ratios = [depth / side for depth in depths]

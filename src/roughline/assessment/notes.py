@@ -23,7 +23,7 @@ from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
-from roughline.topography.scan_lines import told_of_filled
+from roughline.topography.scan_lines import filled_lines_note
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
 MOST_NAMED = 3
@@ -315,7 +315,7 @@ def _filled_spikes_and_effects(body: Body) -> list[str]:
     notes, known = _file_notes(body), body.provenance
     if filled := known.filled:
         notes.append(f"{filled.points} missing points ({filled.share:.2%}) filled: {filled.method}")
-    if text := told_of_filled(body):
+    if text := filled_lines_note(body):
         notes.append(text)
     if known.filled_before_crop:
         notes.append(

@@ -16,7 +16,7 @@ from roughline.errors.checks import refuse
 from roughline.topography.body import Body, Line, Surface, within
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
-from roughline.topography.low_pass import points_kept
+from roughline.topography.low_pass import inner_points
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation, as_prepared
 from roughline.topography.provenance import MOUNTING
@@ -78,7 +78,7 @@ class Topography:
         marks = marked.body(self.reading.unit, self.reading.sizes, Missing(), "none")
         assert isinstance(marks, Surface)
         if self.preparation is not None and self.preparation.low_pass is not None:
-            marks = within(marks, points_kept(marks, self.preparation.low_pass))
+            marks = within(marks, inner_points(marks, self.preparation.low_pass))
         return replace(marks, heights=np.sign(marks.heights))
 
 

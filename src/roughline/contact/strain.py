@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.errors import UnitWarning
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.topography.body import Body, Surface, sides_of
+from roughline.topography.body import Body, Surface, side_lengths
 from roughline.topography.profile import Profile
 from roughline.units import decimal
 
@@ -35,7 +35,7 @@ def warn_of_strain(body: Body | Profile, curve: Curve) -> None:
     if isinstance(body, Profile):
         side, area = 2 * body.largest_radius, body.area
     else:
-        side = min(sides_of(body))
+        side = min(side_lengths(body))
         area = body.area if isinstance(body, Surface) else side**2
     if not curve.converged.any() or not 0 < body.rms_height <= _IN_ONE_UNIT * side:
         return

@@ -24,7 +24,7 @@ from roughline.plot.bodies import draw_pressure
 from roughline.plot.flows import draw_flow
 from roughline.plot.pixels import show_map
 from roughline.plot.style import COLUMN, new_figure, styled
-from roughline.topography.body import Body, Surface, sides_of
+from roughline.topography.body import Body, Surface, side_lengths
 from roughline.topography.borders import whole_or_piece
 from roughline.units import MOST_DIGITS, decimal, digits_known, in_words
 
@@ -44,7 +44,7 @@ def _of_body(body: Body) -> str:
         ("points", " × ".join(map(str, body.heights.shape))),
         (
             "sizes" if is_surface else "length",
-            " × ".join(in_words(side, body.unit) for side in sides_of(body)),
+            " × ".join(in_words(side, body.unit) for side in side_lengths(body)),
         ),
         ("rms height", in_words(body.rms_height, body.unit)),
         ("peak to valley", in_words(float(np.ptp(body.heights)), body.unit)),

@@ -18,7 +18,7 @@ from roughline.report.texture_table import (
     texture_table,
     title_of,
 )
-from roughline.topography.body import Body, Line, Surface, sides_of
+from roughline.topography.body import Body, Line, Surface, side_lengths
 from roughline.units import engineering
 
 if TYPE_CHECKING:
@@ -146,7 +146,7 @@ def _crop(points: str, body: Body) -> str:
     counts = _RANGE.findall(str(body.settings.get(_LESS, points)))
     kept = []
     for (axis, *ends), (_, *left), side in zip(
-        _RANGE.findall(points), counts, sides_of(body), strict=True
+        _RANGE.findall(points), counts, side_lengths(body), strict=True
     ):
         first, end = map(int, ends)
         step = side / (int(left[1]) - int(left[0]))

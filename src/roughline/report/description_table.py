@@ -11,7 +11,7 @@ from roughline.assessment.assumptions import broken
 from roughline.report.terminal import print_files, print_remarks, print_rows
 from roughline.report.texture_table import texture_rows, title_of
 from roughline.report.values import Write, figure, with_interval
-from roughline.topography.body import Surface, sides_of, spacings_of
+from roughline.topography.body import Surface, point_spacings, side_lengths
 from roughline.units import engineering, metres_per
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def _rows_of_sizes(description: Description) -> list[tuple[str, str]]:
     sizes: tuple[float, ...]
     spacings: tuple[float, ...]
     if body is not None:
-        sizes, spacings = sides_of(body), spacings_of(body)
+        sizes, spacings = side_lengths(body), point_spacings(body)
     elif content.sizes is None:
         return [(names[0], "none stated")]
     else:

@@ -15,7 +15,7 @@ from roughline._version import __version__
 from roughline.contact.quantities import IN_JSON
 from roughline.contact.status import Status
 from roughline.report.texture_table import of_texture
-from roughline.topography.body import Body, sides_of
+from roughline.topography.body import Body, side_lengths
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
@@ -231,7 +231,7 @@ def of_generated(body: Body, file: Path) -> dict[str, Any]:
 
 
 def _of_body(body: Body) -> dict[str, Any]:
-    sizes = sides_of(body)
+    sizes = side_lengths(body)
     return {
         "points": list(body.heights.shape),
         "sizes": sizes,

@@ -11,7 +11,7 @@ from scipy import special
 from roughline.computing.arrays import Real
 from roughline.spectra.chance import Chance, Finding, score_of_square
 from roughline.spectra.coarser_selves import CoarserSelf
-from roughline.topography.body import Body, spacings_of
+from roughline.topography.body import Body, point_spacings
 from roughline.units import in_words
 
 _LEAST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
@@ -41,7 +41,7 @@ def _named(body: Body, own: CoarserSelf, what: str) -> str:
 
 def _cells(body: Body, own: CoarserSelf) -> str:
     """Name cells by their size."""
-    size = own.cell * max(spacings_of(body))
+    size = own.cell * max(point_spacings(body))
     return " points" if own.cell == 1 else f" cells of {in_words(size, body.unit, 2)}"
 
 

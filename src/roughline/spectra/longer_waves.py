@@ -17,7 +17,7 @@ from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.spectra.fit import SelfAffineFit
-from roughline.topography.body import Body, Line, sides_of, spacings_of
+from roughline.topography.body import Body, Line, point_spacings, side_lengths
 from roughline.topography.trend import polynomials, slopes_of_plane
 
 _DEGREES = 8  # of polynomials, from 0
@@ -41,10 +41,10 @@ class LongShape:
 
 def tilt_of(body: Body) -> tuple[float, ...] | None:
     """Slopes of the plane that a body had before it was levelled; None if it is not known. [1]"""
-    left = slopes_of_plane(body.heights, spacings_of(body))
+    left = slopes_of_plane(body.heights, point_spacings(body))
     removed = body.provenance.tilt.removed or (0.0,) * len(left)
     found = [slope + before for slope, before in zip(left, removed, strict=True)]
-    lies = float(np.square(np.multiply(found, sides_of(body))).sum()) / 12
+    lies = float(np.square(np.multiply(found, side_lengths(body))).sum()) / 12
     if not any(removed) and lies < _ROUNDING * body.rms_height**2:
         return None
     return tuple(found)
@@ -63,7 +63,7 @@ def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShap
     known = [tilt for body in bodies if (tilt := _own_tilt(body)) is not None]
     if len(known) == len(bodies):
         tilts = known - np.mean(known, axis=0) * (len(known) > 1)
-        lies = float(np.square(tilts * sides_of(bodies[0])).sum()) / 12
+        lies = float(np.square(tilts * side_lengths(bodies[0])).sum()) / 12
         squares[1] = lies / max(1, len(known) - 1)
         free[1] -= counts[1] * (len(known) > 1)
     laws = [_expected(bodies[0], fit.hurst, roll) for roll in _rolls(fit)]

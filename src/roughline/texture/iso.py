@@ -33,8 +33,8 @@ from roughline.topography.body import (
     Line,
     Surface,
     piece,
-    sides_of,
-    spacings_of,
+    point_spacings,
+    side_lengths,
 )
 from roughline.topography.heights import rms_deviation
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
@@ -296,7 +296,7 @@ def _named(layers: Layers, letter: str, ratio: str) -> Found:
 
 def _refuse_other_cutoffs(body: Body, s_filter: float | None, l_filter: float | None) -> None:
     """Refuse cutoffs that the grid or the size of a body cannot show."""
-    least, most = 2 * max(spacings_of(body)), max(sides_of(body))
+    least, most = 2 * max(point_spacings(body)), max(side_lengths(body))
     for name, cutoff in (("s_filter", s_filter), ("l_filter", l_filter)):
         if cutoff is None:
             continue
@@ -318,7 +318,7 @@ def _filtered(body: Body, trend: Trend, s_filter: float | None, l_filter: float 
     """Return a body without a trend, and without waves shorter or longer than cutoffs."""
     if trend != "none":
         body = body.detrended(trend)
-    heights, is_periodic, spacings = body.heights, not body.is_cut_out, spacings_of(body)
+    heights, is_periodic, spacings = body.heights, not body.is_cut_out, point_spacings(body)
     if s_filter is not None:
         heights = smoothed(heights, spacings, s_filter, is_periodic=is_periodic)
     if l_filter is not None:

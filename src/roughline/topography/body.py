@@ -14,7 +14,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import flag, is_whole, one_of, refuse, rising_pair
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.topography.borders import borders_of, whole_or_piece
+from roughline.topography.borders import compare_borders, whole_or_piece
 from roughline.topography.heights import (
     checked_heights,
     checked_length,
@@ -32,7 +32,7 @@ from roughline.units import in_words, metres_per
 def _described(body: Body) -> str:
     """Describe a body in a line: its points, sizes, rms height, and whether it is a piece."""
     points = " × ".join(map(str, body.heights.shape))
-    sizes = " × ".join(in_words(side, body.unit) for side in sides_of(body))
+    sizes = " × ".join(in_words(side, body.unit) for side in side_lengths(body))
     rms_height = in_words(body.rms_height, body.unit)
     name, kind = type(body).__name__, whole_or_piece(body)
     return f"<{name}: {points} points, {sizes}, rms height {rms_height}, {kind}>"
@@ -112,7 +112,7 @@ class Surface:
     ) -> None:
         if hasattr(heights, "physical_sizes"):
             is_cut_out = not heights.is_periodic if is_cut_out is None else is_cut_out
-            heights, sizes, unit, settings = _of_topography(heights, sizes, unit, settings)
+            heights, sizes, unit, settings = _topography_fields(heights, sizes, unit, settings)
         if sizes is None:
             raise InputError("no sizes are given; give the sides of the surface, (Lx, Ly)")
         heights = checked_heights(heights, dimensions=2)
@@ -325,12 +325,12 @@ Body = Surface | Line
 BodyType = TypeVar("BodyType", Surface, Line)
 
 
-def sides_of(body: Body) -> tuple[float, ...]:
+def side_lengths(body: Body) -> tuple[float, ...]:
     """Lengths along each side: both of a surface, the one of a line. [length]"""
     return body.sizes if isinstance(body, Surface) else (body.length,)
 
 
-def spacings_of(body: Body) -> tuple[float, ...]:
+def point_spacings(body: Body) -> tuple[float, ...]:
     """Distances of points along each side. [length]"""
     return body.spacing if isinstance(body, Surface) else (body.spacing,)
 
@@ -345,15 +345,15 @@ def after_step(body: BodyType, heights: Real, **facts: Any) -> BodyType:
     return replace(body, heights=heights, **with_facts(body, **facts))
 
 
-def piece(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
+def piece(body: BodyType, points: tuple[slice, ...]) -> BodyType:
     """Return the points of a body that are kept along each side, with a record of that."""
-    return replace(within(body, kept), **facts_of_piece(body, kept, body.heights.shape))
+    return replace(within(body, points), **facts_of_piece(body, points, body.heights.shape))
 
 
-def within(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
+def within(body: BodyType, points: tuple[slice, ...]) -> BodyType:
     """Return the points of a body that are kept along each side."""
-    heights = body.heights[kept]
-    sizes = tuple(step * n for step, n in zip(spacings_of(body), heights.shape, strict=True))
+    heights = body.heights[points]
+    sizes = tuple(step * n for step, n in zip(point_spacings(body), heights.shape, strict=True))
     sides: dict[str, Any] = {"sizes": sizes} if len(sizes) == 2 else {"length": sizes[0]}
     return replace(
         body,
@@ -371,7 +371,7 @@ def _scaled(body: BodyType, factor: float) -> BodyType:
 
 def _detrended(body: BodyType, trend: Trend) -> BodyType:
     refuse_unknown_trend(trend)
-    tilt = body.provenance.tilt.less_plane(body.heights, spacings_of(body), trend)
+    tilt = body.provenance.tilt.less_plane(body.heights, point_spacings(body), trend)
     known = with_facts(body, tilt=tilt)
     known["settings"]["detrended"] = trend
     level = without_trend(body.heights, trend)
@@ -396,7 +396,7 @@ def _set_facts(
     if not isinstance(provenance, Provenance):
         refuse("provenance", provenance, "a Provenance is needed, as another body has")
     if is_cut_out is None:
-        borders = borders_of(body.heights)
+        borders = compare_borders(body.heights)
         _set(body, provenance=provenance, is_cut_out=borders.jump)
         found = with_facts(body, borders=borders)
         _set(body, provenance=found["provenance"], settings=read_only(found["settings"]))
@@ -406,7 +406,7 @@ def _set_facts(
     _set(body, unit=checked_unit(unit), removed_trend=removed_trend)
 
 
-def _of_topography(
+def _topography_fields(
     topography: Any, sizes: object, unit: str | None, settings: Settings
 ) -> tuple[Real, tuple[float, float], str | None, Settings]:
     """Fields of a Surface from a map of SurfaceTopography, in metres if it states its unit."""

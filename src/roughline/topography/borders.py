@@ -14,10 +14,12 @@ from roughline.units import decimal
 
 _JUMP = 1e-3  # chance below which a step across the borders is no ordinary one
 _UNCLEAR = (1e-6, 1e-2)  # chances between which the heights leave it open
-_LEAST = 8  # points along a side whose borders can be judged
+_FEWEST_POINTS = 8  # points along a side whose borders can be judged
 _PLACES = 128  # along a side, at which ordinary steps are taken
 _STEPS = 2**16  # ordinary steps that are taken at least, if there are as many
-_ROUNDING = 32 * np.finfo(np.float64).eps  # of the largest height, below which nothing is a step
+_HEIGHT_ROUNDING = (
+    32 * np.finfo(np.float64).eps
+)  # of the largest height, below which nothing is a step
 _EVEN = 1e-6  # least relative variance of ordinary steps
 
 
@@ -53,7 +55,7 @@ class Borders:
         return f"{'unclear: ' if self.are_unclear else ''}{borders} are {how_far} apart"
 
 
-def borders_of(heights: Real) -> Borders:
+def compare_borders(heights: Real) -> Borders:
     """Compare the step across opposite borders with ordinary steps.
 
     Heights that are repeated periodically have no border: the step across is a step as any other.
@@ -64,14 +66,14 @@ def borders_of(heights: Real) -> Borders:
     surface both raise the step across.
     """
     least = Borders(0.0, 1.0)
-    rounding = _ROUNDING * float(max(heights.max(), -heights.min()))
+    rounding = _HEIGHT_ROUNDING * float(max(heights.max(), -heights.min()))
     for axis, n in enumerate(heights.shape):
-        if n < _LEAST:
+        if n < _FEWEST_POINTS:
             continue
         found = _along(np.moveaxis(heights, axis, 0).reshape(n, -1), rounding)
         if found.chance <= least.chance:
-            alike = found.chance == least.chance
-            least = least if alike and least.step > found.step else found
+            is_tie = found.chance == least.chance
+            least = least if is_tie and least.step > found.step else found
     return least
 
 
@@ -103,7 +105,7 @@ def decided(body: _Body) -> Borders | None:
 def whole_or_piece(body: _Body) -> str:
     """Say whether a body is periodic or cut out, and why where its heights decided that."""
     name, borders = "cut out of a larger one" if body.is_cut_out else "periodic", decided(body)
-    return name if borders is None else f"{name} ({borders.in_words(_borders_of_a(body))})"
+    return name if borders is None else f"{name} ({borders.in_words(_borders_name(body))})"
 
 
 def border_doubts(body: _Body) -> tuple[str, ...]:
@@ -111,7 +113,7 @@ def border_doubts(body: _Body) -> tuple[str, ...]:
     borders = decided(body)
     if borders is None or not borders.are_unclear:
         return ()
-    which, taken = _borders_of_a(body), "cut out of a larger one" if body.is_cut_out else "periodic"
+    which, taken = _borders_name(body), "cut out of a larger one" if body.is_cut_out else "periodic"
     return (
         f"it is unclear whether these heights are periodic: {which} are {decimal(borders.step, 2)} "
         f"ordinary steps apart, and they are taken as {taken}: say which (is_cut_out=True or "
@@ -119,7 +121,7 @@ def border_doubts(body: _Body) -> tuple[str, ...]:
     )
 
 
-def _borders_of_a(body: _Body) -> str:
+def _borders_name(body: _Body) -> str:
     return "opposite borders" if body.heights.ndim == 2 else "its ends"
 
 

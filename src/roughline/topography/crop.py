@@ -17,13 +17,13 @@ def points_in(
 ) -> tuple[slice, ...]:
     """Return the points along each side that a crop keeps."""
     _refuse_misplaced(crop, sides, unit)
-    kept = []
+    points = []
     for low, high, side, n in zip(crop[::2], crop[1::2], sides, shape, strict=True):
         first, end = round(low / (side / n)), min(round(high / (side / n)), n)
         if n > 1 or end == first:  # a body that is one point wide keeps that
             _refuse_few((low, high), end - first, unit)
-        kept.append(slice(first, end))
-    return tuple(kept)
+        points.append(slice(first, end))
+    return tuple(points)
 
 
 def points_between(crop: Crop, positions: Real) -> tuple[slice]:
@@ -37,10 +37,10 @@ def points_between(crop: Crop, positions: Real) -> tuple[slice]:
     return (slice(first, end),)
 
 
-def ranges_of(kept: tuple[slice, ...]) -> str:
+def ranges_in_words(points: tuple[slice, ...]) -> str:
     """Points that are kept along each side, in words that settings hold."""
-    ranges = [f"{each.start}:{each.stop}" for each in kept]
-    return ranges[0] if len(kept) == 1 else f"x {ranges[0]}, y {ranges[1]}"
+    ranges = [f"{each.start}:{each.stop}" for each in points]
+    return ranges[0] if len(points) == 1 else f"x {ranges[0]}, y {ranges[1]}"
 
 
 def _refuse_misplaced(crop: Crop, sides: tuple[float, ...], unit: str | None) -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from roughline.topography.body import Body, BodyType, sides_of
+from roughline.topography.body import Body, BodyType, side_lengths
 from roughline.topography.provenance import Left, Step, with_facts
 from roughline.units import in_words
 
 _NOTHING = 1e-3  # relative change of rms height and slope below which a step did nothing
-_MOST = 0.5  # share of the rms height whose loss is warned of
+_LARGEST_LOSS = 0.5  # share of the rms height whose loss is warned of
 
 
 def with_effect(before: BodyType, after: BodyType, step: Step) -> BodyType:
@@ -26,7 +26,7 @@ def with_effect(before: BodyType, after: BodyType, step: Step) -> BodyType:
 def effect_of_trend(before: float, after: float) -> Left | None:
     """Return what a trend left that was most of the rms height; None of a smaller one."""
     share = _share(after, before)
-    return Left("detrended", share) if share < 1 - _MOST else None
+    return Left("detrended", share) if share < 1 - _LARGEST_LOSS else None
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def effects(body: Body) -> list[_Effect]:
         if left := done.left_by(step):
             found.append(_effect(left, name(body)))
     if done.low_pass_kept:
-        sides = " x ".join(in_words(side, body.unit) for side in sides_of(body))
+        sides = " x ".join(in_words(side, body.unit) for side in side_lengths(body))
         found.append(
             _Effect(
                 "half a cutoff of the low pass is left out at each border, beyond which no heights "
@@ -78,11 +78,11 @@ def _effect(left: Left, name: str) -> _Effect:
     if not verbs:
         return _Effect(f"{name} changes neither rms height nor rms slope", is_idle=True)
     changes = [f"{verb} {' and '.join(which)}" for verb, which in verbs.items()]
-    said = f"{name} {' and '.join(changes)}"
-    if left.step in ("detrended", "levelled") or height >= 1 - _MOST:
-        return _Effect(said)
+    text = f"{name} {' and '.join(changes)}"
+    if left.step in ("detrended", "levelled") or height >= 1 - _LARGEST_LOSS:
+        return _Effect(text)
     return _Effect(
-        f"{said}: most of the roughness is gone, and answers are those of what is left",
+        f"{text}: most of the roughness is gone, and answers are those of what is left",
         is_grave=True,
     )
 

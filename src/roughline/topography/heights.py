@@ -11,7 +11,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.units import is_unit_of_length
 
-_LARGEST = 1e150  # beyond it, squares of lengths leave the range of double precision
+_LARGEST_LENGTH = 1e150  # beyond it, squares of lengths leave the range of double precision
 _BLOCK = 2**16  # heights summed at a time
 
 
@@ -48,8 +48,8 @@ def checked_heights(heights: Any, dimensions: int, body: str = "") -> Real:
             f"{bad} of {array.size} heights are NaN or infinite; all must be finite: fill or crop "
             "them first"
         )
-    if largest > _LARGEST:
-        raise InputError(f"heights reach {largest:.3g}; at most {_LARGEST:g}: rescale")
+    if largest > _LARGEST_LENGTH:
+        raise InputError(f"heights reach {largest:.3g}; at most {_LARGEST_LENGTH:g}: rescale")
     array.flags.writeable = False
     return array
 
@@ -67,7 +67,11 @@ def checked_radii(radii: Any) -> Real:
     if array[0] != 0 or not (np.diff(array) > 0).all():
         refuse("radii", radii, needed)
     if not _is_length(array[-1]):
-        refuse("radii", radii, f"the largest is {array[-1]:g}, and at most {_LARGEST:g} is allowed")
+        refuse(
+            "radii",
+            radii,
+            f"the largest is {array[-1]:g}, and at most {_LARGEST_LENGTH:g} is allowed",
+        )
     array.flags.writeable = False
     return array
 
@@ -129,4 +133,4 @@ def rms(values: Real, mean: float = 0.0, largest: float | None = None) -> float:
 
 
 def _is_length(value: float) -> bool:
-    return 1 / _LARGEST < value < _LARGEST
+    return 1 / _LARGEST_LENGTH < value < _LARGEST_LENGTH

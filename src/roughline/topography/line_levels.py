@@ -25,16 +25,16 @@ def line_levels(heights: Any, how: Levelling) -> Real:
     known = ~np.ma.getmaskarray(heights)
     points = np.where(known, np.ma.getdata(heights), np.nan)
     lines = np.flatnonzero(known.any(axis=0))
-    told = points[:, lines]
+    known_lines = points[:, lines]
     middles, slopes = np.zeros(lines.size), np.zeros(lines.size)
     x = np.arange(len(points)) - (len(points) - 1) / 2
     if how == "differences":
-        middles[1:] = np.cumsum(_medians(np.diff(told, axis=1)))
+        middles[1:] = np.cumsum(_medians(np.diff(known_lines, axis=1)))
     else:
         if how == "tilt":
-            apart = max(1, len(points) // 4)
-            slopes = _medians(told[apart:] - told[:-apart]) / apart
-        middles = _medians(told - slopes * x[:, np.newaxis])
+            quarter = max(1, len(points) // 4)
+            slopes = _medians(known_lines[quarter:] - known_lines[:-quarter]) / quarter
+        middles = _medians(known_lines - slopes * x[:, np.newaxis])
     everywhere = np.arange(points.shape[1])
     middles, slopes = (np.interp(everywhere, lines, each) for each in (middles, slopes))
     return np.asarray(middles - middles.mean() + slopes * x[:, np.newaxis])

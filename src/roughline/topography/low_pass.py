@@ -9,16 +9,16 @@ from roughline.topography.body import (
     Body,
     BodyType,
     after_step,
-    sides_of,
-    spacings_of,
+    point_spacings,
+    side_lengths,
     within,
 )
-from roughline.topography.crop import ranges_of
+from roughline.topography.crop import ranges_in_words
 from roughline.topography.effects import with_effect
 from roughline.units import in_words
 
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
-_FEWEST = 2  # points along a side
+_FEWEST_POINTS = 2  # points along a side
 
 
 def low_passed(body: BodyType, cutoff: float) -> BodyType:
@@ -31,33 +31,35 @@ def low_passed(body: BodyType, cutoff: float) -> BodyType:
     """
     from scipy import ndimage  # here because it loads slowly
 
-    deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / each for each in spacings_of(body)]
+    deviations = [
+        _ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / each for each in point_spacings(body)
+    ]
     mode = "nearest" if body.is_cut_out else "wrap"
     heights = ndimage.gaussian_filter(body.heights, deviations, mode=mode)
     low = after_step(body, heights, low_pass=cutoff)
-    kept = points_kept(body, cutoff)
-    if not any(each.start for each in kept):
+    points = inner_points(body, cutoff)
+    if not any(each.start for each in points):
         return with_effect(body, low, "low_pass")
-    inner = after_step(low, low.heights, low_pass_kept=ranges_of(kept))
-    return with_effect(within(body, kept), within(inner, kept), "low_pass")
+    inner = after_step(low, low.heights, low_pass_kept=ranges_in_words(points))
+    return with_effect(within(body, points), within(inner, points), "low_pass")
 
 
-def points_kept(body: Body, cutoff: float) -> tuple[slice, ...]:
+def inner_points(body: Body, cutoff: float) -> tuple[slice, ...]:
     """Return the points along each side that a low pass keeps."""
     shape = body.heights.shape
     if not body.is_cut_out:
         return tuple(slice(0, n) for n in shape)
     margins = [
         round(cutoff / 2 / step) if n > 1 else 0
-        for step, n in zip(spacings_of(body), shape, strict=True)
+        for step, n in zip(point_spacings(body), shape, strict=True)
     ]
     return tuple(slice(left, n - left) for left, n in zip(margins, shape, strict=True))
 
 
 def refuse_long(body: Body, cutoff: float) -> None:
     """Refuse a low pass that leaves nothing of a body."""
-    sides = sides_of(body)
-    kept = points_kept(body, cutoff)
+    sides = side_lengths(body)
+    inner = inner_points(body, cutoff)
     if cutoff > max(sides):
         raise InputError(
             f"is {in_words(cutoff, body.unit)}, longer than the topography, "
@@ -65,8 +67,8 @@ def refuse_long(body: Body, cutoff: float) -> None:
             "wavelength, or remove a trend",
             "low_pass",
         )
-    for side, each, n in zip(sides, kept, body.heights.shape, strict=True):
-        if n > 1 and each.stop - each.start < _FEWEST:
+    for side, each, n in zip(sides, inner, body.heights.shape, strict=True):
+        if n > 1 and each.stop - each.start < _FEWEST_POINTS:
             raise InputError(
                 f"is {in_words(cutoff, body.unit)}: half of it is left out at each border, and of "
                 f"a side of {in_words(side, body.unit)} nothing would stay; give a shorter "

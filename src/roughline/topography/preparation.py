@@ -21,21 +21,21 @@ from roughline.topography.body import (
     Surface,
     after_step,
     piece,
-    sides_of,
+    side_lengths,
 )
 from roughline.topography.crop import Crop, points_in
 from roughline.topography.effects import effects, with_effect
 from roughline.topography.line_levels import LEVELLINGS, Levelling
 from roughline.topography.low_pass import low_passed, refuse_long
 from roughline.topography.missing import Missing
-from roughline.topography.scan_lines import levelled, told_of_filled, without_scars
+from roughline.topography.scan_lines import filled_lines_note, levelled, without_scars
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 
 _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
 _SPIKE = 5.0  # times the scatter of neighbours
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _STEPS_NEED = {1: 14, 2: 9}  # heights at once for each, of lines and of surfaces, resampling aside
-_MOST = 10**9  # points along a side that are thought of
+_MOST_POINTS = 10**9  # points along a side that are thought of
 
 
 @public
@@ -164,7 +164,7 @@ def _allowed(body: Body, too_many: int, needed: int) -> str:
         resampling = _resampling_needs(body.heights.shape, _wanted(body, points))
         return fits_into_memory(8 * max(needed, resampling))
 
-    thought_of = range(2, min(too_many, _MOST))
+    thought_of = range(2, min(too_many, _MOST_POINTS))
     most = bisect_left(thought_of, True, key=lambda points: not fits(points)) + 1
     return f", up to {most} along the longer side" if most > 1 else ""
 
@@ -198,7 +198,7 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     (32, 32) True
     """
     found = as_prepared(body, preparation)
-    if preparation and preparation.lines and (text := told_of_filled(found)):
+    if preparation and preparation.lines and (text := filled_lines_note(found)):
         warnings.warn(text, PreparationWarning, stacklevel=2)
     for effect in effects(found) if preparation else ():
         if effect.is_grave or effect.is_idle:
@@ -270,7 +270,7 @@ def outliers(body: Body) -> Mask:
 
 
 def _cropped(body: BodyType, crop: Crop) -> BodyType:
-    return piece(body, points_in(crop, sides_of(body), body.heights.shape, body.unit))
+    return piece(body, points_in(crop, side_lengths(body), body.heights.shape, body.unit))
 
 
 def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:

@@ -15,7 +15,7 @@ from typing import Any, Literal, Protocol, get_args
 from roughline.computing.arrays import Real
 from roughline.errors.checks import between, one_of, positive
 from roughline.topography.borders import Borders
-from roughline.topography.crop import ranges_of
+from roughline.topography.crop import ranges_in_words
 from roughline.topography.line_levels import Levelling
 from roughline.topography.missing import Filled
 from roughline.topography.settings import Settings
@@ -28,7 +28,7 @@ TILT_REMOVED = ("tilt_removed_x", "tilt_removed_y")
 TILT, MOUNTING = "tilt", "mounting"
 """Names and values in the settings of what is known of a tilt."""
 
-_OF_THE_WHOLE = (
+_WHOLE_BODY_SETTINGS = (
     *("missing_points", "missing_share", "filled", "outliers_kept"),
     *("mask", "mask_of", "masked_share"),
     *("border_step", "border_chance", "low_pass_kept"),
@@ -206,17 +206,17 @@ class Provenance:
     def missing_share(self) -> float:
         """Share of the points that were missing; of two bodies, of the one that lacks more. [1]"""
         own = 0.0 if self.filled is None else self.filled.share
-        return max([own, *(each.missing_share for each in self._of_both)])
+        return max([own, *(each.missing_share for each in self._both_bodies)])
 
     @property
     def is_levelled_by_lines(self) -> bool:
         """Whether lines were levelled; of two bodies, those of either."""
         return self.lines_levelled is not None or any(
-            each.is_levelled_by_lines for each in self._of_both
+            each.is_levelled_by_lines for each in self._both_bodies
         )
 
     @property
-    def _of_both(self) -> tuple[Provenance, ...]:
+    def _both_bodies(self) -> tuple[Provenance, ...]:
         """Those of two bodies whose heights were added."""
         return () if self.facing is None else (self.facing.first, self.facing.second)
 
@@ -249,7 +249,7 @@ def with_facts(of: _Known, **facts: Any) -> dict[str, Any]:
     }
 
 
-def facts_of_piece(of: _Known, kept: tuple[slice, ...], shape: tuple[int, ...]) -> dict[str, Any]:
+def facts_of_piece(of: _Known, points: tuple[slice, ...], shape: tuple[int, ...]) -> dict[str, Any]:
     """Return provenance and settings of a piece: its crop, and nothing that is said of the whole.
 
     How many of the points that had been filled lie in it is not known.
@@ -257,11 +257,11 @@ def facts_of_piece(of: _Known, kept: tuple[slice, ...], shape: tuple[int, ...]) 
     before = of.provenance
     facts: dict[str, Any] = {
         "filled_before_crop": before.filled.points if before.filled else before.filled_before_crop,
-        "cropped_share": math.prod(each.stop - each.start for each in kept) / math.prod(shape),
+        "cropped_share": math.prod(each.stop - each.start for each in points) / math.prod(shape),
     }
     of_piece = replace(
         before, **facts, filled=None, outliers_kept=0, masked=None, borders=None, low_pass_kept=""
     )
-    left = {key: value for key, value in of.settings.items() if key not in _OF_THE_WHOLE}
-    left["cropped"] = ranges_of(kept)
+    left = {key: value for key, value in of.settings.items() if key not in _WHOLE_BODY_SETTINGS}
+    left["cropped"] = ranges_in_words(points)
     return {"provenance": of_piece, "settings": {**left, **Provenance(**facts).record}}

@@ -19,15 +19,15 @@ from roughline.topography.line_levels import Levelling, line_levels
 from roughline.topography.missing import Missing
 from roughline.units import in_words
 
-_LEAST = 8  # points of a line, and lines, that tell of either
+_FEWEST_POINTS = 8  # points of a line, and lines, that tell of either
 _BLOCKS = 8  # parts of a line that show how far its median is by chance
-_BEYOND_CHANCE = 2.0  # times as far are jumps
+_OVER_CHANCE = 2.0  # times as far are jumps
 _MATTERS = 0.02  # of the rms height
 # correlation of a jump with the next: -0.5 if lines know nothing of each other, and zero or more of
 # grooves, which are as wide as some lines
 _TURNING = -0.1
 _SCAR, _SCAR_GOES_ON = 5.0, 2.5  # times the scatter of neighbouring lines
-_SHORTEST = 3  # points of a scar
+_SHORTEST_SCAR = 3  # points of a scar
 _WITHIN_LINES = np.array([[False, True, False]] * 3)  # which points are neighbours
 _SIGMA = 1.4826  # standard deviation of normal values over the median of their moduli
 
@@ -43,7 +43,7 @@ def levelled(body: BodyType, how: Levelling) -> BodyType:
     return with_effect(body, level, "levelled")
 
 
-def told_of_filled(body: Body) -> str:
+def filled_lines_note(body: Body) -> str:
     """Say that missing points were filled before lines were levelled; empty if they were not."""
     if not (count := body.provenance.filled_between_levels):
         return ""
@@ -87,7 +87,7 @@ def scars(heights: Real) -> Mask:
         numbers = np.arange(1, count + 1)
         highest = ndimage.maximum(least, runs, numbers)
         points = np.bincount(runs.ravel(), minlength=count + 1)[1:]
-        is_scar = (highest > _SCAR * scatter) & (points >= _SHORTEST) & (points < len(heights))
+        is_scar = (highest > _SCAR * scatter) & (points >= _SHORTEST_SCAR) & (points < len(heights))
         marks[:, 1:-1] |= np.isin(runs, numbers[is_scar])
     return marks
 
@@ -115,14 +115,14 @@ def line_jumps(heights: Real) -> LineJumps | None:
     return LineJumps(float(np.sqrt(square / jumps.size)), float(by_chance), turning)
 
 
-def told_of_lines(body: Body) -> str:
+def line_jump_warning(body: Body) -> str:
     """Say that lines of a measured map jump, and what to do; empty where they do not."""
     if not isinstance(body, Surface) or not body.is_cut_out:
         return ""
     found = line_jumps(body.heights)
     if (
         found is None
-        or found.rms <= _BEYOND_CHANCE * found.by_chance
+        or found.rms <= _OVER_CHANCE * found.by_chance
         or found.rms <= _MATTERS * body.rms_height
         or found.turning >= _TURNING
     ):
@@ -139,9 +139,9 @@ def _refuse_others(body: Body, argument: str) -> None:
     """Refuse what has no lines beside each other."""
     if not isinstance(body, Surface):
         raise InputError("is for maps; a line scan has one line", argument)
-    if min(body.shape) < _LEAST:
+    if min(body.shape) < _FEWEST_POINTS:
         raise InputError(
-            f"needs {_LEAST} lines of {_LEAST} points or more; the map has {body.shape[1]} of "
-            f"{body.shape[0]}",
+            f"needs {_FEWEST_POINTS} lines of {_FEWEST_POINTS} points or more; the map has "
+            f"{body.shape[1]} of {body.shape[0]}",
             argument,
         )

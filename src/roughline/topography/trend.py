@@ -16,7 +16,7 @@ _DEGREES = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}  # of the polynomi
 
 _BLOCK = 2**16  # heights changed together
 _SINGULAR = 1e-10  # of the largest moment of the known points, below which they tell no coefficient
-_ROUNDING = 1e-13  # of the largest height, below which what is left is of rounding alone
+_HEIGHT_ROUNDING = 1e-13  # of the largest height, below which what is left is of rounding alone
 
 
 def without_trend(heights: Real, trend: Trend) -> Real:
@@ -50,7 +50,7 @@ def remove_trend(heights: Real, trend: Trend) -> None:
     for start in range(0, len(heights), rows):
         block = slice(start, start + rows)
         heights[block] -= bases[0][block] @ along
-    if max(float(heights.max()), -float(heights.min())) <= _ROUNDING * largest:
+    if max(float(heights.max()), -float(heights.min())) <= _HEIGHT_ROUNDING * largest:
         heights[...] = 0.0
 
 
@@ -71,9 +71,11 @@ def trend_of_known(heights: np.ma.MaskedArray[Any, Any], trend: Trend) -> Real:
     pairs = moments.reshape([n for count in counts for n in (count, count)])
     first, second = range(0, 2 * len(counts), 2), range(1, 2 * len(counts), 2)
     normal = pairs.transpose([*first, *second]).reshape(shares.size, shares.size)
-    kept = np.flatnonzero(np.indices(counts).sum(axis=0).ravel() <= degree)
+    terms = np.flatnonzero(np.indices(counts).sum(axis=0).ravel() <= degree)
     along = np.zeros(shares.size)
-    along[kept], *_ = np.linalg.lstsq(normal[np.ix_(kept, kept)], shares.ravel()[kept], _SINGULAR)
+    along[terms], *_ = np.linalg.lstsq(
+        normal[np.ix_(terms, terms)], shares.ravel()[terms], _SINGULAR
+    )
     found = along.reshape(counts)
     for basis in bases:
         found = np.tensordot(found, basis, axes=(0, 1))

@@ -27,10 +27,10 @@ from roughline.lab.measured.state import (
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.description_table import description_table
 from roughline.report.values import up_to_three_digits
-from roughline.topography.body import Body, Surface, sides_of, spacings_of
+from roughline.topography.body import Body, Surface, point_spacings, side_lengths
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
-from roughline.topography.low_pass import points_kept
+from roughline.topography.low_pass import inner_points
 from roughline.topography.preparation import Preparation
 
 
@@ -74,10 +74,10 @@ def prepare(arguments: Arguments, progress: Progress) -> bytes:
     whole = before.body or body
     corner = (crop or (0.0, 0.0, 0.0, 0.0))[::2]
     if cutoff := body.provenance.low_pass:
-        inner = points_kept(replace(whole, is_cut_out=body.is_cut_out), cutoff)
+        inner = inner_points(replace(whole, is_cut_out=body.is_cut_out), cutoff)
         corner = [
             start + each.start * step
-            for start, each, step in zip(corner, inner, spacings_of(whole), strict=False)
+            for start, each, step in zip(corner, inner, point_spacings(whole), strict=False)
         ]
     return drawn(header, *of_preparation(whole, body, corner))
 
@@ -137,4 +137,4 @@ def _body(found: Description) -> dict[str, Any] | None:
     if body is None:
         return None
     kind = "surface" if isinstance(body, Surface) else body.kind
-    return {"kind": kind, "sides": sides_of(body), "points": body.heights.shape}
+    return {"kind": kind, "sides": side_lengths(body), "points": body.heights.shape}

@@ -21,7 +21,7 @@ from roughline.plot.pixels import any_marked, thinned
 from roughline.report.comparison import comparison_table
 from roughline.report.contact_tables import area_in_words, curve_table
 from roughline.report.values import figure, up_to_three_digits
-from roughline.topography.body import Body, Surface, sides_of
+from roughline.topography.body import Body, Surface, side_lengths
 from roughline.topography.preparation import outliers
 from roughline.units import metres_per, prefix
 
@@ -73,12 +73,14 @@ def of_file(found: Description) -> tuple[Panels, Maps]:
 
 def of_preparation(before: Body, after: Body, corner: Sequence[float]) -> tuple[Panels, Maps]:
     """Heights before, and after from a corner of these [m], with the same units and colours."""
-    heights, sides = [_about_mean(each) for each in (before, after)], sides_of(before)
+    heights, sides = [_about_mean(each) for each in (before, after)], side_lengths(before)
     along, up = _scale(max(sides), 1.0), _scale(_largest(np.abs(heights[0])), 1.0)
     corner = [end * along[0] for end in corner]
     if not isinstance(after, Surface):
         old, new = (each * up[0] for each in heights)
-        x = [_places(each.heights.size, sides_of(each)[0] * along[0]) for each in (before, after)]
+        x = [
+            _places(each.heights.size, side_lengths(each)[0] * along[0]) for each in (before, after)
+        ]
         series = {"before": _line(x[0], old), "after": _line(corner[0] + x[1], new)}
         pairs = zip(_rows(old, up[1]), _rows(new, up[1]), strict=True)
         rows = [[*one, other[1]] for one, other in pairs]
@@ -88,7 +90,7 @@ def of_preparation(before: Body, after: Body, corner: Sequence[float]) -> tuple[
         f"{' x '.join(map(str, after.heights.shape))} points",
     )
     first, second = (
-        _map(each, sides_of(body), along, up, caption=caption)
+        _map(each, side_lengths(body), along, up, caption=caption)
         for each, body, caption in zip(heights, (before, after), captions, strict=True)
     )
     lows, highs = np.transpose([np.percentile(each * up[0], _MOST) for each in heights])

@@ -15,7 +15,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 
-_LARGE = 2**26  # unpacked; smaller ones do no harm [bytes]
+_HARMLESS_BYTES = 2**26  # unpacked; smaller ones do no harm [bytes]
 _RATIO = 200  # unpacked over packed; measured heights reach about 10
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _STARTS_OF_HDF5 = (0, *(512 * 2**i for i in range(8)))  # where it may begin [bytes]
@@ -30,7 +30,12 @@ _TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _DEFLATE, _LZMA = (8, 32946), 34925  # how images in TIFF are packed
 _STEP = 2**20  # of what is unpacked to learn how much it is [bytes]
 _DIGITS = 12  # of a number of parts, at most
-_OF_DAMAGED_PARTS = (ValueError, OSError, EOFError, RuntimeError)  # one has a password, or is cut
+_DAMAGED_PART_ERRORS = (
+    ValueError,
+    OSError,
+    EOFError,
+    RuntimeError,
+)  # one has a password, or is cut
 _FEW_ROWS, _SPARSE = 1000, 20  # rows of a table, and rows for each of its cells, that do no harm
 
 
@@ -62,7 +67,7 @@ def _refuse_bombs(path: Path, name: str) -> None:
             sheets = [] if is_bomb else [part for part in parts if _SHEET.fullmatch(part.filename)]
             rows = [[int(row) for row in _CELL.findall(archive.read(sheet))] for sheet in sheets]
             scans = [] if is_bomb else _scans_in(archive)
-    except (zipfile.BadZipFile, zlib.error, *_OF_DAMAGED_PARTS) as error:
+    except (zipfile.BadZipFile, zlib.error, *_DAMAGED_PART_ERRORS) as error:
         reason = shortened(str(error))
         raise InputError(f"{name} is a damaged archive ({reason}): export it again") from error
     packed = path.stat().st_size
@@ -79,7 +84,7 @@ def _refuse_bombs(path: Path, name: str) -> None:
 
 def _most_unpacked(path: Path) -> int:
     """The most that a file may unpack to. [bytes]"""
-    return max(_LARGE, _RATIO * path.stat().st_size)
+    return max(_HARMLESS_BYTES, _RATIO * path.stat().st_size)
 
 
 def _unpacks_to_too_much(unpacked: int, packed: int, name: str) -> InputError:
@@ -202,7 +207,7 @@ def refuse_empty_datasets(path: Path, name: str) -> None:
 
     def note(_: str, node: Any) -> None:
         if isinstance(node, h5py.Dataset) and node.shape is not None:
-            is_large = node.chunks is not None and node.nbytes > _LARGE
+            is_large = node.chunks is not None and node.nbytes > _HARMLESS_BYTES
             written = node.id.get_storage_size() if is_large else size
             found.append((node.shape, node.dtype.kind, min(size, written)))
 

@@ -23,9 +23,9 @@ from roughline.topography.files.cf_variables import (
     decoded,
     is_length,
     likeness,
-    unit_of,
+    stated_unit,
 )
-from roughline.topography.files.channels import Channel, channel_of, listed, numbered
+from roughline.topography.files.channels import Channel, find_channel, listed, numbered
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.positions import Positions
 from roughline.topography.settings import MEASURED
@@ -37,12 +37,12 @@ _ALONG = {
     "x": re.compile(r"x(?:[_\d].*)?|.*_x|nx|dimx|lon(?:gitude)?|col(?:umn)?s?", re.IGNORECASE),
     "y": re.compile(r"y(?:[_\d].*)?|.*_y|ny|dimy|lat(?:itude)?|rows?", re.IGNORECASE),
 }
-_SAME = 1e-3  # of a side, within which its length and its positions agree
+_SIDE_TOLERANCE = 1e-3  # of a side, within which its length and its positions agree
 
 
 def read_netcdf(path: Path, channel: int | str | None, name: str) -> Measurement | None:
     """Read heights from NetCDF of another program; None if the file has another format."""
-    engine = _engine_of(path, name)
+    engine = _find_engine(path, name)
     if engine is None:
         return None
     import xarray  # here because it loads slowly
@@ -54,8 +54,8 @@ def read_netcdf(path: Path, channel: int | str | None, name: str) -> Measurement
             with xarray.open_dataset(path, engine=engine, decode_cf=False, **how) as data:
                 _refuse_gxsm(data, name)
                 if {"x_range", "y_range", "dimension", "z"} <= set(data.variables):
-                    return _of_early_gmt(data, path, name)
-                return _measurement_of(data, path, channel, name)
+                    return _read_early_gmt(data, path, name)
+                return _read_measurement(data, path, channel, name)
     except (RoughlineError, MemoryError):
         raise
     except Exception as error:  # of a damaged file the readers raise errors of any type
@@ -65,7 +65,7 @@ def read_netcdf(path: Path, channel: int | str | None, name: str) -> Measurement
         ) from error
 
 
-def _engine_of(path: Path, name: str) -> Literal["scipy", "h5netcdf"] | None:
+def _find_engine(path: Path, name: str) -> Literal["scipy", "h5netcdf"] | None:
     """What reads the file; None if it is no NetCDF."""
     with path.open("rb") as file:
         start = file.read(len(_HDF5))
@@ -79,11 +79,11 @@ def _engine_of(path: Path, name: str) -> Literal["scipy", "h5netcdf"] | None:
     if start != _HDF5:
         return None
     refuse_empty_datasets(path, name)
-    is_netcdf = path.suffix.lower() in _SUFFIXES or _says_netcdf(path)
+    is_netcdf = path.suffix.lower() in _SUFFIXES or _names_netcdf(path)
     return "h5netcdf" if is_netcdf else None
 
 
-def _says_netcdf(path: Path) -> bool:
+def _names_netcdf(path: Path) -> bool:
     """Whether a file of HDF5 says that a library of NetCDF wrote it."""
     import h5py  # here because it loads slowly
 
@@ -100,7 +100,7 @@ def _refuse_gxsm(data: Any, name: str) -> None:
         )
 
 
-def _measurement_of(data: Any, path: Path, channel: int | str | None, name: str) -> Measurement:
+def _read_measurement(data: Any, path: Path, channel: int | str | None, name: str) -> Measurement:
     """Heights over positions that rise along x and y."""
     names = candidates(data)
     key = names[_chosen(data, names, channel, name)]
@@ -118,7 +118,7 @@ def _measurement_of(data: Any, path: Path, channel: int | str | None, name: str)
     if _is_of_surface_topography(data) and "mask" in data.variables:
         heights[data.variables["mask"].values.reshape(heights.shape) != 0] = np.nan
     heights = _over_rising(heights.T if is_transposed else heights, sides, name)
-    unit = unit_of(data.variables[key])
+    unit = stated_unit(data.variables[key])
     if unit is None and _is_of_surface_topography(data) and sides[0] is not None:
         unit = sides[0].unit  # its lines state that of their positions alone, for both
     measured = Measurement(
@@ -171,22 +171,22 @@ def _chosen(data: Any, names: list[str], channel: int | str | None, file: str) -
     channels = _channels(data, names)
     possible = [i for i, each in enumerate(channels) if not each.why_none]
     if channel is not None or not possible:
-        return channel_of(channels, channel, file)
+        return find_channel(channels, channel, file)
     likely = {i: likeness(data.variables[names[i]], names[i]) for i in possible}
     best = max(likely.values())
     found = [i for i in possible if likely[i] == best]
     if any(best) and len(found) == 1:
         return found[0]
-    said = "several of them may be heights" if any(best) else "nothing says that it is heights"
+    cause = "several of them may be heights" if any(best) else "nothing says that it is heights"
     asked = called("channel", names[found[0]])
     raise InputError(
-        f"{file} is NetCDF with {numbered(channels)}, and {said}: choose one, such as {asked}"
+        f"{file} is NetCDF with {numbered(channels)}, and {cause}: choose one, such as {asked}"
     )
 
 
 def _channels(data: Any, names: list[str]) -> list[Channel]:
     """The variables over one or two sides, and why some of them hold no heights."""
-    units = [unit_of(data.variables[name]) for name in names]
+    units = [stated_unit(data.variables[name]) for name in names]
     return [
         Channel(name, "" if unit is None or is_length(unit) else f"its unit is {unit}")
         for name, unit in zip(names, units, strict=True)
@@ -221,11 +221,11 @@ def _positions(data: Any, key: str, dim: str, axis: str, file: str) -> Positions
     ]
     if not found or found[0].dtype.kind not in "iuf":
         return None
-    positions = Positions(decoded(found[0]), unit_of(found[0]), axis, file)
+    positions = Positions(decoded(found[0]), stated_unit(found[0]), axis, file)
     length = found[0].attrs.get("length")
     if length is None or not positions.are_even:
         return positions
-    if not abs(float(length) - positions.side) <= _SAME * positions.side:
+    if not abs(float(length) - positions.side) <= _SIDE_TOLERANCE * positions.side:
         raise InputError(
             f"{file} states a length of {float(length):g} along {axis}, and its positions make "
             f"{positions.side:g}: export it again"
@@ -244,12 +244,12 @@ def _is_of_surface_topography(data: Any) -> bool:
 
 def _is_cut_out(data: Any, dims: tuple[str, ...]) -> bool | None:
     """Whether the heights are a piece of a larger surface; None where the file does not tell."""
-    told = [
+    periodic = [
         bool(data.variables[each].attrs["periodic"])
         for each in dims
         if each in data.variables and "periodic" in data.variables[each].attrs
     ]
-    return not all(told) if len(told) == len(dims) else None
+    return not all(periodic) if len(periodic) == len(dims) else None
 
 
 def _with_sides(measured: Measurement, sides: list[Positions]) -> Measurement:
@@ -285,7 +285,7 @@ def _with_sides(measured: Measurement, sides: list[Positions]) -> Measurement:
     )
 
 
-def _of_early_gmt(data: Any, path: Path, name: str) -> Measurement:
+def _read_early_gmt(data: Any, path: Path, name: str) -> Measurement:
     """A grid of GMT before 4.1: rows from the top, one after the other, and the range of sides."""
     nx, ny = (int(n) for n in data.variables["dimension"].values)
     refuse_points((nx, ny), path, name)
@@ -297,13 +297,13 @@ def _of_early_gmt(data: Any, path: Path, name: str) -> Measurement:
         first, last = (float(end) for end in ends.values)
         half = (last - first) / n / 2 if is_between else 0.0
         sides.append(
-            Positions(np.linspace(first + half, last - half, n), unit_of(ends), axis, name)
+            Positions(np.linspace(first + half, last - half, n), stated_unit(ends), axis, name)
         )
     units = data.variables.get("z_range", z)
     measured = Measurement(
         file=name,
         heights=decoded(z).reshape(ny, nx)[::-1].T,
-        unit=unit_of(units),
+        unit=stated_unit(units),
         sizes=None,
         kind="surface",
         settings={"origin": MEASURED, "file": name},

@@ -13,7 +13,7 @@ from roughline.units import metres_per
 
 _STANDARD_NAMES = re.compile(r"(?:\w+_)?(?:height|altitude)(?:_above_\w+)?")
 _NAMES = re.compile(r"z|h|heights?|height_?map|topo|topography|elevations?|z_?data", re.IGNORECASE)
-_OF_OTHERS = ("coordinates", "bounds", "ancillary_variables", "grid_mapping")
+_REFERRING = ("coordinates", "bounds", "ancillary_variables", "grid_mapping")
 """Attributes that name variables which belong to another one."""
 
 _LONGEST_SIGN = 3  # letters; longer units are words, however they are capitalised
@@ -29,7 +29,7 @@ def candidates(data: Any) -> list[str]:
     """Names of variables of real numbers over two sides or, where there are none, over one."""
     aside = {*data.dims, "mask"}
     for variable in (data, *data.variables.values()):
-        for key in _OF_OTHERS:
+        for key in _REFERRING:
             aside.update(re.findall(r"\w+", str(variable.attrs.get(key, ""))))
     sides = {
         name: sum(n > 1 for n in variable.shape)
@@ -46,11 +46,11 @@ def likeness(variable: Any, name: str) -> tuple[bool, bool, bool]:
     return (
         bool(_STANDARD_NAMES.fullmatch(str(variable.attrs.get("standard_name", "")))),
         any(map(_NAMES.fullmatch, names)),
-        unit_of(variable) is not None,
+        stated_unit(variable) is not None,
     )
 
 
-def unit_of(variable: Any) -> str | None:
+def stated_unit(variable: Any) -> str | None:
     """The unit that a variable states; None if it states none."""
     attrs = variable.attrs
     stated = str(attrs.get("units", attrs.get("unit", ""))).strip()

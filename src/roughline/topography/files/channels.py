@@ -24,7 +24,7 @@ class Channel:
         return f"{name} ({self.about})" if self.about else name
 
 
-def channel_of(
+def find_channel(
     channels: Sequence[Channel], wanted: int | str | None, file: str, first: int = 0
 ) -> int:
     """Find a channel of heights by number or name; by default the first one, or one before it."""

@@ -15,7 +15,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.topography.files.archives import refuse_points
-from roughline.topography.files.channels import Channel, channel_of, listed
+from roughline.topography.files.channels import Channel, find_channel, listed
 from roughline.topography.files.measurement import Measurement, in_stated_units
 from roughline.topography.settings import MEASURED
 from roughline.units import is_unit_of_length
@@ -46,7 +46,7 @@ def read_gwy(path: Path, channel: int | str | None, name: str) -> Measurement | 
         if (found := _CHANNEL.fullmatch(key)) and isinstance(data, dict) and _FIELD in data
     }
     channels = [each.channel for each in fields.values()]
-    number, field = list(fields.items())[channel_of(channels, channel, name)]
+    number, field = list(fields.items())[find_channel(channels, channel, name)]
     refuse_points(field.points, path, name, _BYTES_PER_POINT)
     marks, masked = content.get(f"/{number}/mask"), None
     if isinstance(marks, dict) and _FIELD in marks:

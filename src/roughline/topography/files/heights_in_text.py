@@ -11,8 +11,8 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
 from roughline.topography.files.measurement import Measurement
-from roughline.topography.files.text import Table, table_of
-from roughline.topography.files.text_head import Head, head_of, length_unit, ratio
+from roughline.topography.files.text import Table, read_table
+from roughline.topography.files.text_head import Head, length_unit, ratio, read_head
 from roughline.topography.settings import MEASURED
 
 _IN_BRACKETS = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]")
@@ -25,47 +25,49 @@ _LENGTH = re.compile(
     r"\W*(?:(?:scan|profile|traverse|measuring)[-_ ]?)?length\W+([\d.]+)\s*(\w+)\W*", re.IGNORECASE
 )
 _KEY_AND_VALUE = re.compile(r"\W*([^:=;,\t]+)[:=;,\t](.*)")
-_OF_ALL = re.compile(r"(?:all |length )?units?", re.IGNORECASE)
-_OF_POSITIONS = re.compile(r"(?:lateral|position|[xy])[- _]?units?", re.IGNORECASE)
-_OF_HEIGHTS = re.compile(r"(?:value|height|z)[- _]?units?", re.IGNORECASE)
+_ALL_UNITS = re.compile(r"(?:all |length )?units?", re.IGNORECASE)
+_POSITION_UNITS = re.compile(r"(?:lateral|position|[xy])[- _]?units?", re.IGNORECASE)
+_HEIGHT_UNITS = re.compile(r"(?:value|height|z)[- _]?units?", re.IGNORECASE)
 _MORE_THAN_A_LIST = 6  # columns; a list of points has x, y, z and little more
 _NEARLY = 0.98  # of the length that a line scan states
 _AXES = ("x", "y", "z")
-_NEAR = 0.15  # of a step: positions nearer to each other are one, and nearer to a node are on it
+_STEP_TOLERANCE = (
+    0.15  # of a step: positions nearer to each other are one, and nearer to a node are on it
+)
 _SPARSE = 20  # nodes of the grid for each point of a list, at most
 
 
 def read_text(path: Path, _: int | str | None, name: str) -> Measurement | None:
     """Read heights from text; None if the file is no text, or that of a program's own format."""
-    table = table_of(path, name)
+    table = read_table(path, name)
     if table is None:
         return None
     titles = _titles(table)
     named = _named(titles)
     rows, columns = table.rows.shape
     _refuse_fewer_points(table, name)
-    head = Head() if named else head_of(table, name)
+    head = Head() if named else read_head(table, name)
     if rows == 1:
         raise InputError(
             f"{name} has one row of numbers: it was cut short, or a line scan stands in a row; "
             "write one height, or x and z, in each line"
         )
     if head.sides is not None and not _begins_with_positions(table.rows):
-        return _of_matrix(table, head, name)  # however few columns it has
+        return _read_matrix(table, head, name)  # however few columns it has
     if columns == 1:
         return _measured(
             name, kind="profile", heights=head.factor * table.rows[:, 0], unit=head.unit
         )
     if columns <= len(_AXES) or named:
-        return _of_points(table, titles, named, name)
+        return _read_points(table, titles, named, name)
     _refuse_unnamed_list(table, titles, name)
     if rows == 2:
         raise InputError(f"{name} has two rows of numbers: write a line scan as lines of x z")
     _refuse_positions_beside_heights(table.rows, name)
-    return _of_matrix(table, head, name)
+    return _read_matrix(table, head, name)
 
 
-def _of_matrix(table: Table, head: Head, name: str) -> Measurement:
+def _read_matrix(table: Table, head: Head, name: str) -> Measurement:
     """A map, or a line scan where the matrix has one column."""
     heights = table.rows[:, ::-1] if head.are_columns else table.rows.T
     if head.factor != 1:
@@ -92,7 +94,7 @@ def _measured(name: str, **others: Any) -> Measurement:
     return Measurement(file=name, **stated | others)
 
 
-def _of_points(
+def _read_points(
     table: Table, titles: list[list[str]], named: dict[str, int], name: str
 ) -> Measurement:
     """A line scan or a map from a list of points."""
@@ -107,9 +109,9 @@ def _of_points(
     if y is not None and (along := _along_a_line(x, y)) is not None:
         x, y = along, None
     if y is not None:
-        heights, sides = map_of(x, y, z, name)
+        heights, sides = gridded_map(x, y, z, name)
         return _measured(name, kind="surface", heights=heights, sizes=sides, **stated)
-    heights, positions, length = line_of(x, z, name)
+    heights, positions, length = sorted_line(x, z, name)
     _refuse_shorter_scan(table, of_positions, length, name)
     return _measured(
         name, kind="profile", heights=heights, sizes=(length,), positions=positions, **stated
@@ -188,9 +190,9 @@ def _units_of_columns(
         unit = length_unit(value)
         if not unit:
             continue
-        if _OF_ALL.fullmatch(key) or _OF_POSITIONS.fullmatch(key):
+        if _ALL_UNITS.fullmatch(key) or _POSITION_UNITS.fullmatch(key):
             units["x"] = unit
-        if _OF_ALL.fullmatch(key) or _OF_HEIGHTS.fullmatch(key):
+        if _ALL_UNITS.fullmatch(key) or _HEIGHT_UNITS.fullmatch(key):
             units["z"] = unit
     for cells in titles:
         found = {axis: _unit_in(cells[i]) for axis, i in order.items()}
@@ -198,9 +200,9 @@ def _units_of_columns(
     if not units:
         return None, None, 1.0
     if "x" not in units or ratio(units.get("y", units["x"]), units["x"]) != 1:
-        said = ", ".join(f"{axis} in {unit}" for axis, unit in units.items())
+        listed = ", ".join(f"{axis} in {unit}" for axis, unit in units.items())
         raise InputError(
-            f"{name} states units of some columns alone ({said}), or different ones of x and y: "
+            f"{name} states units of some columns alone ({listed}), or different ones of x and y: "
             "name one unit for the positions and one for the heights above the list, or none"
         )
     if "z" not in units:
@@ -260,7 +262,7 @@ def _refuse_positions_beside_heights(rows: Real, name: str) -> None:
             )
 
 
-def line_of(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
+def sorted_line(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
     """Return the heights of a line in order, the positions if they are uneven, and the length."""
     if x.size < 2:
         raise InputError(f"{name} lists {x.size} point: at least 2 are needed; it was cut short")
@@ -278,7 +280,7 @@ def line_of(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
     return z, x, float(x[-1] - x[0])
 
 
-def map_of(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, float]]:
+def gridded_map(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, float]]:
     """Return the heights of a list of points on their grid, and the sides of the map.
 
     Nodes of the grid that the list leaves out are NaN.
@@ -331,7 +333,7 @@ def _nodes(positions: Real, name: str, axis: str) -> tuple[Indices, float]:
     if not gaps.size:
         return np.zeros(positions.size, np.intp), 0.0
     # rounding makes gaps far smaller than the steps between columns
-    is_step = gaps > _NEAR * np.median(gaps[gaps > 0.1 * gaps.max()])
+    is_step = gaps > _STEP_TOLERANCE * np.median(gaps[gaps > 0.1 * gaps.max()])
     column = np.concatenate([[0], np.cumsum(is_step)])
     centres = np.bincount(column, values) / np.bincount(column)
     steps = np.diff(centres)
@@ -341,7 +343,7 @@ def _nodes(positions: Real, name: str, axis: str) -> tuple[Indices, float]:
     else:
         step = float(steps[0])
     offsets = values - centres[0] - step * nodes[column]
-    if step <= 0 or (np.diff(nodes) < 1).any() or np.ptp(offsets) > 2 * _NEAR * step:
+    if step <= 0 or (np.diff(nodes) < 1).any() or np.ptp(offsets) > 2 * _STEP_TOLERANCE * step:
         raise _irregular(name, f"positions along {axis} are {gaps.min():.3g} to {gaps.max():.3g}")
     return nodes.astype(np.intp)[column][inverse], step
 

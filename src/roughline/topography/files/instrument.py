@@ -21,7 +21,7 @@ from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import shortened
 from roughline.errors.words import called
 from roughline.topography.files.archives import refuse_points
-from roughline.topography.files.channels import Channel, channel_of, listed
+from roughline.topography.files.channels import Channel, find_channel, listed
 from roughline.topography.files.formats import FORMATS
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import READ_AS_TEXT, has_other_bytes
@@ -35,7 +35,7 @@ _READ_HERE = (
     "x3p",
 )  # formats of SurfaceTopography that have readers of our own
 _WITHOUT_MARK = ("hgt", *_READ_HERE)  # that start like any other file, or are read here
-_OF_TEXT = ("asc", "matrix", "xyz")  # its formats of text, which take any lines for remarks
+_TEXT_FORMATS = ("asc", "matrix", "xyz")  # its formats of text, which take any lines for remarks
 _WITHOUT_UNITS = ("h5", "mat", "npz")  # of any arrays, which have names and nothing else
 _NO_HEIGHTS = re.compile(
     r"thumbnail|preview|error|phase|amplitude|intensity|mask|quality|image|valid|flag|weight|"
@@ -63,11 +63,11 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
             _refuse_guessed_format(reader, path)
             first = reader._default_channel_index
             channels = _channels(reader, by_name=channel is None)
-            chosen = reader.channels[channel_of(channels, channel, name, first)]
+            chosen = reader.channels[find_channel(channels, channel, name, first)]
             advice = "crop it with the instrument's software"
             refuse_points(chosen.nb_grid_pts, path, name, _BYTES_PER_POINT, advice)
             _refuse_long_arrays(reader, chosen, name)
-            found = _measurement_of(reader, chosen, name)
+            found = _read_measurement(reader, chosen, name)
             return found if channel is not None else replace(found, doubts=_choice(reader, chosen))
     except (RoughlineError, MemoryError):
         raise
@@ -117,7 +117,7 @@ def _refuse_guessed_format(reader: Any, path: Path) -> None:
     extensions = [f".{each.lower()}" for each in reader.file_extensions() or ()]
     if reader.format() in _WITHOUT_MARK and path.suffix.lower() not in extensions:
         raise CannotDetectFileFormat("no format has a mark that is at the start of the file")
-    if reader.format() in _OF_TEXT and has_other_bytes(path):
+    if reader.format() in _TEXT_FORMATS and has_other_bytes(path):
         raise CannotDetectFileFormat("text has no such bytes")
 
 
@@ -177,11 +177,11 @@ def _direction(channel: Any) -> str:
     stated = channel.info.get("raw_metadata")
     if not isinstance(stated, Mapping):
         return ""
-    told = (str(stated.get(key, "")).lower() for key in ("line direction", "scan line"))
-    return ", ".join(filter(None, told))
+    directions = (str(stated.get(key, "")).lower() for key in ("line direction", "scan line"))
+    return ", ".join(filter(None, directions))
 
 
-def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
+def _read_measurement(reader: Any, channel: Any, file: str) -> Measurement:
     unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
     stated = channel.physical_sizes is not None
     unit_of_sides = channel.info.get("raw_metadata", {}).get("xunit") if stated else None

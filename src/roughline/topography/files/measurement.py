@@ -109,23 +109,23 @@ class Measurement:
         for obstacle in scale.obstacles():
             raise obstacle
         if self.positions is None:
-            kept, positions = points_in(crop, scale.sides, self.heights.shape, "m"), None
+            points, positions = points_in(crop, scale.sides, self.heights.shape, "m"), None
             lengths = [
                 side * (each.stop - each.start) / n
-                for side, each, n in zip(scale.sides, kept, self.heights.shape, strict=True)
+                for side, each, n in zip(scale.sides, points, self.heights.shape, strict=True)
             ]
         else:
-            kept = points_between(crop, scale.metres_aside * (self.positions - self.positions[0]))
-            positions = self.positions[kept]
+            points = points_between(crop, scale.metres_aside * (self.positions - self.positions[0]))
+            positions = self.positions[points]
             lengths = [scale.metres_aside * (positions[-1] - positions[0])]
-        is_whole = self.heights[kept].size == self.heights.size
+        is_whole = self.heights[points].size == self.heights.size
         return replace(
             self,
-            heights=self.heights[kept].copy(order="K"),  # so that the whole can go
+            heights=self.heights[points].copy(order="K"),  # so that the whole can go
             sizes=tuple(length / scale.metres_aside for length in lengths),
             positions=positions,
-            masked=None if self.masked is None else self.masked[kept],
-            **facts_of_piece(self, kept, self.heights.shape),
+            masked=None if self.masked is None else self.masked[points],
+            **facts_of_piece(self, points, self.heights.shape),
             is_cut_out=self.is_cut_out if is_whole else True,
             is_piece=True,
         )

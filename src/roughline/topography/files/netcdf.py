@@ -13,7 +13,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.computing.disk import write_dataset
 from roughline.errors import InputError, RoughlineError
-from roughline.topography.body import Body, Surface, sides_of, spacings_of
+from roughline.topography.body import Body, Surface, point_spacings, side_lengths
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.recorded import (
@@ -30,7 +30,7 @@ _FORMATS = ("roughline body 2", "roughline body 1")
 """Of what is written, and of what earlier versions wrote, which had settings as attributes."""
 
 _CLASSIC = b"CDF"  # the first bytes of a file of NetCDF 3; others are HDF5
-_LARGEST = 2**31 - 4  # array that SciPy writes to NetCDF 3 [bytes]
+_LARGEST_ARRAY = 2**31 - 4  # array that SciPy writes to NetCDF 3 [bytes]
 
 
 def write_netcdf(body: Body, path: Path) -> None:
@@ -51,13 +51,13 @@ def write_netcdf(body: Body, path: Path) -> None:
             {"length": side, "periodic": int(not body.is_cut_out), **unit},
         )
         for name, n, step, side in zip(
-            dimensions, body.heights.shape, spacings_of(body), sides_of(body), strict=True
+            dimensions, body.heights.shape, point_spacings(body), side_lengths(body), strict=True
         )
     }
     attrs: dict[str, Any] = {
         "format": _FORMATS[0],
         "kind": "surface" if isinstance(body, Surface) else body.kind,
-        "sizes": np.array(sides_of(body)),
+        "sizes": np.array(side_lengths(body)),
         "unit": body.unit or "",
         "removed_trend": body.removed_trend,
         "is_cut_out": int(body.is_cut_out),
@@ -66,7 +66,7 @@ def write_netcdf(body: Body, path: Path) -> None:
     }
     heights = (dimensions, body.heights, {**unit, "long_name": "height"})
     data = xarray.Dataset({"heights": heights}, coordinates, attrs)
-    write_dataset(data, path, "scipy" if body.heights.nbytes < _LARGEST else "h5netcdf")
+    write_dataset(data, path, "scipy" if body.heights.nbytes < _LARGEST_ARRAY else "h5netcdf")
 
 
 def _plain(value: Any) -> Any:
@@ -77,7 +77,7 @@ def _plain(value: Any) -> Any:
 def read_body_file(path: Path, name: str) -> Measurement | None:
     """Read a file that roughline wrote; None if it has another format."""
     with path.open("rb") as file:
-        opened = _of_netcdf_3 if file.read(len(_CLASSIC)) == _CLASSIC else _of_netcdf_4
+        opened = _read_netcdf_3 if file.read(len(_CLASSIC)) == _CLASSIC else _read_netcdf_4
     try:
         found = opened(path, name)
     except RoughlineError:
@@ -106,7 +106,7 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
     )
 
 
-def _of_netcdf_4(path: Path, name: str) -> tuple[dict[str, Any], Real] | None:
+def _read_netcdf_4(path: Path, name: str) -> tuple[dict[str, Any], Real] | None:
     """Attributes and heights of a file of NetCDF 4; None if roughline did not write it."""
     import h5netcdf  # here because it loads slowly; xarray loads even more slowly
 
@@ -116,7 +116,7 @@ def _of_netcdf_4(path: Path, name: str) -> tuple[dict[str, Any], Real] | None:
         return dict(file.attrs), _heights_in(file.variables, path, name, lambda found: found[:])
 
 
-def _of_netcdf_3(path: Path, name: str) -> tuple[dict[str, Any], Real] | None:
+def _read_netcdf_3(path: Path, name: str) -> tuple[dict[str, Any], Real] | None:
     """Attributes and heights of a file of NetCDF 3; None if roughline did not write it."""
     from scipy.io import netcdf_file  # here because it loads slowly
 

@@ -15,9 +15,9 @@ from roughline.topography.settings import MEASURED
 
 _HEAD = 3468  # bytes before the heights
 _MARK = b"OM_MS_"  # with the version, at byte 32; not all files have it
-_OF_HEIGHTS = "<4i2d"  # type of numbers, kind of map; counts and heights [um] of the ends
+_HEIGHTS_HEAD = "<4i2d"  # type of numbers, kind of map; counts and heights [um] of the ends
 _AT_POINTS = 1368
-_OF_POINTS = "<2i2d"  # points and their distances [nm] along x and y
+_POINTS_HEAD = "<2i2d"  # points and their distances [nm] along x and y
 _AT_INTENSITY = 1416  # whether the intensity of each point follows the heights
 _SHORT, _AREA = 2, 1
 _FULL = 2**16 - 2  # counts from the lower to the upper end, where a file does not state them
@@ -36,8 +36,8 @@ def read_nms(path: Path, channel: int | str | None, name: str) -> Measurement | 
         return None
     if len(head) < _HEAD:
         raise InputError(f"{name} ends within the head of NMS: it was cut short; export it again")
-    type_, kind, first, last, low, high = struct.unpack_from(_OF_HEIGHTS, head)
-    nx, ny, dx, dy = struct.unpack_from(_OF_POINTS, head, _AT_POINTS)
+    type_, kind, first, last, low, high = struct.unpack_from(_HEIGHTS_HEAD, head)
+    nx, ny, dx, dy = struct.unpack_from(_POINTS_HEAD, head, _AT_POINTS)
     is_sound = 0 < nx < 10**5 and 0 < ny < 10**5 and 0 < dx < np.inf and 0 < dy < np.inf
     if not is_sound or not np.isfinite(high - low):
         raise InputError(

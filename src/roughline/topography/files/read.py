@@ -13,7 +13,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.topography.body import Body, Surface, sides_of, spacings_of
+from roughline.topography.body import Body, Surface, point_spacings, side_lengths
 from roughline.topography.crop import Crop
 from roughline.topography.files.archives import (
     refuse_empty_datasets,
@@ -36,7 +36,7 @@ from roughline.topography.files.tiff import read_tiff
 from roughline.topography.files.tmd import read_tmd
 from roughline.topography.files.x3p import read_x3p
 from roughline.topography.missing import Filling, Missing
-from roughline.topography.scan_lines import told_of_lines
+from roughline.topography.scan_lines import line_jump_warning
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
 from roughline.units import engineering
@@ -263,7 +263,7 @@ def suspicions(body: Body) -> list[str]:
         dx, dy = body.spacing
         if max(dx, dy) > 2 * min(dx, dy):
             doubts.append(f"pixels are {_by((dx, dy))}: check the sizes")
-    if jumps := told_of_lines(body):
+    if jumps := line_jump_warning(body):
         doubts.append(jumps)
     return doubts
 
@@ -271,7 +271,7 @@ def suspicions(body: Body) -> list[str]:
 def _doubts_of_sides(body: Body) -> list[str]:
     """What suggests a wrong unit of the sides, of which a rough surface shows nothing itself."""
     doubts = []
-    sides, spacings = sides_of(body), spacings_of(body)
+    sides, spacings = side_lengths(body), point_spacings(body)
     if max(sides) > _SIDES[1] or min(sides) < _SIDES[0]:
         doubts.append(
             f"the sides are {_by(sides)}; instruments measure 10 nm to 1 m: check the unit of the "

@@ -36,12 +36,12 @@ _FIELD = re.compile(r"\s*(\w+)\s*=\s*(.*?)\s*")
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _MISSING = re.compile(r"\bbad\b", re.IGNORECASE)
 _CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")  # in no text
-_OF_OLYMPUS = struct.pack("<2I", 5, 1)  # which its software writes between head and heights
+_OLYMPUS_MARK = struct.pack("<2I", 5, 1)  # which its software writes between head and heights
 
 _TYPES = ("u1", "<u2", "<u4", "<f4", "i1", "<i2", "<i4", "<f8")  # by their code
 _NAMES = ("uchar", "uinteger", "ulongint", "float", "char", "integer", "longint", "double")
 _NONE = ("0", "null", "none")  # of compression and check sum
-_LARGEST = {4: 3.4e38, 8: 1.7e308}  # floats that are heights are below it, by their bytes
+_LARGEST_HEIGHT = {4: 3.4e38, 8: 1.7e308}  # floats that are heights are below it, by their bytes
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ def _is_missing(raw: Real, head: _Head) -> Mask:
     Writers of BCR use both. Unsigned types are BCR's; in them 0 is a height.
     """
     if head.type.kind == "f":
-        return ~(np.abs(raw) < _LARGEST[head.type.itemsize])  # NaN too
+        return ~(np.abs(raw) < _LARGEST_HEIGHT[head.type.itemsize])  # NaN too
     ends = np.iinfo(head.type)
     missing: Mask = raw == ends.max if head.is_bcr or ends.min == 0 else np.zeros(raw.shape, bool)
     return missing | (raw == ends.min) if ends.min else missing
@@ -127,11 +127,11 @@ def _read_binary(path: Path, name: str) -> tuple[_Head, Real]:
     fields = {"compression": str(compression), "datatype": str(code), "checktype": str(check)}
     fields |= dict(zip(("xscale", "yscale", "zscale"), map(repr, scales), strict=False))
     fields |= {"numpoints": str(points), "numprofiles": str(profiles)}
-    head = _head_of(fields, name, is_bcr=version.startswith(b"BCR"))
+    head = _read_head(fields, name, is_bcr=version.startswith(b"BCR"))
     refuse_points(head.shape, path, name, _BYTES_PER_POINT)
     needed, size = head.count * head.type.itemsize, path.stat().st_size - layout.size
     place = layout.size
-    if version == b"ISO-1.0" and size == needed + 8 and data[place : place + 8] == _OF_OLYMPUS:
+    if version == b"ISO-1.0" and size == needed + 8 and data[place : place + 8] == _OLYMPUS_MARK:
         place, size = place + 8, size - 8
     if size < needed:
         raise _other_count(name, f"{max(size, 0) // head.type.itemsize}", head)
@@ -159,7 +159,7 @@ def _read_text(path: Path, name: str) -> tuple[_Head, Real]:
         if key in fields:
             raise InputError(f"{name} states {field[1] if field else key} twice: delete one")
         fields[key] = field[2] if field else ""
-    head = _head_of(fields, name, is_bcr="BC" in first)
+    head = _read_head(fields, name, is_bcr="BC" in first)
     refuse_points(head.shape, path, name, _BYTES_PER_POINT)
     body = text[ends[0].end() : ends[1].start() if len(ends) > 1 else len(text)].strip("\x1a")
     if len(ends) == 1 and not body[-1:].isspace():
@@ -184,7 +184,7 @@ def _numbers(body: str, head: _Head, name: str) -> Real:
         ) from None
 
 
-def _head_of(fields: dict[str, str], name: str, *, is_bcr: bool) -> _Head:
+def _read_head(fields: dict[str, str], name: str, *, is_bcr: bool) -> _Head:
     """What fields state, their names in small letters."""
     for key, what in (("compression", "compression"), ("checktype", "check sum")):
         kind = fields.get(key, "0").lower()

@@ -29,7 +29,7 @@ _CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x1f]")
 _MARKS = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 _COMMENT = re.compile(r"\s*(?:#(?!N/A|NV|VALUE)|%|//|!)", re.IGNORECASE)
 
-_OF_PROGRAMS = re.compile(r"X;Y;valid")  # SurfaceTopography reads them whole
+_FOREIGN_HEAD = re.compile(r"X;Y;valid")  # SurfaceTopography reads them whole
 _OPENS, _CLOSES = "{", "}"  # a list of points, in what Alicona's programs write
 _BETWEEN = (r"[\s;,]+", r"[\s;]+")  # cells, where a comma separates, and where it is a decimal sign
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
@@ -66,10 +66,10 @@ class Table:
 _Cells = list[tuple[int, list[str]]]  # the cells of each row, with the number of its line
 
 
-def table_of(path: Path, name: str) -> Table | None:
+def read_table(path: Path, name: str) -> Table | None:
     """Read the rows of numbers in a text; None if there are none, or a program's own format."""
-    text = _text_of(path, name)
-    if text is None or _OF_PROGRAMS.match(text):
+    text = _read_text(path, name)
+    if text is None or _FOREIGN_HEAD.match(text):
         return None
     lines = _unquoted(text.split("\n"))
     start = _first_row(lines)
@@ -100,7 +100,7 @@ def table_of(path: Path, name: str) -> Table | None:
     return Table(head, rows, separator, decimal)
 
 
-def _text_of(path: Path, name: str) -> str | None:
+def _read_text(path: Path, name: str) -> str | None:
     """The text of a file, its lines ending alike; None if it holds other bytes."""
     with path.open("rb") as file:
         sample = file.read(_SAMPLE)
@@ -227,10 +227,10 @@ def _comma_between(body: str, has_point: bool, unclear: str) -> str | None:
     """Whether commas are separators, or decimal commas between white space (None)."""
     if has_point:
         return ","
-    apart_by_spaces = re.search(r"[^\s,][ ]+[^\s,]", body)
-    if apart_by_spaces and re.search(r",\s|\s,", body.strip()):
+    has_spaces = re.search(r"[^\s,][ ]+[^\s,]", body)
+    if has_spaces and re.search(r",\s|\s,", body.strip()):
         raise InputError(f"{unclear}some of its commas stand beside spaces, and some do not")
-    if apart_by_spaces:
+    if has_spaces:
         return None
     if all(line.count(",") == 1 for line in body.split("\n")):
         raise InputError(
@@ -374,8 +374,8 @@ def _without_stand_ins(rows: Real, name: str) -> Real:
         others = places[~stands & ~np.isnan(places)]
         if not others.size or others.min() <= value <= others.max():
             continue
-        beyond = max(others.min() - value, value - others.max())
-        if beyond > np.ptp(others):
+        distance = max(others.min() - value, value - others.max())
+        if distance > np.ptp(others):
             places[stands] = np.nan
         elif np.count_nonzero(stands) > 1:
             raise InputError(

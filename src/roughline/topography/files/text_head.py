@@ -38,8 +38,8 @@ _STATED = {
     field: re.compile(rf"[#%!/\s]*(?:{labels})(\s*[:=：;,\t]\s*|\s+)(.*)", re.IGNORECASE)
     for field, labels in _LABELS.items()
 }
-_OF_KOALA = re.compile(r"\s*h\s*=\s*(\d+)[\s;,]+w\s*=\s*(\d+)\W*")
-_OF_SPIP = re.compile(r"#\s*File Format\W+ASCII\W*", re.IGNORECASE)  # its sides are in nm
+_KOALA = re.compile(r"\s*h\s*=\s*(\d+)[\s;,]+w\s*=\s*(\d+)\W*")
+_SPIP = re.compile(r"#\s*File Format\W+ASCII\W*", re.IGNORECASE)  # its sides are in nm
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _QUANTITY = re.compile(rf"({_NUMBER})[\s;,]*([^\d\s;,+-]\S*)?", re.ASCII)
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
@@ -82,18 +82,18 @@ def ratio(unit: str, other: str) -> float:
     return float(f"{metres_per(unit) / metres_per(other):.15g}")
 
 
-def head_of(table: Table, name: str) -> Head:
+def read_head(table: Table, name: str) -> Head:
     """Read what the lines above a matrix state; what agrees with no unit or table is refused."""
     lines = [line.replace('"', "") for line in table.head]
     if table.separator != ",":
         lines = [_DECIMAL_COMMA.sub(".", line) for line in lines]
     if sum(any(line.startswith(key) for line in lines) for key in _KEYS_OF_WYKO) > 1:
-        return _head_of_wyko(lines, table, name)
+        return _read_wyko(lines, table, name)
     stated = _Stated(lines, name)
     _refuse_other_points(stated, lines, table, name)
-    unit, factor = _heights_of(stated)
-    sides = _sides_of(stated, table)
-    spip = "nm" if any(map(_OF_SPIP.fullmatch, lines)) else None
+    unit, factor = _read_heights(stated)
+    sides = _read_sides(stated, table)
+    spip = "nm" if any(map(_SPIP.fullmatch, lines)) else None
     own = [each for _, each in sides if each]
     of_x = stated.unit("unit of x") or stated.unit("unit") or spip or unit
     of_y = stated.unit("unit of y") or of_x
@@ -182,7 +182,7 @@ def _value_in(line: str) -> tuple[str, str]:
     return "", ""
 
 
-def _heights_of(stated: _Stated) -> tuple[str | None, float]:
+def _read_heights(stated: _Stated) -> tuple[str | None, float]:
     """The unit of heights, and the factor from the numbers of the table to it."""
     unit = stated.unit("unit of z") or stated.unit("unit")
     given, factor = stated.text("unit of data"), stated.number("m")
@@ -197,7 +197,7 @@ def _heights_of(stated: _Stated) -> tuple[str | None, float]:
     return unit, (stated.number("scale") or 1.0) if is_scaled else 1.0
 
 
-def _sides_of(stated: _Stated, table: Table) -> list[tuple[float, str | None]]:
+def _read_sides(stated: _Stated, table: Table) -> list[tuple[float, str | None]]:
     """Both sides, each with its own unit if it has one; none if they are not stated."""
     rows, columns = table.rows.shape
     sides = [stated.quantity("width"), stated.quantity("height")]
@@ -223,17 +223,17 @@ def _refuse_other_points(stated: _Stated, lines: list[str], table: Table, name: 
     rows, columns = table.rows.shape
     counts = [stated.number("columns"), stated.number("rows")]
     for line in lines:
-        if koala := _OF_KOALA.fullmatch(line):
+        if koala := _KOALA.fullmatch(line):
             counts = [float(koala[2]), float(koala[1])]
     if any(count not in (None, n) for count, n in zip(counts, (columns, rows), strict=True)):
-        said = " x ".join("?" if count is None else f"{count:g}" for count in counts)
+        listed = " x ".join("?" if count is None else f"{count:g}" for count in counts)
         raise InputError(
-            f"{name} states {said} columns and rows and has {columns} x {rows}: it was cut short "
+            f"{name} states {listed} columns and rows and has {columns} x {rows}: it was cut short "
             "or changed; export it again"
         )
 
 
-def _head_of_wyko(lines: list[str], table: Table, name: str) -> Head:
+def _read_wyko(lines: list[str], table: Table, name: str) -> Head:
     """What the blocks of a Wyko text state; its heights are in nm, or in wavelengths over Mult."""
     flags = _WYKO.fullmatch(lines[0])
     if not flags:

@@ -17,15 +17,15 @@ from roughline.errors.checks import shortened
 from roughline.errors.words import called
 from roughline.topography.files.archives import refuse_hollow, refuse_points
 from roughline.topography.files.cf_variables import is_length
-from roughline.topography.files.channels import Channel, channel_of, listed
+from roughline.topography.files.channels import Channel, find_channel, listed
 from roughline.topography.files.instrument import silence
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.settings import MEASURED
 from roughline.units import metres_per
 
 _MARKS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
-_OF_JPK = 0x8000  # the first tag of its own
-_OF_LEXT = "TiffTagDescData"
+_JPK_TAG = 0x8000  # the first tag of its own
+_LEXT_MARK = "TiffTagDescData"
 _PROGRAMS = {
     **{34118: "Zeiss SEM", 34680: "FEI SEM", 34682: "FEI SEM", 50431: "Tescan SEM"},
     **{50433: "Park Systems", 50434: "Park Systems", 50435: "Park Systems"},
@@ -55,7 +55,7 @@ def read_tiff(path: Path, channel: int | str | None, name: str) -> Measurement |
             refuse_hollow(path, name)
             if _is_of_a_microscope(file):
                 return None
-            return _measurement_of(file, path, channel, name)
+            return _read_measurement(file, path, channel, name)
     except (RoughlineError, MemoryError):
         raise
     except Exception as error:  # of a damaged file the reader raises errors of any type
@@ -68,10 +68,10 @@ def read_tiff(path: Path, channel: int | str | None, name: str) -> Measurement |
 
 def _is_of_a_microscope(file: Any) -> bool:
     """Whether the file is one of JPK or LEXT."""
-    return any(_OF_JPK in page.tags or _OF_LEXT in page.description for page in file.pages)
+    return any(_JPK_TAG in page.tags or _LEXT_MARK in page.description for page in file.pages)
 
 
-def _measurement_of(file: Any, path: Path, channel: int | str | None, name: str) -> Measurement:
+def _read_measurement(file: Any, path: Path, channel: int | str | None, name: str) -> Measurement:
     pages = list(file.pages)
     _refuse_programs(pages, name)
     channels = [Channel("image", _why_none(page)) for page in pages]
@@ -80,7 +80,7 @@ def _measurement_of(file: Any, path: Path, channel: int | str | None, name: str)
     if len(pages) < int(stated.get("images", "1")):
         raise InputError(f"{name} is a stack of {stated['images']} images: save one of them")
     refuse_points(page.shape, path, name)
-    rows, unit = _heights_of(page, stated, name)
+    rows, unit = _read_heights(page, stated, name)
     backwards_x, backwards_y, is_exchanged = _PATTERNS[int(page.tags.valueof(274, 1))]
     heights = rows if is_exchanged else rows.T
     for axis, is_backwards in enumerate((backwards_x, backwards_y)):
@@ -123,7 +123,7 @@ def _why_none(page: Any) -> str:
 def _chosen(channels: list[Channel], channel: int | str | None, name: str) -> int:
     """The number of the image that is asked for, or of the only one with heights."""
     if channel is not None:
-        return channel_of(channels, channel, name)
+        return find_channel(channels, channel, name)
     found = [i for i, each in enumerate(channels) if not each.why_none]
     if not found:
         reason = channels[0].why_none if channels else "no image"
@@ -147,7 +147,7 @@ def _imagej(description: str) -> dict[str, str]:
     return {key.strip(): value.strip() for key, _, value in pairs}
 
 
-def _heights_of(page: Any, stated: dict[str, str], name: str) -> tuple[Real, str | None]:
+def _read_heights(page: Any, stated: dict[str, str], name: str) -> tuple[Real, str | None]:
     """Rows of heights, and their unit if it is known."""
     raw = page.asarray()
     rows = raw.astype(np.float64)

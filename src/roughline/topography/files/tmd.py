@@ -14,7 +14,7 @@ from roughline.topography.settings import MEASURED
 
 _MARK = b"Binary TrueMap Data File v2.0"
 _COMMENT = 32  # where it begins; it ends with a zero byte, after as many as its program likes
-_LONGEST = 2**16  # of a comment
+_LONGEST_COMMENT = 2**16  # of a comment
 _HEAD = "<2I4f"  # points, sides and the place of the map, along x and y
 _BYTES_PER_POINT = 24
 _BY_SURFALIZE = b"Exported by surfalize"
@@ -27,7 +27,7 @@ _IN_UM = (
 def read_tmd(path: Path, channel: int | str | None, name: str) -> Measurement | None:
     """Read heights from TMD; None if the file has another format."""
     with path.open("rb") as file:
-        start = file.read(_COMMENT + _LONGEST)
+        start = file.read(_COMMENT + _LONGEST_COMMENT)
         if not start.startswith(_MARK):
             return None
         place = start.find(b"\0", _COMMENT) + 1

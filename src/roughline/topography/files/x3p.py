@@ -20,7 +20,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.topography.files.archives import refuse_hollow, refuse_points
-from roughline.topography.files.heights_in_text import line_of, map_of
+from roughline.topography.files.heights_in_text import gridded_map, sorted_line
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.settings import MEASURED
 
@@ -139,7 +139,7 @@ class _File:
         if len(moving) != 1 or not np.isfinite(moving[0]).all():
             self._refuse("its line scan runs along no axis, or has points without a position")
         filled = np.ma.filled(heights, np.nan)
-        filled, positions, length = line_of(moving[0], filled, self.name)
+        filled, positions, length = sorted_line(moving[0], filled, self.name)
         return Measurement(
             heights=filled, sizes=(length,), positions=positions, kind="profile", **of_both
         )
@@ -159,7 +159,7 @@ class _File:
         )
         z = np.ma.filled(heights, np.nan).ravel()
         placed = np.isfinite(x) & np.isfinite(y)
-        found, sides = map_of(x[placed], y[placed], z[placed], self.name)
+        found, sides = gridded_map(x[placed], y[placed], z[placed], self.name)
         return Measurement(heights=found, sizes=sides, kind="surface", **of_both)
 
     def _refuse(self, why: str) -> NoReturn:
