@@ -25,7 +25,7 @@ from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
 from roughline.exact import adhesion, flow, indenters, lines, mdr, punch, westergaard
-from roughline.texture.parameters import OF_PROFILES, OF_SURFACES
+from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS
 from roughline.topography.files.formats import FORMATS
 from roughline.units import decimal
 
@@ -314,7 +314,7 @@ def page_of_texture() -> str:
         "What `rl.iso` returns; [how they are defined](../how-to/iso.md) where programs differ.\n",
     ]
     header = ("name", "meaning", "unit", "clause", "tells of")
-    for heading, declared in (("Surfaces", OF_SURFACES), ("Profiles", OF_PROFILES)):
+    for heading, declared in (("Surfaces", SURFACE_PARAMETERS), ("Profiles", PROFILE_PARAMETERS)):
         standard = next(iter(declared.values())).standard
         rows = [
             (

@@ -14,7 +14,7 @@ from roughline.cli import app
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
-from roughline.texture.parameters import OF_PROFILES, OF_SURFACES
+from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS
 from roughline.topography.files.formats import FORMATS
 
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
@@ -84,7 +84,7 @@ def test_every_quantity_is_listed_with_its_meaning():
 
 def test_every_parameter_of_texture_is_listed_with_its_meaning():
     page = made.page_of_texture()
-    for each in (*OF_SURFACES.values(), *OF_PROFILES.values()):
+    for each in (*SURFACE_PARAMETERS.values(), *PROFILE_PARAMETERS.values()):
         assert f"| `{each.name}` | {each.meaning}" in page
 
 

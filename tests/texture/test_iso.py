@@ -9,7 +9,7 @@ import pytest
 
 import roughline as rl
 from known_surfaces import cosine, gaussian_field, grid, scattered, surface
-from roughline.texture.parameters import OF_PROFILES, OF_SURFACES
+from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS
 
 
 @pytest.fixture(scope="module")
@@ -18,8 +18,8 @@ def found():
 
 
 def test_every_declared_parameter_is_there_under_its_names(found):
-    assert list(found.values) == list(OF_SURFACES)
-    for each in OF_SURFACES.values():
+    assert list(found.values) == list(SURFACE_PARAMETERS)
+    for each in SURFACE_PARAMETERS.values():
         value = found.values[each.name]
         assert getattr(found, each.name) == pytest.approx(value, nan_ok=True)
         assert math.isnan(value) == (each.name in found.undefined)
@@ -43,7 +43,7 @@ def test_prompt_and_notebook_show_all_of_them(found):
     assert repr(found).startswith("<IsoParameters: Sq ")
     assert "array" not in repr(found)
     html, text = found._repr_html_(), str(found)
-    for name in OF_SURFACES:
+    for name in SURFACE_PARAMETERS:
         assert f"<td>{name}</td>" in html
         assert f"\n{name} " in text
     assert "no Std: Str is" in html
@@ -62,7 +62,7 @@ def test_values_do_not_depend_on_the_unit(steps):
     in_um = rl.iso(rl.Surface(heights, (64.0, 64.0), "um", is_cut_out=True))
     in_m = rl.iso(rl.Surface(1e-6 * heights, (64e-6, 64e-6), "m", is_cut_out=True))
     powers = {"length": 1, "1/length": -1, "1/length²": -2}
-    for each in OF_SURFACES.values():
+    for each in SURFACE_PARAMETERS.values():
         scale = 1e-6 ** powers.get(each.dimension, 0)
         expected = scale * in_um.values[each.name]
         assert in_m.values[each.name] == pytest.approx(expected, rel=1e-6, nan_ok=True), each.name
@@ -138,7 +138,7 @@ def test_the_material_ratio_is_a_share_of_points():
 def test_a_profile_has_the_parameters_of_profiles():
     line = rl.Line(np.random.default_rng(1).normal(size=200), 2.0, "mm", kind="profile")
     found = rl.iso(line)
-    assert list(found.values) == list(OF_PROFILES)
+    assert list(found.values) == list(PROFILE_PARAMETERS)
     assert next(found.parameters).standard == "ISO 21920-2:2021"
     assert found.Mr1 == found.Rmrk1
 
@@ -151,7 +151,7 @@ def test_info_prints_them_only_where_asked(rough, invoke):
     assert code == 0
     assert "Parameters of ISO 25178-2:2021" in out
     assert "L: Gaussian (ISO 16610-61), 500 µm" in out
-    for name in OF_SURFACES:
+    for name in SURFACE_PARAMETERS:
         assert f"\n{name} " in out
 
 
@@ -161,7 +161,7 @@ def test_json_has_values_units_and_causes(rough, invoke):
     _, out, _ = invoke("info", rough, "--iso", "--json")
     told = json.loads(out)["iso"]
     assert told["filters"]["F"] == "none"
-    assert list(told["parameters"]) == list(OF_SURFACES)
+    assert list(told["parameters"]) == list(SURFACE_PARAMETERS)
     assert told["parameters"]["Sq"]["unit"] == "m"
     for each in told["parameters"].values():
         assert (each["value"] is None) == (each["undefined"] is not None)

@@ -18,12 +18,12 @@ from roughline.texture.found import Found
 from roughline.texture.heights import height_parameters
 from roughline.texture.material_ratio import (
     Layers,
-    layers_of,
+    compute_layers,
+    compute_volumes,
     material_ratio_curve,
-    step_of,
-    volumes_of,
+    mean_step,
 )
-from roughline.texture.parameters import OF_PROFILES, OF_SURFACES, Parameter
+from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS, Parameter
 from roughline.texture.peaks import peak_parameters
 from roughline.texture.profile import Sections, mean_spacing, section_parameters
 from roughline.texture.slopes import gradient_and_length, slope_parameters
@@ -98,10 +98,10 @@ class IsoParameters:
     def __repr__(self) -> str:
         """Tell the leading heights, and how many parameters there are."""
         first = "Sq Sz" if isinstance(self.body, Surface) else "Rq Rz"
-        shown = ", ".join(
+        leading = ", ".join(
             f"{name} {in_words(self.values[name], self.body.unit)}" for name in first.split()
         )
-        return f"<IsoParameters: {shown} and {len(self.values) - 2} more>"
+        return f"<IsoParameters: {leading} and {len(self.values) - 2} more>"
 
     def __getattr__(self, name: str) -> float:
         """Return a parameter by its name, or by the one of an earlier edition."""
@@ -120,7 +120,9 @@ class IsoParameters:
     @property
     def parameters(self) -> Iterator[Parameter]:
         """What each parameter is: name, unit, meaning and clause of the standard."""
-        yield from (OF_SURFACES if isinstance(self.body, Surface) else OF_PROFILES).values()
+        yield from (
+            SURFACE_PARAMETERS if isinstance(self.body, Surface) else PROFILE_PARAMETERS
+        ).values()
 
     def material_ratio(self, height: float) -> float:
         """Return the share of points that are higher than so far above the mean: Smr(c), Rmr(c).
@@ -221,34 +223,34 @@ def iso(
     refuse_unknown_trend(trend)
     _refuse_other_cutoffs(body, s_filter, l_filter)
     evaluated = _filtered(body, trend, s_filter, l_filter)
-    filters = MappingProxyType(_told(body, trend, s_filter, l_filter))
-    remarks = [*_of_tilt(evaluated)]
+    filters = MappingProxyType(_filters_in_words(body, trend, s_filter, l_filter))
+    remarks = [*_tilt_notes(evaluated)]
     if isinstance(evaluated, Surface):
-        found = _of_surface(evaluated)
-        remarks += _of_short_map(evaluated, found)
+        found = _surface_parameters(evaluated)
+        remarks += _short_map_notes(evaluated, found)
     else:
         sections = Sections.of(evaluated.heights.size, evaluated.spacing, l_filter)
-        remarks += _of_sections(evaluated, sections, l_filter)
-        evaluated = piece(evaluated, (sections.kept,))
-        found = _of_profile(evaluated, sections)
-    remarks += _of_steps(evaluated)
+        remarks += _section_notes(evaluated, sections, l_filter)
+        evaluated = piece(evaluated, (sections.points,))
+        found = _profile_parameters(evaluated, sections)
+    remarks += _step_notes(evaluated)
     return IsoParameters(evaluated, filters, *_values_and_causes(found), tuple(remarks))
 
 
 def _values_and_causes(found: Found) -> tuple[Mapping[str, float], Mapping[str, str]]:
     """Return values, NaN where there is none, in the order of the table, and why there is none."""
-    names = [name for name in (*OF_SURFACES, *OF_PROFILES) if name in found]
+    names = [name for name in (*SURFACE_PARAMETERS, *PROFILE_PARAMETERS) if name in found]
     causes = {name: text for name in names if isinstance(text := found[name], str)}
     values = {name: math.nan if isinstance(value := found[name], str) else value for name in names}
     return MappingProxyType(values), MappingProxyType(causes)
 
 
-def _of_surface(surface: Surface) -> Found:
+def _surface_parameters(surface: Surface) -> Found:
     """Find all parameters of a surface."""
     is_periodic = not surface.is_cut_out
     heights = surface.heights - surface.heights.mean()
     curve = material_ratio_curve(heights)
-    layers, volumes = layers_of(curve), volumes_of(curve)
+    layers, volumes = compute_layers(curve), compute_volumes(curve)
     return {
         **height_parameters(heights, "S"),
         **wave_parameters(heights, surface.spacing, is_periodic=is_periodic),
@@ -262,25 +264,25 @@ def _of_surface(surface: Surface) -> Found:
     }
 
 
-def _of_profile(line: Line, sections: Sections) -> Found:
+def _profile_parameters(line: Line, sections: Sections) -> Found:
     """Find all parameters of a profile over its evaluation length."""
     heights = line.heights - line.heights.mean()
-    whole = height_parameters(heights, "R")
+    over_all = height_parameters(heights, "R")
     parted = section_parameters(heights, sections.count)
     gradient, length = gradient_and_length(heights, line.spacing, is_periodic=not line.is_cut_out)
     spacing: float | str = "all heights are equal"
-    if whole["Rz"] and isinstance(parted["Rp"], str):
+    if over_all["Rz"] and isinstance(parted["Rp"], str):
         spacing = parted["Rp"]
-    elif whole["Rz"]:
+    elif over_all["Rz"]:
         spacing = mean_spacing(heights, line.spacing, float(parted["Rp"]), float(parted["Rv"]))
     return {
-        **whole,
-        "Rt": whole["Rz"],
+        **over_all,
+        "Rt": over_all["Rz"],
         **parted,
         "RSm": spacing,
         "Rdq": gradient,
         "Rdr": length,
-        **_named(layers_of(material_ratio_curve(heights)), "R", "Rmrk"),
+        **_named(compute_layers(material_ratio_curve(heights)), "R", "Rmrk"),
     }
 
 
@@ -326,7 +328,7 @@ def _filtered(body: Body, trend: Trend, s_filter: float | None, l_filter: float 
     return body if heights is body.heights else replace(body, heights=heights)
 
 
-def _told(
+def _filters_in_words(
     body: Body, trend: Trend, s_filter: float | None, l_filter: float | None
 ) -> dict[str, str]:
     """Say which filters there were, before and now."""
@@ -352,7 +354,7 @@ def _told(
     }
 
 
-def _of_tilt(body: Body) -> Iterator[str]:
+def _tilt_notes(body: Body) -> Iterator[str]:
     """Tell a tilt that is left in a piece."""
     rough = body.rms_height
     if not body.is_cut_out or rough == 0:
@@ -366,7 +368,7 @@ def _of_tilt(body: Body) -> Iterator[str]:
         )
 
 
-def _of_short_map(surface: Surface, found: Found) -> Iterator[str]:
+def _short_map_notes(surface: Surface, found: Found) -> Iterator[str]:
     """Tell a map that is too short for its autocorrelation length."""
     length = found["Sal"]
     if isinstance(length, str) or not surface.is_cut_out:
@@ -379,7 +381,7 @@ def _of_short_map(surface: Surface, found: Found) -> Iterator[str]:
         )
 
 
-def _of_sections(line: Line, sections: Sections, cutoff: float | None) -> Iterator[str]:
+def _section_notes(line: Line, sections: Sections, cutoff: float | None) -> Iterator[str]:
     """Tell how a profile is parted, and that it is no roughness profile without an L-filter."""
     if cutoff is None:
         yield (
@@ -387,7 +389,7 @@ def _of_sections(line: Line, sections: Sections, cutoff: float | None) -> Iterat
             f"writes with P, over {sections.in_words(line.unit)}"
         )
         return
-    evaluated = sections.kept.stop - sections.kept.start
+    evaluated = sections.points.stop - sections.points.start
     text = f"evaluated over {sections.in_words(line.unit)}"
     if evaluated < line.heights.size:
         text += (
@@ -397,9 +399,9 @@ def _of_sections(line: Line, sections: Sections, cutoff: float | None) -> Iterat
     yield text
 
 
-def _of_steps(body: Body) -> Iterator[str]:
+def _step_notes(body: Body) -> Iterator[str]:
     """Tell heights in steps, which decide where the material ratio curve is cut."""
-    rough, step = body.rms_height, step_of(material_ratio_curve(body.heights))
+    rough, step = body.rms_height, mean_step(material_ratio_curve(body.heights))
     if step > _COARSE_STEP * rough > 0:
         is_map = isinstance(body, Surface)
         letter = "S" if is_map else "R"

@@ -14,7 +14,9 @@ from roughline.computing.arrays import Real
 from roughline.texture.parameters import PEAKS, PITS
 
 _CORE = 0.4  # share of the points through which the line of the core is laid
-_ROUNDING = 1e-10  # of the maximum height, within which heights and falls of the curve are alike
+_HEIGHT_ROUNDING = (
+    1e-10  # of the maximum height, within which heights and falls of the curve are alike
+)
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ def material_ratio_curve(heights: Real) -> Real:
     return np.sort(heights, axis=None)[::-1]
 
 
-def layers_of(curve: Real) -> Layers:
+def compute_layers(curve: Real) -> Layers:
     """Return the parameters of stratified surfaces.
 
     The line of the core is the least-squares line through the 40 % of the curve whose secant is
@@ -52,14 +54,14 @@ def layers_of(curve: Real) -> Layers:
     """
     n = curve.size
     span = min(max(1, round(_CORE * n)), n - 1)
-    rounding = _ROUNDING * (curve[0] - curve[-1])
+    rounding = _HEIGHT_ROUNDING * (curve[0] - curve[-1])
     falls = curve[: n - span] - curve[span:]
     start = int(np.argmax(falls <= falls.min() + rounding))  # of steps, many are alike
     heights = curve[start : start + span + 1]
     ratio = (np.arange(start, start + span + 1) + 0.5) / n
-    apart = ratio - ratio.mean()
+    deviation = ratio - ratio.mean()
     middle = heights.mean()
-    slope = float(apart @ (heights - middle) / (apart @ apart))
+    slope = float(deviation @ (heights - middle) / (deviation @ deviation))
     top, bottom = middle - slope * ratio.mean(), middle + slope * (1 - ratio.mean())
     hills, dales = curve[curve > top + rounding] - top, bottom - curve[curve < bottom - rounding]
     first, second = hills.size / n, 1 - dales.size / n
@@ -74,7 +76,7 @@ def layers_of(curve: Real) -> Layers:
     )
 
 
-def volumes_of(curve: Real) -> Volumes:
+def compute_volumes(curve: Real) -> Volumes:
     """Return the volumes of material above and of void below the curve, between 10 % and 80 %."""
     n = curve.size
     mean = float(curve.mean())
@@ -99,7 +101,7 @@ def volumes_of(curve: Real) -> Volumes:
     )
 
 
-def step_of(curve: Real) -> float:
+def mean_step(curve: Real) -> float:
     """Mean step between the heights that occur, where most points share theirs; else 0. [length]"""
     levels = int(np.count_nonzero(np.diff(curve))) + 1
     return float(curve[0] - curve[-1]) / (levels - 1) if 1 < levels < curve.size / 2 else 0.0

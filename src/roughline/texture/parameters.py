@@ -47,7 +47,7 @@ class Parameter:
         return _UNITS[self.dimension].format(length_unit or "length")
 
 
-def _of(standard: str, group: str, *rows: tuple[str, ...]) -> list[Parameter]:
+def _declare(standard: str, group: str, *rows: tuple[str, ...]) -> list[Parameter]:
     """Declare the parameters of a group: name, dimension, clause, meaning, perhaps former name."""
     return [
         Parameter(name, dimension, meaning, standard, clause, group, *former)
@@ -55,8 +55,8 @@ def _of(standard: str, group: str, *rows: tuple[str, ...]) -> list[Parameter]:
     ]
 
 
-_OF_SURFACES = (
-    *_of(
+_SURFACE_PARAMETERS = (
+    *_declare(
         AREAL,
         "heights",
         ("Sq", "length", "4.2.2", "root mean square height"),
@@ -67,20 +67,20 @@ _OF_SURFACES = (
         ("Sz", "length", "4.2.7", "maximum height, Sp + Sv"),
         ("Sa", "length", "4.2.8", "arithmetic mean height"),
     ),
-    *_of(
+    *_declare(
         AREAL,
         "waves",
         ("Sal", "length", "4.3.2", f"least lag at which the autocorrelation is {DECAYED}"),
         ("Str", "1", "4.3.3", "least over largest such lag of all directions"),
         ("Std", "°", "4.3.4", "direction of the strongest waves, across the lay"),
     ),
-    *_of(
+    *_declare(
         AREAL,
         "slopes",
         ("Sdq", "1", "4.4.2", "root mean square gradient, from forward differences"),
         ("Sdr", "%", "4.4.3", "developed interfacial area over the nominal one, less 1"),
     ),
-    *_of(
+    *_declare(
         AREAL,
         "material ratio",
         ("Sk", "length", "4.5.4", "core height"),
@@ -93,7 +93,7 @@ _OF_SURFACES = (
         ("Vvc", "length", "4.5", f"void volume of the core, {PEAKS:.0%} to {PITS:.0%}"),
         ("Vvv", "length", "4.5", f"void volume of the pits, below {PITS:.0%}"),
     ),
-    *_of(
+    *_declare(
         AREAL,
         "peaks",
         ("Spd", "1/length²", "5.8.2", f"density of peaks higher than {LEAST_HILL:.0%} of Sz"),
@@ -101,8 +101,8 @@ _OF_SURFACES = (
     ),
 )
 
-_OF_PROFILES = (
-    *_of(
+_PROFILE_PARAMETERS = (
+    *_declare(
         PROFILE,
         "heights",
         ("Ra", "length", "4.2.2", "arithmetic mean height"),
@@ -114,14 +114,14 @@ _OF_PROFILES = (
         ("Rv", "length", "5.1", "mean over the sections of their largest pit depth"),
         ("Rz", "length", "5.1", "mean over the sections of their height, Rp + Rv"),
     ),
-    *_of(
+    *_declare(
         PROFILE,
         "slopes and spacings",
         ("RSm", "length", "5", "mean spacing of profile elements, a hill with a dale"),
         ("Rdq", "1", "4.4.2", "root mean square gradient, from forward differences"),
         ("Rdr", "%", "4.4.6", "developed length over the evaluation length, less 1"),
     ),
-    *_of(
+    *_declare(
         PROFILE,
         "material ratio",
         ("Rk", "length", "4.5.3", "core height"),
@@ -132,8 +132,8 @@ _OF_PROFILES = (
     ),
 )
 
-OF_SURFACES: Mapping[str, Parameter] = {each.name: each for each in _OF_SURFACES}
+SURFACE_PARAMETERS: Mapping[str, Parameter] = {each.name: each for each in _SURFACE_PARAMETERS}
 """Parameters of a surface by name, in the order in which people read them."""
 
-OF_PROFILES: Mapping[str, Parameter] = {each.name: each for each in _OF_PROFILES}
+PROFILE_PARAMETERS: Mapping[str, Parameter] = {each.name: each for each in _PROFILE_PARAMETERS}
 """Parameters of a profile by name, in the order in which people read them."""

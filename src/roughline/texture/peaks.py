@@ -11,7 +11,7 @@ from roughline.texture.parameters import LEAST_HILL
 _SEVEN = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0
 """Second derivative from seven points, exact for polynomials up to the seventh degree."""
 
-_ROUNDING = 1e-9  # of the height of the least hill; steps of heights may be as high
+_HILL_ROUNDING = 1e-9  # of the height of the least hill; steps of heights may be as high
 _NONE = "there is no peak: the tops of all hills meet the border or run around the surface"
 
 
@@ -28,7 +28,7 @@ def peak_parameters(heights: Real, sizes: tuple[float, float], *, is_periodic: b
         return {"Spd": 0.0, "Spc": "all heights are equal"}
     order = np.argsort(-heights, axis=None, kind="stable")
     grid = np.ascontiguousarray(heights)
-    least = LEAST_HILL * height * (1 - _ROUNDING)
+    least = LEAST_HILL * height * (1 - _HILL_ROUNDING)
     peaks = peaks_of_hills(grid, order, is_periodic, least)
     density = peaks.size / (sizes[0] * sizes[1])
     if not peaks.size:

@@ -14,7 +14,7 @@ from roughline.units import in_words
 SECTIONS = 5
 """Sections of the evaluation length that ISO 21920-3 takes by default."""
 
-_LEAST = 8  # points of a section, below which its peak and pit tell of where the points lie
+_FEWEST_POINTS = 8  # points of a section, below which its peak and pit tell of where the points lie
 _ELEMENT = 0.1  # of Rp and of Rv, beyond which a hill and a dale count
 
 
@@ -22,7 +22,7 @@ _ELEMENT = 0.1  # of Rp and of Rv, beyond which a hill and a dale count
 class Sections:
     """The points of a profile that are evaluated, and how they are parted."""
 
-    kept: slice
+    points: slice
     count: int
     length: float  # of a section [length]
 
@@ -36,9 +36,9 @@ class Sections:
         if cutoff is None:
             return cls(slice(0, points), count, points * spacing / count)
         count = min(count, max(1, math.floor(points * spacing / cutoff * (1 + 1e-9))))
-        kept = min(points, max(count, round(count * cutoff / spacing)))
-        first = (points - kept) // 2
-        return cls(slice(first, first + kept), count, kept * spacing / count)
+        points_in_all = min(points, max(count, round(count * cutoff / spacing)))
+        first = (points - points_in_all) // 2
+        return cls(slice(first, first + points_in_all), count, points_in_all * spacing / count)
 
     def in_words(self, unit: str | None) -> str:
         """Say how many sections of which length there are."""
@@ -49,8 +49,8 @@ class Sections:
 def section_parameters(heights: Real, count: int) -> Found:
     """Return Rp, Rv and Rz, means over sections, of mean-free heights."""
     sections = np.array_split(heights, count)
-    if heights.size < _LEAST * count:
-        cause = f"a section has less than {_LEAST} points"
+    if heights.size < _FEWEST_POINTS * count:
+        cause = f"a section has less than {_FEWEST_POINTS} points"
         return {"Rp": cause, "Rv": cause, "Rz": cause}
     peaks = float(np.mean([each.max() for each in sections]))
     pits = float(np.mean([0.0 - each.min() for each in sections]))
@@ -65,9 +65,9 @@ def mean_spacing(heights: Real, spacing: float, peaks: float, pits: float) -> fl
     """
     hill, dale = max(0.0, _ELEMENT * peaks), max(0.0, _ELEMENT * pits)  # sections differ by a point
     sides = np.where(heights > hill, 1, np.where(heights < -dale, -1, 0))
-    told = np.flatnonzero(sides)
-    turns = np.flatnonzero(np.diff(sides[told]))
-    crossings = [_crossing(heights, told[turn], told[turn + 1]) for turn in turns]
+    counted = np.flatnonzero(sides)
+    turns = np.flatnonzero(np.diff(sides[counted]))
+    crossings = [_crossing(heights, counted[turn], counted[turn + 1]) for turn in turns]
     widths = [crossings[i + 2] - crossings[i] for i in range(len(crossings) - 2)]
     if not widths:
         return "there are fewer than two hills or dales, so no profile element is whole"

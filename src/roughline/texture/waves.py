@@ -18,7 +18,7 @@ from roughline.texture.found import Found
 from roughline.texture.parameters import DECAYED
 from roughline.units import decimal
 
-_LEAST = 8  # points along a side that can show a wave
+_FEWEST_POINTS = 8  # points along a side that can show a wave
 _TURN = 0.5  # between directions [degree]
 _BISECTIONS = 24
 _SMOOTHED = 6.0  # standard deviation over which the angular spectrum is smoothed [degree]
@@ -47,8 +47,8 @@ def wave_parameters(heights: Real, spacings: tuple[float, float], *, is_periodic
     if float(np.ptp(heights)) == 0:
         cause = "all heights are equal"
         return {"Sal": cause, "Str": cause, "Std": cause}
-    if min(heights.shape) < _LEAST:
-        cause = f"a side has less than {_LEAST} points, which show no wave"
+    if min(heights.shape) < _FEWEST_POINTS:
+        cause = f"a side has less than {_FEWEST_POINTS} points, which show no wave"
         return {"Sal": cause, "Str": cause, "Std": cause}
     heights = heights / np.abs(heights).max()  # whose squares are numbers
     decay = _decay(heights, spacings, is_periodic=is_periodic)
