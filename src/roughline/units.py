@@ -33,12 +33,12 @@ _PREFIXES = dict(zip(range(-18, 19, 3), (*"afpnµm", "", *"kMGTPE"), strict=True
 _POWERS = {prefix: power for power, prefix in _PREFIXES.items()}
 _PREFIXED = re.compile(r"(?P<prefix>[afpnuµμmkMGTPE]?)(?P<unit>m|N|Pa|Hz)")
 _SIGNS = {"ohm": "Ω", "ohm m²": "Ω m²"}
-_BARE = ("mbar l/s",)  # units that people write without a prefix
+_WITHOUT_PREFIX = ("mbar l/s",)  # units that people write without a prefix
 _DIMENSIONS = {"m²": 2, "m³/s": 3}  # of lengths that get a prefix
 MOST_DIGITS = 4
 """Significant digits of values that are shown."""
 
-_ROUNDING = 1e-9  # of a value: an end that is no further away is the value itself
+_VALUE_ROUNDING = 1e-9  # of a value: an end that is no further away is the value itself
 _OTHER_LENGTHS = ("in", "inch", "mil", "Å", "angstrom")
 _EXACT = 15  # decimal digits that double precision always keeps
 
@@ -76,7 +76,7 @@ def in_si(text: str, unit: str, name: str) -> float:
     The SI unit is one of those with an example in this module. Without a unit, with one of another
     dimension, or with a decimal comma, it raises a UnitError about the name.
     """
-    example = example_of(unit, name)
+    example = example_for(unit, name)
     refuse_decimal_comma(text, name)
     parts = _NUMBER_AND_UNIT.fullmatch(text)
     if parts and not parts["unit"]:
@@ -107,7 +107,7 @@ def as_si(given: float | str, unit: str, name: str) -> float:
     """Return a number in an SI unit, or read a text with a unit of its own."""
     if isinstance(given, str):
         return in_si(given, unit, name)
-    example = example_of(unit, name)
+    example = example_for(unit, name)
     return number(name, given, f'a number in {unit}, or a text such as "{example}", is needed')
 
 
@@ -127,7 +127,7 @@ def refuse_decimal_comma(text: str, name: str) -> None:
         )
 
 
-def example_of(unit: str, name: str) -> str:
+def example_for(unit: str, name: str) -> str:
     """Return a quantity in an SI unit as it may be typed."""
     return _EXAMPLES.get(name, _EXAMPLES[unit])
 
@@ -175,7 +175,7 @@ def prefix(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, s
     next.
     """
     sign = _SIGNS.get(unit, unit)
-    if value == 0 or not math.isfinite(value) or unit in _BARE:
+    if value == 0 or not math.isfinite(value) or unit in _WITHOUT_PREFIX:
         return 1.0, sign
     if unit.startswith("kg"):  # which has a prefix of its own
         factor, prefixed = prefix(1e3 * value, unit.removeprefix("k"), digits)
@@ -197,7 +197,7 @@ def supported_digits(
     better, or whose interval is not known, has the most.
     """
     sides = [abs(value - end) for end in ends or () if math.isfinite(end)]
-    sides = [side for side in sides if side > _ROUNDING * abs(value)]
+    sides = [side for side in sides if side > _VALUE_ROUNDING * abs(value)]
     if not sides or not value or not math.isfinite(value):
         return most
     last = math.floor(math.log10(min(sides) / 3))

@@ -14,7 +14,7 @@ from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated
 from roughline.engineering.sealing import Fluid
 from roughline.errors import InputError
-from roughline.errors.checks import number, one_of, refuse
+from roughline.errors.checks import allowed_choice, number, refuse
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.halfspace.laws.dugdale import Dugdale
@@ -175,7 +175,7 @@ class Theories:
 
     def __init__(self, *names: str) -> None:
         for name in names:
-            one_of("theories", name, known_theories())
+            allowed_choice("theories", name, known_theories())
         object.__setattr__(self, "names", names)
 
 

@@ -10,7 +10,7 @@ from attrs import frozen
 
 from roughline.assessment.kinds import nominal_area
 from roughline.errors import InputError
-from roughline.errors.checks import number, refuse, whole
+from roughline.errors.checks import number, refuse, whole_number
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.topography.body import Body, side_lengths
@@ -48,7 +48,7 @@ class Loading:
         if sum(each is not None for each in given) > 1:
             raise InputError(f"give one of {loads}, {depths} and {called('n_loads')}")
         if self.count is not None:
-            whole("n_loads", self.count, 2, "a whole number of at least 2 is needed")
+            whole_number("n_loads", self.count, 2, "a whole number of at least 2 is needed")
         if self.unload and (not self.loads or self.history):
             raise InputError(
                 f"{called('unload', True)} takes off the largest of the loads ({loads}); in a "

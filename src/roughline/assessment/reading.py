@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from roughline.errors.checks import one_of
+from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public
 from roughline.topography.files.measurement import MaskUse, Sizes
 from roughline.topography.missing import Filling, Missing
@@ -52,8 +52,8 @@ class Reading:
 
     def __post_init__(self) -> None:
         _ = self.instrument  # refuses what cannot be
-        one_of("mask", self.mask, get_args(MaskUse))
-        one_of("tilt", self.tilt, ("unknown", MOUNTING))
+        allowed_choice("mask", self.mask, get_args(MaskUse))
+        allowed_choice("tilt", self.tilt, ("unknown", MOUNTING))
         Missing(self.missing, self.most_missing)  # so does this
         if self.unit is not None:
             metres_per(self.unit)

@@ -13,7 +13,7 @@ from roughline.computing.summary import summary
 from roughline.contact.distribution import Distribution, distribution_of
 from roughline.contact.patches import Patches, patches_of
 from roughline.errors import InputError
-from roughline.errors.checks import one_of
+from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.half_space import Periodic, repeated_axes
 
@@ -110,7 +110,7 @@ class Fields:
         >>> print(gap.at_zero == curve.area_fraction[0])
         True
         """
-        one_of("of", of, ("gap", "pressure"))
+        allowed_choice("of", of, ("gap", "pressure"))
         touching = int(np.count_nonzero(self.contact))
         if of == "gap":
             return distribution_of(self.gap[~self.contact], touching)

@@ -12,7 +12,7 @@ from roughline.computing.arrays import Real
 from roughline.contact.fields import Fields
 from roughline.contact.quantities import DIMENSIONS, QUANTITIES, Quantity
 from roughline.errors import InputError
-from roughline.errors.checks import as_number, one_of, refuse
+from roughline.errors.checks import allowed_choice, as_number, refuse
 from roughline.errors.public import public
 
 
@@ -71,7 +71,7 @@ class Measure:
         if self.name in QUANTITIES:
             raise InputError(f'"{self.name}" is that of another quantity: give another', "name")
         for part in str(self.dimension).split("/"):
-            one_of("dimension", part, DIMENSIONS)
+            allowed_choice("dimension", part, DIMENSIONS)
         if not callable(self.value):
             refuse("value", self.value, "a function of the fields of a load is needed")
 

@@ -33,7 +33,7 @@ from roughline.contact.revolution import press_profile
 from roughline.contact.status import Status
 from roughline.contact.strain import warn_of_strain
 from roughline.errors import ConvergenceError, InputError, Interrupted
-from roughline.errors.checks import between, flag, one_of, refuse, shown
+from roughline.errors.checks import allowed_choice, between, flag, refuse, shown
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -224,7 +224,7 @@ def press(
     grid_error = flag("grid_error", grid_error)
     measures = checked_measures(measures)
     throw = flag("throw", throw)
-    one_of("precision", precision, ("mixed", "float64", "float32"))
+    allowed_choice("precision", precision, ("mixed", "float64", "float32"))
     if progress is not None and not callable(progress):
         refuse("progress", progress, "a function of (loads done, loads in all) is needed")
     given = GivenLoads(depths, forces, n_loads)

@@ -17,7 +17,7 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.sealing import Fluid
 from roughline.engineering.symbols import Symbol
 from roughline.errors import InputError
-from roughline.errors.checks import one_of, refuse, several, shown
+from roughline.errors.checks import allowed_choice, refuse, several, shown
 from roughline.errors.public import are_numbers, public
 from roughline.errors.remark import Remark
 
@@ -322,7 +322,7 @@ class Rules:
         InputError
             If there is none of that key.
         """
-        return self._by_key[one_of("key", key, self._by_key)]
+        return self._by_key[allowed_choice("key", key, self._by_key)]
 
     def add(self, rule: Rule) -> None:
         """Add a rule: its answer then stands in every assessment, table, file and report.
@@ -334,7 +334,7 @@ class Rules:
         """
         if not isinstance(rule, Rule):
             refuse("rule", rule, "give a Rule, as rl.Rule(key=..., ...)")
-        one_of("group", rule.group, _GROUPS)
+        allowed_choice("group", rule.group, _GROUPS)
         for other in self:
             if rule.key == other.key or rule.symbol == other.symbol:
                 same = "key" if rule.key == other.key else "symbol"

@@ -15,7 +15,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.engineering.fluids import Gas, Liquid, fluid_of
 from roughline.engineering.leak import gas_throughput, liquid_leak
 from roughline.errors import InputError
-from roughline.errors.checks import flag, one_of, refuse
+from roughline.errors.checks import allowed_choice, flag, refuse
 from roughline.errors.public import public
 from roughline.errors.words import called, speaking
 from roughline.fluid.gap import Along
@@ -123,7 +123,7 @@ def _seal(given: str | SealShape | None) -> SealShape | None:
 
 def _direction(given: Literal["x", "y", "both"]) -> Literal["x", "y", "both"]:
     directions: tuple[Literal["x", "y", "both"], ...] = ("both", "x", "y")
-    return one_of("along", given, directions)
+    return allowed_choice("along", given, directions)
 
 
 def _carries(given: bool | None) -> bool | None:

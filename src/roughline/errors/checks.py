@@ -9,7 +9,7 @@ from typing import Any, NoReturn, TypeVar
 
 from roughline.errors import InputError
 
-_LONGEST = 80  # characters of a value that a message shows
+_LONGEST_VALUE = 80  # characters of a value that a message shows
 _MOST_BITS = 10_000  # of a whole number that Python writes out
 _Choice = TypeVar("_Choice")
 
@@ -29,16 +29,16 @@ def shown(given: Any) -> str:
     if given is None or isinstance(given, bool | complex):
         return repr(given)
     if isinstance(given, Integral):
-        whole_number = int(given)
-        is_short = whole_number.bit_length() < _MOST_BITS
-        return shortened(str(whole_number)) if is_short else "a number of thousands of digits"
+        integer = int(given)
+        is_short = integer.bit_length() < _MOST_BITS
+        return shortened(str(integer)) if is_short else "a number of thousands of digits"
     if isinstance(given, Real) and (value := as_number(given)) is not None:
         return repr(value)
     shape = getattr(given, "shape", None)
     if isinstance(shape, tuple) and shape and type(given).__module__ == "numpy":
         return f"an array of shape {shape}"
     if isinstance(given, list | tuple | set | dict):
-        return shortened(_of_several(given))
+        return shortened(_members_in_words(given))
     if isinstance(given, type):
         return f"the class {given.__name__}"
     name = type(given).__name__
@@ -48,8 +48,8 @@ def shown(given: Any) -> str:
 def shortened(text: str) -> str:
     """A text on one line, its middle left out where it is long."""
     line = " ".join(text.split())
-    half = _LONGEST // 2
-    return line if len(line) <= _LONGEST else f"{line[:half]} ... {line[-half:]}"
+    half = _LONGEST_VALUE // 2
+    return line if len(line) <= _LONGEST_VALUE else f"{line[:half]} ... {line[-half:]}"
 
 
 def number(argument: str, given: Any, needed: str = "a number is needed") -> float:
@@ -78,7 +78,7 @@ def between(argument: str, given: Any, low: float, high: float, needed: str) -> 
     return value
 
 
-def whole(argument: str, given: Any, least: int, needed: str) -> int:
+def whole_number(argument: str, given: Any, least: int, needed: str) -> int:
     """Return a whole number of at least so much."""
     if not is_whole(given) or given < least:
         refuse(argument, given, needed)
@@ -95,7 +95,7 @@ def flag(argument: str, given: Any) -> bool:
 
 def refuse_other_seeds(rng: Any) -> None:
     """Refuse a seed that is no whole number."""
-    whole("rng", rng, 0, "a seed, a whole number from 0 on, is needed")
+    whole_number("rng", rng, 0, "a seed, a whole number from 0 on, is needed")
 
 
 def rising_pair(argument: str, given: Any, needed: str) -> tuple[float, float]:
@@ -106,7 +106,7 @@ def rising_pair(argument: str, given: Any, needed: str) -> tuple[float, float]:
     return both[0], both[1]
 
 
-def one_of(argument: str, given: Any, allowed: Iterable[_Choice]) -> _Choice:
+def allowed_choice(argument: str, given: Any, allowed: Iterable[_Choice]) -> _Choice:
     """Return the one of the allowed texts that is given."""
     choices = list(allowed)
     for each in choices:
@@ -147,7 +147,7 @@ def as_plain(given: Any) -> Any:
     return math.nan if getattr(given, "mask", False) else given.item()
 
 
-def _of_several(given: Any) -> str:
+def _members_in_words(given: Any) -> str:
     """Several values in their brackets."""
     if isinstance(given, dict):
         return f"a dict with {', '.join(map(str, given)) or 'nothing in it'}"

@@ -176,15 +176,17 @@ def _refuse_other_kinds(name: str, value: Any, parameter: inspect.Parameter) -> 
         return
     kinds = parameter.annotation.split(" | ")
     if all(kind in _KINDS or kind in _CLASSES for kind in kinds) and not any(
-        _is_of(value, kind) for kind in kinds
+        _is_kind(value, kind) for kind in kinds
     ):
         words = [
             _KINDS[kind][1] if kind in _KINDS else _CLASSES[kind]
             for kind in kinds
             if kind != "None"
         ]
-        bare = " without a unit" if "float" in kinds and isinstance(value, str) else ""
-        refuse(name, value, f"{' or '.join(words)}{bare} is needed{_how_to_make(value, kinds)}")
+        without_unit = " without a unit" if "float" in kinds and isinstance(value, str) else ""
+        refuse(
+            name, value, f"{' or '.join(words)}{without_unit} is needed{_how_to_make(value, kinds)}"
+        )
 
 
 def _how_to_make(value: Any, kinds: list[str]) -> str:
@@ -206,7 +208,7 @@ def _how_to_make(value: Any, kinds: list[str]) -> str:
     return ""
 
 
-def _is_of(value: Any, kind: str) -> bool:
+def _is_kind(value: Any, kind: str) -> bool:
     """Whether a value is of a kind; classes are known by their names, so that none is imported."""
     if kind in _KINDS:
         return _KINDS[kind][0](value)

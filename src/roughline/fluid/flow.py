@@ -12,7 +12,7 @@ from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.errors import InputError
-from roughline.errors.checks import one_of
+from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public_names
 from roughline.fluid.gap import REPEATS, Along, Gap, Sides
 
@@ -388,7 +388,7 @@ def flow(
     >>> print(round(rl.flow(curve.fields[0]).hydraulic_aperture, 5))
     0.00162
     """
-    one_of("along", along, (*get_args(Along), "both"))
+    allowed_choice("along", along, (*get_args(Along), "both"))
     checked = Gap.of(gap, sizes, sides, mean_free_path)
     if along == "both":
         return _flow_along_both(checked)

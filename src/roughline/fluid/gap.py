@@ -12,7 +12,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.errors import InputError
-from roughline.errors.checks import between, one_of, refuse
+from roughline.errors.checks import allowed_choice, between, refuse
 from roughline.fluid.rarefied import conductance
 from roughline.topography.body import Line, Surface
 from roughline.topography.heights import checked_sides
@@ -47,7 +47,7 @@ class Gap:
         """Check distances, or the fields of a load, which know their sides."""
         repeats = given.repeats if isinstance(given, Fields) else (True, True)
         known = next(name for name, each in REPEATS.items() if each == repeats)
-        checked: Sides = known if sides is None else one_of("sides", sides, get_args(Sides))
+        checked: Sides = known if sides is None else allowed_choice("sides", sides, get_args(Sides))
         sizes = sizes or (given.sizes if isinstance(given, Fields) else None)
         distances = _checked(given)
         if sizes is None:

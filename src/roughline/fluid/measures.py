@@ -12,7 +12,7 @@ import numpy as np
 
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
-from roughline.errors.checks import one_of
+from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public
 from roughline.fluid.flow import Flow, flow
 from roughline.fluid.gap import Along, Gap, checked_free_path
@@ -143,7 +143,7 @@ def hydraulic_aperture(along: Along = "x", mean_free_path: float = 0.0) -> Measu
     >>> print(curve.measured["hydraulic_aperture_x"].values.round(5))
     [0.00555 0.00162 0.     ]
     """
-    one_of("along", along, ("x", "y"))
+    allowed_choice("along", along, ("x", "y"))
     return _hydraulic_aperture(along, checked_free_path(mean_free_path))
 
 

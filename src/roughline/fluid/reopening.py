@@ -17,7 +17,7 @@ from roughline.contact.arguments import checked_count
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.press import press
 from roughline.errors import InputError
-from roughline.errors.checks import between, flag, one_of
+from roughline.errors.checks import allowed_choice, between, flag
 from roughline.errors.public import public_names
 from roughline.fluid.gap import Along
 from roughline.fluid.measures import hydraulic_aperture
@@ -132,7 +132,7 @@ def reopening(
     """
     load = checked_count("load", load)
     times = between("times", times, *_TIMES)
-    one_of("along", along, ("both", "x", "y"))
+    allowed_choice("along", along, ("both", "x", "y"))
     rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
     interval = flag("interval", interval)
     left, law = curve.surface_after(load), curve.law

@@ -19,7 +19,7 @@ from roughline.contact.grid_error import steepening_of
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.errors import InputError
-from roughline.errors.checks import between, flag, one_of
+from roughline.errors.checks import allowed_choice, between, flag
 from roughline.errors.public import public_names
 from roughline.fluid.gap import Along
 from roughline.fluid.one_map import (
@@ -143,7 +143,7 @@ def sealing_pressure(
     >>> print(f"{found.low:.3g} to {found.high:.3g}: area {found.area_fractions[1]:.2f}")
     0.0658 to 0.0662: area 0.40
     """
-    one_of("along", along, ("both", "x", "y"))
+    allowed_choice("along", along, ("both", "x", "y"))
     rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
     interval = flag("interval", interval)
     if not isinstance(surface, Surface):

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.quantities import QUANTITIES
-from roughline.errors.checks import one_of
+from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public
 from roughline.plot.bodies import drawn_at
 from roughline.plot.style import in_unit, label_decades, say
@@ -39,7 +39,7 @@ def distribution(
     of : {"gap", "pressure"}
         What is distributed.
     """
-    one_of("of", of, ("gap", "pressure"))
+    allowed_choice("of", of, ("gap", "pressure"))
     return drawn_at(curve, load, axes, partial(draw_distribution, of=of))
 
 

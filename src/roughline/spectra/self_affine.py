@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.errors import ContinuumWarning, InputError
-from roughline.errors.checks import between, positive, refuse, whole
+from roughline.errors.checks import between, positive, refuse, whole_number
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.spectra.band import Band
@@ -226,7 +226,7 @@ class SelfAffine:
 
     def moment(self, order: int) -> float:
         """<h²>, <(grad h)²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
-        whole("order", order, 0, "0, 2 or 4 is needed, or another whole number from 0 on")
+        whole_number("order", order, 0, "0, 2 or 4 is needed, or another whole number from 0 on")
         factor = self._over_bodies("surface") / _sum_over_integral(self._band, order, "surface")
         return self._continuum_for("moment", factor).moment(order)
 
@@ -330,9 +330,9 @@ def _sum_over_integral(band: Band, order: int, body: BodyName) -> float:
 
     The sum is taken over the longest waves; over shorter ones it equals the integral.
     """
-    whole = band.moment(order)
+    whole_number = band.moment(order)
     summed = LatticeSpectrum.of(band, 1.0, 2 * _SUMMED + 1, body)
     # half a wave further: each wavevector stands for the cell around it
     edge = min(band.q_high, (_SUMMED + 0.5) * band.q_low)
     rest = replace(band, q_roll=min(band.q_roll, edge), q_high=edge).moment(order)
-    return 1 + (summed.moment(order) - rest) / whole
+    return 1 + (summed.moment(order) - rest) / whole_number

@@ -15,7 +15,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
-from roughline.errors.checks import is_whole, one_of, refuse
+from roughline.errors.checks import allowed_choice, is_whole, refuse
 from roughline.spectra.band import Band
 from roughline.spectra.lattice import BodyName
 
@@ -32,7 +32,7 @@ _LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
 
 def refuse_points(n: int, body: BodyName) -> None:
     """Refuse what is neither "surface" nor "line", and a number of points that neither has."""
-    one_of("body", body, _LARGEST)
+    allowed_choice("body", body, _LARGEST)
     if not is_whole(n) or not 3 <= n <= _LARGEST[body]:
         refuse("n", n, f"a whole number of points from 3 to {_LARGEST[body]} is needed")
 
@@ -56,7 +56,7 @@ def realisation(
         refuse_beyond_memory(
             _BYTES_PER_POINT * n**2, f"a surface of {n} x {n} points", "take a smaller n"
         )
-    one_of("amplitudes", amplitudes, ("fixed", "gaussian"))
+    allowed_choice("amplitudes", amplitudes, ("fixed", "gaussian"))
     for_phases, for_amplitudes = _generators(rng)
     seed = _described(rng, for_phases)
     C_0 = magnitude if normalisation == "C_0" else 1.0

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
-from roughline.errors.checks import one_of, refuse, refuse_other_seeds
+from roughline.errors.checks import allowed_choice, refuse, refuse_other_seeds
 from roughline.errors.public import public
 from roughline.statistics import bootstrap
 
@@ -171,7 +171,7 @@ def refuse_other_settings(averaging: str, confidence: float, rng: int = 0) -> No
     InputError
         With what is allowed.
     """
-    one_of("averaging", averaging, get_args(Averaging))
+    allowed_choice("averaging", averaging, get_args(Averaging))
     if not 0 < confidence < 1:
         refuse("confidence", confidence, "a level between 0 and 1 is needed")
     refuse_other_seeds(rng)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.errors.checks import one_of, positive, refuse
+from roughline.errors.checks import allowed_choice, positive, refuse
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -98,7 +98,7 @@ def theory(
     >>> print(junction.hydraulic_aperture.round(4))
     [0.014  0.0003]
     """
-    one_of("name", name, THEORIES)
+    allowed_choice("name", name, THEORIES)
     refuse_no_roughness(roughness)
     elastic = _given(E_star, half_space)
     pressures = _pressures(pressure)

@@ -11,7 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
 from roughline.errors import InputError
-from roughline.errors.checks import flag, is_whole, one_of, refuse, rising_pair
+from roughline.errors.checks import allowed_choice, flag, is_whole, refuse, rising_pair
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.borders import compare_borders, whole_or_piece
@@ -285,7 +285,7 @@ class Line:
         heights = checked_heights(heights, dimensions=1)
         if heights.size < 2:
             raise InputError(f"the line has {heights.size} points; at least 2 are needed")
-        one_of("kind", kind, ("reduced", "profile"))
+        allowed_choice("kind", kind, ("reduced", "profile"))
         _set(self, heights=heights, length=checked_length(length), kind=kind)
         _set(self, settings=read_only(settings))
         _set_facts(self, unit, is_cut_out, removed_trend, provenance)
@@ -402,7 +402,7 @@ def _set_facts(
         _set(body, provenance=found["provenance"], settings=read_only(found["settings"]))
     else:
         _set(body, provenance=provenance, is_cut_out=flag("is_cut_out", is_cut_out))
-    one_of("removed_trend", removed_trend, get_args(Trend))
+    allowed_choice("removed_trend", removed_trend, get_args(Trend))
     _set(body, unit=checked_unit(unit), removed_trend=removed_trend)
 
 

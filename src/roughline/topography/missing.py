@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
-from roughline.errors.checks import number, one_of, refuse
+from roughline.errors.checks import allowed_choice, number, refuse
 from roughline.errors.words import called
 from roughline.topography.line_levels import Levelling, line_levels
 from roughline.topography.settings import Settings
@@ -54,7 +54,7 @@ class Missing:
     lines: Levelling | None = None
 
     def __post_init__(self) -> None:
-        one_of("missing", self.method, ("harmonic", "nearest"))
+        allowed_choice("missing", self.method, ("harmonic", "nearest"))
         share = "a share from 0 to below 1 is needed"
         if not 0 <= number("most_missing", self.most, share) < 1:
             refuse("most_missing", self.most, share)

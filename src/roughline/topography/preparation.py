@@ -12,7 +12,15 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
 from roughline.errors import InputError, PreparationWarning
-from roughline.errors.checks import as_number, flag, is_whole, one_of, positive, refuse, several
+from roughline.errors.checks import (
+    allowed_choice,
+    as_number,
+    flag,
+    is_whole,
+    positive,
+    refuse,
+    several,
+)
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.body import (
@@ -86,7 +94,7 @@ class Preparation:
         flag("remove_outliers", self.remove_outliers)
         flag("remove_scars", self.remove_scars)
         if self.lines is not None:
-            one_of("lines", self.lines, LEVELLINGS)
+            allowed_choice("lines", self.lines, LEVELLINGS)
         if self.trend is not None:
             refuse_unknown_trend(self.trend)
         if self.crop is not None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, Literal, Protocol, get_args
 
 from roughline.computing.arrays import Real
-from roughline.errors.checks import between, one_of, positive
+from roughline.errors.checks import allowed_choice, between, positive
 from roughline.topography.borders import Borders
 from roughline.topography.crop import ranges_in_words
 from roughline.topography.line_levels import Levelling
@@ -46,7 +46,7 @@ class Instrument:
 
     def __post_init__(self) -> None:
         if self.pixels is not None:
-            one_of("pixels", self.pixels, get_args(Pixels))
+            allowed_choice("pixels", self.pixels, get_args(Pixels))
         if self.blur is not None:
             between("blur", self.blur, 0.0, sys.float_info.max, "a length from 0 on is needed")
         if self.tip_radius is not None:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.errors.checks import one_of
+from roughline.errors.checks import allowed_choice
 
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
@@ -96,7 +96,7 @@ def slopes_of_plane(heights: Real, spacings: Sequence[float]) -> tuple[float, ..
 
 def refuse_unknown_trend(trend: str) -> None:
     """Refuse an unknown name of a trend."""
-    one_of("trend", trend, _DEGREES)
+    allowed_choice("trend", trend, _DEGREES)
 
 
 def polynomials(n: int, degree: int) -> Real:

@@ -13,7 +13,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
 from roughline.contact.comparison.trust import Difference
 from roughline.contact.press import press
-from roughline.errors.checks import refuse, refuse_other_seeds, whole
+from roughline.errors.checks import refuse, refuse_other_seeds, whole_number
 from roughline.errors.public import public
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.self_affine import SelfAffine
@@ -154,7 +154,7 @@ def compare(
         refuse("force_bars", force_bars, "positive, finite F / (E* h L) are needed")
     if isinstance(body, Surface):
         return _compare_surface(body, forces, rng, report)
-    whole("surfaces", surfaces, 2, "an interval needs at least 2")
+    whole_number("surfaces", surfaces, 2, "an interval needs at least 2")
     refuse_points(n, "surface")
     return _compare_spectrum(_on_grid(body, n), n, surfaces, forces, rng, report)
 

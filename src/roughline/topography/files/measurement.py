@@ -13,7 +13,7 @@ import numpy as np
 from roughline._version import __version__
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError, UnitError
-from roughline.errors.checks import one_of, shown
+from roughline.errors.checks import allowed_choice, shown
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.crop import Crop, points_between, points_in
@@ -81,7 +81,7 @@ class Measurement:
 
         Such a mask marks grains or spikes; its points were measured.
         """
-        one_of("mask", use, get_args(MaskUse))
+        allowed_choice("mask", use, get_args(MaskUse))
         if use == "use":
             return self
         if self.masked is None:
