@@ -461,7 +461,7 @@ def test_a_surface_that_yielded_leaks_less_on_the_way_back(surface, points):
 def test_what_flows_is_in_the_cost_that_is_told(monkeypatch, points):
     """Nothing is pressed: Ctrl-C comes as soon as the cost is told."""
     if points < 1024:
-        monkeypatch.setattr(cost, "_LARGE", 1)  # else it is not told of so few
+        monkeypatch.setattr(cost, "_ANNOUNCED_POINTS", 1)  # else it is not told of so few
     large = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(points, rng=1)
     told = []
 

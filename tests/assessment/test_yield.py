@@ -426,7 +426,7 @@ def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch, n):
 def test_the_cost_of_all_variants_is_told_before(surface, monkeypatch):
     from roughline.assessment import cost
 
-    monkeypatch.setattr(cost, "_LARGE", 1)
+    monkeypatch.setattr(cost, "_ANNOUNCED_POINTS", 1)
     told = []
 
     def stop(text):  # as Ctrl-C does, before anything is pressed

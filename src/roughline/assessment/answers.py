@@ -40,12 +40,12 @@ def work_out_answers(
         question = evolve(question, hardness=hardness)
     if question.pair is None:
         return {}, []
-    asked = case.loads.asked_loads(solution.curve)
-    curve = at_loads(solution.curve, asked)
-    intervals = taken(solution.intervals, asked)
+    loads = case.loads.asked_loads(solution.curve)
+    curve = at_loads(solution.curve, loads)
+    intervals = taken(solution.intervals, loads)
     interface = None
     if solution.larger is not None:
-        interface = taken(solution.larger.stiffness, asked)
+        interface = taken(solution.larger.stiffness, loads)
         # what one piece leaves open is narrower than what is unknown without the grid's error
         interface = interface.without_interval if intervals is None else interface
     elif not question.periodic:
@@ -55,7 +55,7 @@ def work_out_answers(
     pressed = _pressed(question, question.pair, body, curve, interface, intervals, case.moments)
     found = replace(
         pressed,
-        measured=taken(solution.measured, asked),
+        measured=taken(solution.measured, loads),
         is_repeated=case.is_repeated_for_interface or case.loads.periodic is True,
         place=solution.place,
         sought=solution.sought,

@@ -60,20 +60,20 @@ def assess_body(
     answers, left_out = work_out_answers(case, solution)
     theories, others = _theories(question, case.body, solution.curve)
     scatter, answers, intervals = widen_by_scatter(case, curves, solution, answers)
-    asked = case.loads.asked_loads(solution.curve)
+    loads = case.loads.asked_loads(solution.curve)
     result = Assessment(
         question,
         case.parts,
         case.body,
         _with_fluid_recorded(case, _with_joint_recorded(solution.curve, question.joint)),
-        asked,
+        loads,
         intervals=intervals,
         interrupted=bool(curves.stopped),
         answers=answers,
         left_out=[*left_out, *others],
         elastic=elastic_answers(case, curves),
         hardness_scatter=scatter,
-        larger=taken(solution.larger, asked),
+        larger=taken(solution.larger, loads),
         measured=solution.measured,
         on_filled=solution.on_filled,
         fields_of_gap=fields_of_gap(case, curves),

@@ -141,10 +141,10 @@ def assess_part(
     if not done.assessments:
         if done.left:
             raise KeyboardInterrupt
-        alike: dict[str, list[str]] = {}
+        names_by_reason: dict[str, list[str]] = {}
         for name, why in done.refused.items():
-            alike.setdefault(why, []).append(name)
-        reasons = "; ".join(_reason(", ".join(some), why) for why, some in alike.items())
+            names_by_reason.setdefault(why, []).append(name)
+        reasons = "; ".join(_reason(", ".join(some), why) for why, some in names_by_reason.items())
         raise InputError(f"none of the {len(todo)} maps can be pressed: {reasons}")
     return _combined(done)
 

@@ -219,13 +219,13 @@ class PressedBall:
     @property
     def largest_pressure(self) -> Real:
         """Pressure in the middle of the contact; NaN where nothing touches. [Pa]"""
-        asked = self.question
+        question = self.question
         return largest_pressure_under_ball(
             self.contact_radius,
-            asked.radius,
+            question.radius,
             self.curve.E_star,
-            asked.adhesion.work if asked.adhesion else 0.0,
-            is_sphere=asked.is_sphere,
+            question.adhesion.work if question.adhesion else 0.0,
+            is_sphere=question.is_sphere,
         )
 
     @property
@@ -252,16 +252,16 @@ class PressedBall:
     def notes(self) -> list[str]:
         """Where the law of adhesion holds, and whether it is known where yield begins."""
         texts = []
-        asked = self.question
-        if asked.adhesion is not None:
-            work, modulus = asked.adhesion.work, self.curve.E_star
-            reach = (asked.radius * work**2 / modulus**2) ** (1 / 3) / _SHORT_RANGE
+        question = self.question
+        if question.adhesion is not None:
+            work, modulus = question.adhesion.work, self.curve.E_star
+            reach = (question.radius * work**2 / modulus**2) ** (1 / 3) / _SHORT_RANGE
             texts.append(
                 "the pull has no range here (JKR): that holds for a range below about "
                 f"{engineering(reach, 'm', 2)}, from which on Tabor's parameter is "
                 f"above {_SHORT_RANGE:g}"
             )
-        if asked.softer_hardness is None:
+        if question.softer_hardness is None:
             texts.append(
                 "the hardness of the softer body is not known, so it is not known whether it "
                 f"yields; give it with {called('hardness', '2 GPa')}"

@@ -116,11 +116,13 @@ class Case:
     @property
     def measures_at_border(self) -> Sequence[Measure]:
         """What tells how the border of a map that was cut out moves what flows; none of others."""
-        asked = self.question.sealing
-        if asked is None or self.map is None or not is_map(self.body):
+        sealing = self.question.sealing
+        if sealing is None or self.map is None or not is_map(self.body):
             return ()
         return [
-            each for along in asked.directions for each in measures_at_border(asked.rarefied, along)
+            each
+            for along in sealing.directions
+            for each in measures_at_border(sealing.rarefied, along)
         ]
 
     @cached_property

@@ -277,13 +277,13 @@ class PressedCreep:
     @property
     def notes(self) -> list[str]:
         """Which bodies are taken to creep, and how the topography was prepared."""
-        asked, texts = self.question, []
-        if asked.elastic_share:
+        question, texts = self.question, []
+        if question.elastic_share:
             texts.append(
-                f"{asked.stiffer} is taken to creep as the other body does, which is of no "
-                f"account: its share of the compliance at once is {asked.elastic_share:.1g}"
+                f"{question.stiffer} is taken to creep as the other body does, which is of no "
+                f"account: its share of the compliance at once is {question.elastic_share:.1g}"
             )
-        elif asked.both_give_way:
+        elif question.both_give_way:
             texts.append("both bodies are taken to creep alike")
         return texts + what_was_prepared(self.body)
 

@@ -10,10 +10,10 @@ from roughline.assessment.case import COARSENED_FROM
 from roughline.assessment.kinds import is_map
 from roughline.assessment.notes import (
     MOST_NAMED,
-    borders_of_repeated,
-    how_far_a_line_serves,
+    line_scan_limits,
     listed_in_short,
     not_answered,
+    repeated_border_jump,
     texts_on_each,
 )
 from roughline.assessment.question import Question
@@ -52,8 +52,8 @@ def collect_warnings(
 ) -> list[Remark]:
     """What is suspicious, where assumptions break, and why there is no interval."""
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
-    borders, are_grave = borders_of_repeated(result.question, body)
-    of_line, is_grave = how_far_a_line_serves(result.question, body)
+    borders, are_grave = repeated_border_jump(result.question, body)
+    of_line, is_grave = line_scan_limits(result.question, body)
     # what a curve says of where it is repeated is said below, as a warning or as a note
     warned_below = {
         borders,
@@ -275,15 +275,15 @@ def _wide_interval_warnings(result: Assessment) -> list[str]:
 
 def _why_without_grid_error(question: Question, body: Surface, tried: bool) -> str:
     """Say that values come without an interval, and why; `tried` if Ctrl-C stopped the estimate."""
-    asked = called("grid_error", True)
+    option = called("grid_error", True)
     if tried:
         why = "interrupted before"
     elif question.grid_error is not None:
         why = "switched off"
     elif min(body.shape) < COARSENED_FROM:
         why = (
-            f"fewer than {COARSENED_FROM} points a side; with {asked} it is estimated nevertheless"
+            f"fewer than {COARSENED_FROM} points a side; with {option} it is estimated nevertheless"
         )
     else:
-        why = f"that takes about twice as long; with {asked} it is estimated"
+        why = f"that takes about twice as long; with {option} it is estimated"
     return f"grid error not estimated, so values come without intervals ({why})"

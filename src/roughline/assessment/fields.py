@@ -89,7 +89,7 @@ class Field:
         """Whether nothing, which is neither yes nor no, may be chosen."""
         return any(value is None for value, _ in self.choices.values())
 
-    def says(self, value: Any) -> bool:
+    def is_set(self, value: Any) -> bool:
         """Whether a value says something: None does not, nor does a switch that is off."""
         return value is not None and value != [] and (value is not False or self.can_be_left)
 
@@ -137,7 +137,7 @@ def _number(name: str) -> Callable[[str], float | str]:
     return read
 
 
-def _whole(text: str) -> int | str:
+def _whole_number(text: str) -> int | str:
     """Read a whole number; what is none is left to who refuses it."""
     return int(text) if text.isascii() and text.isdecimal() and len(text) < _MOST_DIGITS else text
 
@@ -534,7 +534,7 @@ FIELDS: tuple[Field, ...] = (
         "the finest waves.",
         otherwise="as it is",
         kind=int,
-        read=_whole,
+        read=_whole_number,
     ),
     _of_preparation(
         name="lines",
@@ -581,7 +581,9 @@ def asked_in(values: Mapping[str, Any]) -> Iterator[tuple[str, tuple[Any, ...], 
         if first.separator and isinstance(value, list | tuple):
             by_place = tuple(value)
         other_values = {each: values.get(each.name) for each in others}
-        by_name = {each.argument: value for each, value in other_values.items() if each.says(value)}
+        by_name = {
+            each.argument: value for each, value in other_values.items() if each.is_set(value)
+        }
         if by_place or by_name:
             yield of, by_place, by_name
 

@@ -109,16 +109,16 @@ class Loading:
 
         Forces may be less than those that were asked for, by what a fluid carries.
         """
-        asked = list(values)
-        if not asked:
+        loads = list(values)
+        if not loads:
             return [], ()
         has_curve = self.whole_curve and bool(self.loads)
         if self.history:
-            before = _with_curve(asked[:1])[:-1] if has_curve else []
-            return before + asked, tuple(range(len(before), len(before) + len(asked)))
-        typed = asked[: -len(UNLOADING)] if self.unload else asked
+            before = _with_curve(loads[:1])[:-1] if has_curve else []
+            return before + loads, tuple(range(len(before), len(before) + len(loads)))
+        typed = loads[: -len(UNLOADING)] if self.unload else loads
         rising = _with_curve(typed) if has_curve else sorted({*typed})
-        falling = asked[len(typed) :]
+        falling = loads[len(typed) :]
         places = [rising.index(load) for load in typed]
         return rising + falling, (*places, *range(len(rising), len(rising) + len(falling)))
 
@@ -147,10 +147,10 @@ class Loading:
         ]
 
 
-def _with_curve(asked: list[float]) -> list[float]:
+def _with_curve(loads: list[float]) -> list[float]:
     """Loads for a whole curve up to the largest, those asked for among them, rising."""
-    if max(asked) <= 0:  # a fluid lifts the body under all of them
-        return sorted({*asked})
-    curve = np.geomspace(_LIGHTEST * max(asked), max(asked), _CURVE_LOADS)
-    apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
-    return sorted({*asked, *apart})
+    if max(loads) <= 0:  # a fluid lifts the body under all of them
+        return sorted({*loads})
+    curve = np.geomspace(_LIGHTEST * max(loads), max(loads), _CURVE_LOADS)
+    others = [f for f in curve if not np.isclose(f, loads, rtol=0.02).any()]
+    return sorted({*loads, *others})

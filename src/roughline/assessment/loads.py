@@ -29,9 +29,7 @@ LoadProgress = Callable[[int, int], None]
 """Called with (loads done, loads in all)."""
 
 _FORCE_ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
-_LIGHT_PRESSURE = (
-    1e-6  # over the contact modulus, of a pressure under which any body can be pressed
-)
+_LIGHT_PRESSURE = 1e-6  # over the contact modulus; any body can be pressed under it
 
 
 @dataclass(frozen=True)

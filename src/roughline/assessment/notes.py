@@ -33,8 +33,8 @@ MOST_NAMED = 3
 def collect_notes(result: Assessment, filling_note: str) -> list[Remark]:
     """What is left out, what was filled, how the loads were meant, and what was cropped."""
     question, body, pair = result.question, result.body, result.question.pair
-    of_line, is_grave = how_far_a_line_serves(question, body)
-    borders, are_grave = borders_of_repeated(question, body)
+    of_line, is_grave = line_scan_limits(question, body)
+    borders, are_grave = repeated_border_jump(question, body)
     notes = [*_yield_notes(result), _without_pull_off(question)]
     if pair is not None:
         notes += [] if is_grave else [of_line]
@@ -50,7 +50,7 @@ def collect_notes(result: Assessment, filling_note: str) -> list[Remark]:
     bodies = [each.body for each in result.topographies]
     notes += remarks(texts_on_each(bodies, _filled_spikes_and_effects), DATA)
     notes += [Remark(filling_note, INTERVALS)]
-    notes += [*remarks(meaning_of_loads(question, body), DATA), "" if are_grave else borders]
+    notes += [*remarks(loads_in_words(question, body), DATA), "" if are_grave else borders]
     notes += remarks([_pressures(question)], DATA)
     notes += remarks(_cropping_and_resampling(body), DATA)
     return remarks(filter(None, notes))
@@ -58,12 +58,12 @@ def collect_notes(result: Assessment, filling_note: str) -> list[Remark]:
 
 def _pressures(question: Question) -> str:
     """Repeat the pressures of a fluid, and that they are absolute."""
-    asked = question.sealing
-    if asked is None or asked.inlet is None:
+    sealing = question.sealing
+    if sealing is None or sealing.inlet is None:
         return ""
     return (
-        f"{asked.medium.name} enters at {engineering(asked.inlet, 'Pa')} and leaves at "
-        f"{engineering(asked.outlet, 'Pa')}, both absolute pressures"
+        f"{sealing.medium.name} enters at {engineering(sealing.inlet, 'Pa')} and leaves at "
+        f"{engineering(sealing.outlet, 'Pa')}, both absolute pressures"
     )
 
 
@@ -271,7 +271,7 @@ def _current_notes(result: Assessment, pair: MaterialPair) -> list[str]:
     return notes
 
 
-def how_far_a_line_serves(question: Question, body: Body) -> tuple[str, bool]:
+def line_scan_limits(question: Question, body: Body) -> tuple[str, bool]:
     """Say up to which slopes a line, whose model has no yield, stands for metals.
 
     The second result says whether it is a scan that is so steep that they yield.
@@ -348,7 +348,7 @@ def _file_notes(body: Body) -> list[str]:
     return notes
 
 
-def meaning_of_loads(question: Question, body: Body) -> list[str]:
+def loads_in_words(question: Question, body: Body) -> list[str]:
     """Say of each load what it is in all, and over which area."""
     area = nominal_area(body)
     if isinstance(body, Surface):
@@ -383,7 +383,7 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
     return notes
 
 
-def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
+def repeated_border_jump(question: Question, body: Body) -> tuple[str, bool]:
     """Say how far a map jumps across its borders where it is repeated.
 
     The second result says whether that outweighs all other steps. Nothing is said of a surface

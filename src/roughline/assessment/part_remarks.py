@@ -39,7 +39,7 @@ def remarks_of_part(
     """Warnings and notes on a part and on its maps, by their names."""
     maps = list(results.values())
     is_joint = maps[0].question.joint is not None
-    of_part, agreement = _what_they_tell_of_the_part(behind, answers, is_joint)
+    of_part, agreement = _part_texts(behind, answers, is_joint)
     common = {name: _common_departures(each.body) for name, each in results.items()}
     own = {
         name: [text for text in each.warnings if not text.startswith(common[name])]
@@ -156,7 +156,7 @@ def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[str
     return notes
 
 
-def _what_they_tell_of_the_part(
+def _part_texts(
     behind: BehindMaps | None, answers: Mapping[str, PartAnswer], is_joint: bool
 ) -> tuple[list[str], list[str]]:
     """Say whether maps tell of the part, and whether they agree; warnings and notes."""

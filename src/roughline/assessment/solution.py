@@ -13,7 +13,7 @@ from roughline.assessment.filled import ON_FILLED, relative_error
 from roughline.assessment.larger_measure import LargerMeasure
 from roughline.assessment.larger_surface import LargerSurface, larger_surface, which_surface
 from roughline.assessment.line_scan import press_scan
-from roughline.assessment.notes import how_far_a_line_serves
+from roughline.assessment.notes import line_scan_limits
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.source import Topography
 from roughline.assessment.tiles import TiledCurves, coarse_shape
@@ -79,7 +79,7 @@ def solve_scan(case: Case, body: Line) -> Solution:
         body, E_star=case.loads.half_space.E_star, forces=case.loads.forces, against=against
     )
     ends = scan.low, scan.high
-    _, is_too_steep = how_far_a_line_serves(case.question, body)
+    _, is_too_steep = line_scan_limits(case.question, body)
     known = not (is_too_steep or np.isnan(scan.low).any())
     sought = Sought(slip=slip_at_largest_load(case, Curves({Way.AS_ASKED: scan.curve})))
     return Solution(scan.curve, Intervals(ends, ends) if known else None, sought=sought)
@@ -175,9 +175,9 @@ def _with_filling(
     if curve is None:
         return None, note
     if other is not None:
-        asked = case.loads.asked_loads(curve)
-        stiffness = _most_changed(curve.stiffness, other.stiffness, asked)
-        area = _most_changed(curve.area_fraction_corrected, other.area_fraction_corrected, asked)
+        loads = case.loads.asked_loads(curve)
+        stiffness = _most_changed(curve.stiffness, other.stiffness, loads)
+        area = _most_changed(curve.area_fraction_corrected, other.area_fraction_corrected, loads)
         method = Missing(case.parts[0].reading.missing).other
         note = (
             f"with missing points filled by {method} instead, stiffness changes by {stiffness}, "
@@ -190,10 +190,10 @@ def _with_filling(
     return estimate_intervals(curve, other, _unsure(curves)), note
 
 
-def _most_changed(before: Real, after: Real, asked: Indices) -> str:
+def _most_changed(before: Real, after: Real, loads: Indices) -> str:
     """By how many per cent the loads that were asked for change at most, in words."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        share = 100 * float(np.nanmax((change(before, after) / before)[asked], initial=0.0))
+        share = 100 * float(np.nanmax((change(before, after) / before)[loads], initial=0.0))
     return f"up to {share:.2g}%" if share >= _SMALLEST_CHANGE else f"less than {_SMALLEST_CHANGE}%"
 
 

@@ -8,9 +8,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.engineering.intervals import Ends, Intervals
 
-_UNSURE_RATIO = (
-    5.0  # upper over lower end above which a stiffness near full contact may be infinite
-)
+_UNSURE_RATIO = 5.0  # of both ends; above, a stiffness near full contact may be infinite
 
 
 def estimate_intervals(

@@ -139,9 +139,9 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
         curve = variant.needed(Curves(done))
         if isinstance(curve, LoadCase):
             case = curve
-            tell = partial(_tell, progress, before, here, total) if progress else None
+            report = partial(_report, progress, before, here, total) if progress else None
             try:
-                curve = case.spread(case.press(tell))
+                curve = case.spread(case.press(report))
             except Interrupted as stop:
                 curves = {**done, variant.name: case.spread(stop.curve)}
                 raise Stopped(Curves(curves, stopped=variant.name)) from stop
@@ -155,7 +155,7 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
     return Curves(done)
 
 
-def _tell(progress: LoadProgress, before: int, here: int, total: int, done: int, of: int) -> None:
+def _report(progress: LoadProgress, before: int, here: int, total: int, done: int, of: int) -> None:
     """Tell of the loads of one variant, which counts as so many here."""
     progress(before + here * done // max(of, 1), total)
 

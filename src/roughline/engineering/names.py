@@ -18,9 +18,7 @@ _ELEMENTS = (
 )
 _SYMBOL = re.compile("[A-Z][a-z]?")
 _COUNTED = re.compile(r"\(?(?:[A-Z][a-z]?[\d.()]*)+")
-_HINT_SIMILARITY = (
-    0.8  # share of letters that a hint has in common with what was typed: tialn is not tin
-)
+_HINT_SIMILARITY = 0.8  # share of letters in common with what was typed: tialn is not tin
 _LISTED_NAMES = 24  # names in a message
 _SHORTEST_HINTED = 3  # letters of a text that gets a hint: "in" is indium, and not tin
 

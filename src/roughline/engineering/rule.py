@@ -168,9 +168,9 @@ class Rule:
 
     def __post_init__(self) -> None:
         for name, annotation in type(self).__annotations__.items():
-            given = getattr(self, name)
-            if annotation.startswith("Callable") and given is not None and not callable(given):
-                refuse(name, given, "a function is needed, such as lambda pressed: pressed.force")
+            value = getattr(self, name)
+            if annotation.startswith("Callable") and value is not None and not callable(value):
+                refuse(name, value, "a function is needed, such as lambda pressed: pressed.force")
 
     def _checked_rows(self, rows: Any) -> Real:
         """Return values, and both ends of their interval where there are three rows."""

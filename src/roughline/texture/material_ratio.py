@@ -14,9 +14,7 @@ from roughline.computing.arrays import Real
 from roughline.texture.parameters import PEAKS, PITS
 
 _CORE = 0.4  # share of the points through which the line of the core is laid
-_HEIGHT_ROUNDING = (
-    1e-10  # of the maximum height, within which heights and falls of the curve are alike
-)
+_HEIGHT_ROUNDING = 1e-10  # of the maximum height; heights and falls are equal within it
 
 
 @dataclass(frozen=True)

@@ -346,9 +346,9 @@ def _means(heights: Real, axis: int, n: int) -> Real:
     """Means over n equal pieces along an axis; a cell counts by its part within the piece."""
     cells = heights.shape[axis]
     moved = np.moveaxis(heights, axis, 0)
-    whole = np.concatenate([np.zeros((1, *moved.shape[1:])), np.cumsum(moved, axis=0)])
+    sums = np.concatenate([np.zeros((1, *moved.shape[1:])), np.cumsum(moved, axis=0)])
     edges = np.arange(n + 1) * (cells / n)
     below = np.minimum(edges.astype(np.intp), cells - 1)
     part = (edges - below).reshape(-1, *[1] * (moved.ndim - 1))
-    at_edges = whole[below] + part * (whole[below + 1] - whole[below])
+    at_edges = sums[below] + part * (sums[below + 1] - sums[below])
     return np.moveaxis(np.diff(at_edges, axis=0) * (n / cells), 0, axis)

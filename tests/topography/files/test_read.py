@@ -467,7 +467,7 @@ def test_memory_that_ends_while_a_file_is_read_gets_one_line(tmp_path, monkeypat
 def test_an_archive_that_unpacks_to_too_much_is_refused(
     tmp_path, monkeypatch, harmless, unpacked, told
 ):
-    monkeypatch.setattr("roughline.topography.files.archives._LARGE", harmless)
+    monkeypatch.setattr("roughline.topography.files.archives._HARMLESS_BYTES", harmless)
     path = tmp_path / "bomb.x3p"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("main.xml", b"0" * unpacked)

@@ -131,7 +131,7 @@ def test_settings_come_back_as_they_were(tmp_path):
 
 
 def test_a_map_too_large_for_netcdf_3_is_written_as_netcdf_4(tmp_path, monkeypatch):
-    monkeypatch.setattr("roughline.topography.files.netcdf._LARGEST", HEIGHTS.nbytes)
+    monkeypatch.setattr("roughline.topography.files.netcdf._LARGEST_ARRAY", HEIGHTS.nbytes)
     rl.write(SURFACE, tmp_path / "map.nc")
     assert (tmp_path / "map.nc").read_bytes().startswith(b"\x89HDF")
     np.testing.assert_array_equal(rl.read(tmp_path / "map.nc").heights, HEIGHTS)

@@ -42,9 +42,7 @@ _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
 _RARE = 0.1  # free path over the aperture beyond which how walls reflect molecules counts
 _WIDE = 0.1  # of the mean pressure of the fluid, by which a ring's may differ from a strip's
-_MENTIONED = (
-    0.1  # pressure of the fluid over that of the load, from which on it is said if left out
-)
+_MENTIONED = 0.1  # pressure of a fluid left out over the load's, from which on it is said
 _MOLECULES = 3e-9  # ten diameters of a molecule of water; those of oils are larger [m]
 _MBAR_LITRES = 10.0  # in a Pa m³
 
@@ -66,8 +64,8 @@ _Needed = Callable[[Fluid], Sequence[Measure]]
 
 def _along_each(*measures_of: Callable[[Rarefied, Along], Measure]) -> _Needed:
     """Measures of the fluid along each direction that is asked for."""
-    return lambda asked: [
-        of(asked.rarefied, along) for along in asked.directions for of in measures_of
+    return lambda fluid: [
+        of(fluid.rarefied, along) for along in fluid.directions for of in measures_of
     ]
 
 
@@ -77,25 +75,25 @@ _SHARES = _along_each(largest_share)
 _SLOPES = _along_each(slope_of_flow)
 
 
-def _inverse_gap(asked: Fluid) -> Sequence[Measure]:
+def _inverse_gap(fluid: Fluid) -> Sequence[Measure]:
     """What a gas of known conductivity finds; in vacuum there is none."""
-    if asked.gas is None or not asked.conductivity:
+    if fluid.gas is None or not fluid.conductivity:
         return []
-    return [inverse_gap(asked.gas.temperature_jump(asked.mean_pressure))]
+    return [inverse_gap(fluid.gas.temperature_jump(fluid.mean_pressure))]
 
 
 def _with_slip(pressed: Pressed) -> Real | None:
     """Aperture of plates that let as much of a liquid through as a gas finds, in rows. [m]"""
-    asked, aperture = pressed.sealing, _largest(pressed, _APERTURES)
-    if asked is None or asked.free_path == 0 or aperture is None:
+    fluid, aperture = pressed.sealing, _largest(pressed, _APERTURES)
+    if fluid is None or fluid.free_path == 0 or aperture is None:
         return None
-    return np.cbrt(asked.rarefied.plates(aperture))
+    return np.cbrt(fluid.rarefied.plates(aperture))
 
 
 def _largest(pressed: Pressed, needed: _Needed) -> Real | None:
     """A measure along the direction in which it is larger, in rows; None where it is not taken."""
-    asked = [] if pressed.sealing is None else needed(pressed.sealing)
-    rows = [found for each in asked if (found := pressed.measure(each.name)) is not None]
+    measures = [] if pressed.sealing is None else needed(pressed.sealing)
+    rows = [found for each in measures if (found := pressed.measure(each.name)) is not None]
     return np.maximum.reduce(rows) if rows else None
 
 
@@ -120,14 +118,14 @@ def _with_direction(name: str, pressed: Pressed) -> Mapping[str, str]:
 
 def _leak(pressed: Pressed) -> Real | None:
     """Volume of a liquid, or pressure times volume of a gas, per time, in rows. [m³/s, Pa m³/s]"""
-    asked, aperture = pressed.sealing, _largest(pressed, _APERTURES)
-    if asked is None or aperture is None:
+    fluid, aperture = pressed.sealing, _largest(pressed, _APERTURES)
+    if fluid is None or aperture is None:
         return None
-    found = asked.leak(aperture)
+    found = fluid.leak(aperture)
     if found is None:
         return None
     found = np.where(_lift(pressed) >= 1, np.nan, found)
-    medium = asked.medium
+    medium = fluid.medium
     if isinstance(medium, Gas) or len(found) == 1:
         return found
     factor = medium.viscosity_factor
@@ -136,8 +134,8 @@ def _leak(pressed: Pressed) -> Real | None:
 
 def _lift(pressed: Pressed) -> Real:
     """Mean pressure of the fluid above the outside, over that of the load, (loads,)."""
-    asked = pressed.sealing
-    excess = 0.0 if asked is None else asked.excess
+    fluid = pressed.sealing
+    excess = 0.0 if fluid is None else fluid.excess
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(excess > 0, excess / pressed.load_pressure, 0.0)
 
@@ -149,19 +147,19 @@ def _carried(pressed: Pressed) -> Real:
     return np.where(pressed.lifted, 1.0, np.nan_to_num(share))
 
 
-def _above_outside(asked: Fluid) -> str:
+def _above_outside(fluid: Fluid) -> str:
     """The fluid, and how far its pressure is above the outside."""
-    excess = engineering(asked.excess, "Pa")
-    return f"{asked.medium.name} at {excess} above the outside, in the mean of the gap,"
+    excess = engineering(fluid.excess, "Pa")
+    return f"{fluid.medium.name} at {excess} above the outside, in the mean of the gap,"
 
 
 def _lifts(pressed: Pressed) -> str:
     """Say under which loads the fluid would lift the bodies apart, if it is not to carry any."""
-    asked, lift = pressed.sealing, _lift(pressed)
-    if asked is None or not (lift >= 1).any():
+    fluid, lift = pressed.sealing, _lift(pressed)
+    if fluid is None or not (lift >= 1).any():
         return ""
     return (
-        f"{_above_outside(asked)} would lift bodies apart that press with no more than that: give "
+        f"{_above_outside(fluid)} would lift bodies apart that press with no more than that: give "
         f"a larger load, or smaller pressures ({called('inlet')})"
     )
 
@@ -174,8 +172,8 @@ def _loads_in_words(loads: Real) -> str:
 
 def _carries(pressed: Pressed) -> str:
     """Say which part of the load the fluid carries."""
-    asked = pressed.sealing
-    if asked is None:
+    fluid = pressed.sealing
+    if fluid is None:
         return ""
     share = _carried(pressed)
     counts = (share > 0) & ~pressed.lifted
@@ -184,13 +182,13 @@ def _carries(pressed: Pressed) -> str:
     least, most = share[counts].min(), share[counts].max()
     part = f"{most:.0%}" if f"{least:.0%}" == f"{most:.0%}" else f"{least:.0%} to {most:.0%}"
     loads = _loads_in_words(pressed.load_pressure[counts])
-    text = f"{_above_outside(asked)} carries {part} of {loads}: the bodies press with the rest"
-    if asked.opens_soft_faces(pressed.load_pressure[counts]).any():
+    text = f"{_above_outside(fluid)} carries {part} of {loads}: the bodies press with the rest"
+    if fluid.opens_soft_faces(pressed.load_pressure[counts]).any():
         text += (
             "; where it enters, its pressure is above that of the load, and faces that are not "
             "stiff open from there"
         )
-    text += _in_a_wide_ring(asked)
+    text += _in_a_wide_ring(fluid)
     if pressed.yields:
         text += (
             "; dents are those of the rest, as if the fluid came first: bodies that are loaded "
@@ -201,10 +199,10 @@ def _carries(pressed: Pressed) -> str:
     return text
 
 
-def _in_a_wide_ring(asked: Fluid) -> str:
+def _in_a_wide_ring(fluid: Fluid) -> str:
     """Say what a ring does that is not narrow beside its radius, of which the sides are unlike."""
-    both = asked.excess_in_ring
-    if max(abs(each - asked.excess) for each in both) <= _WIDE * asked.excess:
+    both = fluid.excess_in_ring
+    if max(abs(each - fluid.excess) for each in both) <= _WIDE * fluid.excess:
         return ""
     inside, outside = (engineering(each, "Pa", 3) for each in both)
     return (
@@ -215,27 +213,27 @@ def _in_a_wide_ring(asked: Fluid) -> str:
 
 def _left_out(pressed: Pressed) -> str:
     """Say where the fluid would carry a part of the load, but is not to."""
-    asked, lift = pressed.sealing, _lift(pressed)
+    fluid, lift = pressed.sealing, _lift(pressed)
     part = lift[(lift >= _MENTIONED) & (lift < 1)]
-    if asked is None or asked.carries is not False or not part.size:
+    if fluid is None or fluid.carries is not False or not part.size:
         return ""
     return (
-        f"{_above_outside(asked)} carries up to {part.max():.0%} of the load, which no answer "
+        f"{_above_outside(fluid)} carries up to {part.max():.0%} of the load, which no answer "
         "includes: the bodies press with less, and more leaks"
     )
 
 
 def _opens(pressed: Pressed) -> str:
     """Say under which loads the fluid lifts the bodies apart."""
-    asked, lifted = pressed.sealing, pressed.lifted
-    if asked is None or not lifted.any():
+    fluid, lifted = pressed.sealing, pressed.lifted
+    if fluid is None or not lifted.any():
         return ""
     text = (
-        f"{_above_outside(asked)} lifts the bodies apart under "
+        f"{_above_outside(fluid)} lifts the bodies apart under "
         f"{_loads_in_words(pressed.load_pressure[lifted])}: the seal is open, and nothing else is "
         "known there"
     )
-    text += _in_a_wide_ring(asked)
+    text += _in_a_wide_ring(fluid)
     if pressed.attraction is not None:
         text += "; bodies that stick may hold, which is not solved"
     return Remark(text, is_grave=True)
@@ -243,16 +241,16 @@ def _opens(pressed: Pressed) -> str:
 
 def _opening_pressure(pressed: Pressed) -> Real | None:
     """Absolute pressure at the inlet from which on the fluid lifts the bodies. [Pa]"""
-    asked = pressed.sealing
-    return None if asked is None or asked.inlet is None else asked.opens_at(pressed.load_pressure)
+    fluid = pressed.sealing
+    return None if fluid is None or fluid.inlet is None else fluid.opens_at(pressed.load_pressure)
 
 
 def _opening_texts(pressed: Pressed) -> Mapping[str, str]:
     """How the mean pressure follows along the way, and of which outlet."""
-    asked = pressed.sealing
-    if asked is None:
+    fluid = pressed.sealing
+    if fluid is None:
         return {}
-    mean = "(P1 + P2) / 2" if asked.gas is None else "2/3 (P1² + P1 P2 + P2²) / (P1 + P2)"
+    mean = "(P1 + P2) / 2" if fluid.gas is None else "2/3 (P1² + P1 P2 + P2²) / (P1 + P2)"
     texts = {"formula": f"P1 at which {mean} is p above the outside"}
     if pressed.attraction is not None:
         texts["validity"] = f"{_STIFF_FACES}; bodies that stick hold out longer"
@@ -261,11 +259,11 @@ def _opening_texts(pressed: Pressed) -> Mapping[str, str]:
 
 def _carried_at_sealing(pressed: Pressed) -> float:
     """Mean pressure that the fluid carries under the load that seals. [Pa]"""
-    asked, closing = pressed.sealing, pressed.sought.closing
-    if asked is None or closing is None:
+    fluid, closing = pressed.sealing, pressed.sought.closing
+    if fluid is None or closing is None:
         return 0.0
     seals = closing.pressure.value
-    return float(asked.load_on(np.array([seals]), 1.0)[0]) - seals
+    return float(fluid.load_on(np.array([seals]), 1.0)[0]) - seals
 
 
 def _load_that_seals(pressed: Pressed) -> str:
@@ -281,11 +279,11 @@ def _load_that_seals(pressed: Pressed) -> str:
 
 def _bodies_alone_texts(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
     """What the fluid adds to pressures and loads that are of the contact alone."""
-    asked, carried = pressed.sealing, _carried_at_sealing(pressed)
-    if asked is None or pressed.sought.closing is None:
+    fluid, carried = pressed.sealing, _carried_at_sealing(pressed)
+    if fluid is None or pressed.sought.closing is None:
         return {}
     if share:
-        carried = asked.excess if (_carried(pressed) > 0).any() else 0.0
+        carried = fluid.excess if (_carried(pressed) > 0).any() else 0.0
     if not carried > 0:
         return {}
     excess = engineering(carried, "Pa")
@@ -306,26 +304,26 @@ def _gas_leak(quantity: Callable[[Real, Gas], Real], pressed: Pressed) -> Real |
 
 def _reynolds(pressed: Pressed) -> Real | float:
     """Reynolds number of what leaks, zero where no leak is asked for. [1]"""
-    asked, leak = pressed.sealing, _leak(pressed)
-    if asked is None or asked.seal is None or leak is None:
+    fluid, leak = pressed.sealing, _leak(pressed)
+    if fluid is None or fluid.seal is None or leak is None:
         return 0.0
-    mass = _DENSITY * leak[0] if asked.gas is None else mass_of_throughput(leak[0], asked.gas)
-    return np.abs(reynolds_number(mass, asked.seal.width, asked.medium.viscosity))
+    mass = _DENSITY * leak[0] if fluid.gas is None else mass_of_throughput(leak[0], fluid.gas)
+    return np.abs(reynolds_number(mass, fluid.seal.width, fluid.medium.viscosity))
 
 
 def _through_seal(pressed: Pressed) -> Mapping[str, str]:
-    asked = pressed.sealing
-    if asked is None or asked.seal is None or asked.inlet is None:
+    fluid = pressed.sealing
+    if fluid is None or fluid.seal is None or fluid.inlet is None:
         return {}
-    medium = asked.medium
+    medium = fluid.medium
     factor = 1.0 if isinstance(medium, Gas) else medium.viscosity_factor
     known = "" if factor == 1 else f", viscosity known to a factor of {factor:g}"
     place = _placed(pressed).get("validity", _MAP_VALIDITY)
-    if asked.gas is not None:
+    if fluid.gas is not None:
         place += "; kinetic theory at the local pressure and gap (Cercignani 1963)"
     return {
-        "validity": f"{medium.name}{known}, {engineering(asked.inlet, 'Pa')} to "
-        f"{engineering(asked.outlet, 'Pa')} absolute, seal {asked.seal.words}; {place}"
+        "validity": f"{medium.name}{known}, {engineering(fluid.inlet, 'Pa')} to "
+        f"{engineering(fluid.outlet, 'Pa')} absolute, seal {fluid.seal.words}; {place}"
     }
 
 
@@ -382,9 +380,9 @@ def _why_no_interval(pressed: Pressed) -> str:
 
 def _thin_gap_limits(pressed: Pressed) -> str:
     """Say where the equation of thin gaps is no longer good, and where walls count."""
-    asked, steep = pressed.sealing, _largest(pressed, _SLOPES)
+    fluid, steep = pressed.sealing, _largest(pressed, _SLOPES)
     aperture = _largest(pressed, _APERTURES)
-    if steep is None or asked is None or aperture is None:
+    if steep is None or fluid is None or aperture is None:
         return ""
     found = []
     if too_steep := why_too_steep(float(np.nanmax(steep[0], initial=0.0))):
@@ -395,15 +393,15 @@ def _thin_gap_limits(pressed: Pressed) -> str:
             f"which counts beyond {_INERT:g}, is left out, and less than this flows"
         )
     is_open = aperture[0] > 0
-    if asked.gas is not None and is_open.any():
-        rare = asked.free_path / float(np.nanmin(aperture[0][is_open]))
+    if fluid.gas is not None and is_open.any():
+        rare = fluid.free_path / float(np.nanmin(aperture[0][is_open]))
         if rare > _RARE:
             found.append(
-                f"the mean free path of {asked.medium.name} is {decimal(rare, 2)} of the hydraulic "
+                f"the mean free path of {fluid.medium.name} is {decimal(rare, 2)} of the hydraulic "
                 f"aperture: beyond {_RARE:g}, leaks are those of kinetic theory (the BGK "
                 "model) and of walls that reflect molecules diffusely: others let more through"
             )
-    if asked.gas is None and is_open.any():
+    if fluid.gas is None and is_open.any():
         narrow = float(np.nanmin(aperture[0][is_open]))
         if narrow < _MOLECULES:
             found.append(
@@ -441,14 +439,14 @@ def _stays_tight(pressed: Pressed) -> str:
 
 def _without_leak(pressed: Pressed) -> bool:
     """Whether a fluid is asked for, but neither its leak nor the pressure that seals."""
-    asked = pressed.sealing
-    is_of_leak = asked is not None and asked.seal is not None
-    return asked is not None and not is_of_leak and pressed.sought.closing is None
+    fluid = pressed.sealing
+    is_of_leak = fluid is not None and fluid.seal is not None
+    return fluid is not None and not is_of_leak and pressed.sought.closing is None
 
 
 def _gas_conductance(pressed: Pressed) -> Real | None:
-    asked, inverse = pressed.sealing, _largest(pressed, _inverse_gap)
-    return None if asked is None or inverse is None else asked.conductivity * inverse
+    fluid, inverse = pressed.sealing, _largest(pressed, _inverse_gap)
+    return None if fluid is None or inverse is None else fluid.conductivity * inverse
 
 
 def _joint_conductance(pressed: Pressed) -> Real | None:
@@ -460,17 +458,17 @@ def _joint_conductance(pressed: Pressed) -> Real | None:
 
 def _fluid_symbols(pressed: Pressed) -> list[Symbol]:
     """What formulas name of a fluid, of the gap and of the seal that it crosses."""
-    asked = pressed.sealing
-    if asked is None:
+    fluid = pressed.sealing
+    if fluid is None:
         return []
     found = [
-        *_seal_symbols(asked.seal),
-        Symbol("P1", "absolute pressure at the inlet", "Pa", asked.inlet),
-        Symbol("P2", "absolute pressure at the outlet", "Pa", asked.outlet),
-        Symbol("eta", f"viscosity of {asked.medium.name}", "Pa s", asked.medium.viscosity),
+        *_seal_symbols(fluid.seal),
+        Symbol("P1", "absolute pressure at the inlet", "Pa", fluid.inlet),
+        Symbol("P2", "absolute pressure at the outlet", "Pa", fluid.outlet),
+        Symbol("eta", f"viscosity of {fluid.medium.name}", "Pa s", fluid.medium.viscosity),
         Symbol("u", "gap", "m"),
     ]
-    gas = asked.gas
+    gas = fluid.gas
     if gas is None:
         return found
     return [
@@ -478,7 +476,7 @@ def _fluid_symbols(pressed: Pressed) -> list[Symbol]:
         Symbol("R_s", "specific gas constant", "J/(kg K)", gas.gas_constant),
         Symbol("T", "temperature of the gas", "K", gas.temperature),
         Symbol("k_g", "thermal conductivity of the gas", "W/(m K)", gas.conductivity),
-        Symbol("M", "temperature jump length", "m", gas.temperature_jump(asked.mean_pressure)),
+        Symbol("M", "temperature jump length", "m", gas.temperature_jump(fluid.mean_pressure)),
     ]
 
 

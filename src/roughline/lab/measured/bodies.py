@@ -14,7 +14,7 @@ from attrs import evolve
 from roughline.assessment.asked import Theories
 from roughline.assessment.loading import DEFAULT_LOADS
 from roughline.assessment.loads import Hardness, find_hardness
-from roughline.assessment.notes import meaning_of_loads, unknown_hardness_notes
+from roughline.assessment.notes import loads_in_words, unknown_hardness_notes
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.rules import rules
@@ -60,7 +60,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         notes.append(
             f"no load is given: {DEFAULT_LOADS} loads from first touch to saturation are taken"
         )
-    meanings = meaning_of_loads(question, body) if body is not None and question.loads else []
+    meanings = loads_in_words(question, body) if body is not None and question.loads else []
     header = {
         "refused": refused,
         "tables": {"measured-bodies": [["", ""], rows]},

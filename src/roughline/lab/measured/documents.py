@@ -139,7 +139,7 @@ def as_python(said: Said, names: Sequence[str]) -> str:
     """Lines that answer the same question."""
     is_part = len(names) > 1
     told = _told(said) | {"whole_curve": bool(loads_of(said))}
-    written = {each.name: told[each.name] for each in FIELDS if each.says(told.get(each.name))}
+    written = {each.name: told[each.name] for each in FIELDS if each.is_set(told.get(each.name))}
     question = [f"[{', '.join(map(repr, names))}]" if is_part else repr(names[0])]
     question += [f"{name}={value!r}" for name, value in arguments_for("Question", written).items()]
     if asked := [_in_python(*each) for each in asked_in(written)]:

@@ -31,9 +31,7 @@ _HEIGHT_UNITS = re.compile(r"(?:value|height|z)[- _]?units?", re.IGNORECASE)
 _MORE_THAN_A_LIST = 6  # columns; a list of points has x, y, z and little more
 _NEARLY = 0.98  # of the length that a line scan states
 _AXES = ("x", "y", "z")
-_STEP_TOLERANCE = (
-    0.15  # of a step: positions nearer to each other are one, and nearer to a node are on it
-)
+_STEP_TOLERANCE = 0.15  # within which positions are one, or are on a node; of a step
 _SPARSE = 20  # nodes of the grid for each point of a list, at most
 
 
