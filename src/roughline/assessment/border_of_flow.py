@@ -13,8 +13,8 @@ from roughline.computing.arrays import Real
 from roughline.fluid.gap import Along
 from roughline.units import engineering
 
-_COUNTS = 1.2  # largest over least aperture of what is said
-_ALMOST = 1 - 1e-9  # of an end of an interval, to rounding
+_COUNTED_RATIO = 1.2  # largest over least aperture of what is said
+_END_ROUNDING = 1 - 1e-9  # of an end of an interval, to rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +78,6 @@ def _borders(result: Assessment) -> Iterator[_Border]:
         low, high = answer.ends or (least, most)
         with np.errstate(divide="ignore", invalid="ignore"):
             of_border = np.nan_to_num(np.log(most / least), nan=0.0)
-        is_end = (low >= least * _ALMOST) | (high <= most / _ALMOST)
-        over = np.where(is_end & (of_border > math.log(_COUNTS)), of_border, 0.0)
+        is_end = (low >= least * _END_ROUNDING) | (high <= most / _END_ROUNDING)
+        over = np.where(is_end & (of_border > math.log(_COUNTED_RATIO)), of_border, 0.0)
         yield _Border(along, answer.values, with_flow, with_pressure, over, answer.ends is not None)

@@ -39,12 +39,12 @@ from roughline.topography.files.read import suspicions
 from roughline.units import decimal
 
 _STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
-_STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
-_PRESSED = _STEEP / 2  # mean contact pressure over E*, as on such slopes; on layers it is not
-_ON_FILLED = 0.05  # share of the force on filled points from which on a warning says so
-_MOSTLY_ON_FILLED = 0.5  # from which on answers are of heights that nobody measured
-_WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
-_COUNTS = 1.2  # upper over lower end of what counts as a cause
+_STEEP_SLOPE = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
+_PRESSED = _STEEP_SLOPE / 2  # mean contact pressure over E*, as on such slopes; on layers it is not
+_WARNED_FILLED_SHARE = 0.05  # share of the force on filled points from which on a warning says so
+_GRAVE_FILLED_SHARE = 0.5  # from which on answers are of heights that nobody measured
+_WIDE_RATIO = 4.0  # upper over lower end from which on the causes of an interval are said
+_COUNTED_RATIO = 1.2  # upper over lower end of what counts as a cause
 
 
 def collect_warnings(
@@ -146,24 +146,24 @@ def _filled_points_warnings(result: Assessment) -> list[Remark]:
         return []
     shares = result.on_filled[result.asked]
     most = int(np.argmax(np.nan_to_num(shares)))
-    if not shares[most] > _ON_FILLED:
+    if not shares[most] > _WARNED_FILLED_SHARE:
         return []
     text = (
         f"{shares[most]:.0%} of the force of load {result.headings[most]} stands on points that "
         "were missing and filled, which nobody measured: measure them, or crop to where points are "
         f"known ({called('crop')})"
     )
-    return [Remark(text, INTERVALS, is_grave=bool(shares[most] > _MOSTLY_ON_FILLED))]
+    return [Remark(text, INTERVALS, is_grave=bool(shares[most] > _GRAVE_FILLED_SHARE))]
 
 
 def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[Remark]:
     """Say where an assumption breaks, and what is to be said with the answers."""
     question, body = result.question, result.body
     broken: list[str] = []
-    if body.rms_slope > _STEEP:
+    if body.rms_slope > _STEEP_SLOPE:
         broken.append(
             f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
-            f"no interval includes the effect of slopes over {_STEEP:g}"
+            f"no interval includes the effect of slopes over {_STEEP_SLOPE:g}"
         )
     broken += _strained(result)
     hardness = None if question.pair is None or result.curve.hardness else question.pair.hardness
@@ -253,7 +253,7 @@ def _wide_interval_warnings(result: Assessment) -> list[str]:
         of_piece = np.sqrt(np.maximum((widths - of_hardness) ** 2 - of_grid**2, 0))
     widths = np.where(np.isfinite(widths), widths, 0)
     i = int(np.argmax(widths))
-    if widths[i] < np.log(_WIDE):
+    if widths[i] < np.log(_WIDE_RATIO):
         return []
     cells = round(float(curve.area_fraction[i]) * points)
     causes = [
@@ -262,7 +262,7 @@ def _wide_interval_warnings(result: Assessment) -> list[str]:
     ]
     if answer.rule is INTERFACE_STIFFNESS:
         causes.append((of_piece[i], "what one map does not show", "a larger map, or several maps"))
-    causes = sorted((each for each in causes if each[0] > np.log(_COUNTS)), reverse=True)
+    causes = sorted((each for each in causes if each[0] > np.log(_COUNTED_RATIO)), reverse=True)
     if not causes:
         return []
     texts = [f"{what} (a factor of {decimal(float(np.exp(w)), 2)})" for w, what, _ in causes]

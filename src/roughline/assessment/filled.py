@@ -18,7 +18,7 @@ from roughline.topography.preparation import resampled
 ON_FILLED = "force_on_filled"
 """Name of the measure, among those of the curve as asked."""
 
-_IN_INTERVALS = 0.1  # share of the force from which on intervals hold that it may stand elsewhere
+_SHARE_IN_INTERVALS = 0.1  # of the force, from which on intervals hold that it stands elsewhere
 
 
 def filled_points(topographies: Sequence[Topography]) -> Mask | None:
@@ -53,4 +53,4 @@ def relative_error(share: Real) -> Real:
     What was measured carries the rest, so that values are known to a factor 1 / (1 - s).
     """
     with np.errstate(divide="ignore"):
-        return np.where(share > _IN_INTERVALS, share / (1 - share), 0.0)
+        return np.where(share > _SHARE_IN_INTERVALS, share / (1 - share), 0.0)

@@ -19,7 +19,7 @@ from roughline.topography.body import Surface
 from roughline.units import engineering
 
 _STEPS = 8  # from no load to the largest pull, on to where bodies come apart, and across that
-_NEARLY = 1 - 1e-6  # of the depth of full contact
+_NEAR_FULL_CONTACT = 1 - 1e-6  # of the depth of full contact
 
 
 def draw_apart(case: Case, curve: SurfaceCurve) -> Separation | None:
@@ -91,7 +91,9 @@ def _drawn(surface: Surface, under: SurfaceCurve) -> tuple[SurfaceCurve, Real]:
     loaded, unloaded = float(under.depth[0]), float(under.depth[1])
     if under.half_space.mean_is_free:  # full contact has one depth, at which forces are not known
         full = float(np.mean(surface.heights.max() - surface.heights))
-        loaded, unloaded, off = (min(each, _NEARLY * full) for each in (loaded, unloaded, off))
+        loaded, unloaded, off = (
+            min(each, _NEAR_FULL_CONTACT * full) for each in (loaded, unloaded, off)
+        )
     if not np.isfinite(off):  # the grid does not resolve it
         off = unloaded
     pressed = partial(press, surface, half_space=under.half_space, law=law, throw=False)

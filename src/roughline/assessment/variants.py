@@ -56,7 +56,7 @@ class Way(StrEnum):
 _UNLOADING_LOADS = 16
 """Loads on the way back from the largest one, which partial slip follows where bodies yield."""
 
-_LIGHTEST = 1e-3  # of them, over the largest
+_LIGHTEST_SHARE = 1e-3  # of them, over the largest
 _RTOL_OF_TILES = 1e-4  # their scatter need not be known better
 
 
@@ -191,7 +191,7 @@ def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
     curve, largest = curves.get(Way.AS_ASKED), case.loads.largest
     if curve is None or not curve.converged[largest]:
         return None
-    forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, _UNLOADING_LOADS)
+    forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST_SHARE, 1.0, _UNLOADING_LOADS)
     left = curve.surface_after(largest)
     return LoadCase(left, case.loads.half_space, forces.tolist(), [], None)
 

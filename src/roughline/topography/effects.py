@@ -9,7 +9,7 @@ from roughline.topography.body import Body, BodyType, side_lengths
 from roughline.topography.provenance import Left, Step, with_facts
 from roughline.units import in_words
 
-_NOTHING = 1e-3  # relative change of rms height and slope below which a step did nothing
+_NO_EFFECT = 1e-3  # relative change of rms height and slope below which a step did nothing
 _LARGEST_LOSS = 0.5  # share of the rms height whose loss is warned of
 
 
@@ -72,7 +72,7 @@ def _effect(left: Left, name: str) -> _Effect:
     height, slope = left.height, 1.0 if left.slope is None else left.slope
     verbs: dict[str, list[str]] = {}
     for share, of in ((height, "height"), (slope, "slope")):
-        if abs(share - 1) >= _NOTHING:
+        if abs(share - 1) >= _NO_EFFECT:
             verb = "lowers" if share < 1 else "raises"
             verbs.setdefault(verb, []).append(f"the rms {of} by {_per_cent(abs(share - 1))}")
     if not verbs:

@@ -22,7 +22,7 @@ from roughline.units import in_words
 _FEWEST_POINTS = 8  # points of a line, and lines, that tell of either
 _BLOCKS = 8  # parts of a line that show how far its median is by chance
 _OVER_CHANCE = 2.0  # times as far are jumps
-_MATTERS = 0.02  # of the rms height
+_SMALLEST_JUMP = 0.02  # of the rms height
 # correlation of a jump with the next: -0.5 if lines know nothing of each other, and zero or more of
 # grooves, which are as wide as some lines
 _TURNING = -0.1
@@ -123,7 +123,7 @@ def line_jump_warning(body: Body) -> str:
     if (
         found is None
         or found.rms <= _OVER_CHANCE * found.by_chance
-        or found.rms <= _MATTERS * body.rms_height
+        or found.rms <= _SMALLEST_JUMP * body.rms_height
         or found.turning >= _TURNING
     ):
         return ""

@@ -37,11 +37,11 @@ from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure
 from roughline.units import decimal, engineering
 
-_HALF = 0.5  # share of the flow from which on one channel is told
+_MAIN_CHANNEL_SHARE = 0.5  # share of the flow from which on one channel is told
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
 _INERT = 1.0  # Reynolds number times slope from which it does; 12 is as large as viscosity
-_RARE = 0.1  # free path over the aperture beyond which how walls reflect molecules counts
-_WIDE = 0.1  # of the mean pressure of the fluid, by which a ring's may differ from a strip's
+_RARE_GAS = 0.1  # free path over the aperture beyond which how walls reflect molecules counts
+_WIDE_RING = 0.1  # of the mean pressure of the fluid, by which a ring's may differ from a strip's
 _MENTIONED = 0.1  # pressure of a fluid left out over the load's, from which on it is said
 _MOLECULES = 3e-9  # ten diameters of a molecule of water; those of oils are larger [m]
 _MBAR_LITRES = 10.0  # in a Pa m³
@@ -202,7 +202,7 @@ def _carries(pressed: Pressed) -> str:
 def _in_a_wide_ring(fluid: Fluid) -> str:
     """Say what a ring does that is not narrow beside its radius, of which the sides are unlike."""
     both = fluid.excess_in_ring
-    if max(abs(each - fluid.excess) for each in both) <= _WIDE * fluid.excess:
+    if max(abs(each - fluid.excess) for each in both) <= _WIDE_RING * fluid.excess:
         return ""
     inside, outside = (engineering(each, "Pa", 3) for each in both)
     return (
@@ -333,7 +333,7 @@ def _one_channel(pressed: Pressed) -> str:
     if share is None or aperture is None:
         return ""
     shares = np.where(aperture[0] > 0, share[0], 0.0)
-    if not np.nanmax(shares, initial=0.0) >= _HALF:
+    if not np.nanmax(shares, initial=0.0) >= _MAIN_CHANNEL_SHARE:
         return ""
     worst = int(np.nanargmax(shares))
     return (
@@ -395,10 +395,10 @@ def _thin_gap_limits(pressed: Pressed) -> str:
     is_open = aperture[0] > 0
     if fluid.gas is not None and is_open.any():
         rare = fluid.free_path / float(np.nanmin(aperture[0][is_open]))
-        if rare > _RARE:
+        if rare > _RARE_GAS:
             found.append(
                 f"the mean free path of {fluid.medium.name} is {decimal(rare, 2)} of the hydraulic "
-                f"aperture: beyond {_RARE:g}, leaks are those of kinetic theory (the BGK "
+                f"aperture: beyond {_RARE_GAS:g}, leaks are those of kinetic theory (the BGK "
                 "model) and of walls that reflect molecules diffusely: others let more through"
             )
     if fluid.gas is None and is_open.any():

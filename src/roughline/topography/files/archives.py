@@ -36,7 +36,7 @@ _DAMAGED_PART_ERRORS = (
     EOFError,
     RuntimeError,
 )  # one has a password, or is cut
-_FEW_ROWS, _SPARSE = 1000, 20  # rows of a table, and rows for each of its cells, that do no harm
+_FEW_ROWS, _ROWS_PER_CELL = 1000, 20  # of a table, and for each of its cells, that do no harm
 
 
 def refuse_hollow(path: Path, name: str) -> None:
@@ -74,7 +74,7 @@ def _refuse_bombs(path: Path, name: str) -> None:
     if is_bomb:
         raise _unpacks_to_too_much(unpacked, packed, name)
     for each in rows:
-        if max(each, default=0) > _FEW_ROWS + _SPARSE * len(each):
+        if max(each, default=0) > _FEW_ROWS + _ROWS_PER_CELL * len(each):
             raise InputError(
                 f"{name} has a cell in row {max(each)} of a table with {len(each)} cells: delete "
                 "what stands far below the others"

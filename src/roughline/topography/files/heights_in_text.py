@@ -29,10 +29,10 @@ _ALL_UNITS = re.compile(r"(?:all |length )?units?", re.IGNORECASE)
 _POSITION_UNITS = re.compile(r"(?:lateral|position|[xy])[- _]?units?", re.IGNORECASE)
 _HEIGHT_UNITS = re.compile(r"(?:value|height|z)[- _]?units?", re.IGNORECASE)
 _MORE_THAN_A_LIST = 6  # columns; a list of points has x, y, z and little more
-_NEARLY = 0.98  # of the length that a line scan states
+_STATED_LENGTH_SHARE = 0.98  # of the length that a line scan states
 _AXES = ("x", "y", "z")
 _STEP_TOLERANCE = 0.15  # within which positions are one, or are on a node; of a step
-_SPARSE = 20  # nodes of the grid for each point of a list, at most
+_NODES_PER_POINT = 20  # of the grid, for each point of a list, at most
 
 
 def read_text(path: Path, _: int | str | None, name: str) -> Measurement | None:
@@ -235,7 +235,7 @@ def _refuse_shorter_scan(table: Table, unit: str | None, length: float, name: st
         other = length_unit(stated[2]) if stated else None
         if not (stated and unit and other):
             continue
-        if length < _NEARLY * float(stated[1]) * ratio(other, unit):
+        if length < _STATED_LENGTH_SHARE * float(stated[1]) * ratio(other, unit):
             raise InputError(
                 f'{name} says "{line[:40]}" and ends at {length:g} {unit}: it was cut short; '
                 "export it again"
@@ -290,7 +290,7 @@ def gridded_map(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float
     if dx == 0 or dy == 0:
         raise _irregular(name, "they have one position along a side")
     shape = (int(i.max()) + 1, int(j.max()) + 1)
-    if shape[0] * shape[1] > _SPARSE * z.size:
+    if shape[0] * shape[1] > _NODES_PER_POINT * z.size:
         raise _irregular(name, f"{z.size} points would lie on a grid of {shape[0]} x {shape[1]}")
     heights = np.full(shape, np.nan)
     heights[i, j] = z
