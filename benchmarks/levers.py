@@ -14,7 +14,7 @@ import numpy as np
 import turns
 
 import roughline as rl
-from roughline.halfspace.inverse import approximate_inverse, kept
+from roughline.halfspace.inverse import approximate_inverse, cache
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.restricted import RestrictedOperators
 from roughline.halfspace.search import cascade, path, tangent
@@ -34,12 +34,12 @@ LEVERS = {
     # what is taken away: the places and what comes there
     "nothing": (),
     "blocks beside the stencil": ((approximate_inverse, "_TwoLevels", StencilAlone),),
-    "direct solution of few nodes": ((approximate_inverse, "_DIRECT", 0),),
+    "direct solution of few nodes": ((approximate_inverse, "_MOST_DIRECT_NODES", 0),),
     "restricted steps": ((RestrictedOperators, "on", lambda self, nodes: None),),
-    "sums over pairs": ((convolution, "_PAIRS", 0.0),),
+    "sums over pairs": ((convolution, "_PAIRS_PER_MODE", 0.0),),
     "odd and even halves": ((convolution.Convolution, "_parts", lambda self, precision: 1),),
-    "kept operators": ((kept, "_MOST_TABLES", 0),),
-    "coarser grids": ((cascade, "_COARSEST", 10**6),),
+    "kept operators": ((cache, "_MOST_CACHED_BYTES", 0),),
+    "coarser grids": ((cascade, "_COARSEST_POINTS", 10**6),),
     "start along the tangent": ((path, "_predicted", lambda *given: None),),
     "single precision of the steps": ((Method, "steps", property(lambda self: "float64")),),
     "energy of the tangent's error": ((tangent, "_ENERGY_MARGIN", 1e-6),),

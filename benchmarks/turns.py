@@ -68,7 +68,7 @@ def forget():
     """Empty what the package keeps of grids from one press to the next."""
     for name, module in list(sys.modules.items()):
         if name.startswith("roughline.halfspace"):
-            getattr(module, "_kept", {}).clear()
+            getattr(module, "_cache", {}).clear()
 
 
 def compile_loops():

@@ -89,11 +89,11 @@ def judged(request):
 @pytest.fixture
 def nothing_kept():
     """Press without what presses before have kept, and keep nothing for those that follow."""
-    from roughline.halfspace.inverse import kept  # compiled loops load slowly, so only here
+    from roughline.halfspace.inverse import cache  # compiled loops load slowly, so only here
 
-    kept._kept.clear()
+    cache._cache.clear()
     yield
-    kept._kept.clear()
+    cache._cache.clear()
 
 
 @pytest.fixture

@@ -8,14 +8,14 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
-from roughline.halfspace.search.active_set import Sides
+from roughline.halfspace.search.active_set import Partition
 from roughline.halfspace.search.carriers import Carriers
 from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.problem import Grid, Load, Method, Problem
 from roughline.halfspace.search.region import Region, Trial
 from roughline.halfspace.search.tangent import response
 from roughline.halfspace.search.turns import Turns
-from roughline.halfspace.search.window import Window
+from roughline.halfspace.search.window import GridWindow
 
 ELASTIC = Bounds.of(Unilateral(), None)
 YIELDING = Bounds.of(Yielding(hardness=4.0), None)
@@ -32,10 +32,10 @@ def test_pressures_are_led_to_the_nearest_within_their_bounds():
     assert ELASTIC.nearest(pressure).tolist() == [1.0, 0.0, 0.0, 5.0]
     assert YIELDING.nearest(pressure).tolist() == [1.0, 0.0, 0.0, 4.0]
     assert PULLING.nearest(pressure - 2).tolist() == [-1.0, -2.0, 0.0, 3.0]
-    assert ELASTIC.missed(pressure) == (0.5, 0.0)
-    assert YIELDING.missed(pressure) == (0.5, 1.0)
-    assert YIELDING.missed(YIELDING.nearest(pressure)) == (0.0, 0.0)
-    assert PULLING.missed(pressure - 2) == (2.0, 0.0)
+    assert ELASTIC.violations(pressure) == (0.5, 0.0)
+    assert YIELDING.violations(pressure) == (0.5, 1.0)
+    assert YIELDING.violations(YIELDING.nearest(pressure)) == (0.0, 0.0)
+    assert PULLING.violations(pressure - 2) == (2.0, 0.0)
 
 
 def test_nodes_between_their_bounds_touch():
@@ -69,7 +69,7 @@ def test_pressures_are_scaled_to_a_total_up_to_their_bounds():
 def sides(touching, bounds, watched, at_bounds, at_upper):
     """Sides of some nodes: watched ones come first, then those at a bound."""
     gap = np.concatenate([watched, at_bounds])
-    return Sides(
+    return Partition(
         touching,
         bounds,
         np.arange(gap.size),
@@ -115,7 +115,7 @@ def test_nodes_at_a_lower_bound_that_overlap_are_wrong():
 
 def trial(gap, places, pressure, law=None, *, load=None, approach=0.0, rms_height=1.0):
     """A trial with these gaps and pressures."""
-    region = Region.whole(problem(np.zeros(gap.shape), law or Unilateral(), rms_height))
+    region = Region.everywhere(problem(np.zeros(gap.shape), law or Unilateral(), rms_height))
     load = Load(depth=approach) if load is None else load
     return Trial.of(region, load, Carriers(places, pressure), approach, gap.ravel().copy())
 
@@ -128,7 +128,7 @@ def test_residuals_tell_gap_on_contact_from_overlap_off_it():
     assert found.penetration == 0
     assert found.tension == found.excess == 0
     assert found.worst == found.gap
-    assert found.worst_is_of == "the gap within the contact"
+    assert found.worst_name == "the gap within the contact"
     gap[0, 1] = -0.5
     load = Load(force=0.2)
     found = trial(gap, places, pressure - 1.5, load=load, rms_height=0.1, approach=1.0).residuals
@@ -143,7 +143,7 @@ def test_rounding_is_a_residual_and_is_named():
     ).residuals
     assert found.violation == 0
     assert found.worst == found.rounding == np.spacing(100.0) / 1e-9
-    assert found.worst_is_of == "the rounding of the depth"
+    assert found.worst_name == "the rounding of the depth"
 
 
 def test_a_residual_that_is_no_number_is_the_largest():
@@ -165,7 +165,7 @@ def test_the_stiffness_on_loading_is_that_of_the_elastic_nodes_and_on_unloading_
     bodies, load = problem((x**2 + y**2) / 20, Yielding(hardness=0.1), 1.0), Load(depth=1.0)
     contact = Turns(bodies, load, first_guess(bodies, load)[0], method).contact()
     assert 0 < contact.plastic.sum() < contact.nodes.size
-    answer = response(contact, Window.whole(bodies), None, method)
+    answer = response(contact, GridWindow.everywhere(bodies), None, method)
     assert answer.converged
     for tangent, follow in (
         (answer.loading, ~contact.plastic),

@@ -124,7 +124,7 @@ def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
 def test_nodes_exchanged_one_by_one_reach_the_same_contact(monkeypatch, load):
     surface = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(12, 3)
     together = rl.press(surface, E_star=1.0, **load)
-    monkeypatch.setattr(active_set, "_PATIENCE", -1)
+    monkeypatch.setattr(active_set, "_MOST_ROUNDS", -1)
     monkeypatch.setattr(active_set._ExchangeRule, "one_by_one", True)
     alone = rl.press(surface, E_star=1.0, **load)
     assert alone.converged.all()

@@ -78,8 +78,8 @@ def test_sums_over_pairs_are_those_of_the_transforms(monkeypatch, shape, spacing
     )
     pressure = rng.random(300)
     transformed = operator.displacement(pressure, sources, targets)
-    monkeypatch.setattr(convolution, "_MANY", 0)
-    monkeypatch.setattr(convolution, "_PAIRS", np.inf)
+    monkeypatch.setattr(convolution, "_MANY_MODES", 0)
+    monkeypatch.setattr(convolution, "_PAIRS_PER_MODE", np.inf)
     summed = operator.displacement(pressure, sources, targets)
     assert (summed != transformed).any()
     np.testing.assert_allclose(summed, transformed, rtol=1e-13)
@@ -110,7 +110,7 @@ def test_modes_taken_in_even_and_odd_halves_displace_as_all_at_once(shape, monke
     )
     pressure = rng.normal(size=sources.indices.size)
     expected = [operator.displacement(pressure, sources, where) for where in (None, targets)]
-    monkeypatch.setattr(convolution, "_LARGE", 0)
+    monkeypatch.setattr(convolution, "_LARGE_GRID_POINTS", 0)
     for where, whole in zip((None, targets), expected, strict=True):
         halves = operator.displacement(pressure, sources, where)
         assert halves == pytest.approx(whole, abs=ROUNDING * abs(whole).max())

@@ -10,7 +10,7 @@ import roughline as rl
 from random_cases import cases
 from roughline.computing import fft
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.halfspace.inverse import kept
+from roughline.halfspace.inverse import cache
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.operators import coarse_grid, convolution, restricted
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
@@ -25,8 +25,8 @@ from roughline.halfspace.search.turns import Turns
 @pytest.fixture(autouse=True)
 def _on_small_grids(monkeypatch):
     """Restrict the operator of small grids as well."""
-    monkeypatch.setattr(restricted, "_SMALL", 0)
-    monkeypatch.setattr(kept._kept, "inverses", {})
+    monkeypatch.setattr(restricted, "_FEW_MODES", 0)
+    monkeypatch.setattr(cache._cache, "inverses", {})
 
 
 def contact_nodes(shape, seed, part):
@@ -118,7 +118,7 @@ def test_coarse_grids_that_threads_share_give_the_same(monkeypatch, periodic):
     pressure = np.random.default_rng(1).random(nodes.indices.size)
     split = made(operator, (2, 2))
     alone = split.displacement(pressure, nodes, nodes)
-    monkeypatch.setattr(coarse_grid, "_SMALL", 0)
+    monkeypatch.setattr(coarse_grid, "_ONE_THREAD_MODES", 0)
     shared = split.displacement(pressure, nodes, nodes)
     assert np.abs(shared - alone).max() <= 1e-5 * np.abs(alone).max()
 
@@ -238,7 +238,7 @@ def test_a_damaged_one_costs_time_and_never_a_wrong_result(monkeypatch, damage, 
     surface = heights()
     sound = rl.press(surface, E_star=1.0, forces=[0.02, 0.3, 2.0])
     loads = {control: getattr(sound, control.removesuffix("s"))}
-    kept._kept.clear()
+    cache._cache.clear()
     if damage == "stale coarse grid":
         monkeypatch.setattr(CoarseGrid, "_convolved", lambda self, pressure, out: out)
     else:
@@ -331,7 +331,7 @@ def test_searches_that_begin_where_bodies_can_touch_end_as_others(hardness, monk
             given = {"E_star": 1.0, "hardness": hardness, control: values}
             usual = rl.press(surface, **given)
             with pytest.MonkeyPatch.context() as patch:
-                whole_grid = lambda cls, problem, *others: cls.whole(problem)  # noqa: E731
+                whole_grid = lambda cls, problem, *others: cls.everywhere(problem)  # noqa: E731
                 patch.setattr(Region, "possible", classmethod(whole_grid))
                 near = rl.press(surface, **given)
             assert usual.converged.all()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace.search.window import Window
+from roughline.halfspace.search.window import GridWindow
 
 
 def surfaces():
@@ -41,7 +41,7 @@ def test_nodes_farther_apart_than_the_depth_cannot_touch():
 def test_what_is_found_in_a_window_is_found_on_the_whole_grid(monkeypatch, control, hardness):
     values = {"forces": [2e-3, 0.02, 5e-3, 0.2], "depths": [0.05, 0.2, 0.15, 0.8]}[control]
     shares = []
-    of = Window.of.__func__
+    of = GridWindow.of.__func__
 
     def recorded(cls, *arguments):
         found = of(cls, *arguments)
@@ -50,11 +50,11 @@ def test_what_is_found_in_a_window_is_found_on_the_whole_grid(monkeypatch, contr
 
     for surface in surfaces():
         with monkeypatch.context() as patch:
-            patch.setattr(Window, "of", classmethod(recorded))
+            patch.setattr(GridWindow, "of", classmethod(recorded))
             windowed = pressed(surface, hardness, **{control: values})
         with monkeypatch.context() as patch:
             patch.setattr(
-                Window, "of", classmethod(lambda cls, problem, *others: cls.whole(problem))
+                GridWindow, "of", classmethod(lambda cls, problem, *others: cls.everywhere(problem))
             )
             whole = pressed(surface, hardness, **{control: values})
         for name in ("force", "depth", "stiffness", "unloading_stiffness", "work"):
@@ -70,9 +70,9 @@ def test_what_is_found_in_a_window_is_found_on_the_whole_grid(monkeypatch, contr
 def test_a_start_that_foresees_too_little_depth_is_solved_again_on_the_whole_grid(monkeypatch):
     surface = next(surfaces())
     usual = pressed(surface, None, forces=[0.05])
-    of = Window.of.__func__
+    of = GridWindow.of.__func__
     monkeypatch.setattr(
-        Window,
+        GridWindow,
         "of",
         classmethod(
             lambda cls, problem, load, start: of(

@@ -7,7 +7,7 @@ from roughline.computing.arrays import InGrid, InPatch, InRegion, InWindow, amon
 from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.search.carriers import Carriers, merged
 from roughline.halfspace.search.problem import Problem
-from roughline.halfspace.search.window import Window
+from roughline.halfspace.search.window import GridWindow
 
 
 def nodes_of_four_lists(
@@ -24,7 +24,11 @@ def nodes_of_four_lists(
 
 
 def through_the_doors(
-    grid: InGrid, region: InRegion, window: Window, operator: CorrectedOperator, carriers: Carriers
+    grid: InGrid,
+    region: InRegion,
+    window: GridWindow,
+    operator: CorrectedOperator,
+    carriers: Carriers,
 ) -> None:
     """Windows and regions lead from one list to another."""
     window.on_grid(window.inside(grid))

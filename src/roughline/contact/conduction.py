@@ -109,7 +109,7 @@ def conductance(
         Whether the surface is repeated.
     """
     # here because compiled loops load slowly
-    from roughline.halfspace.inverse.kept import working_memory
+    from roughline.halfspace.inverse.cache import working_memory
     from roughline.halfspace.search.problem import Grid, Method
     from roughline.halfspace.search.tangent import punch_compliance
 

@@ -26,7 +26,7 @@ from roughline.contact.status import Status
 from roughline.errors import Interrupted
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.halfspace.inverse.kept import working_memory
+from roughline.halfspace.inverse.cache import working_memory
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import remarks, resolution, resolves_pull_off
@@ -186,7 +186,7 @@ class _Record:
         elif outcome is not Outcome.UNKNOWN_SURFACE:
             curve.residual[at] = contact.residuals.worst
             for load in at.tolist():
-                self._residual_of[load] = contact.residuals.worst_is_of
+                self._residual_of[load] = contact.residuals.worst_name
             if response is not None:
                 status = Status.CONVERGED if response.converged else Status.NO_TANGENT
         if response is not None and status is Status.CONVERGED:

@@ -40,10 +40,10 @@ def disc_stiffness(spectrum: Callable[[Real], Real], E_star: float, radius: floa
         return E_star / 2 * q * spectrum(q) - 1
 
     growing = 2.0 ** np.arange(-30, 13.25, 0.25)  # wavenumber times radius
-    felt = np.flatnonzero(np.abs(beside(growing)) > 1e-12)
-    if not felt.size:
+    significant = np.flatnonzero(np.abs(beside(growing)) > 1e-12)
+    if not significant.size:
         return 2 * E_star * radius
-    end = 1.2 * float(growing[felt[-1]])
+    end = 1.2 * float(growing[significant[-1]])
     edges = np.concatenate([[0.0], growing[growing <= 8][::4], np.arange(18.0, end + 10, 10)])
     count = 8 + math.isqrt(int(end))  # forces at the rim change over radius / end
     equations, norms = np.eye(count), np.sqrt(4 * np.arange(count)[:, np.newaxis] + 1)

@@ -311,16 +311,16 @@ class TwoBodies(HalfSpace):
 class _Interface(HalfSpace):
     """A half-space that is repeated, and displaced from its mean."""
 
-    whole: HalfSpace
+    half_space: HalfSpace
 
     def __repr__(self) -> str:
         """Return what makes it, in Python."""
-        return f"({self.whole!r}).interface"
+        return f"({self.half_space!r}).interface"
 
     @property
     def E_star(self) -> float:  # type: ignore[override]
         """Contact modulus of the surface. [pressure]"""
-        return self.whole.E_star
+        return self.half_space.E_star
 
     @property
     def periodic(self) -> bool:  # type: ignore[override]
@@ -335,24 +335,24 @@ class _Interface(HalfSpace):
     @property
     def softest(self) -> float:
         """Contact modulus of the softest material. [pressure]"""
-        return self.whole.softest
+        return self.half_space.softest
 
     def strain(self, pressure: float, side: float) -> float:
         """Return about how far pressure strains the whole. [1]"""
-        return self.whole.strain(pressure, side)
+        return self.half_space.strain(pressure, side)
 
     def spectrum(self, q: Real) -> Real:
         """Return the displacement over the pressure of waves; without a bound for even pressure."""
-        return np.where(q == 0, np.inf, self.whole.spectrum(q))
+        return np.where(q == 0, np.inf, self.half_space.spectrum(q))
 
     def refuse(self, spacing: tuple[float, float]) -> None:
         """Refuse grids that do not resolve the whole."""
-        self.whole.refuse(spacing)
+        self.half_space.refuse(spacing)
 
     def in_units(self, pressure: float, length: float) -> _Interface:
         """Return the same half-space in other units."""
-        return _Interface(self.whole.in_units(pressure, length))
+        return _Interface(self.half_space.in_units(pressure, length))
 
     def disc_stiffness(self, radius: float) -> float:
         """Return the force per approach of a rigid disc on the whole."""
-        return self.whole.disc_stiffness(radius)
+        return self.half_space.disc_stiffness(radius)

@@ -56,7 +56,10 @@ class Homogeneous(HalfSpace):
 
     @property
     def interface(self) -> Homogeneous:
-        """The same, repeated along both axes: even pressure has no bounded displacement."""
+        """A half-space of this modulus that repeats along both axes, as seen from its mean plane.
+
+        Even pressure has no bounded displacement.
+        """
         return replace(self, periodic=True)
 
     def spectrum(self, q: Real) -> Real:

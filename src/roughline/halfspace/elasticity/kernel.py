@@ -21,10 +21,10 @@ from roughline.computing.compiled import compiled
 # Love's closed form loses digits with the distance: its four terms grow like r, their sum decays
 # like 1/r. So it is used up to this distance from the cell, in its shorter sides. Beyond, the
 # integral along the longer side is exact and eight Gauss points across it are enough.
-_CLOSED_FORM = 2.5
+_CLOSED_FORM_UP_TO = 2.5
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 # From this distance on, in longer sides, the multipoles up to 1/r^11 are all that counts.
-_FAR = 16.0
+_MULTIPOLES_FROM = 16.0
 _MULTIPOLES = 5  # beside the first
 
 
@@ -75,13 +75,13 @@ def _fill(
 ) -> None:
     for i in range(x.size):
         row = rows[i]
-        near = np.searchsorted(y, math.sqrt(max(_FAR**2 - x[i] ** 2, 0.0)))
+        near = np.searchsorted(y, math.sqrt(max(_MULTIPOLES_FROM**2 - x[i] ** 2, 0.0)))
         for j in range(near):
             row[j] = factor * _near(x[i], y[j], dx, dy)
         powers, share = _in_powers(x[i], multipoles), factor * dx * dy
-        beyond, far = y[near:], row[near:]
+        outer, far = y[near:], row[near:]
         for j in range(far.size):
-            far[j] = share * _series(powers, x[i], beyond[j])
+            far[j] = share * _series(powers, x[i], outer[j])
 
 
 @compiled
@@ -112,7 +112,7 @@ def _near(x: float, y: float, dx: float, dy: float) -> float:
     if dx < dy:
         x, y, dx, dy = y, x, dy, dx
     left, right = x - dx / 2, x + dx / 2
-    if max(left, 0.0) ** 2 + y**2 < (_CLOSED_FORM * dy) ** 2:
+    if max(left, 0.0) ** 2 + y**2 < (_CLOSED_FORM_UP_TO * dy) ** 2:
         low, high = y - dy / 2, y + dy / 2
         return _corner(right, high) - _corner(left, high) - _corner(right, low) + _corner(left, low)
     total = 0.0

@@ -16,8 +16,8 @@ from roughline.errors.checks import between, positive, several
 from roughline.errors.public import public_making
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
 
-_THINNEST = 0.5  # thickness of the top layer over the side of a cell, at least
-_FAR = 1e3  # side over thickness, from which on pressure is even for layers
+_THINNEST_TOP_LAYER = 0.5  # thickness of the top layer over the side of a cell, at least
+_EVEN_PRESSURE_FROM = 1e3  # side over thickness, from which on pressure is even for layers
 
 
 @public_making
@@ -131,7 +131,7 @@ class Layered(HalfSpace):
         base_young, base_poisson = self._materials[-1]
         of_base = 1 / (base_young / (1 - base_poisson**2))
         thickness = sum(several(self.thickness))
-        side = min(side, _FAR * thickness)
+        side = min(side, _EVEN_PRESSURE_FROM * thickness)
         added = float(self.spectrum(np.array([1 / side]))[0]) - 2 * side * of_base
         return pressure * max(of_base, added / min(thickness, 2 * side))
 
@@ -165,7 +165,7 @@ class Layered(HalfSpace):
     def refuse(self, spacing: tuple[float, float]) -> None:
         """Refuse grids of cells more than twice as large as the top layer is thick."""
         thickness, cell = float(self._layers[2, 0]), max(spacing)
-        if thickness < _THINNEST * cell:
+        if thickness < _THINNEST_TOP_LAYER * cell:
             raise InputError(
                 f"is {thickness:.3g} for the top layer, less than half a cell of {cell:.3g}: leave "
                 "that layer out, as its base alone is felt on such a grid, or press on a finer one",

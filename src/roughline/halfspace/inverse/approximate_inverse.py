@@ -39,15 +39,19 @@ from roughline.computing.arrays import Floats, Indices, InGrid, Integers, Real, 
 from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
-from roughline.halfspace.operators.grid_nodes import ROUNDING, GridNodes, unit_in_single
-from roughline.halfspace.operators.restricted import RESOLVED, RestrictedOperators, felt_beneath
+from roughline.halfspace.operators.grid_nodes import RUN_UNIT, GridNodes, unit_in_single
+from roughline.halfspace.operators.restricted import (
+    RESOLVED_EXCESS,
+    RestrictedOperators,
+    excess_compliance,
+)
 
-_BLOCK = 16  # cells along the side of a block, where these are square
-_DIRECT = 300  # nodes or fewer, whose equations are solved directly
+_BLOCK_CELLS = 16  # cells along the side of a block, where these are square
+_MOST_DIRECT_NODES = 300  # whose equations are solved directly
 
-_PARTS = 4  # of the surface along an axis, at most; and blocks along the side of one, at least
-_STEEP = 50.0  # fall of wavenumber times compliance, from which on plates bend
-_LEAST = 0.1  # of the compliance of a wave, which no eigenvalue on a grid is taken to be below
+_MOST_PARTS = 4  # of the surface along an axis; and fewest blocks along the side of one
+_PLATES_FROM = 50.0  # fall of wavenumber times compliance, from which on plates bend
+_EIGENVALUE_FLOOR = 0.1  # of the eigenvalues on a grid, over the compliance of the wave
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,20 +76,20 @@ class ApproximateInverse:
         offsets, taps = _stencil(operator, stretch)
         reach_x, reach_y = (int(each) for each in abs(offsets).max(axis=0))
         assert operator.half_space is not None
-        block = _BLOCK
-        if felt_beneath(operator.half_space, block / 4 * min(dx, dy)) > RESOLVED:
+        block = _BLOCK_CELLS
+        if excess_compliance(operator.half_space, block / 4 * min(dx, dy)) > RESOLVED_EXCESS:
             block //= 2
         sides = min(round(block * stretch), nx), min(round(block / stretch), ny)
         corners = np.arange(0, nx, sides[0]), np.arange(0, ny, sides[1])
-        whole, origin = (operator.spectrum, operator.periods), (np.zeros(1), np.zeros(1))
+        grid, origin = (operator.spectrum, operator.periods), (np.zeros(1), np.zeros(1))
         return cls(
             operator,
             offsets,
             taps,
-            float(even_sums(*whole, origin)[0, 0]) + _raised(operator),
+            float(even_sums(*grid, origin)[0, 0]) + _even_pressure_term(operator),
             sides,
-            even_sums(*whole, corners, sides) + _raised(operator),
-            RestrictedOperators(operator, (reach_x, reach_y + ROUNDING)),
+            even_sums(*grid, corners, sides) + _even_pressure_term(operator),
+            RestrictedOperators(operator, (reach_x, reach_y + RUN_UNIT)),
         )
 
     @property
@@ -106,7 +110,7 @@ class ApproximateInverse:
 
     @cached_property
     def block_inverse(self) -> tuple[Real, tuple[int, int]]:
-        """The same of the inverse of that kernel.
+        """Spectrum of the inverse of that kernel, and its periods.
 
         Cut short, the kernel may have eigenvalues that are too small.
         """
@@ -120,8 +124,8 @@ class ApproximateInverse:
         assert half_space is not None
         sides = [n * side for n, side in zip(operator.periods, operator.spacing, strict=True)]
         block = min(n * side for n, side in zip(self.block_sides, operator.spacing, strict=True))
-        longest, short = (felt_beneath(half_space, side / 2) for side in (max(sides), block))
-        return longest > RESOLVED > short
+        longest, short = (excess_compliance(half_space, side / 2) for side in (max(sides), block))
+        return longest > RESOLVED_EXCESS > short
 
     @cached_property
     def is_of_plates(self) -> bool:
@@ -129,7 +133,7 @@ class ApproximateInverse:
         return bends_as_plates(self.operator)
 
     @cached_property
-    def of_waves(self) -> Convolution:
+    def inverse_convolution(self) -> Convolution:
         """The inverse convolution of the whole grid."""
         operator, half_space = self.operator, self.operator.half_space
         assert half_space is not None
@@ -142,10 +146,12 @@ class ApproximateInverse:
         def fill(first: int, last: int) -> None:
             q, eigenvalues = np.hypot(kx[first:last, np.newaxis], ky), inverse[first:last]
             q[q == 0] = max(kx[-1], ky[-1])  # in place of no wave
-            np.maximum(eigenvalues, _LEAST / modes * half_space.spectrum(q), out=eigenvalues)
+            np.maximum(
+                eigenvalues, _EIGENVALUE_FLOOR / modes * half_space.spectrum(q), out=eigenvalues
+            )
 
         fft.share_out_blocks(fill, kx.size, 1 + fft.VALUES_AT_A_TIME // ky.size)
-        inverse[0, 0] += _raised(operator)
+        inverse[0, 0] += _even_pressure_term(operator)
         inverse *= modes**2
         np.reciprocal(inverse, out=inverse)
         return replace(operator, spectrum=inverse, half_space=None)
@@ -169,7 +175,7 @@ class ApproximateInverse:
         """Displacement under unit pressure on one node, by the distance from it in cells."""
         corner = GridNodes.of(InGrid(np.zeros(1, dtype=np.intp)), self.operator.shape)
         kernel = self.operator.displacement(np.ones(1), corner, None, "float32")
-        kernel += _raised(self.operator)
+        kernel += _even_pressure_term(self.operator)
         return kernel.astype(np.float32)
 
 
@@ -180,10 +186,10 @@ def bends_as_plates(operator: Convolution) -> bool:
     sides = [n * side for n, side in zip(operator.periods, spacing, strict=True)]
     q = np.geomspace(2 * np.pi / max(sides), np.pi / min(spacing))
     compliance = q * half_space.spectrum(q)
-    return bool((np.maximum.accumulate(compliance) > _STEEP * compliance).any())
+    return bool((np.maximum.accumulate(compliance) > _PLATES_FROM * compliance).any())
 
 
-def _raised(operator: Convolution) -> float:
+def _even_pressure_term(operator: Convolution) -> float:
     """Return what is added to the kernel, so that even pressure displaces as other pressures do.
 
     Nothing, unless even pressure displaces nothing.
@@ -213,7 +219,7 @@ _Preconditioner = Callable[[Real], Real]
 
 def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> _Preconditioner:
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
-    if nodes.indices.size <= _DIRECT:
+    if nodes.indices.size <= _MOST_DIRECT_NODES:
         return _Direct(inverse, nodes)
     return (_Waves if inverse.is_of_plates else _TwoLevels)(inverse, nodes)
 
@@ -247,7 +253,7 @@ class _Waves:
     """
 
     def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        self._convolution, self._nodes = inverse.of_waves, nodes
+        self._convolution, self._nodes = inverse.inverse_convolution, nodes
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""
@@ -291,9 +297,9 @@ class _TwoLevels:
         """Return the pressure on the nodes of each block, from the sums of their residuals."""
         if self._shapes is None:
             return self._cut(sums)
-        borne, rest = self._shapes.solved(sums)
+        solved_part, rest = self._shapes.solved(sums)
         pressure = self._cut(rest)
-        return borne + pressure - self._shapes.of(pressure)
+        return solved_part + pressure - self._shapes.of(pressure)
 
     def _cut(self, sums: Real) -> Real:
         """Return it by the inverse convolution alone, cut to the blocks with nodes."""
@@ -329,7 +335,7 @@ class _Shapes:
     """
 
     def __init__(self, inverse: ApproximateInverse, count: Real, alone: Real, scale: Real) -> None:
-        parts = [max(1, min(_PARTS, n // _PARTS)) for n in count.shape]
+        parts = [max(1, min(_MOST_PARTS, n // _MOST_PARTS)) for n in count.shape]
         rows, columns = (np.arange(n) * m // n for n, m in zip(count.shape, parts, strict=True))
         part = rows[:, np.newaxis] * parts[1] + columns
         each = (np.where(part == k, count * scale**2, 0.0) for k in range(math.prod(parts)))
@@ -346,8 +352,8 @@ class _Shapes:
     def solved(self, sums: Real) -> tuple[Real, Real]:
         """Return the pressures by which shapes take up residuals, and what remains of these."""
         parts = self._inverse @ (self._shapes @ sums.ravel())
-        borne, moved = parts @ self._shapes, parts @ self._displaced
-        return borne.reshape(sums.shape), sums - moved.reshape(sums.shape)
+        solved_part, moved = parts @ self._shapes, parts @ self._displaced
+        return solved_part.reshape(sums.shape), sums - moved.reshape(sums.shape)
 
     def of(self, pressure: Real) -> Real:
         """Return the part of pressures that shapes have, by energy."""
@@ -413,7 +419,7 @@ def _apply_stencil(
 ) -> None:
     """Apply a stencil at the nodes of some bands, and set the means over blocks.
 
-    The grid is flat, and zero but at the nodes, with margins wider than the stencil by ROUNDING. Of
+    The grid is flat, and zero but at the nodes, with margins wider than the stencil by RUN_UNIT. Of
     the stencil, flat offsets and 1 + 6 n coefficients are given, the central one first; of what is
     even, the means over blocks, and one over the nodes of each block.
     """

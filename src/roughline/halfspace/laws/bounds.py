@@ -65,7 +65,7 @@ class Bounds:
             return pressure
         return np.clip(pressure, self.low, self.high)
 
-    def missed(self, pressure: Real) -> tuple[float, float]:
+    def violations(self, pressure: Real) -> tuple[float, float]:
         """Return by how much pressures are below and above the bounds, at most. [pressure]"""
         if not pressure.size:
             return 0.0, 0.0

@@ -18,10 +18,10 @@ from roughline.halfspace.laws.law import LEAST_SHARE, ContactLaw
 
 RESOLVED_FROM = 4.0
 """Cells across the zone that pulls, from which on a grid resolves it."""
-_POORLY_FROM = 2.0  # cells, with which a pull-off is resolved at least
+_PULL_OFF_FROM = 2.0  # cells across that zone, from which on a grid resolves a pull-off
 # Half of the ramp over what the pull on a cell displaces it: so a cell at the edge of the reach has
 # one place, and a circle on cells pulls as a circle does (benchmarks/pull_off.py).
-_WIDTH = 4.0
+_RAMP_WIDTH = 4.0
 
 
 def farthest_pulled(law: ContactLaw) -> float:
@@ -50,7 +50,7 @@ def narrowest_ramp(law: ContactLaw, compliance: float) -> float:
 
     The compliance is the displacement of a cell by unit pressure on it alone. [length / pressure]
     """
-    return _WIDTH * Bounds.of(law).largest_pull * compliance
+    return _RAMP_WIDTH * Bounds.of(law).largest_pull * compliance
 
 
 def refuse_end_within_a_cell(law: ContactLaw, compliance: float) -> None:
@@ -78,7 +78,7 @@ def zone(law: ContactLaw) -> float:
 
 def resolves_pull_off(law: ContactLaw) -> bool:
     """Whether the zone that pulls has cells enough for a pull-off."""
-    return zone(law) >= _POORLY_FROM
+    return zone(law) >= _PULL_OFF_FROM
 
 
 def resolution(law: ContactLaw) -> dict[str, float]:

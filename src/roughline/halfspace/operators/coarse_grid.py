@@ -21,8 +21,8 @@ from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.workspace import Workspace
 
-_SMALL = 2**18  # modes, up to which one thread transforms all sooner than two share them
-_BEYOND = 3  # coarse nodes that splines reach beyond the grid
+_ONE_THREAD_MODES = 2**18  # up to which one thread transforms all sooner than two share them
+_SPLINE_MARGIN = 3  # coarse nodes that splines reach beyond the grid
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class CoarseGrid:
         x, y = ((2 + np.cos(2 * np.pi / n * np.arange(n // 2 + 1))) / 3 for n in (px, py))
         corrected = spectrum / (x[:, np.newaxis] * y) ** 2
         nx, ny = (
-            n // ratio if repeated else -(-n // ratio) + _BEYOND
+            n // ratio if repeated else -(-n // ratio) + _SPLINE_MARGIN
             for n, ratio, repeated in zip(operator.shape, ratios, operator.repeats, strict=True)
         )
         dx, dy = (ratio * side for ratio, side in zip(ratios, operator.spacing, strict=True))
@@ -104,7 +104,7 @@ class CoarseGrid:
     def displacement(self, pressure: Single, sources: GridNodes, grid: PaddedGrid) -> Single:
         """Return the displacement of the coarse nodes, and leave the pressures on a fine grid."""
         nx, ny = (
-            n + _BEYOND if repeated else n
+            n + _SPLINE_MARGIN if repeated else n
             for n, repeated in zip(self.convolution.shape, self.repeats, strict=True)
         )
         spread, moved = (
@@ -122,25 +122,27 @@ class CoarseGrid:
         def spread_across(first: int, last: int) -> None:
             _spread_across_rows(lines, place, across, first, last, spread)
 
-        fft.share_out_blocks(spread_along, sources.rows.size, sources.rows_of(fft.VALUES_AT_A_TIME))
+        fft.share_out_blocks(
+            spread_along, sources.rows.size, sources.rows_holding(fft.VALUES_AT_A_TIME)
+        )
         fft.share_out_blocks(spread_across, len(spread), 1 + fft.VALUES_AT_A_TIME // len(spread))
         if any(self.repeats):
             grid.wrap(self.repeats)
             for values, repeated in zip((spread, spread.T), self.repeats, strict=True):
                 if repeated:  # what lies beyond a period, to a period away
-                    values[-_BEYOND] += values[0]
-                    values[1:_BEYOND] += values[-2:]
-            beyond = [(1, 2) if repeated else (0, 0) for repeated in self.repeats]
-            (left, right), (low, high) = beyond
+                    values[-_SPLINE_MARGIN] += values[0]
+                    values[1:_SPLINE_MARGIN] += values[-2:]
+            margins = [(1, 2) if repeated else (0, 0) for repeated in self.repeats]
+            (left, right), (low, high) = margins
             inner = np.ascontiguousarray(spread[left : nx - right, low : ny - high])
-            moved[:] = np.pad(self._convolved(inner, np.empty_like(inner)), beyond, mode="wrap")
+            moved[:] = np.pad(self._convolved(inner, np.empty_like(inner)), margins, mode="wrap")
             return moved
         return self._convolved(spread, moved)
 
     def _convolved(self, pressure: Single, out: Single) -> Single:
         """Convolve on the coarse grid; all is in single precision, whatever the types say."""
         periods = self.convolution.periods
-        if periods[0] * periods[1] <= _SMALL:
+        if periods[0] * periods[1] <= _ONE_THREAD_MODES:
             out[:] = fft.convolved(pressure, self._half_spectrum, periods)
             return out
         values: Any = pressure.ravel()

@@ -14,10 +14,10 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision, unit_in_single
 from roughline.halfspace.operators.workspace import Workspace
 
-_PAIRS = 4.0  # of nodes for each mode, up to which sums over pairs take less time ...
-_MANY = 2**20  # ... where there are so many modes
+_PAIRS_PER_MODE = 4.0  # of nodes, up to which sums over pairs take less time ...
+_MANY_MODES = 2**20  # ... where there are so many modes
 _ROWS_AT_A_TIME = 32  # of the kernel, over which pairs are summed before others
-_LARGE = 2**22  # points of the padded rows, from which on memory counts
+_LARGE_GRID_POINTS = 2**22  # of the padded rows, from which on memory counts
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,9 +83,9 @@ class Convolution:
         """Whether sums over pairs take less time than transforms, and no more memory than rows."""
         modes = self.periods[0] * self.periods[1]
         fit = targets <= _ROWS_AT_A_TIME * self.shape[1]
-        few = sources * targets <= _PAIRS * modes
+        few = sources * targets <= _PAIRS_PER_MODE * modes
         free = self.half_space is not None and not any(self.repeats)
-        return free and modes >= _MANY and fit and few
+        return free and modes >= _MANY_MODES and fit and few
 
     def _summed(self, pressure: Real, sources: GridNodes, targets: GridNodes, result: Real) -> Real:
         """Sum over pairs of nodes. Rows of the kernel are made for all pairs so far apart."""
@@ -109,7 +109,7 @@ class Convolution:
         Double precision needs no more memory than single precision so, where rows are padded.
         """
         padded = self.periods[1] >= 2 * self.shape[1] and self.periods[1] % 2 == 0
-        large = self.shape[0] * self.periods[1] > _LARGE
+        large = self.shape[0] * self.periods[1] > _LARGE_GRID_POINTS
         return 2 if padded and large and precision == "float64" else 1
 
     def _rows(self, precision: Precision) -> tuple[int, int]:
@@ -309,6 +309,6 @@ def _add_pairs(
                     for i in range(target_starts[k], target_starts[k + 1]):
                         total = 0.0
                         for j in range(source_starts[source], source_starts[source + 1]):
-                            apart = abs(target_columns[i] - source_columns[j])
-                            total += kernel[apart] * pressure[j]
+                            lag = abs(target_columns[i] - source_columns[j])
+                            total += kernel[lag] * pressure[j]
                         result[i] += total

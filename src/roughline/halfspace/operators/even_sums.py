@@ -57,8 +57,8 @@ def _summed(rows: Real, weights: Real, cosines: Real) -> Real:
     differ = cosines.shape[1]
     if differ == weights.size:
         return cosines @ rows.T
-    whole = weights.size - weights.size % differ
-    folded = rows[:, :whole].reshape(-1, whole // differ, differ)
-    sums = np.einsum("rij,ij->rj", folded, weights[:whole].reshape(-1, differ))
-    sums[:, : weights.size - whole] += rows[:, whole:] * weights[whole:]
+    complete = weights.size - weights.size % differ
+    folded = rows[:, :complete].reshape(-1, complete // differ, differ)
+    sums = np.einsum("rij,ij->rj", folded, weights[:complete].reshape(-1, differ))
+    sums[:, : weights.size - complete] += rows[:, complete:] * weights[complete:]
     return cosines @ sums.T

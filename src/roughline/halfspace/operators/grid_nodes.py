@@ -14,7 +14,7 @@ from roughline.computing.compiled import compiled
 
 Precision = Literal["float32", "float64"]
 
-ROUNDING = 8
+RUN_UNIT = 8
 """Columns to which runs of nodes are rounded up, and so the room they need beyond a stencil."""
 _SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divide by their size
 
@@ -50,7 +50,7 @@ class GridNodes:
         place[self.rows] = np.arange(self.rows.size)
         return place
 
-    def rows_of(self, nodes: int) -> int:
+    def rows_holding(self, nodes: int) -> int:
         """Return how many of the rows hold so many nodes, about."""
         return 1 + nodes * self.rows.size // max(1, self.indices.size)
 
@@ -62,14 +62,14 @@ class GridNodes:
         rounded up. Neighbours in a run are no further apart than that.
         """
         columns, is_last = self.columns, np.ones(self.columns.size, dtype=bool)
-        is_last[:-1] = columns[1:] - columns[:-1] > ROUNDING
+        is_last[:-1] = columns[1:] - columns[:-1] > RUN_UNIT
         is_last[self.starts[1:] - 1] = True
         last = np.flatnonzero(is_last)
         first = np.zeros_like(last)
         first[1:] = last[:-1] + 1
         runs = np.empty((last.size, 3), dtype=np.int32)
         runs[:, 0], runs[:, 1] = first, last + 1
-        runs[:, 2] = (columns[last] - columns[first]) // ROUNDING * ROUNDING + ROUNDING
+        runs[:, 2] = (columns[last] - columns[first]) // RUN_UNIT * RUN_UNIT + RUN_UNIT
         return first.searchsorted(self.starts), runs
 
 

@@ -33,12 +33,12 @@ from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace
 
-_NEAREST = 2  # images on either side that are summed as they are
-_LAGS = 8  # distances along the period at which the others are summed
-_FIRST = 32  # image with which the stretches begin; half as many of each are summed
-_STRETCHES = 32  # at most, which are enough for layers that spread a load as far as is allowed
-_FARTHEST = 1e8  # periods over which layers may spread a load: sums are good to 1e-11 up to there
-_TOLERANCE = 3e-11  # of the images beyond the last stretch, over the largest displacement
+_NEAREST_IMAGES = 2  # images on either side that are summed as they are
+_KNOWN_LAGS = 8  # distances along the period at which the others are summed
+_FIRST_STRETCHED = 32  # image with which the stretches begin; half as many of each are summed
+_MOST_STRETCHES = 32  # enough for layers that spread a load as far as is allowed
+_LARGEST_SPREAD = 1e8  # of a load by layers, in periods: sums are good to 1e-11 up to there
+_STRETCH_TOLERANCE = 3e-11  # of the images beyond the last stretch, over the largest displacement
 
 
 def fill_with_images(
@@ -64,25 +64,25 @@ def fill_with_images(
     InputError
         If layers spread a load over so many periods that the sum is not known.
     """
-    if (periods := half_space.spread / (period * spacing[0])) > _FARTHEST:
+    if (periods := half_space.spread / (period * spacing[0])) > _LARGEST_SPREAD:
         raise InputError(
             f"the layers spread a load over {periods:.2g} periods of the strip, and the sum over "
-            f"its images is known up to {_FARTHEST:.0e}: give thinner or softer layers, or a "
+            f"its images is known up to {_LARGEST_SPREAD:.0e}: give thinner or softer layers, or a "
             f"surface that repeats along both axes ({called('periodic', True)})"
         )
     images = _Images(half_space, period, spacing, table.shape[1])
-    beyond = images.beyond_nearest(width + half_space.spread)
+    farther = images.farther_images(width + half_space.spread)
 
     def fill(first: int, last: int) -> None:
         rows = table[first:last]
         half_space.kernel(first, spacing, rows)
         image = np.empty_like(rows)
-        for place in range(period, (_NEAREST + 1) * period, period):
+        for place in range(period, (_NEAREST_IMAGES + 1) * period, period):
             half_space.kernel(place + first, spacing, image)
             rows += image
             half_space.kernel(place - last + 1, spacing, image)
             rows += image[::-1]
-        rows += images.interpolation(np.arange(first, last)) @ beyond
+        rows += images.interpolation(np.arange(first, last)) @ farther
 
     fft.share_out_blocks(fill, len(table), 1 + fft.VALUES_AT_A_TIME // table.shape[1])
 
@@ -95,8 +95,10 @@ class _Images:
     ) -> None:
         self._half_space, self._period, self._spacing = half_space, period, spacing
         self._columns, half = columns, period // 2
-        roots = np.sin(np.pi / 4 * (2 * np.arange(_LAGS) + 1) / _LAGS)  # Chebyshev's, of squares
-        lags = np.arange(half + 1) if half < _LAGS else np.unique(np.round(half * roots))
+        roots = np.sin(
+            np.pi / 4 * (2 * np.arange(_KNOWN_LAGS) + 1) / _KNOWN_LAGS
+        )  # Chebyshev's, of squares
+        lags = np.arange(half + 1) if half < _KNOWN_LAGS else np.unique(np.round(half * roots))
         self._lags = lags.astype(np.intp)
 
     def _row(self, place: int) -> Real:
@@ -121,25 +123,30 @@ class _Images:
         )
         return np.asarray(np.linalg.solve(of_known.T, of_lags.T).T, dtype=np.float64)
 
-    def beyond_nearest(self, datum: float) -> Real:
+    def farther_images(self, datum: float) -> Real:
         """Return the sum over all pairs of images beyond the nearest ones, at the known lags.
 
         Stretches are added until the sum with what lies beyond them no longer changes.
         """
-        total = sum((self._pair(m) for m in range(_NEAREST + 1, _FIRST)), np.zeros(()))
+        total = sum(
+            (self._pair(m) for m in range(_NEAREST_IMAGES + 1, _FIRST_STRETCHED)), np.zeros(())
+        )
         scale = float(np.abs(self._row(0)).max())
-        at, pairs = _FIRST, [self._pair(_FIRST), self._pair(2 * _FIRST)]
+        at, pairs = (
+            _FIRST_STRETCHED,
+            [self._pair(_FIRST_STRETCHED), self._pair(2 * _FIRST_STRETCHED)],
+        )
         before, best, least = np.full_like(total, np.inf), total, math.inf
-        for _ in range(_STRETCHES):
+        for _ in range(_MOST_STRETCHES):
             pairs.append(self._pair(4 * at))
             sums = total + self._rest(at, np.array(pairs[-3:]), datum)
             changed = float(np.abs(sums - before).max())
             if changed < least:
                 best, least = sums, changed
-            if changed <= _TOLERANCE * max(scale, float(np.abs(sums).max())):
+            if changed <= _STRETCH_TOLERANCE * max(scale, float(np.abs(sums).max())):
                 break
             before = sums
-            images, weights = _of_stretch(at)
+            images, weights = _stretch(at)
             for image, weight in zip(images.tolist(), weights.tolist(), strict=True):
                 total = total + weight * self._pair(image)
             at *= 2
@@ -163,14 +170,14 @@ class _Images:
         return rest
 
 
-def _of_stretch(first: int) -> tuple[Indices, Real]:
+def _stretch(first: int) -> tuple[Indices, Real]:
     """Return some of the images from the first one up to twice as far, and their weights.
 
     With these the sum over all of them is exact for polynomials, but for what Euler and Maclaurin's
     formula leaves out after the fifth derivative.
     """
     half = first / 2
-    angles = np.pi * (np.arange(_FIRST // 2) + 0.5) / (_FIRST // 2)
+    angles = np.pi * (np.arange(_FIRST_STRETCHED // 2) + 0.5) / (_FIRST_STRETCHED // 2)
     images = np.unique(np.round(1.5 * first - half * np.cos(angles)).astype(np.int64))
     images = images[images < 2 * first]
     k = np.arange(images.size, dtype=float)

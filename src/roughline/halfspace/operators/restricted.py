@@ -34,17 +34,17 @@ from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.even_sums import even_sums
-from roughline.halfspace.operators.grid_nodes import ROUNDING, GridNodes, Precision
+from roughline.halfspace.operators.grid_nodes import RUN_UNIT, GridNodes, Precision
 
-_WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
-_RADIUS = 2.25  # of the near part, in cells of the coarse grid
+_SMOOTHING_WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
+_NEAR_RADIUS = 2.25  # of the near part, in cells of the coarse grid
 # Cells along the side of a coarse cell, where these are square, and up to which part of the grid
 # they serve best.
 _SIDES = (8, 0.025), (4, 0.35), (2, 1.0)
-_MOST = 0.15  # part of the grid for each mode a point, up to which the exact operator takes longer
-_REACH = int(_RADIUS * _SIDES[0][0])  # of the near part, at most
-RESOLVED = 0.15  # part that the shortest waves of a coarse grid may feel of what lies beneath
-_SMALL = 2**16  # modes, up to which it takes less in any case
+_LARGEST_SHARE = 0.15  # of the grid for each mode a point; up to it the exact operator takes longer
+_MOST_REACH = int(_NEAR_RADIUS * _SIDES[0][0])  # of the near part, at most
+RESOLVED_EXCESS = 0.15  # compliance that lower layers may add for a coarse grid's shortest waves
+_FEW_MODES = 2**16  # up to which it takes less in any case
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,16 +68,19 @@ class RestrictedOperator:
         kx, ky = np.arange(coarse[0] // 2 + 1), np.arange(coarse[1] // 2 + 1)
         q = 2 * np.pi * np.hypot(kx[:, np.newaxis] / (px * dx), ky / (py * dy))
         spectrum = operator.spectrum[: kx.size, : ky.size]
-        share = erfc(q * _WIDTH * side / 2)
+        share = erfc(q * _SMOOTHING_WIDTH * side / 2)
         spectrum = operator.spectrum[: kx.size, : ky.size]
         steep, limit, rest = _split(operator, side, q)
         smooth = steep * share + rest
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
-        smooth[0, 0] -= limit / (px * py) * _WIDTH * side / np.sqrt(np.pi)
-        lags = np.arange(int(_RADIUS * side / dx) + 1), np.arange(int(_RADIUS * side / dy) + 1)
+        smooth[0, 0] -= limit / (px * py) * _SMOOTHING_WIDTH * side / np.sqrt(np.pi)
+        lags = (
+            np.arange(int(_NEAR_RADIUS * side / dx) + 1),
+            np.arange(int(_NEAR_RADIUS * side / dy) + 1),
+        )
         near = even_sums(operator.spectrum, operator.periods, lags)
         near -= even_sums(smooth, coarse, (lags[0] / rx, lags[1] / ry))
-        inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side
+        inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _NEAR_RADIUS * side
         near[~inside] = 0
         # what the cut leaves out, far more where the body has a length of its own, is smooth
         x, y = (
@@ -86,7 +89,7 @@ class RestrictedOperator:
         )
         smooth += (spectrum - smooth - x @ near @ y.T / (px * py)) * share
         near = np.concatenate([near[:0:-1], near])
-        taps = np.concatenate([near[:, :0:-1], near, np.zeros((len(near), ROUNDING - 1))], axis=1)
+        taps = np.concatenate([near[:, :0:-1], near, np.zeros((len(near), RUN_UNIT - 1))], axis=1)
         reach = inside.sum(axis=1) - 1
         return cls(
             CoarseGrid.of(operator, ratios, smooth),
@@ -118,7 +121,7 @@ class RestrictedOperator:
             _add_near_and_far(*parts)
 
         # for fewer near sums, starting a thread does not pay
-        rows_at_a_time = targets.rows_of(2**21 // self.taps.size)
+        rows_at_a_time = targets.rows_holding(2**21 // self.taps.size)
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
         grid.clear(sources, wrapped=self.far.repeats)
         return np.multiply(result, unit, dtype=np.float64)
@@ -134,7 +137,7 @@ class RestrictedOperators:
         self._operator = operator
         self._ratios = _ratios(operator)
         if self._ratios:
-            margins = max(margins[0], _REACH), max(margins[1], _REACH + ROUNDING)
+            margins = max(margins[0], _MOST_REACH), max(margins[1], _MOST_REACH + RUN_UNIT)
         self._margins = margins
         self._made: dict[tuple[int, int], RestrictedOperator] = {}
 
@@ -174,7 +177,7 @@ def _split(operator: Convolution, side: float, q: Real) -> tuple[Real, float, Re
     return steep, limit, (spectrum - steep) * smooth
 
 
-def felt_beneath(half_space: HalfSpace, side: float) -> float:
+def excess_compliance(half_space: HalfSpace, side: float) -> float:
     """Return by which part more than the surface's own modulus lets it a wave is displaced.
 
     The wave is the shortest on a grid with cells of such a side.
@@ -184,19 +187,19 @@ def felt_beneath(half_space: HalfSpace, side: float) -> float:
 
 def _resolves(half_space: HalfSpace, side: float) -> bool:
     """Whether a coarse grid resolves what waves feel beside the modulus of the surface."""
-    return abs(felt_beneath(half_space, side)) < RESOLVED
+    return abs(excess_compliance(half_space, side)) < RESOLVED_EXCESS
 
 
 def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
     """List possible coarse cells, about square, and up to which part of the grid they serve."""
     (dx, dy), possible = operator.spacing, []
-    most = _MOST * math.prod(operator.periods) / math.prod(operator.shape)
+    most = _LARGEST_SHARE * math.prod(operator.periods) / math.prod(operator.shape)
     for side, share in _SIDES:
         rx, ry = (side * 2 ** round(np.log2(max(dx, dy) / each)) for each in (dx, dy))
-        radius = _RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
+        radius = _NEAR_RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
         divide = operator.periods[0] % rx == operator.periods[1] % ry == 0
-        large = min(operator.shape) >= 64 and math.prod(operator.periods) > _SMALL
-        if large and divide and radius < _REACH + 1:
+        large = min(operator.shape) >= 64 and math.prod(operator.periods) > _FEW_MODES
+        if large and divide and radius < _MOST_REACH + 1:
             possible.append(((rx, ry), min(share, most)))
     half_space = operator.half_space
     assert half_space is not None

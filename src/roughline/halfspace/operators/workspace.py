@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-MUCH = 2**26
+MUCH_MEMORY = 2**26
 """Bytes from which on memory that is not needed for a while is given back.
 
 Less is kept: to touch new memory for the first time can take longer than the work on it.
@@ -44,5 +44,5 @@ class Workspace:
 
     def rest(self) -> None:
         """Give back what is much, as it is not needed for a while."""
-        for part in [part for part, memory in self._parts.items() if memory.nbytes > MUCH]:
+        for part in [part for part, memory in self._parts.items() if memory.nbytes > MUCH_MEMORY]:
             del self._parts[part]

@@ -41,13 +41,13 @@ from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Pat
 from roughline.halfspace.search.problem import SINGLE_ABOVE, Load, Method, Outcome
 from roughline.halfspace.search.region import Region, Trial
 
-AIM = 0.3
+TOLERANCE_AIM = 0.3
 """Of the tolerance, at which conjugate gradients aim so that a certificate is not just missed."""
 # After more rounds than this without a new minimum of wrong nodes, only the deepest overlaps join.
 # After six times as many, the equations are solved to the tolerance before nodes are exchanged; if
 # no minimum follows in twice as many, nodes are exchanged one by one.
-_PATIENCE = 8
-_RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at most
+_MOST_ROUNDS = 8
+_MOST_RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at most
 
 
 class Search:
@@ -199,36 +199,36 @@ def _relaxed(
     not positive definite.
     """
     diagonal = trial.region.problem.inverse.diagonal
-    tolerance, most_steps = AIM * rtol * trial.length_scale, min(most_steps, MOST_STEPS)
-    sides = Sides.of(trial, watched)
+    tolerance, most_steps = TOLERANCE_AIM * rtol * trial.length_scale, min(most_steps, MOST_STEPS)
+    partition = Partition.of(trial, watched)
     if not trial.touching.any():  # under a given depth, all may be at a bound
-        wrong = sides.wrong(trial.carriers.pressure[:0], sides.gap, tolerance)
+        wrong = partition.wrong(trial.carriers.pressure[:0], partition.gap, tolerance)
         return _Relaxation(trial.carriers, wrong, trial.approach, 0.0, 0)
-    gradients = sides.gradients(trial, precision, fixed_total=load.force is not None)
+    gradients = partition.gradients(trial, precision, fixed_total=load.force is not None)
     while True:
         level = trial.approach if load.force is None else gradients.level
         error = float(np.abs(gradients.error).max())
         if error <= tolerance or gradients.steps >= most_steps:
             break
         if gradients.steps and not to_tolerance:
-            squared = sides.squared(gradients.pressure, gradients.watched - level, diagonal)
+            squared = partition.squared(gradients.pressure, gradients.watched - level, diagonal)
             if squared > gradients.error @ gradients.error:
                 break
         if not gradients.advance():
             break
-    wrong = sides.wrong(gradients.pressure, gradients.watched - level, tolerance)
+    wrong = partition.wrong(gradients.pressure, gradients.watched - level, tolerance)
     pressure = gradients.pressure
     if not trial.touching.all():
         pressure = trial.carriers.pressure.copy()
         pressure[trial.touching] = gradients.pressure
     # a pressure out of its bounds counts as the displacement that it causes at its own node
-    largest = max(error, max(sides.bounds.missed(gradients.pressure)) * diagonal)
+    largest = max(error, max(partition.bounds.violations(gradients.pressure)) * diagonal)
     carriers = Carriers(trial.carriers.places, pressure)
     return _Relaxation(carriers, wrong, level, largest, gradients.steps)
 
 
 @dataclass(frozen=True, eq=False)
-class Sides:
+class Partition:
     """The nodes of a trial beside its touching ones, and on which side each belongs."""
 
     touching: Mask  # carriers between their bounds
@@ -239,7 +239,7 @@ class Sides:
     gap: Real  # there, negative where bodies overlap [length]
 
     @classmethod
-    def of(cls, trial: Trial, watched: InRegion) -> Sides:
+    def of(cls, trial: Trial, watched: InRegion) -> Partition:
         """Tell the nodes of a trial apart."""
         carriers, touching, plastic = trial.carriers, trial.touching, trial.plastic
         bounds = trial.region.bounds.at(carriers.places[touching])
@@ -319,12 +319,12 @@ class _ExchangeRule:
     @property
     def is_slow(self) -> bool:
         """Whether the number of wrong nodes has not fallen for many rounds."""
-        return self.to_tolerance or self._rounds > _PATIENCE
+        return self.to_tolerance or self._rounds > _MOST_ROUNDS
 
     @property
     def one_by_one(self) -> bool:
         """Whether only one node changes sides at a time."""
-        return self.to_tolerance and self._rounds > 2 * _PATIENCE
+        return self.to_tolerance and self._rounds > 2 * _MOST_ROUNDS
 
     def applied(self, region: Region, relaxation: _Relaxation, watched: InRegion) -> Carriers:
         """Return the carriers after wrong nodes have changed sides."""
@@ -336,7 +336,7 @@ class _ExchangeRule:
             wrong = wrong.deepest()
         self._rounds = 0 if self.wrong < self._fewest else self._rounds + 1
         self._fewest = min(self.wrong, self._fewest)
-        if not self.to_tolerance and self._rounds > 6 * _PATIENCE:
+        if not self.to_tolerance and self._rounds > 6 * _MOST_ROUNDS:
             self.to_tolerance, self._rounds, self._fewest = True, 0, math.inf
         return exchanged(region, carriers, watched, wrong)
 
@@ -349,7 +349,7 @@ def exchanged(region: Region, carriers: Carriers, watched: InRegion, wrong: _Wro
     # a node that leaves its bound is relieved of what its own gap takes to close, but of little,
     # for its neighbours change sides as well
     bound = pressure[wrong.leaving]
-    most = _RELIEF * np.abs(bound)
+    most = _MOST_RELIEF * np.abs(bound)
     pressure[wrong.leaving] -= np.clip(wrong.off / region.problem.inverse.diagonal, -most, most)
     free = wrong.below & (pressure == 0)
     return (

@@ -19,24 +19,24 @@ import numpy as np
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.search.problem import Contact, Load, Outcome
 
-_FASTER = 2.0  # by which a step to the next depth may be longer than the one before
+_STEP_GROWTH = 2.0  # by which a step to the next depth may be longer than the one before
 _MOST_TRIALS = 100
-_LOOKS = 8  # steps across an interval with a least force
+_DIP_STEPS = 8  # steps across an interval with a least force
 # A part of what nodes bear: a force that is missed by no more is then given itself, and what bears
 # no more beside another state has come off.
-_CLOSE = 1e-2
+_CLOSE_FORCE = 1e-2
 # Of the scale of lengths: the first step out of full contact, and how closely the depth is found at
 # which bodies come off by a jump.
-_FINE = 1e-5
+_FINE_STEP = 1e-5
 
 
-class Path(Protocol):
+class Continuation(Protocol):
     """A path of loads, which goes on from a copy of itself."""
 
     def under(self, load: Load) -> Contact:
         """Return the contact under the next load."""
 
-    def from_apart(self) -> Path:
+    def after_separation(self) -> Continuation:
         """Return the path of bodies that have come apart."""
 
 
@@ -44,7 +44,7 @@ class Path(Protocol):
 class State:
     """A path after a depth, and the contact there."""
 
-    path: Path
+    path: Continuation
     contact: Contact
 
     @property
@@ -65,7 +65,9 @@ class State:
 
     def has_come_off(self, before: State) -> bool:
         """Whether bodies no longer touch, and hardly pull each other beside another state."""
-        return not self.stiffness > 0 and self.borne <= _CLOSE * before.borne
+        return (
+            not self.stiffness > 0 and self.absolute_force <= _CLOSE_FORCE * before.absolute_force
+        )
 
     @property
     def is_rigid(self) -> bool:
@@ -73,7 +75,7 @@ class State:
         return math.isinf(self.stiffness)
 
     @property
-    def borne(self) -> float:
+    def absolute_force(self) -> float:
         """Sum of the forces on all nodes. [force]"""
         cell_area = self.contact.problem.grid.cell_area
         return cell_area * float(np.abs(self.contact.pressure).sum())
@@ -85,7 +87,7 @@ class State:
         if not pressure.size:
             return 0.0
         scale, _ = problem.scales(pressure, np.zeros_like(pressure))
-        return max(self.borne, problem.grid.cell_area * scale)
+        return max(self.absolute_force, problem.grid.cell_area * scale)
 
     @property
     def stiffness(self) -> float:
@@ -94,7 +96,7 @@ class State:
         return math.nan if response is None else response.loading.stiffness
 
 
-def under_forces(path: Path, loads: Sequence[Load], rtol: float) -> Iterator[Contact]:
+def under_forces(path: Continuation, loads: Sequence[Load], rtol: float) -> Iterator[Contact]:
     """Solve the contact under each force in turn."""
     last: State | None = None
     for load in loads:
@@ -103,7 +105,7 @@ def under_forces(path: Path, loads: Sequence[Load], rtol: float) -> Iterator[Con
         yield last.contact
 
 
-def _under_force(path: Path, state: State | None, force: float, rtol: float) -> State:
+def _under_force(path: Continuation, state: State | None, force: float, rtol: float) -> State:
     """Return the path after a force, and the contact under it.
 
     Where bodies that do not touch are to be pulled they are first brought to rest without a force.
@@ -114,8 +116,8 @@ def _under_force(path: Path, state: State | None, force: float, rtol: float) -> 
         state = first.nearer(path, None)
         search.convolutions += first.convolutions
     if state.is_solved and not search.is_at(state):
-        state = search.nearer(path, state) if state.force < force else search.apart(state)
-    return search.told(state)
+        state = search.nearer(path, state) if state.force < force else search.pull_apart(state)
+    return search.with_force_error(state)
 
 
 class _Search:
@@ -126,7 +128,7 @@ class _Search:
         self._force = force
         self._rtol = rtol
 
-    def at(self, path: Path, depth: float) -> State:
+    def at(self, path: Continuation, depth: float) -> State:
         """Follow a path to a depth."""
         path = copy(path)
         contact = path.under(Load(depth=depth))
@@ -137,8 +139,8 @@ class _Search:
         """Whether a contact bears the force."""
         return abs(state.force - self._force) <= self._rtol * state.compared
 
-    def told(self, state: State) -> State:
-        """Return a state with what the search took, and by how much it misses the force."""
+    def with_force_error(self, state: State) -> State:
+        """Return a state with the convolutions of the search and the error of its force."""
         contact = replace(state.contact, convolutions=self.convolutions)
         if state.is_solved and contact.outcome is Outcome.CONVERGED:
             error = abs(state.force - self._force)
@@ -150,20 +152,20 @@ class _Search:
             contact = replace(contact, response=None)
         return State(state.path, contact)
 
-    def given(self, path: Path) -> State:
+    def under_force(self, path: Continuation) -> State:
         """Follow a path to the force itself."""
         path = copy(path)
         contact = path.under(Load(force=self._force))
         self.convolutions += contact.convolutions
         return State(path, contact)
 
-    def nearer(self, path: Path, state: State | None) -> State:
+    def nearer(self, path: Continuation, state: State | None) -> State:
         """Bring bodies nearer until they bear the force.
 
         More pull brings them nearer under a force as at a depth, so the force itself may be given.
         Depths are for where that is not solved.
         """
-        found = self.given(path)
+        found = self.under_force(path)
         if found.is_solved:
             return found
         state = state or self.at(path, 0.0)
@@ -175,14 +177,14 @@ class _Search:
             return state
         return self._between(before, state)
 
-    def apart(self, state: State) -> State:
+    def pull_apart(self, state: State) -> State:
         """Take bodies apart until they bear the force, or come off."""
         if state.is_rigid:
             lowest_force = self._lowest_of_full_contact(state)
             if self._force > lowest_force:
-                return self.given(state.path)
+                return self.under_force(state.path)
             last = _Search(lowest_force, self._rtol)
-            state = last.given(state.path)
+            state = last.under_force(state.path)
             self.convolutions += last.convolutions
             if not state.is_solved or self.is_at(state):
                 return state
@@ -190,22 +192,22 @@ class _Search:
         lowest: _Dip | None = None  # of the force along the way
         step = -self._step(None, state)
         for _ in range(_MOST_TRIALS):
-            beyond = self.at(state.path, state.depth - step)
-            if not beyond.is_solved or self.is_at(beyond):
-                return beyond
-            if beyond.force < self._force:
-                return self._between(state, beyond)
+            trial = self.at(state.path, state.depth - step)
+            if not trial.is_solved or self.is_at(trial):
+                return trial
+            if trial.force < self._force:
+                return self._between(state, trial)
             is_least = state.force <= least.force
             if (
                 is_least
-                and beyond.has_come_off(state)
-                and step > _FINE * state.contact.length_scale
+                and trial.has_come_off(state)
+                and step > _FINE_STEP * state.contact.length_scale
             ):
-                step /= _FASTER**3
+                step /= _STEP_GROWTH**3
                 continue
-            passed = beyond.force >= state.force
+            passed = trial.force >= state.force
             if passed and is_least and state.force < 0:
-                dip = self._looked_into(_Dip(before, state, beyond))
+                dip = self._looked_into(_Dip(before, state, trial))
                 if dip.bound <= self._force:
                     found = self._least(dip)
                     if found.is_solved and found.force <= self._force:
@@ -213,13 +215,13 @@ class _Search:
                 if dip.middle.force <= least.force:
                     least, lowest = dip.middle, dip
             # beside a push, a pull that still grows may be small
-            if beyond.has_come_off(least if least.force < 0 else state):
-                least = self._least(lowest) if lowest else min(state, beyond, key=_force)
+            if trial.has_come_off(least if least.force < 0 else state):
+                least = self._least(lowest) if lowest else min(state, trial, key=_force)
                 off = replace(least.contact, outcome=Outcome.PULLED_OFF, response=None)
-                return State(beyond.path.from_apart(), off)
-            before, state = state, beyond
+                return State(trial.path.after_separation(), off)
+            before, state = state, trial
             wanted = math.inf if passed else -self._step(before, state)
-            step = min(max(wanted, step / _FASTER), _FASTER * step)
+            step = min(max(wanted, step / _STEP_GROWTH), _STEP_GROWTH * step)
         return replace(state, contact=replace(state.contact, outcome=Outcome.STALLED))
 
     def _lowest_of_full_contact(self, state: State) -> float:
@@ -234,7 +236,7 @@ class _Search:
         if not state.stiffness > 0:  # nothing touches
             return math.copysign(state.contact.length_scale, missing)
         if state.is_rigid:
-            return math.copysign(_FINE * state.contact.length_scale, missing)
+            return math.copysign(_FINE_STEP * state.contact.length_scale, missing)
         step = missing / state.stiffness
         if before is None or state.depth == before.depth:
             return step
@@ -253,7 +255,10 @@ class _Search:
             if not trial.is_solved or self.is_at(trial):
                 return trial
             off = trial.force - self._force
-            if abs(off) <= _CLOSE * trial.borne and (found := self.given(start.path)).is_solved:
+            if (
+                abs(off) <= _CLOSE_FORCE * trial.absolute_force
+                and (found := self.under_force(start.path)).is_solved
+            ):
                 return found
             if (off < 0) == (start.force < self._force):
                 start, low = trial, off
@@ -266,12 +271,12 @@ class _Search:
     def _looked_into(self, dip: _Dip) -> _Dip:
         """Narrow a dip by looks in even steps: that of a rough body falls and rises many times."""
         states = [dip.nearer]
-        for depth in np.linspace(dip.nearer.depth, dip.farther.depth, _LOOKS + 1)[1:-1]:
+        for depth in np.linspace(dip.nearer.depth, dip.farther.depth, _DIP_STEPS + 1)[1:-1]:
             states.append(self.at(states[-1].path, float(depth)))
             if not states[-1].is_solved:
                 return dip
         states.append(dip.farther)
-        least = min(range(1, _LOOKS), key=lambda i: states[i].force)
+        least = min(range(1, _DIP_STEPS), key=lambda i: states[i].force)
         return _Dip(*states[least - 1 : least + 2])
 
     def _least(self, dip: _Dip) -> State:
@@ -287,7 +292,7 @@ class _Search:
                 dip = _Dip(nearer, trial, middle) if gained > 0 else _Dip(trial, middle, farther)
             else:
                 dip = _Dip(middle, trial, farther) if gained > 0 else _Dip(nearer, middle, trial)
-            if abs(gained) <= self._rtol * dip.middle.borne:
+            if abs(gained) <= self._rtol * dip.middle.absolute_force:
                 break
         return dip.middle
 

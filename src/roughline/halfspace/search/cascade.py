@@ -11,12 +11,12 @@ import numpy as np
 from roughline.computing.arrays import InGrid, Real
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.pull import Shares
-from roughline.halfspace.search.window import Window
+from roughline.halfspace.search.window import GridWindow
 
-_COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
+_COARSEST_POINTS = 64  # points along the longer side of the grid that starts from the rigid shift
 # A guess whose pressures exceed an upper bound so many times leaves no doubt that nodes yield.
-_BEYOND_DOUBT = 3.0
-_ROUGH = Method(rtol=1e-2, max_iterations=200, precision="float32")
+_CERTAIN_YIELD = 3.0
+_ROUGH_METHOD = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
 def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, Problem]:
@@ -25,7 +25,7 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, Problem]:
     Return with them the bodies, which yield where pressures on the next coarser grid foresee it.
     """
     start = _from_coarser(problem, load)
-    if start is not None and problem.exceeds(start.nodes, start.pressure, _BEYOND_DOUBT):
+    if start is not None and problem.exceeds(start.nodes, start.pressure, _CERTAIN_YIELD):
         problem = replace(problem, is_elastic=False)
         start = _from_coarser(problem, load)
     return start or _rigid_guess(problem, load), problem
@@ -38,7 +38,7 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
     all four.
     """
     separation = problem.separation
-    if max(separation.shape) <= _COARSEST:
+    if max(separation.shape) <= _COARSEST_POINTS:
         return None
     coarse_separation = _halved(separation)
     if problem.operator.mean_is_free:  # depths count from mean planes, odd sides end in half blocks
@@ -53,8 +53,8 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
         shares=_halved_shares(problem.shares, separation.shape),
     )
     start = _from_coarser(coarse, load) or _rigid_guess(coarse, load)
-    window = Window.of(coarse, load, start)
-    found = window.guess(window.turns(load, start, _ROUGH))
+    window = GridWindow.of(coarse, load, start)
+    found = window.guess(window.turns(load, start, _ROUGH_METHOD))
     return _spread(found, coarse_separation.shape[1], separation.shape)
 
 
@@ -105,16 +105,18 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
     if depth is None:
         assert force is not None
         separations = np.sort(separation, axis=None)
-        sums, beyond = np.cumsum(separations), np.append(separations[1:], np.inf)
+        sums, next_separations = np.cumsum(separations), np.append(separations[1:], np.inf)
 
-        def depth_of(count: int) -> float:
+        def disc_depth(count: int) -> float:
             radius = math.sqrt(count * problem.grid.cell_area / math.pi)
             shift = force / problem.grid.half_space.disc_stiffness(radius)
             return shift + float(sums[count - 1]) / count
 
         counts = range(1, separations.size + 1)
-        reached = bisect_left(counts, True, key=lambda count: depth_of(count) <= beyond[count - 1])
-        depth = depth_of(counts[reached])
+        reached = bisect_left(
+            counts, True, key=lambda count: disc_depth(count) <= next_separations[count - 1]
+        )
+        depth = disc_depth(counts[reached])
         fewest = np.nan_to_num(force / problem.bounds.largest_force(problem.grid.cell_area))
         depth = max(depth, float(separations[min(int(fewest), separations.size - 1)]))
     nodes = InGrid(np.flatnonzero(separation < depth))

@@ -12,8 +12,8 @@ from roughline.halfspace.search.problem import Contact
 # Gap beyond the outline over (pressure within it times spacing over E*). On a summit it is of order
 # one: 4/3 s^(3/2) / (1 - s)^(1/2) if the edge of the contact is at the share s of the way between
 # the two nodes. At the edge of a plateau, where the body itself falls away, it has no bound.
-_STEEP = 2.0
-_STEEP_ALONE = 20.0  # where the contact is one cell wide, so that there is no inner pressure
+_STEEP_GAP = 2.0
+_STEEP_GAP_ALONE = 20.0  # where the contact is one cell wide, so that there is no inner pressure
 
 
 def overstated_cells(
@@ -47,17 +47,17 @@ def overstated_cells(
             if not repeats[axis]:
                 np.moveaxis(outer, axis, 0)[-1 if step > 0 else 0] = False
             outline = InGrid(np.flatnonzero(outer))
-            beyond, _ = _neighbours(outline, shape, axis, step, repeats[axis])
+            outside, _ = _neighbours(outline, shape, axis, step, repeats[axis])
             within, loaded_too = _neighbours(outline, shape, axis, -step, repeats[axis])
             at = InPatch(np.searchsorted(contact.nodes, outline))
-            gap = contact.gap_at(beyond)
+            gap = contact.gap_at(outside)
             edge = above[at]
             loaded_too &= touching.flat[within]
             rising = np.zeros(edge.size, dtype=bool)
             inner = InPatch(np.searchsorted(contact.nodes, within[loaded_too]))
             rising[loaded_too] = edge[loaded_too] > above[inner] * (1 + 1e-6)
             rising |= contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
-            smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
+            smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP_GAP, _STEEP_GAP_ALONE)
             steep = (rising | ~loaded_too) & (gap > smooth)
             pairs += edge.size
             summits += edge.size - float((1 - smooth[steep] / gap[steep]).sum())

@@ -48,7 +48,7 @@ class Patch:
             self._targets, self._parts = GridNodes.of(both, nodes.shape), (in_patch, ~in_patch)
 
     @cached_property
-    def of_even(self) -> Real:
+    def even_preconditioned(self) -> Real:
         """What the preconditioner makes of an even displacement."""
         return self.precondition(np.ones(self._nodes.indices.size))
 
@@ -108,7 +108,7 @@ class ConjugateGradients:
         """
         step = self._patch.precondition(self.error)
         if self._fixed_total:
-            even = self._patch.of_even
+            even = self._patch.even_preconditioned
             rise = -float(step.sum() / even.sum())
             step += rise * even
             self.error += rise

@@ -27,24 +27,24 @@ from roughline.halfspace.search.problem import (
 from roughline.halfspace.search.response import Response, Tangent
 from roughline.halfspace.search.rounds import Rounds
 from roughline.halfspace.search.tangent import response
-from roughline.halfspace.search.window import Window
+from roughline.halfspace.search.window import GridWindow
 
 # Part of the misfit of shares to which their contact is solved while they are led to each other,
 # and the largest such tolerance.
-_OF_MISFIT, _ROUGHEST = 0.03, 1e-2
+_MISFIT_SHARE, _LARGEST_TOLERANCE = 0.03, 1e-2
 _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
 
 def solve_path(problem: Problem, loads: Sequence[Load], method: Method) -> Iterator[Contact]:
     """Solve the contact under each load in turn; each meets the surfaces that the last one left."""
-    path = Path(problem, method)
+    path = LoadPath(problem, method)
     if problem.law.only_pushes or loads[0].force is None:
         yield from map(path.under, loads)
     else:
         yield from under_forces(path, loads, method.rtol)
 
 
-class Path:
+class LoadPath:
     """The contact along a path of loads."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
@@ -59,9 +59,9 @@ class Path:
         self._unknown_below = -np.inf  # the largest load that was not solved
         self._has_yielded = False
 
-    def from_apart(self) -> Path:
+    def after_separation(self) -> LoadPath:
         """Return the path of bodies that have come apart, and remember nothing."""
-        return Path(self._untouched, self._method)
+        return LoadPath(self._untouched, self._method)
 
     def under(self, load: Load) -> Contact:
         """Return the contact under the next load."""
@@ -95,7 +95,7 @@ class Path:
         spent = contact.convolutions + answer.convolutions
         return replace(contact, load=load, response=answer, convolutions=spent)
 
-    def _found(self, load: Load) -> tuple[Contact, Window]:
+    def _found(self, load: Load) -> tuple[Contact, GridWindow]:
         """Solve the contact under a load; return it with the window in which it was found."""
         memory = self._problem.law.memory
         if memory == "path":
@@ -104,13 +104,13 @@ class Path:
             return self._dented(load)
         return self._settled(load, self._problem, self._method)
 
-    def _dented(self, load: Load) -> tuple[Contact, Window]:
+    def _dented(self, load: Load) -> tuple[Contact, GridWindow]:
         """Solve for elastic bodies first, unless they have yielded and meet their largest load.
 
         That bodies yield shows before their elastic contact is found.
         """
-        beyond = self._largest is None or load.value > self._largest
-        problem = replace(self._problem, is_elastic=not (beyond and self._has_yielded))
+        is_largest = self._largest is None or load.value > self._largest
+        problem = replace(self._problem, is_elastic=not (is_largest and self._has_yielded))
         contact, window = self._settled(load, problem, self._method)
         if contact.problem.exceeds(contact.nodes, contact.pressure):
             problem = replace(problem, is_elastic=False)
@@ -120,13 +120,13 @@ class Path:
         self._has_yielded |= not contact.problem.is_elastic
         return contact, window
 
-    def _led_to_gaps(self, load: Load) -> tuple[Contact, Window]:
+    def _led_to_gaps(self, load: Load) -> tuple[Contact, GridWindow]:
         """Solve the contact in rounds, in which shares of the pull and gaps are led to each other.
 
         Contacts of shares that do not fit yet are solved roughly, in single precision while that
         serves.
         """
-        problem, rtol, single, spent = replace(self._problem), _ROUGHEST, True, 0
+        problem, rtol, single, spent = replace(self._problem), _LARGEST_TOLERANCE, True, 0
         rounds = Rounds(problem.pull, problem.shares.above_zero)
         while True:
             method = self._method.to(rtol, single)
@@ -143,7 +143,7 @@ class Path:
                 return contact, window
             following = rounds.then(contact.gap.ravel())
             misfit = following.misfit / contact.length_scale
-            rtol = min(_OF_MISFIT * max(misfit, self._method.rtol), _ROUGHEST)
+            rtol = min(_MISFIT_SHARE * max(misfit, self._method.rtol), _LARGEST_TOLERANCE)
             if misfit > self._method.rtol:
                 rounds, problem = following, replace(problem, shares=following.shares)
             else:  # the shares fit, and their contact is to be known well
@@ -157,16 +157,16 @@ class Path:
 
     def _settled(
         self, load: Load, problem: Problem, method: Method, spent: int = 0
-    ) -> tuple[Contact, Window]:
+    ) -> tuple[Contact, GridWindow]:
         """Solve the contact of bodies with fixed bounds, in the window in which they can touch."""
         most = method.max_iterations
         if contact := _known(problem, load, for_first_time=self._furthest is None):
-            return contact, Window.whole(problem)
+            return contact, GridWindow.everywhere(problem)
         if load.force is not None:
             load = Load(force=_attainable(load.force, problem))
         if self._start is None:
             self._start, problem = first_guess(problem, load)
-        window = Window.of(problem, load, self._start)
+        window = GridWindow.of(problem, load, self._start)
         while True:
             method = replace(method, max_iterations=max(1, most - spent))
             turns = window.turns(load, self._start, method, self._before)
@@ -177,7 +177,7 @@ class Path:
             if holds or spent >= most:
                 outcome = contact.outcome if holds else Outcome.MAX_ITERATIONS
                 return replace(contact, outcome=outcome, convolutions=spent), window
-            self._start, window = contact.contact_set, Window.whole(problem)
+            self._start, window = contact.contact_set, GridWindow.everywhere(problem)
 
     def _guesses(self, nodes: InGrid) -> tuple[Real, Real] | None:
         """Return dp/dF of the contact before, on loading and on unloading, on nodes of this one."""
@@ -231,8 +231,8 @@ def _attainable(force: float, problem: Problem) -> float:
 def _known(problem: Problem, load: Load, *, for_first_time: bool) -> Contact | None:
     """Return the contact where it needs no search: bodies apart, or no finite pressures do."""
     depth = load.depth
-    apart = load.value == 0 if depth is None else depth <= problem.touch
-    if apart and not problem.shares.above_zero.nodes.size:
+    is_separated = load.value == 0 if depth is None else depth <= problem.touch
+    if is_separated and not problem.shares.above_zero.nodes.size:
         return _unsearched(problem, load, Outcome.CONVERGED)
     # full contact is rigid where the mean is free; rounding counts where loads came back to it
     rigid = depth is not None and problem.grid.half_space.mean_is_free and for_first_time
@@ -273,9 +273,9 @@ def _predicted(contact: Contact, tangent: Tangent, load: Load) -> ContactSet | N
         change = load.force - contact.force
     # Where the force changes by more than nodes bear, coarser grids guess better than the tangent,
     # but in full contact that pulls there is nothing to guess.
-    borne = contact.problem.grid.cell_area * float(np.abs(contact.pressure).sum())
+    absolute_force = contact.problem.grid.cell_area * float(np.abs(contact.pressure).sum())
     stays = np.isinf(tangent.stiffness) and not contact.problem.law.only_pushes
-    if not (tangent.stiffness > 0 and (abs(change) < borne or stays)):
+    if not (tangent.stiffness > 0 and (abs(change) < absolute_force or stays)):
         return None
     pressure = contact.pressure + change * tangent.pressure_per_force
     loaded = pressure > 0

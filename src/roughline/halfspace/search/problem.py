@@ -14,7 +14,7 @@ from roughline.computing.arrays import InGrid, InRegion, Mask, Real
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
-from roughline.halfspace.inverse.kept import inverse_on
+from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import pulled_length
@@ -27,10 +27,10 @@ from roughline.halfspace.search.response import Response
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
 # epsilons of pi C F / A_0 on grids of 8 to 10^6 points. C is the compliance of the longest wave, in
 # which rounded pressures displace most.
-_ROUNDINGS = 2.0
+_DEPTH_ROUNDINGS = 2.0
 SINGLE_ABOVE = 1e-4
 """Single precision serves while errors are above this part of what moves; its own are 1e-7."""
-_DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
+_FORESEEN_DEPTH = 1.05  # times the approach of a start up to which bodies are looked at
 _LEAST_PULL = 1e-3  # of the largest pull, with which pressures are compared at least
 
 
@@ -133,7 +133,7 @@ class Problem:
     def foreseen_reach(self, load: Load, start: ContactSet) -> float:
         """Return the reach up to which nodes are looked at, from what a start foresees. [length]"""
         depth = start.depth if load.depth is None else load.depth
-        return math.inf if depth is None else _DEEPER * self.reach(depth)
+        return math.inf if depth is None else _FORESEEN_DEPTH * self.reach(depth)
 
     @cached_property
     def bounds(self) -> Bounds:
@@ -207,7 +207,7 @@ class Method:
     def resolution(self, grid: Grid) -> float:
         """Rounding of displacements over the force, over the tolerance. [length / force]"""
         sides = [n * spacing for n, spacing in zip(grid.shape, grid.spacing, strict=True)]
-        rounding = _ROUNDINGS * float(np.finfo(self.certificate).eps)
+        rounding = _DEPTH_ROUNDINGS * float(np.finfo(self.certificate).eps)
         longest = float(grid.half_space.spectrum(np.array([2 * np.pi / max(sides)]))[0])
         return rounding / self.rtol * math.pi * longest / math.prod(sides)
 
@@ -268,7 +268,7 @@ class Residuals:
         return replace(self, rounding=0.0).worst
 
     @property
-    def worst_is_of(self) -> str:
+    def worst_name(self) -> str:
         """What the largest of them is of, in words."""
         return (
             "the gap within the contact",

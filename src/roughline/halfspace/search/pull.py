@@ -42,7 +42,7 @@ class Shares:
 
     @property
     def above_zero(self) -> Shares:
-        """The same, without nodes that bear none."""
+        """The shares that are not zero, and their nodes."""
         pulled = self.values > 0
         return Shares(among(self.nodes, pulled), self.values[pulled])
 
@@ -114,8 +114,12 @@ class Pull:
         taken = shares.at(nodes)
         places = np.flatnonzero(followed != taken)
         moved, there, before = among(nodes, places), followed[places], taken[places]
-        apart = self._apart(there, before, moved)
-        return Shares(nodes, followed), Shares(moved, there - before), float(apart.max(initial=0.0))
+        gap_change = self._gap_change(there, before, moved)
+        return (
+            Shares(nodes, followed),
+            Shares(moved, there - before),
+            float(gap_change.max(initial=0.0)),
+        )
 
     def _near(self, gap: Real, shares: Shares) -> InGrid:
         """Return the nodes that a gap leaves within reach, and those of shares, in one memory."""
@@ -141,15 +145,15 @@ class Pull:
         shares += within
         return shares
 
-    def _apart(self, shares: Real, others: Real, nodes: InGrid) -> Real:
+    def _gap_change(self, shares: Real, others: Real, nodes: InGrid) -> Real:
         """Return by how much the gaps of nodes differ that go with shares. [length]"""
         least = self.jump or LEAST_SHARE
         gaps = [self.law.gap_at(np.maximum(each, least)) for each in (shares, others)]
-        apart = np.abs(gaps[0] - gaps[1])
+        gap_change = np.abs(gaps[0] - gaps[1])
         if self.jump:  # the rest is along the ramp
             lower = [np.minimum(each, self.jump) / self.jump for each in (shares, others)]
-            apart += 2 * self._ramp(nodes) * np.abs(lower[0] - lower[1])
-        return apart
+            gap_change += 2 * self._ramp(nodes) * np.abs(lower[0] - lower[1])
+        return gap_change
 
     def energy(self, gap: Real) -> float:
         """Return minus the work that is left to separate all nodes, over the area of a cell.

@@ -23,8 +23,8 @@ from roughline.halfspace.search.problem import (
 )
 
 # Nodes of a gap below so many times the error on contact may come into contact.
-REACH = 2.0
-_LARGEST = 0.4  # part of the grid that is a region by itself
+REACH_OF_ERROR = 2.0
+_LARGEST_REGION = 0.4  # part of the grid that is a region by itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ class Region:
     reach: float  # [length]
 
     @classmethod
-    def whole(cls, problem: Problem) -> Region:
+    def everywhere(cls, problem: Problem) -> Region:
         """All nodes of the grid, with the exact operator."""
         operator, separation = CorrectedOperator(problem.operator), problem.separation.ravel()
         return cls(problem, operator, separation, problem.bounds, math.inf)
@@ -53,16 +53,16 @@ class Region:
         The nodes of a contact and their neighbours are among them, too.
         """
         if math.isinf(reach):
-            return cls.whole(problem)
-        shown = problem.separation <= problem.touch + reach
-        x, y = np.divmod(contact, shown.shape[1])
+            return cls.everywhere(problem)
+        is_near = problem.separation <= problem.touch + reach
+        x, y = np.divmod(contact, is_near.shape[1])
         for step in (-1, 0, 1):
-            shown[(x + step) % shown.shape[0], y] = True
-            shown[x, (y + step) % shown.shape[1]] = True
-        places = InGrid(np.flatnonzero(shown))
-        if places.size > _LARGEST * shown.size:
-            return cls.whole(problem)
-        nodes = GridNodes.of(places, shown.shape)
+            is_near[(x + step) % is_near.shape[0], y] = True
+            is_near[x, (y + step) % is_near.shape[1]] = True
+        places = InGrid(np.flatnonzero(is_near))
+        if places.size > _LARGEST_REGION * is_near.size:
+            return cls.everywhere(problem)
+        nodes = GridNodes.of(places, is_near.shape)
         bounds, separation = problem.bounds.at(places), problem.separation.flat[places]
         return cls(
             problem, CorrectedOperator(problem.operator, nodes=nodes), separation, bounds, reach
@@ -87,7 +87,7 @@ class Region:
         whose gap is below so many times the error on contact.
         """
         carriers, grid = trial.carriers, self.problem.grid.shape
-        most = max(0, int(_LARGEST * math.prod(grid)) - carriers.places.size)
+        most = max(0, int(_LARGEST_REGION * math.prod(grid)) - carriers.places.size)
         places, order = merged(carriers.places, trial.close(reach, most))
         found = Carriers(InRegion(np.flatnonzero(order < carriers.places.size)), carriers.pressure)
         moved = trial.gap[places]
@@ -195,17 +195,19 @@ class Trial:
         problem, places, pressure = region.problem, carriers.places, carriers.pressure
         bounds, cell_area = region.bounds.at(places), problem.grid.cell_area
         touching, plastic = bounds.touching(pressure), bounds.yielding(pressure)
-        force, borne = (cell_area * float(each.sum()) for each in (pressure, np.abs(pressure)))
+        force, absolute_force = (
+            cell_area * float(each.sum()) for each in (pressure, np.abs(pressure))
+        )
         # 1. The scales. Where a flat body bears evenly hardly anything moves: there a gap is
         # compared with what rounding leaves of displacements, over the tolerance.
         pressure_scale, length_scale = 1.0, abs(approach) or 1.0
-        compared = borne
-        if borne > 0:
+        compared = absolute_force
+        if absolute_force > 0:
             displacement = gap[places] + approach - (region.separation[places] - problem.touch)
             pressure_scale, length_scale = problem.scales(pressure, displacement)
-            compared = max(borne, pressure_scale * cell_area)
+            compared = max(absolute_force, pressure_scale * cell_area)
         # which keeps what is no number
-        length_scale = float(np.maximum(length_scale, problem.resolution * borne))
+        length_scale = float(np.maximum(length_scale, problem.resolution * absolute_force))
         if problem.rms_height:
             length_scale = float(np.minimum(problem.rms_height, length_scale))
         # 2. Overlaps of plastic nodes are dents, and pulling nodes may be apart. Gaps of carriers
@@ -216,7 +218,7 @@ class Trial:
         on_contact = np.where(touching | plastic, on_carriers, np.minimum(on_carriers, 0.0))
         least_on_contact = float(on_contact.min(initial=0.0))
         least_gap = float(gap.min(initial=0.0))
-        below, above = bounds.missed(pressure)
+        below, above = bounds.violations(pressure)
         residuals = Residuals(
             gap=float(np.abs(on_contact).max(initial=0.0)) / length_scale,
             penetration=-least_gap / length_scale if least_gap < least_on_contact else 0.0,
@@ -257,7 +259,7 @@ class Trial:
     @property
     def watched(self) -> InRegion:
         """The nodes without pressure that may come into contact, about as many as carriers."""
-        others, most = self.close(REACH, self.gap.size), self.carriers.places.size
+        others, most = self.close(REACH_OF_ERROR, self.gap.size), self.carriers.places.size
         if others.size <= most:
             return others
         gaps = self.gap[others]
@@ -325,9 +327,9 @@ def _restricted(
     return Region(problem, operator, separation, bounds, 0.0)
 
 
-def _part(error: float, borne: float) -> float:
+def _part(error: float, absolute_force: float) -> float:
     """Return an error over the sum of all forces; infinite where there are none."""
-    return error / borne if borne else math.inf if error else 0.0
+    return error / absolute_force if absolute_force else math.inf if error else 0.0
 
 
 def _level(displaced: Real, pressure: Real, touching: Mask) -> float:

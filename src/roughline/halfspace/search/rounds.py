@@ -25,7 +25,7 @@ from roughline.halfspace.search.pull import Pull, Shares
 # Shares are extrapolated from so many rounds where they change by less than the first number. Where
 # a change is so large a part of the one before, no end is near: bodies slide to a jump, and shares
 # go up to so many times as far.
-_NEAR, _ROUNDS, _NEARER, _FASTEST = 0.1, 6, 0.9, 8.0
+_SMALL_CHANGE, _MOST_ROUNDS, _NO_END_FROM, _MOST_SPEED_UP = 0.1, 6, 0.9, 8.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class _History:
             before = tuple(np.append(each, rested)[order] for each in before)
             differed = tuple(np.append(each, nothing)[order] for each in differed)
         before, differed = (*before, followed.at(nodes)), (*differed, moved.at(nodes))
-        return _History(nodes, before[-_ROUNDS:], differed[-_ROUNDS:])
+        return _History(nodes, before[-_MOST_ROUNDS:], differed[-_MOST_ROUNDS:])
 
     def last(self, shares: Shares) -> Shares:
         """Return what followed in the last round, and elsewhere other shares."""
@@ -85,7 +85,7 @@ class Rounds:
     shares: Shares
     misfit: float = 0.0  # of the last contact: gap that its shares go with, from its own [length]
     history: _History = field(default_factory=_History.none)  # of which shares are extrapolated
-    near: float = _NEAR  # change of the shares below which they are
+    near: float = _SMALL_CHANGE  # change of the shares below which they are
     factor: float = 1.0  # by which the shares went further than they followed
     change: float = 0.0  # by the last round
     moved: Shares = field(default_factory=Shares.none)
@@ -100,14 +100,14 @@ class Rounds:
             return replace(plain, shares=self.followed, change=0.0)
         if change >= self.near:
             factor = min(self.factor, 1.0)
-            if change > _NEARER * self.change > 0:  # as fast as before: shares slide, or swing
-                factor = min(2 * self.factor, _FASTEST) if onwards else factor / 2
-            nodes, near = followed.nodes, _NEAR if change > _NEAR else self.near
+            if change > _NO_END_FROM * self.change > 0:  # as fast as before: shares slide, or swing
+                factor = min(2 * self.factor, _MOST_SPEED_UP) if onwards else factor / 2
+            nodes, near = followed.nodes, _SMALL_CHANGE if change > _SMALL_CHANGE else self.near
             there = self.shares.at(nodes) + factor * moved.at(nodes)
             further = Shares(nodes, np.clip(there, 0.0, 1.0))
             return replace(plain, shares=further, followed=followed, factor=factor, near=near)
         history = self.history
-        if len(history.moved) > 1 and change > _NEARER * history.change:
+        if len(history.moved) > 1 and change > _NO_END_FROM * history.change:
             return replace(
                 plain, shares=history.last(self.shares), near=history.change / 3, change=0.0
             )

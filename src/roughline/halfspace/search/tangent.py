@@ -16,16 +16,16 @@ from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Contact, Grid, Method
 from roughline.halfspace.search.response import Response, Tangent
-from roughline.halfspace.search.window import Window
+from roughline.halfspace.search.window import GridWindow
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.
 _ENERGY_MARGIN = 0.01
-_SLOW = 0.01  # where a turn of a restricted operator gains more of the turn before, it is given up
+_SLOW_GAIN = 0.01  # of the turn before; a restricted operator that gains more is given up
 
 
 def response(
-    contact: Contact, window: Window, start: tuple[Real, Real] | None, method: Method
+    contact: Contact, window: GridWindow, start: tuple[Real, Real] | None, method: Method
 ) -> Response:
     """Solve for the exact stiffness of a contact, on further loading and on unloading.
 
@@ -95,7 +95,7 @@ def punch_compliance(
         part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
         if exact and max(error, np.sqrt(part) * gained) <= accuracy * compliance:
             return compliance, convolutions
-        slow = not (part <= _SLOW and error <= aim * before)
+        slow = not (part <= _SLOW_GAIN and error <= aim * before)
         if exact and operator.restricted is not None and slow:
             operator = CorrectedOperator(inverse.operator, None, listed)
             patch, gained = Patch(operator.linear, inverse, listed), np.nan

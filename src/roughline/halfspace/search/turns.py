@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.halfspace.operators.grid_nodes import Precision
-from roughline.halfspace.search.active_set import AIM, Search
+from roughline.halfspace.search.active_set import TOLERANCE_AIM, Search
 from roughline.halfspace.search.carriers import Carriers
 from roughline.halfspace.search.problem import (
     SINGLE_ABOVE,
@@ -24,10 +24,10 @@ from roughline.halfspace.search.problem import (
     Outcome,
     Problem,
 )
-from roughline.halfspace.search.region import REACH, Region, Trial
+from roughline.halfspace.search.region import REACH_OF_ERROR, Region, Trial
 
-_GAIN = 2e-3  # of residuals by a search near the contact, and what its operator leaves, about
-_NEARER = 30.0  # reach of later searches, which leave a smaller error than they find
+_RESIDUAL_GAIN = 2e-3  # by a search near the contact, and what its operator leaves, about
+_LATER_REACH = 30.0  # reach of later searches, which leave a smaller error than they find
 
 
 class Turns:
@@ -74,7 +74,7 @@ class Turns:
     def guess(self) -> ContactSet:
         """Return a contact that is found roughly, by one search and with no certificate."""
         trial = self._trial(self._method.steps)
-        near = self._near_contact(trial, REACH) or self._everywhere(trial.contact_set)
+        near = self._near_contact(trial, REACH_OF_ERROR) or self._everywhere(trial.contact_set)
         return Search(*near, self._load, self._method).found()[0].contact_set
 
     def _foreseen(self) -> bool:
@@ -90,7 +90,7 @@ class Turns:
         self._near = Region.from_other_bounds(self._problem, before, self._start)
         if self._near is None:
             return False
-        self._worst = self._worst_near = AIM * self._method.rtol / _GAIN
+        self._worst = self._worst_near = TOLERANCE_AIM * self._method.rtol / _RESIDUAL_GAIN
         return True
 
     def _seen(self, precision: Precision) -> Contact | None:
@@ -104,7 +104,9 @@ class Turns:
         self._start = trial.contact_set
         self._worst = self._worst_near = trial.residuals.worst
         helped = self._worst < 0.5 * before
-        self._near = self._near_contact(trial, REACH) if helped and self._left > 1 else None
+        self._near = (
+            self._near_contact(trial, REACH_OF_ERROR) if helped and self._left > 1 else None
+        )
         return None
 
     def _trial(self, precision: Precision) -> Trial:
@@ -131,9 +133,9 @@ class Turns:
         """Search near the contact, and look there; return whether that serves once more."""
         method, worst = self._method, self._worst_near
         # 1. Search with the restricted operator.
-        target = max(_GAIN * worst, AIM * method.rtol)
+        target = max(_RESIDUAL_GAIN * worst, TOLERANCE_AIM * method.rtol)
         region, carriers = self._searched_near(target)
-        expected = max(target, _GAIN * worst)
+        expected = max(target, _RESIDUAL_GAIN * worst)
         if expected <= method.rtol or self._left <= 1:
             return False
         # 2. See, there, what the exact operator gives.
@@ -143,7 +145,7 @@ class Turns:
         self._convolutions += 1
         self._start, self._worst_near = trial.contact_set, trial.residuals.worst
         if self._worst_near < 0.5 * worst:
-            self._near = self._near_contact(trial, _NEARER)
+            self._near = self._near_contact(trial, _LATER_REACH)
         return self._near is not None
 
     def _near_contact(self, trial: Trial, reach: float) -> tuple[Region, Carriers] | None:
@@ -165,7 +167,7 @@ class Turns:
 
     def _everywhere(self, contact_set: ContactSet) -> tuple[Region, Carriers]:
         """Return all of the grid with the exact operator, and a contact set as carriers in it."""
-        region = Region.whole(self._problem)
+        region = Region.everywhere(self._problem)
         return region, region.carriers(contact_set)
 
     def _with_exact_operator(self) -> Contact:

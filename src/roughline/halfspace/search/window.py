@@ -17,11 +17,11 @@ from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Problem
 from roughline.halfspace.search.turns import Turns
 
-_SMALLEST = 32  # points along a side, where that has so many
+_FEWEST_POINTS = 32  # points along a side, where that has so many
 
 
 @dataclass(frozen=True, eq=False)
-class Window:
+class GridWindow:
     """A rectangle of the grid, which holds all nodes where the bodies are nearer than a reach."""
 
     problem: Problem
@@ -30,14 +30,14 @@ class Window:
     reach: float  # beyond the least separation of the bodies as they are now [length]
 
     @classmethod
-    def of(cls, problem: Problem, load: Load, start: ContactSet) -> Window:
+    def of(cls, problem: Problem, load: Load, start: ContactSet) -> GridWindow:
         """Return the window for a load: all of the grid, if the bodies may touch all over it.
 
         A side that is a period is not cut.
         """
         reach = problem.foreseen_reach(load, start)
         if reach == np.inf or any(problem.grid.half_space.repeats):
-            return cls.whole(problem)
+            return cls.everywhere(problem)
         shape = problem.separation.shape
         near = problem.separation <= problem.touch + reach
         near.flat[start.nodes] = True
@@ -48,10 +48,10 @@ class Window:
         area = window.bodies.separation.size * problem.grid.cell_area
         # with room to spare, as nodes at an upper bound alone are no contact
         bears = load.force is None or problem.bounds.largest_force(area) > 2 * load.force
-        return window if bears else cls.whole(problem)
+        return window if bears else cls.everywhere(problem)
 
     @classmethod
-    def whole(cls, problem: Problem) -> Window:
+    def everywhere(cls, problem: Problem) -> GridWindow:
         """Return all of the grid."""
         nx, ny = problem.separation.shape
         return cls(problem, slice(0, nx), slice(0, ny), np.inf)
@@ -132,7 +132,7 @@ def _side(places: Indices, points: int) -> slice:
     So there are few shapes, and their tables serve again.
     """
     first, last = max(0, int(places[0]) - 1), min(points, int(places[-1]) + 2)
-    length, least = points, max(last - first, _SMALLEST)
+    length, least = points, max(last - first, _FEWEST_POINTS)
     while (half := -(-length // 2)) >= least:
         length = half
     start = min(max(0, first - (length - last + first) // 2), points - length)

@@ -9,12 +9,12 @@ from contextlib import contextmanager
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.workspace import MUCH, Workspace
+from roughline.halfspace.operators.workspace import MUCH_MEMORY, Workspace
 
-_MOST_TABLES = 2**25  # enough for 1024 x 1024 points and the coarser grids that lead them [bytes]
+_MOST_CACHED_BYTES = 2**25  # enough for 1024 x 1024 points and the coarser grids that lead them
 
 
-class _Kept(threading.local):
+class _Cache(threading.local):
     def __init__(self) -> None:
         self.workspace = Workspace()
         self.inverses: dict[Hashable, ApproximateInverse] = {}  # the last one used comes last
@@ -25,7 +25,7 @@ class _Kept(threading.local):
         self.inverses.clear()
 
 
-_kept = _Kept()
+_cache = _Cache()
 
 
 @contextmanager
@@ -37,10 +37,10 @@ def working_memory() -> Iterator[None]:
     try:
         yield
     except BaseException:
-        _kept.workspace.give_up()
+        _cache.workspace.give_up()
         raise
-    if _kept.workspace.nbytes > MUCH:
-        _kept.workspace.give_up()
+    if _cache.workspace.nbytes > MUCH_MEMORY:
+        _cache.workspace.give_up()
 
 
 def inverse_on(
@@ -51,20 +51,20 @@ def inverse_on(
     They work in the memory of this thread, and are kept for the next who asks for the same grid, as
     far as they have room. Those of a half-space that holds an array, and so has no hash, are not.
     """
-    kept, grid = _kept.inverses, (half_space, shape, spacing)
+    inverses, grid = _cache.inverses, (half_space, shape, spacing)
     try:
         hash(grid)
     except TypeError:
         return _made(*grid)
-    inverse = kept.pop(grid, None) or _made(*grid)
-    if inverse.nbytes <= _MOST_TABLES:
-        kept[grid] = inverse
-        while sum(each.nbytes for each in kept.values()) > _MOST_TABLES:
-            del kept[next(iter(kept))]
+    inverse = inverses.pop(grid, None) or _made(*grid)
+    if inverse.nbytes <= _MOST_CACHED_BYTES:
+        inverses[grid] = inverse
+        while sum(each.nbytes for each in inverses.values()) > _MOST_CACHED_BYTES:
+            del inverses[next(iter(inverses))]
     return inverse
 
 
 def _made(
     half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
 ) -> ApproximateInverse:
-    return ApproximateInverse.of(on_grid(half_space, shape, spacing, _kept.workspace))
+    return ApproximateInverse.of(on_grid(half_space, shape, spacing, _cache.workspace))

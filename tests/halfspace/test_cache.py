@@ -8,8 +8,8 @@ import pytest
 
 import roughline as rl
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.halfspace.inverse import kept
-from roughline.halfspace.inverse.kept import inverse_on, working_memory
+from roughline.halfspace.inverse import cache
+from roughline.halfspace.inverse.cache import inverse_on, working_memory
 
 pytestmark = pytest.mark.usefixtures("nothing_kept")
 
@@ -38,14 +38,14 @@ def assert_same_bits(one, other):
 def test_what_is_kept_changes_no_bit(settings):
     anew = []
     for seed in (1, 2):
-        kept._kept.clear()
+        cache._cache.clear()
         anew.append(press(seed, **settings))
     # the grid, the coarser ones that lead it, and windows of them for light loads
-    assert len(kept._kept.inverses) >= 4
-    before = set(kept._kept.inverses.values())
+    assert len(cache._cache.inverses) >= 4
+    before = set(cache._cache.inverses.values())
     for seed, expected in zip((1, 2), anew, strict=True):
         assert_same_bits(press(seed, **settings), expected)
-    assert before <= set(kept._kept.inverses.values())
+    assert before <= set(cache._cache.inverses.values())
 
 
 def test_threads_that_press_side_by_side_change_no_bit():
@@ -81,11 +81,11 @@ def test_a_half_space_without_a_hash_is_not_kept():
         __hash__ = None
 
     inverse_on(Unhashed(1.0), (8, 8), SQUARE)
-    assert not kept._kept.inverses
+    assert not cache._cache.inverses
 
 
 def test_working_memory_is_kept_unless_it_is_much_or_may_be_half_at_work(monkeypatch):
-    workspace = kept._kept.workspace
+    workspace = cache._cache.workspace
     workspace.give_up()
     with working_memory():
         grid = workspace.array("grid", (3, 4), float)
@@ -94,7 +94,7 @@ def test_working_memory_is_kept_unless_it_is_much_or_may_be_half_at_work(monkeyp
     with pytest.raises(KeyboardInterrupt), working_memory():
         raise KeyboardInterrupt
     assert not workspace.nbytes
-    monkeypatch.setattr(kept, "MUCH", 95)
+    monkeypatch.setattr(cache, "MUCH_MEMORY", 95)
     with working_memory():
         workspace.array("grid", (3, 4), float)
         workspace.array("grid", (2, 2), float)
@@ -104,16 +104,16 @@ def test_working_memory_is_kept_unless_it_is_much_or_may_be_half_at_work(monkeyp
 
 def test_grids_are_kept_as_far_as_they_have_room_the_last_ones_first(monkeypatch):
     sizes = {n: inverse_on(HALF_SPACE, (n, n), SQUARE).nbytes for n in range(5, 12)}
-    kept._kept.clear()
-    monkeypatch.setattr(kept, "_MOST_TABLES", sizes[8] + sizes[9] + sizes[10])
+    cache._cache.clear()
+    monkeypatch.setattr(cache, "_MOST_CACHED_BYTES", sizes[8] + sizes[9] + sizes[10])
     for n in (7, 8, 9, 10):
         inverse_on(HALF_SPACE, (n, n), SQUARE)
-    found = [inverse.operator.shape for inverse in kept._kept.inverses.values()]
+    found = [inverse.operator.shape for inverse in cache._cache.inverses.values()]
     assert found == [(8, 8), (9, 9), (10, 10)]
     for n in (8, 7):  # one that was kept, and one that takes the place of the last used
         inverse_on(HALF_SPACE, (n, n), SQUARE)
-    found = [inverse.operator.shape for inverse in kept._kept.inverses.values()]
+    found = [inverse.operator.shape for inverse in cache._cache.inverses.values()]
     assert found == [(10, 10), (8, 8), (7, 7)]
-    monkeypatch.setattr(kept, "_MOST_TABLES", sizes[11] - 1)
+    monkeypatch.setattr(cache, "_MOST_CACHED_BYTES", sizes[11] - 1)
     inverse_on(HALF_SPACE, (11, 11), SQUARE)
-    assert found == [inverse.operator.shape for inverse in kept._kept.inverses.values()]
+    assert found == [inverse.operator.shape for inverse in cache._cache.inverses.values()]
