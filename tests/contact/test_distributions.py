@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse import csgraph
 
 import roughline as rl
-from roughline.contact.patches import patches_of
+from roughline.contact.patches import find_patches
 from roughline.exact import westergaard
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=1.0, rms_height=0.01)
@@ -94,9 +94,9 @@ def test_a_patch_across_a_border_is_one_and_a_strip_has_no_place_along_itself():
 def test_of_a_piece_borders_end_patches():
     contact = np.zeros((8, 8), dtype=bool)
     contact[[0, -1], 3] = True
-    alone = patches_of(contact, contact * 2.0, (8.0, 4.0), periodic=False)
+    alone = find_patches(contact, contact * 2.0, (8.0, 4.0), periodic=False)
     assert alone.count == 2
-    together = patches_of(contact, contact * 2.0, (8.0, 4.0), periodic=True)
+    together = find_patches(contact, contact * 2.0, (8.0, 4.0), periodic=True)
     assert together.areas.tolist() == [1.0]
     assert together.forces.tolist() == [2.0]
     assert together.centroids[0] % 8.0 == pytest.approx([0.0, 1.75])
@@ -105,7 +105,7 @@ def test_of_a_piece_borders_end_patches():
 def test_corners_join_cells_across_both_borders():
     contact = np.zeros((6, 5), dtype=bool)
     contact[0, 0] = contact[-1, -1] = True
-    patches = patches_of(contact, contact * 1.0, (6.0, 5.0), periodic=True)
+    patches = find_patches(contact, contact * 1.0, (6.0, 5.0), periodic=True)
     assert patches.count == 1
     assert np.isin(patches.centroids[0], [0.0, 6.0, 5.0]).all()
 
@@ -128,7 +128,7 @@ def test_patches_are_the_components_of_the_graph_of_neighbours(shape):
     for density in rng.uniform(0, 1, 60):
         contact = rng.uniform(size=shape) < density
         pressure = np.where(contact, rng.uniform(0.5, 1, shape), 0.0)
-        patches = patches_of(contact, pressure, (1.0, 1.0), periodic=True)
+        patches = find_patches(contact, pressure, (1.0, 1.0), periodic=True)
         exact = brute_force(contact)[contact]
         found = patches.labels[contact]
         assert patches.count == np.unique(exact).size
@@ -144,9 +144,9 @@ def test_a_patch_is_found_where_it_is_moved_to():
     """Rolling a periodic contact moves every centre, and nothing else."""
     rng = np.random.default_rng(4)
     contact = rng.uniform(size=(20, 16)) < 0.25
-    before = patches_of(contact, contact * 1.0, (2.0, 1.6), periodic=True)
+    before = find_patches(contact, contact * 1.0, (2.0, 1.6), periodic=True)
     for steps in ((3, 0), (0, 5), (11, 9)):
-        after = patches_of(
+        after = find_patches(
             np.roll(contact, steps, (0, 1)), contact * 1.0, (2.0, 1.6), periodic=True
         )
         assert after.areas == pytest.approx(before.areas)
@@ -236,7 +236,7 @@ def test_patches_are_counted_in_bins_that_double():
     contact = np.zeros((16, 16), dtype=bool)
     contact[0, 0] = contact[0, 4] = True  # two of one cell, one of 2, 3, 4 and 8
     contact[3, 0:2] = contact[6, 0:3] = contact[9, 0:4] = contact[12, 0:8] = True
-    patches = patches_of(contact, contact * 1.0, (8.0, 8.0), periodic=False)
+    patches = find_patches(contact, contact * 1.0, (8.0, 8.0), periodic=False)
     found = patches.distribution()
     assert found.edges.tolist() == [0.125, 0.375, 0.875, 1.875, 3.875]
     assert found.shares * patches.count == pytest.approx([2, 2, 1, 1])
@@ -253,7 +253,7 @@ def test_without_contact_and_in_full_contact():
     assert pressure.at_zero == 1
     assert pressure.edges.tolist() == [0]
     assert apart.patches().count == 0
-    nothing = patches_of(np.zeros((4, 4), bool), np.zeros((4, 4)), (1.0, 1.0), periodic=True)
+    nothing = find_patches(np.zeros((4, 4), bool), np.zeros((4, 4)), (1.0, 1.0), periodic=True)
     assert nothing.count == 0
     assert nothing.labels.max() == 0
     assert nothing.centroids.shape == (0, 2)

@@ -5,7 +5,7 @@ import pytest
 
 import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of
-from roughline.contact.grid_error import steepening_of
+from roughline.contact.grid_error import grid_steepening
 from roughline.contact.terraces import with_whole_plateaus
 from roughline.exact.indenters import PowerLawIndenter
 from roughline.spectra.moments import bands
@@ -110,7 +110,7 @@ def test_near_full_contact_errors_are_those_of_compliances():
 @pytest.mark.parametrize("hurst", [0.2, 0.5, 0.8])
 def test_a_grid_four_times_finer_is_as_steep_as_three_coarser_ones_tell(hurst):
     coarse, fine = quarter_of(rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(256, 5))
-    found = steepening_of(coarse)
+    found = grid_steepening(coarse)
     assert found == pytest.approx(fine.rms_slope / coarse.rms_slope, rel=0.06)
     # means of two by two points add to the mean square slope what those of four by four did, times
     # one factor
@@ -186,7 +186,7 @@ def test_it_covers_noise_that_goes_on_below_the_spacing():
     rough = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(256, 3000)
     noise = 0.3 * np.random.default_rng(3000).standard_normal(rough.shape)
     coarse, fine = quarter_of(rl.Surface(rough.heights + noise, rough.sizes))
-    assert steepening_of(coarse) > 3 * steepening_of(quarter_of(rough)[0])
+    assert grid_steepening(coarse) > 3 * grid_steepening(quarter_of(rough)[0])
     forces = [0.05, 0.2, 1.0]
     curve = rl.press(coarse, E_star=1.0, forces=forces, grid_error=True)
     finer = rl.press(fine, E_star=1.0, forces=forces)

@@ -5,7 +5,7 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.contact.grid_error import steepening_of
+from roughline.contact.grid_error import grid_steepening
 
 DEEPEST = rl.Measure("deepest_gap", "u_0", "length", "largest gap", lambda fields: fields.gap.max())
 AREA = rl.Measure("touching", "A", "1", "share in contact", lambda fields: fields.contact.mean())
@@ -135,7 +135,7 @@ def test_the_interval_of_a_mean_gap_holds_what_a_grid_four_times_finer_gives(n, 
     )
     log = np.log(found.values)
     between = np.hypot(np.hypot(thinned - log, half - log), (quarter - half) / 4)
-    width = np.sqrt(steepening_of(coarse)) * between
+    width = np.sqrt(grid_steepening(coarse)) * between
     assert np.log(found.high) - log == pytest.approx(width, rel=1e-4)
     assert log - np.log(found.low) == pytest.approx(width, rel=1e-4)
 

@@ -8,7 +8,7 @@ import pytest
 
 import roughline as rl
 from halfspace.test_foreign_half_space import Coating, OnRigidBase
-from roughline.contact.loads import depth_apart
+from roughline.contact.loads import separation_depth
 
 N = 64
 SPECTRA = {
@@ -121,7 +121,7 @@ def test_a_cycle_of_bodies_that_stick_ends_apart(half_space):
     disc = np.hypot(x[:, np.newaxis], x) < 0.45
     punch = rl.Surface(np.where(disc, 0.0, -1.0), (1.0, 1.0))
     law = rl.Dugdale(1e-3 * half_space.E_star, 0.03)
-    apart = depth_apart(punch, half_space, law, 0.01)
+    apart = separation_depth(punch, half_space, law, 0.01)
     depths = [0.01, *(apart * np.linspace(0.0, 1.0, 20))]
     curve = rl.press(punch, half_space=half_space, law=law, depths=depths)
     assert curve.force[-1] == 0.0

@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from random_cases import cases, seeds
-from roughline.contact.loads import depth_apart, even_cycle
+from roughline.contact.loads import even_cycle, separation_depth
 from roughline.halfspace.elasticity.cell import cell_compliance
 from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM, farthest_pulled, remarks
 
@@ -66,7 +66,7 @@ def test_a_cycle_from_out_of_reach_and_back_dissipates_what_it_encloses(law):
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=4e-3, q_roll=25.0, q_high=50.0)
     body, of_body = spectrum.surface(64, rng=4), law(2.5e-4, 7e-3)
     deepest = 0.5 * float((body.heights.max() - body.heights).mean())
-    apart = depth_apart(body, rl.Homogeneous(1.0), of_body, deepest)
+    apart = separation_depth(body, rl.Homogeneous(1.0), of_body, deepest)
     depths = even_cycle(-farthest_pulled(of_body), deepest, apart, 120).values
     curve = rl.press(body, E_star=1.0, law=of_body, depths=depths)
     assert curve.force[0] == pytest.approx(0, abs=FORCE * np.abs(curve.force).max())

@@ -23,7 +23,7 @@ from halfspace.test_foreign_half_space import Coating, OnRigidBase
 from halfspace.test_layered import rough, small
 from random_cases import cases, seeds
 from random_problems import E_STAR, random_problem
-from roughline.contact.patches import patches_of
+from roughline.contact.patches import find_patches
 from roughline.exact import lines
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import coarser_grid, on_grid
@@ -549,16 +549,16 @@ def test_patches_go_on_across_the_borders_that_repeat_alone():
     contact[4, [0, 5]] = True  # one along y
     contact[0, 5] = contact[7, 0] = True  # one across a corner
     counts = {
-        each: patches_of(contact, contact * 1.0, (8.0, 6.0), periodic=each).count
+        each: find_patches(contact, contact * 1.0, (8.0, 6.0), periodic=each).count
         for each in (False, True, "x", "y")
     }
     assert counts == {False: 6, True: 3, "x": 5, "y": 5}
-    along = patches_of(contact, contact * 1.0, (8.0, 6.0), periodic="x")
-    turn = patches_of(contact.T, contact.T * 1.0, (6.0, 8.0), periodic="y")
+    along = find_patches(contact, contact * 1.0, (8.0, 6.0), periodic="x")
+    turn = find_patches(contact.T, contact.T * 1.0, (6.0, 8.0), periodic="y")
     np.testing.assert_array_equal(along.areas, turn.areas)
     ring = np.zeros((8, 6), dtype=bool)
     ring[:, 3] = True
-    (centre,) = patches_of(ring, ring * 1.0, (8.0, 6.0), periodic="x").centroids
+    (centre,) = find_patches(ring, ring * 1.0, (8.0, 6.0), periodic="x").centroids
     assert np.isnan(centre[0])
     assert centre[1] == 3.5
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from roughline.contact.arguments import LARGEST
+from roughline.contact.arguments import LARGEST_NUMBER
 from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.material import Material
 from roughline.engineering.materials import material
@@ -48,7 +48,9 @@ def modulus(given: float | str | None) -> float | None:
     """A contact modulus, if one is given. [Pa]"""
     if given is None:
         return None
-    return quantity(given, "Pa", "E_star", "a positive, finite contact modulus is needed", LARGEST)
+    return quantity(
+        given, "Pa", "E_star", "a positive, finite contact modulus is needed", LARGEST_NUMBER
+    )
 
 
 def has_forces(loads: Any) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 from roughline.assessment.case import Case
 from roughline.assessment.variants import Purpose, Variant
 from roughline.computing.memory import refuse_beyond_memory
-from roughline.contact.arguments import law_of
+from roughline.contact.arguments import yielding_law
 from roughline.contact.estimates import (
     Estimate,
     duration,
@@ -125,4 +125,4 @@ def _expected_share(case: Case, body: Surface) -> float | None:
     if loads.n_loads is not None:
         return None
     spaced = Loads("forces" if loads.forces else "depths", np.array(loads.forces or loads.depths))
-    return expected_area_fraction(body, loads.half_space, spaced, law_of(loads.hardness))
+    return expected_area_fraction(body, loads.half_space, spaced, yielding_law(loads.hardness))

@@ -23,10 +23,10 @@ from roughline.assessment.kinds import nominal_area
 from roughline.assessment.notes import what_was_prepared
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import Topography
-from roughline.contact.arguments import LARGEST, given_half_space
+from roughline.contact.arguments import LARGEST_NUMBER, given_half_space
 from roughline.contact.creep import Creep
 from roughline.contact.press_creep import CreepCurve, press_creep
-from roughline.contact.strain import BEYOND, LARGEST_STRAIN
+from roughline.contact.strain import LARGEST_STRAIN, LINEARITY
 from roughline.engineering.coated import Solid
 from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
@@ -249,7 +249,7 @@ class CreepQuestion:
                 for each in given
             ]
         for i, (each, value) in enumerate(zip(given, values, strict=True)):
-            if not (0 < value <= LARGEST or (value == 0 and len(values) > 1 and i == 0)):
+            if not (0 < value <= LARGEST_NUMBER or (value == 0 and len(values) > 1 and i == 0)):
                 refuse(name, each, "a positive, finite one is needed, and zero only before touch")
         return values
 
@@ -311,8 +311,8 @@ def press_with_creep(question: CreepQuestion) -> PressedCreep:
         refuse(
             name,
             given[largest],
-            f"the bodies are strained by about {decimal(strain, 2)} in the end, and {BEYOND}: give "
-            "less, or check the units",
+            f"the bodies are strained by about {decimal(strain, 2)} in the end, and {LINEARITY}: "
+            "give less, or check the units",
         )
     held = values if len(values) > 1 else values[0]
     curve = press_creep(

@@ -11,7 +11,7 @@ from roughline.assessment.kinds import is_map, nominal_area
 from roughline.assessment.loading import DEFAULT_LOADS
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Mask
-from roughline.contact.arguments import law_of, sticking_law
+from roughline.contact.arguments import sticking_law, yielding_law
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.measures import Measure
@@ -208,7 +208,9 @@ def _lifted(question: Question, forces: Sequence[float]) -> Mask | None:
 def _spaced(question: Question, body: Surface) -> list[float]:
     """Forces for bodies that stick, those of the same ones if they only push. [N]"""
     spaced = GivenLoads(None, None, question.loading.n_loads)
-    loads = surface_loads(body, question.half_space, spaced, 1e-6, single=False, law=law_of(None))
+    loads = surface_loads(
+        body, question.half_space, spaced, 1e-6, single=False, law=yielding_law(None)
+    )
     return [float(each) for each in loads.values]
 
 

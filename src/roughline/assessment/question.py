@@ -34,7 +34,7 @@ from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.loading import Loading
 from roughline.assessment.reading import Reading
 from roughline.contact.arguments import given_half_space
-from roughline.contact.strain import BEYOND, LARGEST_STRAIN
+from roughline.contact.strain import LARGEST_STRAIN, LINEARITY
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.pair import MaterialPair
@@ -362,7 +362,7 @@ class Question:
                 self.attraction.refuse_too_strong(min(body.sizes), self.modulus)
         for ratio, text in self.strains(body):
             if ratio > LARGEST_STRAIN:
-                raise InputError(f"{text}, and {BEYOND}: give a smaller one, and check its unit")
+                raise InputError(f"{text}, and {LINEARITY}: give a smaller one, and check its unit")
         if self.theories and not has_spectrum(body):
             raise InputError(
                 "theories are evaluated for a rough surface of 8 x 8 points or more, whose pixels "

@@ -11,7 +11,7 @@ import numpy as np
 from roughline.assessment.case import Case
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
-from roughline.contact.loads import depth_apart, unbearable_pull
+from roughline.contact.loads import separation_depth, unbearable_pull
 from roughline.contact.press import press
 from roughline.contact.status import Status
 from roughline.engineering.attraction import Separation
@@ -97,7 +97,9 @@ def _drawn(surface: Surface, under: SurfaceCurve) -> tuple[SurfaceCurve, Real]:
     if not np.isfinite(off):  # the grid does not resolve it
         off = unloaded
     pressed = partial(press, surface, half_space=under.half_space, law=law, throw=False)
-    last_depths = np.linspace(off, depth_apart(surface, under.half_space, law, loaded), _STEPS + 1)
+    last_depths = np.linspace(
+        off, separation_depth(surface, under.half_space, law, loaded), _STEPS + 1
+    )
     looked = pressed(depths=[loaded, unloaded, *last_depths])
     last = max(0, int(np.flatnonzero(looked.force < 0).max(initial=0)) - 2)
     ends = [unloaded, off, *last_depths[last : last + 2].tolist()]

@@ -30,7 +30,7 @@ from roughline.assessment.tiles import (
     cut_tiles,
 )
 from roughline.computing.arrays import Mask
-from roughline.contact.arguments import law_of
+from roughline.contact.arguments import yielding_law
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.measures import Measure
 from roughline.contact.selection import among_loads, at_loads
@@ -255,7 +255,7 @@ def _as_hard(case: Case, way: Way, body: Body, curves: Curves) -> LoadCase | Cur
             return None
         if body is case.body and hardness >= (curve.hardness or 0):
             settings = {**curve.settings, "hardness": hardness}
-            return replace(curve, law=law_of(hardness), settings=settings)
+            return replace(curve, law=yielding_law(hardness), settings=settings)
     loads = _loads_below(case, curve, hardness)
     if not loads.any():
         return among_loads(at_loads(curve, np.flatnonzero(loads)), loads)

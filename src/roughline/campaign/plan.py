@@ -10,7 +10,7 @@ from typing import Any, Literal, NoReturn
 import numpy as np
 
 from roughline.campaign.by_name import described
-from roughline.contact.arguments import law_of
+from roughline.contact.arguments import yielding_law
 from roughline.errors import InputError
 from roughline.errors.public import public_making
 from roughline.halfspace.elasticity.half_space import HalfSpace
@@ -213,7 +213,7 @@ class Ensemble:
         """Return what pressures and gaps of a body obey that has such a rms slope."""
         if self.law is not None:
             return self.law
-        return law_of(None if self.hardness_bar is None else self.hardness_bar * rms_slope)
+        return yielding_law(None if self.hardness_bar is None else self.hardness_bar * rms_slope)
 
     @property
     def pressed_into(self) -> HalfSpace:

@@ -21,8 +21,8 @@ from roughline.halfspace.laws.yielding import Yielding
 from roughline.topography.body import Line
 from roughline.topography.profile import Profile
 
-LARGEST = 1e150  # beyond it, squares leave the range of double precision
-_MOST = 10**9  # loads, points along a side, or iterations
+LARGEST_NUMBER = 1e150  # beyond it, squares leave the range of double precision
+_MOST_COUNT = 10**9  # loads, points along a side, or iterations
 
 
 STICKING: Mapping[str, type[Adhesive]] = {"dugdale": Dugdale, "exponential": Exponential}
@@ -41,7 +41,7 @@ def given_half_space(
                 "rl.contact_modulus(first, second) "
                 "gives of two materials; give it, or half_space="
             )
-        E_star = between("E_star", E_star, 1 / LARGEST, LARGEST, needed)
+        E_star = between("E_star", E_star, 1 / LARGEST_NUMBER, LARGEST_NUMBER, needed)
         return Homogeneous(E_star, False if periodic is None else periodic)
     if E_star is not None or periodic is not None:
         short = "periodic" if E_star is None else "E_star"
@@ -55,7 +55,7 @@ def given_half_space(
             half_space,
             "an rl.HalfSpace is needed, such as rl.Homogeneous(E_star=1.0, periodic=True)",
         )
-    between("half_space.E_star", half_space.E_star, 1 / LARGEST, LARGEST, needed)
+    between("half_space.E_star", half_space.E_star, 1 / LARGEST_NUMBER, LARGEST_NUMBER, needed)
     given_periodic("half_space.periodic", half_space.periodic)
     return half_space
 
@@ -64,7 +64,7 @@ def given_law(law: ContactLaw | None, hardness: float | None) -> ContactLaw:
     """Return the law that a surface obeys; a hardness is short for one, unless it is infinite."""
     hardness = _given_hardness(hardness)
     if law is None:
-        return law_of(hardness)
+        return yielding_law(hardness)
     _refuse_no_law(law)
     if hardness is not None:
         raise InputError(
@@ -135,18 +135,18 @@ def sticking_law(name: str, work_of_adhesion: float, reach: float) -> ContactLaw
     return STICKING[name](work_of_adhesion, reach)
 
 
-def checked_count(name: str, value: Any, least: int = -_MOST) -> int:
+def checked_count(name: str, value: Any, least: int = -_MOST_COUNT) -> int:
     """Return a whole number; refuse what is none, too small, or beyond all that is countable."""
     plain = as_plain(value)
     whole = is_whole(plain) or (isinstance(plain, float) and plain.is_integer())
-    if not whole or not least <= plain <= _MOST:
-        bound = "" if least == -_MOST else f" of at least {least}"
-        at_most = f" and at most {_MOST:.0e}" if whole and plain > _MOST else ""
+    if not whole or not least <= plain <= _MOST_COUNT:
+        bound = "" if least == -_MOST_COUNT else f" of at least {least}"
+        at_most = f" and at most {_MOST_COUNT:.0e}" if whole and plain > _MOST_COUNT else ""
         refuse(name, value, f"a whole number{bound}{at_most} is needed")
     return int(plain)
 
 
-def law_of(hardness: float | None) -> ContactLaw:
+def yielding_law(hardness: float | None) -> ContactLaw:
     """Return the law of bodies of a hardness; None: of elastic ones."""
     return Unilateral() if hardness is None else Yielding(hardness)
 
@@ -154,7 +154,7 @@ def law_of(hardness: float | None) -> ContactLaw:
 def checked_shape(shape: Any) -> tuple[int, int]:
     """Return the points of a surface along x and y."""
     sides = several(shape)
-    if len(sides) != 2 or not all(is_whole(side) and 1 <= side <= _MOST for side in sides):
+    if len(sides) != 2 or not all(is_whole(side) and 1 <= side <= _MOST_COUNT for side in sides):
         refuse(
             "shape",
             shape,

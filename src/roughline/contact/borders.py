@@ -14,9 +14,9 @@ from roughline.halfspace.search.problem import Contact
 from roughline.topography.body import Surface
 from roughline.units import engineering
 
-_WIDTH = 0.05  # of the frame, over the sides
-_SHARE = 0.05  # of the force that is too much on it
-_DECIDES = 0.5  # share from which on answers are those of the frame
+_FRAME = 0.05  # width along the border, over the sides
+_LARGEST_SHARE = 0.05  # of the force that is too much on it
+_DECISIVE_SHARE = 0.5  # share from which on answers are those of the frame
 
 
 def share_at_border(contact: Contact) -> float:
@@ -28,8 +28,8 @@ def share_at_border(contact: Contact) -> float:
     for place, n, repeated in zip(np.divmod(contact.nodes, shape[1]), shape, repeats, strict=True):
         if not repeated:
             within = np.minimum(within, np.minimum(place, n - 1 - place) / n)
-    borne = np.abs(contact.pressure)
-    return float(borne[within < _WIDTH].sum() / borne.sum())
+    pressure = np.abs(contact.pressure)
+    return float(pressure[within < _FRAME].sum() / pressure.sum())
 
 
 def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
@@ -37,7 +37,7 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
 
     Shares are NaN where a load was not solved.
     """
-    beyond = np.flatnonzero(shares > _SHARE)
+    beyond = np.flatnonzero(shares > _LARGEST_SHARE)
     if not surface.is_cut_out or not beyond.size:
         return ()
     extremes = force[beyond].min(), force[beyond].max()
@@ -46,9 +46,9 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
     ]
     at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
     text = (
-        f"at {at}, up to {shares[beyond].max():.0%} of the force is carried within {_WIDTH:.0%} of "
+        f"at {at}, up to {shares[beyond].max():.0%} of the force is carried within {_FRAME:.0%} of "
         "the border, where this surface was cut out of a larger one: the surface beyond it would "
         "carry a part of the load, so depth, stiffness and area are those of the piece alone, a "
         "punch with this outline. Take a larger piece, or the periodic half-space"
     )
-    return (Remark(text, is_grave=bool(shares[beyond].max() > _DECIDES)),)
+    return (Remark(text, is_grave=bool(shares[beyond].max() > _DECISIVE_SHARE)),)

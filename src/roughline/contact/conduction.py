@@ -27,7 +27,7 @@ from roughline.computing.arrays import InGrid, Mask, Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
-_RTOL = 1e-8  # a hundred times that of the conductance
+_SOLVER_RTOL = 1e-8  # a hundred times that of the conductance
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ def conductance(
     grid = Grid(half_space.in_units(half_space.E_star, dx), contact.shape, (1.0, dy / dx))
     even = np.full(nodes.size, 1 / (nodes.size * grid.cell_area))
     with working_memory():
-        compliance, _ = punch_compliance(grid, nodes, even, Method(_RTOL, max_iterations=0))
+        compliance, _ = punch_compliance(grid, nodes, even, Method(_SOLVER_RTOL, max_iterations=0))
     return half_space.E_star * dx / compliance
 
 

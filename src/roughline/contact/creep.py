@@ -16,8 +16,8 @@ from roughline.errors import InputError
 from roughline.errors.checks import between, refuse, several
 from roughline.errors.public import public
 
-_SHORTEST, _LONGEST = 1e-100, 1e100  # times whose squares and quotients are numbers
-_LEAST_LEFT = 1e-12  # of the modulus; shares that leave less add up to 1, but for rounding
+_SHORTEST_TIME, _LONGEST_TIME = 1e-100, 1e100  # whose squares and quotients are numbers
+_SMALLEST_MODULUS = 1e-12  # left of that at once; shares that leave less add up to 1
 
 
 @public
@@ -64,11 +64,12 @@ class Creep:
     def __post_init__(self) -> None:
         for name, most, needed in (
             ("shares", 1.0, "a positive number below 1 is needed"),
-            ("times", _LONGEST, "a positive time from 1e-100 to 1e100 is needed"),
+            ("times", _LONGEST_TIME, "a positive time from 1e-100 to 1e100 is needed"),
         ):
             given = getattr(self, name)
             each = [
-                between(name, one, _SHORTEST, most, needed) for one in several(given) or [given]
+                between(name, one, _SHORTEST_TIME, most, needed)
+                for one in several(given) or [given]
             ]
             object.__setattr__(self, name, tuple(each))
         shares, times = several(self.shares), several(self.times)
@@ -77,7 +78,7 @@ class Creep:
                 f"shares are {len(shares)} in number and times {len(times)}; give a relaxation "
                 "time for each share"
             )
-        if self.relaxed_share < _LEAST_LEFT:
+        if self.relaxed_share < _SMALLEST_MODULUS:
             raise InputError(
                 f"add up to {math.fsum(shares):.12g}; less than 1 is needed: a body that relaxes "
                 "to nothing flows like a liquid, and its contact grows without end",

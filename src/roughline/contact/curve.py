@@ -18,7 +18,7 @@ from roughline.contact.arguments import checked_count
 from roughline.contact.curve_files import checked_name, write_curve
 from roughline.contact.fields import Fields, Indentation, KeptFields
 from roughline.contact.measures import Measured
-from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
+from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_name
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
@@ -110,7 +110,7 @@ class Curve:
         loads = f"{count} load{'' if count == 1 else 's'}"
         if not solved.any():
             return f"<{kind}: {loads}, none solved>"
-        unit = unit_of("force", "m") if self.unit == "m" else None
+        unit = unit_name("force", "m") if self.unit == "m" else None
         low, high = (in_words(float(end(self.force[solved])), unit) for end in (np.min, np.max))
         missing = "" if solved.all() else f", {count - int(solved.sum())} of them not solved"
         return f"<{kind}: {loads}, force {low} to {high}{missing}>"
@@ -182,10 +182,10 @@ class Curve:
         """Return what its file tells beside the quantities."""
         attrs = {
             "E_star": self.E_star,
-            "E_star_units": unit_of("pressure", self.unit),
+            "E_star_units": unit_name("pressure", self.unit),
             "rms_height": self.rms_height,
             "length": self.length,
-            "length_units": unit_of("length", self.unit),
+            "length_units": unit_name("length", self.unit),
             **self.settings,
         }
         if not math.isnan(self.pull_off_force):

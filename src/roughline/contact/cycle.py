@@ -11,8 +11,8 @@ from roughline.contact.loads import (
     OVER_PULL_OFF,
     Loads,
     deepest_ones,
-    depth_apart,
     even_cycle,
+    separation_depth,
 )
 from roughline.errors import Interrupted
 from roughline.halfspace.elasticity.half_space import HalfSpace
@@ -21,8 +21,8 @@ from roughline.halfspace.laws.pulling_zone import farthest_pulled
 from roughline.halfspace.search.problem import Method
 from roughline.topography.body import Surface
 
-_STEPS_BACK = 16  # on the way on which the pull-off is looked for
-_TRIED_TO = 1e-3  # tolerance of the depths that are tried
+_RETREAT_STEPS = 16  # on the way on which the pull-off is looked for
+_TRIAL_RTOL = 1e-3  # tolerance of the depths that are tried
 
 
 def cycle(
@@ -56,10 +56,10 @@ def cycle(
     KeyboardInterrupt
         On Ctrl-C, as no load of the cycle was solved yet.
     """
-    method = replace(method, rtol=max(method.rtol, _TRIED_TO))
+    method = replace(method, rtol=max(method.rtol, _TRIAL_RTOL))
     for deepest in deepest_ones(surface, half_space):
-        apart = depth_apart(surface, half_space, law, deepest)
-        back = np.linspace(deepest, apart, _STEPS_BACK + 1)
+        separated = separation_depth(surface, half_space, law, deepest)
+        back = np.linspace(deepest, separated, _RETREAT_STEPS + 1)
         loads = Loads("depths", back)
         try:
             force = press_surface(surface, loads, law, half_space=half_space, method=method).force
@@ -68,5 +68,5 @@ def cycle(
         if not np.isfinite(force).all() or force[0] >= OVER_PULL_OFF * -force.min():
             break
     # the first step after which nothing is in contact any more
-    last = min(int(np.flatnonzero(force != 0).max(initial=0)) + 1, _STEPS_BACK)
+    last = min(int(np.flatnonzero(force != 0).max(initial=0)) + 1, _RETREAT_STEPS)
     return even_cycle(-farthest_pulled(law), deepest, float(back[last]), n_loads)

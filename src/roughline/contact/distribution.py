@@ -10,7 +10,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 
-_FEWEST, _MOST = 8, 128  # bins
+_FEWEST_BINS, _MOST_BINS = 8, 128
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class Distribution:
         return self.density * np.diff(self.edges)
 
 
-def distribution_of(
+def binned(
     values: Real, at_zero: int, at_hardness: int = 0, edges: Real | None = None
 ) -> Distribution:
     """Return the distribution of positive values beside values at zero and at the hardness.
@@ -106,6 +106,6 @@ def _equal_bins(rising: Real) -> Real:
         return np.zeros(1)
     low, high = np.quantile(rising, (0.25, 0.75))
     width = 2 * (high - low) / rising.size ** (1 / 3)
-    wanted = rising[-1] / width if width > 0 else _FEWEST
-    bins = int(np.clip(math.ceil(wanted), _FEWEST, _MOST))
+    wanted = rising[-1] / width if width > 0 else _FEWEST_BINS
+    bins = int(np.clip(math.ceil(wanted), _FEWEST_BINS, _MOST_BINS))
     return np.linspace(0.0, rising[-1], bins + 1)

@@ -39,7 +39,7 @@ def effective_modulus(fields: Fields, E_star: float) -> float:
     nodes = InGrid(np.flatnonzero(pressure))
     if not nodes.size:
         return E_star
-    alike = operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, pressure.shape))
+    on_top = operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, pressure.shape))
     uneven = pressure - pressure.mean() if fields.is_periodic else pressure
-    stored, of_top = float(np.vdot(uneven, fields.displacement)), float(np.vdot(uneven, alike))
+    stored, of_top = float(np.vdot(uneven, fields.displacement)), float(np.vdot(uneven, on_top))
     return E_star * of_top / stored if stored > 0 and of_top > 0 else E_star

@@ -31,35 +31,35 @@ from roughline.topography.body import Surface
 # each point; and what lists and vectors of the contact were measured to take, for each of its nodes
 # (docs/memory-table.md). Lists are long where steps are restricted to nodes near the contact; with
 # more contact than that there are vectors alone. [bytes]
-_BYTES_OF_A_POINT = 18
-_BYTES_NEAR_CONTACT = 210
-_BYTES_OF_MUCH_CONTACT = 70, 18  # on each point, and for each node in contact
-_BYTES_OF_FIELDS = {False: 26, True: 30}  # of one load, elastic and yielding
+_POINT_BYTES = 18
+_NEAR_CONTACT_BYTES = 210
+_MUCH_CONTACT_BYTES = 70, 18  # on each point, and for each node in contact
+_FIELDS_BYTES = {False: 26, True: 30}  # of one load, elastic and yielding
 # Where bodies pull: the bounds of each point, and for each node within reach its share, what it was
 # in the last rounds, and what it takes as one that bears pressure. A pull without an end moves all
 # nodes in all rounds, and others that about its edge. Measured on 1024 points a side.
-_BYTES_OF_PULL = 10, 130
-_BYTES_OF_ENDLESS_PULL = 400
-_BYTES_OF_YIELD = 28  # where several loads leave a surface behind
-_BYTES_OF_DENTS = 30  # and for each node in contact
+_PULL_BYTES = 10, 130
+_ENDLESS_PULL_BYTES = 400
+_YIELD_BYTES = 28  # where several loads leave a surface behind
+_DENTS_BYTES = 30  # and for each node in contact
 # Where pressure may displace a free surface towards the other body, as beside a layer, all of it is
 # looked at. Where layers bend as plates, there is the inverse of all waves. On 1024 and 2048 points
 # a side soft layers were measured to take 8 to 12 bytes more than homogeneous bodies do under light
 # loads, and nothing more under heavy ones; free plates take 23 to 25.
-_BYTES_OF_ALL_PLACES = 12
-_GRIDS = 4 / 3  # coarser grids that lead a grid, and itself
-_MARGIN = 1.15  # times as much, so that what is told covers what was measured
+_ALL_PLACES_BYTES = 12
+_GRIDS_FACTOR = 4 / 3  # coarser grids that lead a grid, and itself
+_MEMORY_MARGIN = 1.15  # times as much, so that what is told covers what was measured
 _PROCESS_BYTES = 225_000_000  # of the interpreter and its libraries
-_BYTES_OF_HEIGHTS = 8
+_HEIGHT_BYTES = 8
 # Largest share in contact where it is not known: that at saturation, free and periodic.
-_SATURATED = 0.2
-_FULL = 1.0
+_SATURATED_FROM = 0.2
+_FULL_CONTACT_FROM = 1.0
 _SLOPE_FACTOR = 1.6  # Persson's theory has sqrt(2), and has too little in contact under small loads
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
 # path, most of it for steps that are restricted to the contact.
 _CONVOLUTIONS = 14
-_SECONDS_AT_LEAST = 1e-3  # of a load, on any grid [s]
-_PROBE = 512  # points along a side of the grid that is timed
+_SHORTEST_SECONDS = 1e-3  # of a load, on any grid [s]
+_PROBE_POINTS = 512  # points along a side of the grid that is timed
 
 
 @dataclass(frozen=True)
@@ -146,8 +146,8 @@ def estimate(
     given: dict[str, Any] = {"several": n_loads > 1, "area_fraction": area_fraction}
     given |= {"yielding": yielding or law.memory == "dents", "of_pull": bytes_of_pull(law, 1.0)}
     pressing = memory_for(shape, periodic, kept, **given)
-    memory = _PROCESS_BYTES + _BYTES_OF_HEIGHTS * shape[0] * shape[1] + pressing
-    seconds = _SECONDS_AT_LEAST + _CONVOLUTIONS * _convolution_seconds(shape, periodic)
+    memory = _PROCESS_BYTES + _HEIGHT_BYTES * shape[0] * shape[1] + pressing
+    seconds = _SHORTEST_SECONDS + _CONVOLUTIONS * _convolution_seconds(shape, periodic)
     return Estimate(memory, n_loads * seconds)
 
 
@@ -168,7 +168,7 @@ def _convolution_seconds(shape: tuple[int, int], periodic: Periodic) -> float:
     from roughline.halfspace.operators.convolution import displacement_field
     from roughline.halfspace.operators.discretisation import on_grid
 
-    operator = on_grid(Homogeneous(1.0, periodic), (_PROBE, _PROBE), (1.0, 1.0))
+    operator = on_grid(Homogeneous(1.0, periodic), (_PROBE_POINTS, _PROBE_POINTS), (1.0, 1.0))
     pressure = np.ones(operator.shape)
     displacement_field(operator, pressure)  # compiles
     probes = []
@@ -177,7 +177,9 @@ def _convolution_seconds(shape: tuple[int, int], periodic: Periodic) -> float:
         displacement_field(operator, pressure)
         probes.append(time.perf_counter() - start)
     points = shape[0] * shape[1]
-    return min(probes) * points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
+    return (
+        min(probes) * points / _PROBE_POINTS**2 * math.log(points + 1) / math.log(_PROBE_POINTS**2)
+    )
 
 
 def memory_for(
@@ -194,10 +196,12 @@ def memory_for(
     """Return the memory that pressing a surface takes beside the surface, with a margin. [bytes]"""
     share = area_fraction
     if share is None:
-        share = _FULL if periodic else _SATURATED
+        share = _FULL_CONTACT_FROM if periodic else _SATURATED_FROM
     held = bytes_at_a_point(shape, periodic, share, yielding=yielding, several=several)
     held += of_layers + of_pull
-    return shape[0] * shape[1] * round(_MARGIN * held + _BYTES_OF_FIELDS[yielding] * kept_fields)
+    return (
+        shape[0] * shape[1] * round(_MEMORY_MARGIN * held + _FIELDS_BYTES[yielding] * kept_fields)
+    )
 
 
 def bytes_at_a_point(
@@ -206,11 +210,11 @@ def bytes_at_a_point(
     """Return what a press with this share in contact holds, over the points, as it was measured."""
     from roughline.halfspace.operators.discretisation import bytes_on_grid
 
-    held = _BYTES_OF_A_POINT + bytes_on_grid(shape, periodic=periodic) / (shape[0] * shape[1])
-    at_least, more = _BYTES_OF_MUCH_CONTACT
-    held += min(_BYTES_NEAR_CONTACT * share, at_least + more * share)
+    held = _POINT_BYTES + bytes_on_grid(shape, periodic=periodic) / (shape[0] * shape[1])
+    at_least, more = _MUCH_CONTACT_BYTES
+    held += min(_NEAR_CONTACT_BYTES * share, at_least + more * share)
     if yielding and several:  # the surface is kept as loads have left it
-        held += _BYTES_OF_YIELD + _BYTES_OF_DENTS * share
+        held += _YIELD_BYTES + _DENTS_BYTES * share
     return held
 
 
@@ -223,10 +227,10 @@ def bytes_of_layers(
 
     held = 0.0
     if not (all(half_space.repeats) or half_space.is_pushed_everywhere):
-        held += _BYTES_OF_ALL_PLACES
+        held += _ALL_PLACES_BYTES
     operator = empty_on_grid(half_space, shape, spacing)
     if bends_as_plates(operator):
-        held += _GRIDS * operator.spectrum.nbytes / (shape[0] * shape[1])
+        held += _GRIDS_FACTOR * operator.spectrum.nbytes / (shape[0] * shape[1])
     return held
 
 
@@ -235,8 +239,8 @@ def bytes_of_pull(law: ContactLaw, share: float) -> float:
     if law.only_pushes:
         return 0.0
     if math.isinf(law.cutoff):
-        return _BYTES_OF_ENDLESS_PULL
-    of_point, of_node = _BYTES_OF_PULL
+        return _ENDLESS_PULL_BYTES
+    of_point, of_node = _PULL_BYTES
     return of_point + of_node * share
 
 
@@ -258,7 +262,7 @@ def expected_area_fraction(
             1.0, (2.0 if any(half_space.repeats) else 1.0) * float(reached) / surface.heights.size
         )
     if not law.only_pushes:
-        return _FULL
+        return _FULL_CONTACT_FROM
     slope, pressure = in_full_contact(surface, half_space).rms_slope, largest / surface.area
     share = math.erf(_SLOPE_FACTOR * pressure / (half_space.E_star * slope)) if slope else 1.0
     return max(share, min(largest / Bounds.of(law).largest_force(surface.area), 1.0))

@@ -8,7 +8,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 
-_PRECISE = 1e-30  # of a piece of time, to which zeros in it are found; exponentials may be as short
+_TIME_PRECISION = 1e-30  # of zeros in a piece of time; exponentials may be as short
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +70,11 @@ class FadingMemory:
         slope = FadingMemory(steeper[0], steeper[1:], self.rates[1:] - self.rates[0])
         ends = np.array([0.0, *slope.zeros(length), length])
         signs = np.sign(self.at(ends))
-        precise = {"xtol": _PRECISE * length, "rtol": 4 * np.finfo(float).eps, "maxiter": 500}
+        precise = {
+            "xtol": _TIME_PRECISION * length,
+            "rtol": 4 * np.finfo(float).eps,
+            "maxiter": 500,
+        }
         return [
             float(brentq(lambda t: float(self.at(np.array(t))), *ends[i : i + 2], **precise))
             for i in np.flatnonzero(signs[:-1] * signs[1:] < 0)

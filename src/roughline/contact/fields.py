@@ -10,8 +10,8 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
-from roughline.contact.distribution import Distribution, distribution_of
-from roughline.contact.patches import Patches, patches_of
+from roughline.contact.distribution import Distribution, binned
+from roughline.contact.patches import Patches, find_patches
 from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public
@@ -113,9 +113,9 @@ class Fields:
         allowed_choice("of", of, ("gap", "pressure"))
         touching = int(np.count_nonzero(self.contact))
         if of == "gap":
-            return distribution_of(self.gap[~self.contact], touching)
+            return binned(self.gap[~self.contact], touching)
         pressure, yielding = self.pressure[self.contact], int(np.count_nonzero(self.plastic))
-        return distribution_of(pressure, self.contact.size - touching, yielding)
+        return binned(pressure, self.contact.size - touching, yielding)
 
     def patches(self) -> Patches:
         """Return the connected patches of the contact, the largest first.
@@ -129,7 +129,7 @@ class Fields:
         >>> print(round(patches.forces.sum(), 6), patches.areas[0] == patches.areas.max())
         0.01 True
         """
-        return patches_of(self.contact, self.pressure, self.sizes, periodic=self.periodic)
+        return find_patches(self.contact, self.pressure, self.sizes, periodic=self.periodic)
 
 
 @dataclass(frozen=True, eq=False)

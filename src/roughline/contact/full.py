@@ -41,7 +41,7 @@ from roughline.topography.preparation import tilt_warnings
 from roughline.topography.repetition import border_jump
 from roughline.topography.settings import as_body
 
-_Kept = TypeVar("_Kept")
+_Stored = TypeVar("_Stored")
 
 
 def press_surface(
@@ -75,7 +75,7 @@ def press_surface(
                     progress(i + 1, len(path))
     except KeyboardInterrupt:
         interrupted = True
-    curve = record.whole(loads)
+    curve = record.assembled(loads)
     if interrupted:
         raise Interrupted(curve)
     return curve
@@ -241,7 +241,7 @@ class _Record:
         self._dents[load] = dents
         return dents
 
-    def whole(self, loads: Loads) -> SurfaceCurve:
+    def assembled(self, loads: Loads) -> SurfaceCurve:
         """Return the curve over all loads, with what depends on the loads before."""
         curve, scaled = self._curve, self._scaled
         known = curve.status != Status.INTERRUPTED
@@ -257,9 +257,9 @@ class _Record:
             curve,
             pull_off_depth=pull_off_depth,
             pull_off_force=pull_off_force,
-            residual_of=_of_known(self._residual_of, known, ""),
-            fields=_of_known(self._fields, known, None) if self._kept else (),
-            dents=_of_known(self._dents, known, None) if curve.law.memory == "dents" else (),
+            residual_of=_where_known(self._residual_of, known, ""),
+            fields=_where_known(self._fields, known, None) if self._kept else (),
+            dents=_where_known(self._dents, known, None) if curve.law.memory == "dents" else (),
             warnings=(
                 *border_doubts(surface),
                 *grave_effects(surface),
@@ -285,7 +285,7 @@ class _Record:
         return min([*self._pulls, *on_retreat], key=lambda each: each[1], default=unknown)
 
 
-def _of_known(kept: Sequence[_Kept], known: Mask, other: _Kept) -> tuple[_Kept, ...]:
+def _where_known(kept: Sequence[_Stored], known: Mask, other: _Stored) -> tuple[_Stored, ...]:
     """Return what is kept of loads, where they are known."""
     return tuple(each if is_known else other for each, is_known in zip(kept, known, strict=True))
 
@@ -316,7 +316,7 @@ def _work_done(depth: Real, force: Real, stored: Real) -> Real:
     known, work = np.isfinite(depth), np.full(depth.size, np.nan)
     if not known.any():
         return work
-    at, borne = depth[known], force[known]
+    at, forces = depth[known], force[known]
     steps = np.diff(at)
     moving = np.flatnonzero(steps)
     turns = moving[1:][steps[moving[1:]] * steps[moving[:-1]] < 0]
@@ -326,7 +326,7 @@ def _work_done(depth: Real, force: Real, stored: Real) -> Real:
         there, places = np.unique(at[way], return_index=True)
         done[way] = done[first]
         if there.size > 1:
-            along = PchipInterpolator(there, borne[way][places]).antiderivative()
+            along = PchipInterpolator(there, forces[way][places]).antiderivative()
             done[way] += along(at[way]) - along(at[first])
     work[known] = stored[known][0] + done
     return work
@@ -342,8 +342,8 @@ def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tup
     most, overstated = overstated_cells(contact, scaled.spacing, scaled.half_space.repeats)
     most_of_cell = float(np.max(law.bounds(None)[1])) * scaled.cell_area
     if math.isfinite(most_of_cell):
-        borne = contact.force * scaled.force / most_of_cell
-        possible = max(contact.nodes.size - borne, 0.0)
+        fewest = contact.force * scaled.force / most_of_cell
+        possible = max(contact.nodes.size - fewest, 0.0)
         if overstated >= possible or contact.plastic.any():
             overstated = min(overstated, possible / 2)
     return most, overstated

@@ -23,22 +23,22 @@ from roughline.topography.preparation import resampled
 
 # Half widths over what is measured, so that they hold 95 % of all surfaces on grids four times
 # finer (benchmarks/measured_coverage.py):
-_OF_YIELD = 1.1  # of what a softer body shows
-_OF_AREA = 1.3  # of differences of the area's logarithm
-_OF_STEEPENING = 1.4  # of the logarithm of the steepening that opens the area
-_OF_MEASURES = 0.5  # the same, by which differences of a measure's logarithm are widened
+_YIELD_FACTOR = 1.1  # of what a softer body shows
+_AREA_FACTOR = 1.3  # of differences of the area's logarithm
+_STEEPENING_EXPONENT = 1.4  # of the logarithm of the steepening that opens the area
+_MEASURE_EXPONENT = 0.5  # of the steepening, by which differences of a measure are widened
 # Of what yield takes from the stiffness on loading, which few cells decide, so much is uncertain.
-_SHARE_OF_YIELD = 0.3
+_YIELD_SHARE = 0.3
 # Weights of differences from every other point, from means of two by two points, and between these
 # and means of four by four, which are larger the coarser the grid.
-_WEIGHTS = (1.0, 1.0, 0.25)
+_GRID_WEIGHTS = (1.0, 1.0, 0.25)
 # White noise has the fastest growth of all surfaces: means over two by two points halve its
 # heights, so that its mean square slope is 16 times as large from grid to grid.
-_GROWTH_OF_NOISE = 16.0
+_NOISE_GROWTH = 16.0
 # Means of points of a rougher self-affine surface steepen the last step so much, because the points
 # hold the shorter waves folded into them.
-_FASTEST_OF_POINTS = 4 / 3
-_NEARLY_ALL = 0.9  # of a softer body at the hardness: as far as it is loaded at most
+_FASTEST_POINT_GROWTH = 4 / 3
+_LARGEST_LOADING = 0.9  # of a softer body, over the force under which all of it yields
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
 _Press = Callable[..., SurfaceCurve]
@@ -82,11 +82,11 @@ class _Grids:
         before, last = np.maximum(np.diff(means), 0.0)
         if last == 0:
             return 1.0
-        growth = min(last / before, _GROWTH_OF_NOISE) if before > 0 else _GROWTH_OF_NOISE
+        growth = min(last / before, _NOISE_GROWTH) if before > 0 else _NOISE_GROWTH
         noise = max(
-            _excess([*points, means[2]], 1.0), _excess(means.tolist(), _FASTEST_OF_POINTS), 0.0
+            _excess([*points, means[2]], 1.0), _excess(means.tolist(), _FASTEST_POINT_GROWTH), 0.0
         )
-        more = last / means[2] * (growth + growth**2) + noise * _GROWTH_OF_NOISE**2
+        more = last / means[2] * (growth + growth**2) + noise * _NOISE_GROWTH**2
         return float(np.sqrt(1 + more))
 
     @property
@@ -136,16 +136,20 @@ def with_grid_error(
         if law.only_pushes:
             raise
         return _unknown(curve, error)
-    steepening, bare = grids.steepening, partial(press, measures=())
-    rims_of_k, rims_of_area = _of_rims(curve, surface, law, bare)
-    softer = _softer(grids, steepening, coarser[1], laws[1], bare)
+    steepening, without_measures = grids.steepening, partial(press, measures=())
+    rims_of_k, rims_of_area = _rim_differences(curve, surface, law, without_measures)
+    softer = _softer(grids, steepening, coarser[1], laws[1], without_measures)
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        of_grids = steepening * _of_compliance("unloading_stiffness", coarser, curve)
-        of_k_u = np.hypot(np.hypot(of_grids, _OF_YIELD * _of_yield(*softer)), rims_of_k)
-        taken = np.where((k > 0) & (k < k_u), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
-        of_k = np.maximum(steepening * _of_compliance("stiffness", coarser, curve), of_k_u + taken)
-        felt = steepening_of(in_full_contact(surface, curve.half_space))
-        of_area = _of_area(curve, law, coarser, max(steepening, felt), surface.heights.size)
+        of_grids = steepening * _compliance_difference("unloading_stiffness", coarser, curve)
+        of_k_u = np.hypot(np.hypot(of_grids, _YIELD_FACTOR * _yielding_share(*softer)), rims_of_k)
+        taken = np.where((k > 0) & (k < k_u), _YIELD_SHARE * np.log(k_u / k), 0.0)
+        of_k = np.maximum(
+            steepening * _compliance_difference("stiffness", coarser, curve), of_k_u + taken
+        )
+        at_the_interface = grid_steepening(in_full_contact(surface, curve.half_space))
+        of_area = _area_difference(
+            curve, law, coarser, max(steepening, at_the_interface), surface.heights.size
+        )
         of_area = np.hypot(of_area, rims_of_area)
         return replace(
             curve,
@@ -153,11 +157,11 @@ def with_grid_error(
             unloading_stiffness_error=_times(k_u, of_k_u),
             area_fraction_error=_times(area, of_area),
             measured=_measured(curve, surface, coarser, steepening, press),
-            pull_off_force_error=_of_pull_off(curve, coarser),
+            pull_off_force_error=_pull_off_error(curve, coarser),
         )
 
 
-def _of_pull_off(curve: SurfaceCurve, coarser: Sequence[SurfaceCurve]) -> float:
+def _pull_off_error(curve: SurfaceCurve, coarser: Sequence[SurfaceCurve]) -> float:
     """Discretisation error of the pull-off force. [force]"""
     return float(
         _between(np.array([each.pull_off_force for each in coarser]), curve.pull_off_force)
@@ -176,7 +180,7 @@ def _unknown(curve: SurfaceCurve, error: InputError) -> SurfaceCurve:
     )
 
 
-def steepening_of(surface: Surface) -> float:
+def grid_steepening(surface: Surface) -> float:
     """How much larger the rms slope of a grid four times finer will be."""
     return _Grids.of(surface).steepening
 
@@ -190,29 +194,29 @@ def refuse_few_points(surface: Surface) -> None:
         )
 
 
-def _of_compliance(name: str, coarser: Sequence[SurfaceCurve], curve: SurfaceCurve) -> Real:
+def _compliance_difference(name: str, coarser: Sequence[SurfaceCurve], curve: SurfaceCurve) -> Real:
     """Root of the squares by which a compliance differs between grids, over that of the surface."""
     full = getattr(curve, name)
     values = np.array([getattr(each, name) for each in coarser])
     found = _between(np.where(values == full, 1.0, full / values), 1.0)
-    is_apart = (full == 0) & (values != 0).any(axis=0)  # and a coarser grid is not
-    return np.where(np.isinf(found) | is_apart, np.nan, found)
+    is_separated = (full == 0) & (values != 0).any(axis=0)  # and a coarser grid is not
+    return np.where(np.isinf(found) | is_separated, np.nan, found)
 
 
-def _of_rims(
+def _rim_differences(
     curve: SurfaceCurve, surface: Surface, law: ContactLaw, press: _Press
 ) -> tuple[Real, Real]:
     """What the rims of plateaus change of the compliance and of the area's logarithm."""
     none = np.zeros(curve.depth.shape)
-    whole = with_whole_plateaus(surface)
-    if whole is None:
+    plateaus = with_whole_plateaus(surface)
+    if plateaus is None:
         return none, none
-    found = _pressed_again(curve, whole, law, press)
+    found = _pressed_again(curve, plateaus, law, press)
     k, area = curve.unloading_stiffness, curve.area_fraction_corrected
-    raised, wider = found.unloading_stiffness, found.area_fraction_corrected
+    stiffer, wider = found.unloading_stiffness, found.area_fraction_corrected
     with np.errstate(invalid="ignore", divide="ignore"):
-        of_k, of_area = np.abs(1 - k / raised), np.abs(np.log(wider / area))
-    return np.where(k == raised, 0.0, of_k), np.where(area == wider, 0.0, of_area)
+        of_k, of_area = np.abs(1 - k / stiffer), np.abs(np.log(wider / area))
+    return np.where(k == stiffer, 0.0, of_k), np.where(area == wider, 0.0, of_area)
 
 
 def _between(of_coarser: Sequence[Real] | Real, of_surface: Real | float) -> Real:
@@ -220,23 +224,23 @@ def _between(of_coarser: Sequence[Real] | Real, of_surface: Real | float) -> Rea
     thinned, half, quarter = of_coarser
     differences = [thinned - of_surface, half - of_surface, quarter - half]
     return np.asarray(
-        np.sqrt(sum((w * d) ** 2 for w, d in zip(_WEIGHTS, differences, strict=True)))
+        np.sqrt(sum((w * d) ** 2 for w, d in zip(_GRID_WEIGHTS, differences, strict=True)))
     )
 
 
-def _of_yield(alike: SurfaceCurve, softer: SurfaceCurve) -> Real:
+def _yielding_share(as_steep: SurfaceCurve, softer: SurfaceCurve) -> Real:
     """Share that a softer body takes from the compliance on unloading.
 
     Near full contact a softer body is flattened more than waves alone would: it counts by the root
     of the area that it leaves open.
     """
-    before, after = alike.unloading_stiffness, softer.unloading_stiffness
+    before, after = as_steep.unloading_stiffness, softer.unloading_stiffness
     area = softer.area_fraction_corrected
     share = 1 - np.minimum(before, after) / np.maximum(before, after)
     return np.where(before == after, 0.0, share * np.sqrt(np.maximum(1 - area, 0.0)))
 
 
-def _of_area(
+def _area_difference(
     curve: SurfaceCurve,
     law: ContactLaw,
     coarser: Sequence[SurfaceCurve],
@@ -247,7 +251,7 @@ def _of_area(
     area = curve.area_fraction_corrected
     values = np.array([each.area_fraction_corrected for each in coarser])
     between = _between(np.log(np.where(values == area, 1.0, values / area)), 0.0)
-    opened = np.hypot(_steeper(steepening**_OF_STEEPENING, area), _OF_AREA * between)
+    opened = np.hypot(_steeper(steepening**_STEEPENING_EXPONENT, area), _AREA_FACTOR * between)
     most = Bounds.of(law).largest_force(curve.length**2)
     if np.isfinite(most):
         least = curve.force / most
@@ -278,8 +282,8 @@ def _softer(
         return curve, curve
     # pressures and gaps of a surface so many times steeper, in units so many times larger
     steeper = (law.scaled(times, times) for times in (grids.step, grids.step * steepening))
-    alike, softer = (_pressed_again(curve, grids.half, each, press) for each in steeper)
-    return alike, softer
+    as_steep, softer = (_pressed_again(curve, grids.half, each, press) for each in steeper)
+    return as_steep, softer
 
 
 def _pressed_again(
@@ -290,7 +294,7 @@ def _pressed_again(
     if not known.any():
         return curve
     forces = np.minimum(
-        share * curve.force[known], _NEARLY_ALL * Bounds.of(law).largest_force(surface.area)
+        share * curve.force[known], _LARGEST_LOADING * Bounds.of(law).largest_force(surface.area)
     )
     return among_loads(press(surface, Loads("forces", forces), law), known)
 
@@ -328,7 +332,7 @@ def _measured(
         steeper = _pressed_again(curve, surface, law, press, 1 / steepening).measured
     found = {}
     for name, each in curve.measured.items():
-        low, high = _ends_of_measure(grids[name], steepening**_OF_MEASURES)
+        low, high = _ends_of_measure(grids[name], steepening**_MEASURE_EXPONENT)
         if steeper:
             opened = np.fmax(high, steeper[name].values)
             high = np.where((grids[name] == 0).any(axis=0), opened, high)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.memory import refuse_beyond_memory
-from roughline.contact.arguments import LARGEST, checked_count
+from roughline.contact.arguments import LARGEST_NUMBER, checked_count
 from roughline.contact.full_contact import in_full_contact
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
@@ -31,12 +31,12 @@ _Control = Literal["depths", "forces"]  # what is prescribed
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
-_SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
-_UNBEARABLE = 1.01  # pull over the largest that all of the area can bear
+_SHORTEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
+_UNBEARABLE_PULL = 1.01  # pull over the largest that all of the area can bear
 OVER_PULL_OFF = 2.0
 """The largest force of a cycle of bodies that stick, over the pull-off force, at least."""
-_MOST_TRIALS = 12  # largest depths of a cycle of bodies that stick
-_BEYOND = 1.1  # the last depth of a profile that sticks, over that at which it comes off
+_MOST_CYCLES = 12  # of bodies that stick, with ever larger depths
+_PULL_OFF_MARGIN = 1.1  # the last depth of a profile that sticks, over that at which it comes off
 _LARGEST_YIELDING = 0.5  # of the force under which all of the area yields
 _BYTES_PER_LOAD = 1000  # of what a load gives
 _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few points touch early
@@ -90,7 +90,7 @@ def profile_loads(profile: Profile, body: Revolution, given: GivenLoads) -> Load
         # where all of it touches, it is a flat punch
         beyond = max(missing, 0.0) / (2 * body.E_star * profile.largest_radius)
         deepest = float(depths[-1]) + beyond
-        return even_cycle(0.0, deepest, _BEYOND * float(depths.min()), _counted(given))
+        return even_cycle(0.0, deepest, _PULL_OFF_MARGIN * float(depths.min()), _counted(given))
     few = profile.radii[min(RESOLVED_FROM, profile.radii.size - 1)]
     lowest = float(body.at_rest(np.array([few]))[1][0])
     return _spaced_loads(given, lowest, float(forces[-1]))
@@ -178,7 +178,7 @@ def _cycle(surface: Surface, half_space: HalfSpace, law: ContactLaw, given: Give
     How far they go in the end takes solutions: :func:`roughline.contact.cycle.cycle`.
     """
     deepest = next(deepest_ones(surface, half_space))
-    last = depth_apart(surface, half_space, law, deepest)
+    last = separation_depth(surface, half_space, law, deepest)
     return even_cycle(-farthest_pulled(law), deepest, last, _counted(given))
 
 
@@ -188,7 +188,7 @@ def deepest_ones(surface: Surface, half_space: HalfSpace) -> Iterator[float]:
     They double. Where full contact is rigid, what they leave to its depth is halved instead.
     """
     full = float(np.mean(surface.heights.max() - surface.heights))
-    for power in range(1, _MOST_TRIALS + 1):
+    for power in range(1, _MOST_CYCLES + 1):
         yield full * (1 - 0.5**power if half_space.mean_is_free else 0.25 * 2.0**power)
 
 
@@ -247,10 +247,10 @@ def _computable_loads(given: GivenLoads) -> Loads:
     """Return given loads that are not too large to compute with."""
     loads = _checked_loads(given)
     largest = int(np.abs(loads.values).argmax())
-    if abs(loads.values[largest]) > LARGEST:
+    if abs(loads.values[largest]) > LARGEST_NUMBER:
         raise InputError(
-            f"{loads.control}[{largest}] is {loads.values[largest]:g}; at most {LARGEST:g} can "
-            "be computed with: give smaller loads"
+            f"{loads.control}[{largest}] is {loads.values[largest]:g}; at most {LARGEST_NUMBER:g} "
+            "can be computed with: give smaller loads"
         )
     return loads
 
@@ -262,7 +262,9 @@ def comes_nearer(depth: Real) -> Mask:
     return nearer
 
 
-def depth_apart(surface: Surface, half_space: HalfSpace, law: ContactLaw, deepest: float) -> float:
+def separation_depth(
+    surface: Surface, half_space: HalfSpace, law: ContactLaw, deepest: float
+) -> float:
     """Return a depth at which bodies that stick have come apart, after a largest one. [length]
 
     No contact is drawn out further than a flat disc that is as wide as all that was in contact or
@@ -289,7 +291,7 @@ def depth_apart(surface: Surface, half_space: HalfSpace, law: ContactLaw, deepes
 
 def unbearable_pull(law: ContactLaw, area: float) -> float:
     """Return a pull that no contact bears, under which bodies come off. [force]"""
-    return -_UNBEARABLE * Bounds.of(law).largest_pull * area
+    return -_UNBEARABLE_PULL * Bounds.of(law).largest_pull * area
 
 
 def _checked_loads(given: GivenLoads) -> Loads:
@@ -359,10 +361,10 @@ def refuse_beyond_precision(
             f"{'single' if single else 'double'} precision cannot resolve gaps to rtol = {rtol:g}; "
             f"give at most {rtol / rounding:.0g} {name}, or a larger rtol"
         )
-    if 0 < reach[least] < _SMALLEST_REACH:
+    if 0 < reach[least] < _SHORTEST_REACH:
         raise InputError(
             f"{loads.control}[{least}] is {reach[least]:.1g} {name}, too small to "
-            f"differ from zero; give at least {_SMALLEST_REACH:g} {name}"
+            f"differ from zero; give at least {_SHORTEST_REACH:g} {name}"
         )
 
 

@@ -133,7 +133,7 @@ class Measured:
         return np.stack([self.values, *ends])
 
     def over(self, other_loads: Callable[[Real], Real]) -> Measured:
-        """The same over other loads, to which a function takes values."""
+        """Return the measure over other loads, to which a function takes values."""
         values, *ends = map(other_loads, self.rows)
         low, high = ends or (None, None)
         return replace(self, values=values, low=low, high=high)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
-from roughline.contact.distribution import Distribution, distribution_of
+from roughline.contact.distribution import Distribution, binned
 from roughline.halfspace.elasticity.half_space import Periodic, repeated_axes
 
 _WITH_CORNERS = np.ones((3, 3), dtype=int)
@@ -60,10 +60,10 @@ class Patches:
         """
         largest = round(self.areas[0] / self.cell_area) if self.count else 0  # [cells]
         edges = np.exp2(np.arange(largest.bit_length() + 1.0)) - 0.5
-        return distribution_of(self.areas, 0, edges=edges * self.cell_area)
+        return binned(self.areas, 0, edges=edges * self.cell_area)
 
 
-def patches_of(
+def find_patches(
     contact: Mask, pressure: Real, sizes: tuple[float, float], *, periodic: Periodic
 ) -> Patches:
     """Return the patches of a contact on a rectangle with these sides, which may repeat."""
@@ -74,9 +74,9 @@ def patches_of(
     number = len(winds)
     cell_area = sizes[0] * sizes[1] / contact.size
     cells = np.bincount(pieces.ravel(), minlength=count + 1)[1:]
-    borne = np.bincount(pieces.ravel(), pressure.ravel(), count + 1)[1:]
+    forces_by_piece = np.bincount(pieces.ravel(), pressure.ravel(), count + 1)[1:]
     of_patch = np.bincount(patch, cells, number).astype(np.float64)
-    forces = np.bincount(patch, borne, number).astype(np.float64) * cell_area
+    forces = np.bincount(patch, forces_by_piece, number).astype(np.float64) * cell_area
     order = np.argsort(-of_patch, kind="stable")
     centroids = np.empty((number, 2))
     for axis, (side, n) in enumerate(zip(sizes, contact.shape, strict=True)):

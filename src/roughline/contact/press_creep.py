@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
-from roughline.contact.arguments import LARGEST, given_half_space
+from roughline.contact.arguments import LARGEST_NUMBER, given_half_space
 from roughline.contact.creep import Creep, memory_of_strain, memory_of_stress
 from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.curve_files import checked_name, write_curve
@@ -46,12 +46,12 @@ from roughline.topography.profile import Profile
 if TYPE_CHECKING:
     import xarray
 
-_ROUNDING = 1e-9  # of elastic forces and depths, by which they may seem to fall
-_FALL = 1e-6  # of the force, by which pressures may seem to fall: the tolerance of a press
+_LOAD_ROUNDING = 1e-9  # of elastic forces and depths, by which they may seem to fall
+_PRESSURE_ROUNDING = 1e-6  # of the force, by which they may seem to fall: that of a press
 _COMPARED_LOADS = 9  # at which pressures on layers are compared
-_LIGHTEST = 1e-3  # of the largest of these loads, where they rise from zero
+_LIGHTEST_LOAD = 1e-3  # of the largest of these loads, where they rise from zero
 _MOST_DEPTHS = 2000  # between which the force on a moving body is integrated
-_HALVED = 0.1  # of the largest error of an interval of depths, from which others are halved too
+_HALVED_FROM = 0.1  # of the largest error of an interval of depths; others are halved too
 
 _of_times = partial(Quantity, dims=("time",))
 _DECLARED = (
@@ -306,7 +306,7 @@ def _given_history(times: Any, force: Any, depth: Any) -> _History:
     values = _checked(name, given)
     if (values < 0).any() or not values.any():
         raise InputError(
-            f"{_one_of(name, given, values, int(values.argmin()))}; compression counts positive: "
+            f"{_numbered(name, given, values, int(values.argmin()))}; compression counts positive: "
             "give positive numbers, and zero only before touch"
         )
     if np.ndim(given) > 0:
@@ -331,16 +331,16 @@ def _given_history(times: Any, force: Any, depth: Any) -> _History:
 def _checked(name: str, given: Any) -> Real:
     """Return numbers in a row that can be computed with."""
     values = checked_numbers(name, given)
-    wrong = ~(np.abs(values) <= LARGEST)
+    wrong = ~(np.abs(values) <= LARGEST_NUMBER)
     if wrong.any():
         raise InputError(
-            f"{_one_of(name, given, values, int(wrong.argmax()))}; finite numbers of at most "
-            f"{LARGEST:g} are needed"
+            f"{_numbered(name, given, values, int(wrong.argmax()))}; finite numbers of at most "
+            f"{LARGEST_NUMBER:g} are needed"
         )
     return values
 
 
-def _one_of(name: str, given: Any, values: Real, i: int) -> str:
+def _numbered(name: str, given: Any, values: Real, i: int) -> str:
     """Say which of the values of an argument is which number."""
     return f"{name}{f'[{i}]' if np.ndim(given) else ''} is {values[i]:g}"
 
@@ -372,7 +372,7 @@ def _growing_loads(history: _History, memory: FadingMemory) -> Real:
             turns.append(times[i] + np.array(slope.zeros(length)))
     at = np.unique(np.concatenate(turns))
     loads = memory.superposed(at, np.interp(at, times, values))
-    falls = loads < (1 - _ROUNDING) * np.maximum.accumulate(loads)
+    falls = loads < (1 - _LOAD_ROUNDING) * np.maximum.accumulate(loads)
     if falls.any():
         last = int(loads[: falls.argmax()].argmax())
         raise InputError(
@@ -387,7 +387,7 @@ def _growing_loads(history: _History, memory: FadingMemory) -> Real:
 def _rising(history: _History) -> _History:
     """Return a history of depths that rise or stay; refuse one that falls by more than rounding."""
     depth = history.values
-    falls = np.flatnonzero(np.diff(depth) < -_ROUNDING * depth.max())
+    falls = np.flatnonzero(np.diff(depth) < -_LOAD_ROUNDING * depth.max())
     if falls.size:
         i = falls[0]
         raise InputError(
@@ -432,17 +432,21 @@ def _relaxed(
     asked = history.times[history.asked]
     reached = _Reached.of(elastic)
     while True:
-        way = _Way.of(history, reached)
-        low = memory.superposed(way.times, way.force)[np.searchsorted(way.times, asked)]
-        times, loads = way.tangents
+        trajectory = _Trajectory.of(history, reached)
+        low = memory.superposed(trajectory.times, trajectory.force)[
+            np.searchsorted(trajectory.times, asked)
+        ]
+        times, loads = trajectory.tangents
         high = memory.superposed(times, loads)[np.searchsorted(times, asked)]
         force, error = low / 3 + 2 * high / 3, 2 / 3 * np.maximum(high - low, 0.0)
         if (error <= rtol * force).all():
             return force, error
-        rising, parts = way.uncertainties(memory)
-        parts /= force[np.searchsorted(asked, way.times[rising + 1])]
-        wide = rising[parts > _HALVED * parts.max()]
-        finer = reached.and_of(pressed("depths", (way.depth[wide] + way.depth[wide + 1]) / 2))
+        rising, parts = trajectory.uncertainties(memory)
+        parts /= force[np.searchsorted(asked, trajectory.times[rising + 1])]
+        wide = rising[parts > _HALVED_FROM * parts.max()]
+        finer = reached.with_curve(
+            pressed("depths", (trajectory.depth[wide] + trajectory.depth[wide + 1]) / 2)
+        )
         if not reached.depth.size < finer.depth.size <= _MOST_DEPTHS:
             return force, error
         reached = finer
@@ -459,9 +463,9 @@ class _Reached:
     @classmethod
     def of(cls, curve: Curve) -> _Reached:
         """Start from a curve."""
-        return cls(*np.empty((3, 0))).and_of(curve)
+        return cls(*np.empty((3, 0))).with_curve(curve)
 
-    def and_of(self, curve: Curve) -> _Reached:
+    def with_curve(self, curve: Curve) -> _Reached:
         """Add the depths of a curve."""
         depth, places = np.unique(np.append(self.depth, curve.depth), return_index=True)
         force, stiffness = (
@@ -472,7 +476,7 @@ class _Reached:
 
 
 @dataclass(frozen=True, eq=False)
-class _Way:
+class _Trajectory:
     """The way of a body through depths, with the elastic force and stiffness on it."""
 
     times: Real
@@ -481,7 +485,7 @@ class _Way:
     stiffness: Real
 
     @classmethod
-    def of(cls, history: _History, reached: _Reached) -> _Way:
+    def of(cls, history: _History, reached: _Reached) -> _Trajectory:
         """Lead a body along its history through all depths that were pressed."""
         depths = np.setdiff1d(reached.depth, history.values)
         times = np.append(history.times, np.interp(depths, history.values, history.times))
@@ -524,14 +528,14 @@ def _refuse_falling_pressures(loads: Real, pressed: Callable[..., Curve]) -> Non
     On a homogeneous body no pressure falls, as it is that of a rigid punch in every step. A stiff
     layer bends.
     """
-    lowest, highest = max(loads[0], _LIGHTEST * loads[-1]), loads[-1]
-    if highest <= (1 + _ROUNDING) * lowest:
+    lowest, highest = max(loads[0], _LIGHTEST_LOAD * loads[-1]), loads[-1]
+    if highest <= (1 + _LOAD_ROUNDING) * lowest:
         return
     loads = np.geomspace(lowest, highest, _COMPARED_LOADS)
     curve = pressed("forces", loads, fields=True)
     pressures = [each.pressure for _, each in loads_with_fields(curve)]
     for i, (before, after) in enumerate(pairwise(pressures)):
-        if np.maximum(before - after, 0.0).sum() > _FALL * after.sum():
+        if np.maximum(before - after, 0.0).sum() > _PRESSURE_ROUNDING * after.sum():
             raise InputError(
                 f"takes pressure off some points while its elastic force rises from {loads[i]:.4g} "
                 f"to {loads[i + 1]:.4g}, as a stiff layer bends over a soft one; contacts that "

@@ -50,7 +50,7 @@ class Quantity:
 
     def unit_in(self, length_unit: str | None) -> str | None:
         """Return the unit where lengths have this one; None for a flag."""
-        return None if self.dimension is None else unit_of(self.dimension, length_unit)
+        return None if self.dimension is None else unit_name(self.dimension, length_unit)
 
     def is_left_by(self, memory: str) -> bool:
         """Whether files hold it of a contact law that leaves "none", "dents" or the "path"."""
@@ -63,7 +63,7 @@ class Quantity:
         return attributes | ({"long_name": self.long_name} if self.long_name else {})
 
 
-def unit_of(dimension: str, length_unit: str | None) -> str:
+def unit_name(dimension: str, length_unit: str | None) -> str:
     """Return the unit of a dimension where lengths have a given unit.
 
     Lengths in "m" give SI units; without a unit of lengths the dimension itself is returned, and

@@ -14,7 +14,7 @@ from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import farthest_pulled
 from roughline.topography.body import Surface
 
-_SAME = 1e-6  # part by which what is scaled may differ
+_SCALING_TOLERANCE = 1e-6  # part by which what is scaled may differ
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ def _refuse_other_half_space(
     with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
         moved = half_space.spectrum(q / length) * (half_space.E_star / length)
     there, computed = scaled.spectrum(q), np.isfinite(moved) & (moved > 0)  # in these units, too
-    if computed.all() and not np.allclose(there, moved, rtol=_SAME, atol=0):
+    if computed.all() and not np.allclose(there, moved, rtol=_SCALING_TOLERANCE, atol=0):
         worst = int(np.abs(there / moved - 1).argmax())
         raise InputError(
             f"{type(half_space).__name__}.in_units({half_space.E_star:g}, {length:g}) displaces a "
@@ -110,7 +110,9 @@ def _refuse_other_law(law: ContactLaw, scaled: ContactLaw, pressure: float, leng
     ):
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):
             found, right = np.broadcast_arrays(there, np.asarray(given) / unit)
-        if (other := ~np.isclose(found, right, rtol=_SAME, atol=0, equal_nan=True)).any():
+        if (
+            other := ~np.isclose(found, right, rtol=_SCALING_TOLERANCE, atol=0, equal_nan=True)
+        ).any():
             raise InputError(
                 f"has a method {type(law).__name__}.scaled({pressure:g}, {length:g}) that makes "
                 f"{what} {found[other][0]:g} where {right[other][0]:g} is right: pressures are to "
@@ -132,13 +134,18 @@ def _refuse_other_pull(law: ContactLaw) -> None:
     gaps = np.linspace(0, law.cutoff if ends else float(law.gap_at(np.array([0.01]))[0]), 9)
     shares, work = law.share_at(gaps), law.work_beyond(gaps)
     opened, steps = work[:-1] - work[1:], np.diff(gaps)
-    slack = _SAME * gaps[-1]
+    slack = _SCALING_TOLERANCE * gaps[-1]
     for wrong, what in (
         (shares[0] != 1, f"share_at that is {shares[0]:g} at a gap of zero: it is one there"),
         (not gaps[-1] > 0, "gap_at that gives no gaps: they are positive where less is borne"),
         (np.any(np.diff(shares) > 0) or np.any(shares < 0), "share_at that rises, or is negative"),
         (
-            not np.allclose(law.share_at(law.gap_at(shares)), shares, rtol=_SAME, atol=_SAME),
+            not np.allclose(
+                law.share_at(law.gap_at(shares)),
+                shares,
+                rtol=_SCALING_TOLERANCE,
+                atol=_SCALING_TOLERANCE,
+            ),
             "gap_at that is not the inverse of its share_at",
         ),
         (

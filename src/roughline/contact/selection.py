@@ -14,7 +14,7 @@ from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 
-_Kept = TypeVar("_Kept")
+_Stored = TypeVar("_Stored")
 _Curve = TypeVar("_Curve", bound=Curve)
 
 
@@ -32,18 +32,18 @@ def among_loads(curve: _Curve, solved: Mask, others: Status = Status.INTERRUPTED
         found[solved] = values
         return found
 
-    kept: dict[str, Any] = {}
+    stored: dict[str, Any] = {}
     if isinstance(curve, SurfaceCurve):
-        kept["fields"] = _spread(curve.fields, solved, None)
-        kept["dents"] = _spread(curve.dents, solved, None)
-        kept["residual_of"] = _spread(curve.residual_of, solved, "")
-    return replace(_at_others(curve, spread), **kept)
+        stored["fields"] = _spread(curve.fields, solved, None)
+        stored["dents"] = _spread(curve.dents, solved, None)
+        stored["residual_of"] = _spread(curve.residual_of, solved, "")
+    return replace(_at_others(curve, spread), **stored)
 
 
 def first_fields(curve: Curve) -> Fields | None:
     """Return the fields of the first load whose fields were kept; None where none were."""
-    kept = loads_with_fields(curve)
-    return kept[0][1] if kept else None
+    stored = loads_with_fields(curve)
+    return stored[0][1] if stored else None
 
 
 def loads_with_fields(curve: Curve) -> list[tuple[int, Fields]]:
@@ -57,12 +57,12 @@ def without_fields(curve: _Curve) -> _Curve:
     return replace(curve, fields=()) if isinstance(curve, SurfaceCurve) else curve
 
 
-def _spread(kept: Sequence[_Kept], solved: Mask, other: _Kept) -> tuple[_Kept, ...]:
+def _spread(stored: Sequence[_Stored], solved: Mask, other: _Stored) -> tuple[_Stored, ...]:
     """What is kept of each load that was solved, among all loads; nothing where nothing is kept."""
-    if not kept:
+    if not stored:
         return ()
     found = [other] * solved.size
-    for load, each in zip(np.flatnonzero(solved), kept, strict=False):
+    for load, each in zip(np.flatnonzero(solved), stored, strict=False):
         found[load] = each
     return tuple(found)
 

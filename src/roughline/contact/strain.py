@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 LARGEST_STRAIN = 1.0
 """Depth over the shorter side of a body, or mean pressure over E*, beyond any half-space."""
 
-BEYOND = "half-spaces are linear elastic far below that only"
+LINEARITY = "half-spaces are linear elastic far below that only"
 
-_SURELY = 10.0  # strain from which a unit is surely wrong, if heights and sides have the same one
-_IN_ONE_UNIT = 0.1  # rms height over the side, up to which both are taken to be in the same unit
+_WRONG_UNIT_STRAIN = 10.0  # from which a unit is wrong, if heights and sides have the same one
+_ONE_UNIT_ROUGHNESS = 0.1  # rms height over the side, up to which both have the same unit
 
 
 def warn_of_strain(body: Body | Profile, curve: Curve) -> None:
@@ -37,7 +37,7 @@ def warn_of_strain(body: Body | Profile, curve: Curve) -> None:
     else:
         side = min(side_lengths(body))
         area = body.area if isinstance(body, Surface) else side**2
-    if not curve.converged.any() or not 0 < body.rms_height <= _IN_ONE_UNIT * side:
+    if not curve.converged.any() or not 0 < body.rms_height <= _ONE_UNIT_ROUGHNESS * side:
         return
     found = [(0.0, "", "")]
     if curve.control == "depths":  # under a force, a soft base gives way as deep as it is soft
@@ -47,9 +47,9 @@ def warn_of_strain(body: Body | Profile, curve: Curve) -> None:
         pressure = float(np.nanmax(curve.force)) / area
         found.append((pressure / curve.E_star, "mean pressure", "the contact modulus"))
     ratio, what, of = max(found)
-    if ratio > _SURELY:
+    if ratio > _WRONG_UNIT_STRAIN:
         text = (
-            f"the largest {what} is {decimal(ratio, 2)} times {of}, and {BEYOND}: check the units "
-            "of loads, sizes and E_star"
+            f"the largest {what} is {decimal(ratio, 2)} times {of}, and {LINEARITY}: check the "
+            "units of loads, sizes and E_star"
         )
         warnings.warn(text, UnitWarning, stacklevel=5)

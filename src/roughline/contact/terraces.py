@@ -7,7 +7,7 @@ import numpy as np
 from roughline.spectra.departures import ROUNDING, in_line, levelled
 from roughline.topography.body import Surface, with_heights
 
-_LEAST = 0.01  # share of heights on plateaus that matters
+_SMALLEST_SHARE = 0.01  # share of heights on plateaus that matters
 
 
 def with_whole_plateaus(surface: Surface) -> Surface | None:
@@ -27,7 +27,7 @@ def with_whole_plateaus(surface: Surface) -> Surface | None:
     counts = np.round(level / step)
     levels = np.unique(counts[flat])
     plateau = np.isin(counts, levels)
-    if plateau.mean() < _LEAST or plateau.all():
+    if plateau.mean() < _SMALLEST_SHARE or plateau.all():
         return None
     beside = ndimage.maximum_filter(np.where(plateau, level, -np.inf), size=3)
     next_level = step * np.append(levels, -np.inf)[np.searchsorted(levels, counts)]

@@ -15,7 +15,7 @@ from roughline.computing.summary import summary
 from roughline.contact.arguments import given_half_space, given_law
 from roughline.contact.fields import Fields
 from roughline.contact.full_contact import in_full_contact
-from roughline.contact.grid_error import steepening_of
+from roughline.contact.grid_error import grid_steepening
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.errors import InputError
@@ -167,7 +167,7 @@ def sealing_pressure(
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
     tells = tells_of_larger(surface)
     left_open = partial(factor_left_open, found.value, half, of_quarters, tells=tells)
-    most = min(high * left_open(of_grid=steepening_of(full)), Bounds.of(law).largest_force(1.0))
+    most = min(high * left_open(of_grid=grid_steepening(full)), Bounds.of(law).largest_force(1.0))
     ends = low / left_open() if tells else 0.0, max(high, most)
     return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 

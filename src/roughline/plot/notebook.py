@@ -15,7 +15,7 @@ from roughline.computing.notebook import in_notebook
 from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.press_creep import CreepCurve
-from roughline.contact.quantities import unit_of
+from roughline.contact.quantities import unit_name
 from roughline.contact.status import Status
 from roughline.fluid.flow import Flow
 from roughline.fluid.reopening import Reopening
@@ -265,7 +265,7 @@ def _with_unit(
     value: float, dimension: str | None, unit: str | None, error: float | None = None
 ) -> str:
     """Write a value with the digits that its error supports, in SI where lengths are in metres."""
-    named = unit_of(dimension, "m") if dimension and unit == "m" else None
+    named = unit_name(dimension, "m") if dimension and unit == "m" else None
     return in_words(value, named, digits_known(value, error))
 
 
