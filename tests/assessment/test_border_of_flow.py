@@ -13,7 +13,7 @@ from roughline.assessment.larger_measure import LargerMeasure
 from roughline.assessment.tiles import POINTS_OF_BORDER, Extrapolation, TiledCurves, coarse_shape
 from roughline.contact.measures import Measured
 from roughline.fluid import border
-from roughline.fluid.measures import LIQUID, aperture_of, names_at_border
+from roughline.fluid.measures import LIQUID, equivalent_aperture, names_at_border
 
 SEEN = Extrapolation(6.0)
 APERTURE = "hydraulic_aperture_x"
@@ -24,7 +24,7 @@ ALONG_X = rl.Fluid("water", along="x", **SEALED)
 
 def measure_of(whole, tiles, at_border):
     """An aperture of a map, of its tiles, all alike, and as its border is held; a load each."""
-    quantity = aperture_of(LIQUID, "x").quantity
+    quantity = equivalent_aperture(LIQUID, "x").quantity
     names = APERTURE, *names_at_border(APERTURE)
 
     def curve(*values):

@@ -8,7 +8,7 @@ from roughline.contact.fields import Fields
 from roughline.fluid.gap import Gap
 from roughline.fluid.measures import (
     LIQUID,
-    aperture_of,
+    equivalent_aperture,
     flow_factor,
     measures_at_border,
     names_at_border,
@@ -163,7 +163,7 @@ def test_measures_at_the_border_are_those_of_the_gap(fluid):
     for weight, path in [(1.0, fluid.path)] if even else fluid.stations:
         expected += weight * np.array(rl.flow(fields, mean_free_path=path).border_permeances)
     found = {each.name: each.of(fields) for each in measures_at_border(fluid, "x")}
-    for measure in (aperture_of(fluid, "x"), flow_factor(fluid, "x")):
+    for measure in (equivalent_aperture(fluid, "x"), flow_factor(fluid, "x")):
         assert set(names_at_border(measure.name)) <= set(found)
     names = names_at_border("hydraulic_aperture_x"), names_at_border("pressure_flow_factor_x")
     for permeance, aperture, factor in zip(expected, *names, strict=True):

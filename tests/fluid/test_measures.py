@@ -10,7 +10,7 @@ from benchmarks.made_surfaces import Make, parent_of
 from roughline.fluid import measures
 from roughline.fluid.measures import (
     LIQUID,
-    aperture_of,
+    equivalent_aperture,
     flow_factor,
     hydraulic_aperture,
     inverse_gap,
@@ -63,7 +63,7 @@ def test_several_measures_of_a_load_are_of_one_flow(surface, monkeypatch):
     monkeypatch.setattr(
         measures, "flow", lambda *given, **named: solved.append(1) or rl.flow(*given, **named)
     )
-    taken = [each(LIQUID, "x") for each in (aperture_of, flow_factor, largest_share)]
+    taken = [each(LIQUID, "x") for each in (equivalent_aperture, flow_factor, largest_share)]
     rl.press(surface, E_star=1.0, forces=FORCES, periodic=True, measures=taken)
     assert len(solved) == len(FORCES)
     gc.collect()

@@ -6,8 +6,8 @@ from scipy import integrate, optimize
 
 import roughline as rl
 from benchmarks.kinetic import kinetic
-from roughline.fluid.measures import LIQUID, aperture_of
-from roughline.fluid.rarefied import Rarefied, beyond_slip, conductance
+from roughline.fluid.measures import LIQUID, equivalent_aperture
+from roughline.fluid.rarefied import Rarefied, conductance, kinetic_excess
 
 TABLE = 0.005  # of the table between its points
 STATIONS = 0.011  # of two pressures, or one, in place of the integral
@@ -67,14 +67,14 @@ def test_plates_are_found_from_what_they_let_through(path, fall, unit):
 
 
 def test_more_flows_the_rarer_a_gas_is():
-    more = beyond_slip(np.geomspace(1e-4, 1e5, 200), 1.0)
+    more = kinetic_excess(np.geomspace(1e-4, 1e5, 200), 1.0)
     assert more[0] == pytest.approx(1.0, abs=1e-3)
     assert (np.diff(more) > 0).all()
 
 
 def test_a_liquid_has_the_same_measure_as_before():
     for along in ("x", "y"):
-        assert aperture_of(LIQUID, along) is rl.hydraulic_aperture(along)
+        assert equivalent_aperture(LIQUID, along) is rl.hydraulic_aperture(along)
     gaps = np.array([1e-9, 0.3, 7.0])
     assert (conductance(gaps, 0.0) == gaps**2 * gaps).all()
 
@@ -130,7 +130,9 @@ def test_the_measure_of_a_channel_with_steps_is_what_flows_through_it(path, fall
     gaps, scale = (0.5, 1.5), 1e-3
     gas = Rarefied(path * scale, fall)
     given = {"E_star": 1e6, "forces": [1e-6], "periodic": True}
-    curve = rl.press(stepped(np.array(gaps) * scale), measures=[aperture_of(gas, "x")], **given)
+    curve = rl.press(
+        stepped(np.array(gaps) * scale), measures=[equivalent_aperture(gas, "x")], **given
+    )
     found = gas.plates(curve.measured["hydraulic_aperture_x"].values[0]) / scale**3
     expected = through_steps(gaps, path, fall, 64) / 2  # half of the side is closed
     assert found == pytest.approx(expected, rel=2 * STATIONS)
@@ -149,6 +151,6 @@ def test_few_pressures_tell_what_flows_through_a_rough_gap(path):
 
     for fall in (1 / 3, 1.0):
         gas = Rarefied(path, fall)
-        measured = rl.press(surface, measures=[aperture_of(gas, "x")], **given).measured
+        measured = rl.press(surface, measures=[equivalent_aperture(gas, "x")], **given).measured
         found = gas.plates(measured["hydraulic_aperture_x"].values[0])
         assert found == pytest.approx(mean_along_seal(through, path, fall), rel=STATIONS)

@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from random_cases import cases
-from roughline.fluid.one_map import factor_left_open, is_judged
+from roughline.fluid.one_map import can_be_cut, factor_left_open
 from roughline.fluid.sealing_pressure import OPEN
 
 
@@ -222,7 +222,7 @@ def test_a_layer_that_half_the_points_do_not_resolve_is_not_halved():
     surface = rl.Surface(np.zeros((64, 64)), (64.0, 64.0))
     for thickness, resolved in ((1.0, True), (0.8, False)):
         layer = rl.Layered(1.0, 0.3, thickness, 2.0, 0.3, periodic=True)
-        assert is_judged(surface, layer) == resolved
+        assert can_be_cut(surface, layer) == resolved
 
 
 @pytest.mark.parametrize(("q_roll", "tells"), [(60.0, True), (None, False)])

@@ -12,7 +12,7 @@ import roughline as rl
 from roughline.assessment.films import SPOT_RADIUS
 from roughline.fluid.measures import (
     LIQUID,
-    aperture_of,
+    equivalent_aperture,
     flow_factor,
     hydraulic_aperture,
     inverse_gap,
@@ -27,7 +27,7 @@ SAME = 1e-9
 SHAPE, SIZES = (24, 18), (4.0, 3.0)
 ROLLED = (7, 11)
 FLUIDS = {"liquid": LIQUID, "gas": Rarefied(1e-3, 0.2), "into a vacuum": Rarefied(1e-2, 1.0)}
-OF_FLOW = aperture_of, flow_factor, slope_of_flow, largest_share
+OF_FLOW = equivalent_aperture, flow_factor, slope_of_flow, largest_share
 KEPT = {
     "rolled": lambda field: np.roll(field, ROLLED, (0, 1)),
     "mirrored along x": lambda field: field[::-1],
@@ -90,7 +90,7 @@ def test_measures_of_a_flow_do_not_see_where_the_map_begins(fields, fluid, name)
 @pytest.mark.parametrize("times", REPEATED.values(), ids=REPEATED)
 def test_measures_of_a_flow_do_not_see_how_often_the_map_is_repeated(fields, fluid, times):
     there = by_hand(fields, times)
-    for of in (aperture_of, flow_factor, slope_of_flow):
+    for of in (equivalent_aperture, flow_factor, slope_of_flow):
         for side in "xy":
             expected = of(FLUIDS[fluid], side).of(fields)
             assert of(FLUIDS[fluid], side).of(there) == pytest.approx(expected, rel=SAME)

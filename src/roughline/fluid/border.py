@@ -38,20 +38,20 @@ def permeances_of_border(gap: Gap, along: Along) -> tuple[float, float]:
     of_pressure = float((ended.conductances()[0][0] * ended.pressures()[1, 0]).sum())
     closed = np.zeros((1, cells.shape[1]))  # behind the last row, and before the first
     between = Network(np.concatenate([cells, closed]), 1 / gap.ratio, gap.ratio, True, across)
-    of_flow = _under_given_flow(between, windings(through, (False, across)).parts)
+    of_flow = _under_shared_flow(between, windings(through, (False, across)).parts)
     shape = gap.sizes[0] / gap.sizes[1]
     return of_flow * shape, of_pressure * shape
 
 
-def _under_given_flow(network: Network, parts: Indices) -> float:
+def _under_shared_flow(network: Network, parts: Indices) -> float:
     """Conductance of the parts side by side, where plates would share the flow at either end."""
     cells, rows = network.cells[:-1], (0, -1)
     ends = [np.bincount(parts[row][cells[row] > 0], cells[row][cells[row] > 0]) for row in rows]
     into = np.zeros((1, *network.cells.shape))
     for row, sums, sign in zip(rows, ends, (1, -1), strict=True):
         into[0, row if row == 0 else -2] += sign * cells[row] / sums[parts[row]]
-    raised, lowered = network.response(into, *_grounds(network, parts))[:, 0]
-    spent = into[0, :-1] * (raised - lowered)[:-1]
+    increase, decrease = network.response(into, *_grounds(network, parts))[:, 0]
+    spent = into[0, :-1] * (increase - decrease)[:-1]
     is_open = cells > 0
     resistance = np.bincount(parts[is_open], spent[is_open])
     half_cells = sum(1 / (2 * network.along * sums) for sums in ends)

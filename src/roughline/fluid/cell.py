@@ -15,9 +15,9 @@ from roughline.computing.arrays import Indices, Real
 from roughline.fluid.network import Network
 from roughline.fluid.winding import Gauge, Windings
 
-_EPS = 64 * np.finfo(float).eps  # of pressures
-_SECTIONS = 1e-10  # within which what flows through all rows of faces agrees
-_MOST_TIMES = 4  # that flows are corrected
+_PRESSURE_ROUNDING = 64 * np.finfo(float).eps  # of pressures
+_FLOW_AGREEMENT = 1e-10  # within which what flows through all rows of faces agrees
+_MOST_CORRECTIONS = 4  # that flows are corrected
 
 _Pair = tuple[Real, Real]
 """Of the faces before cells, along x and along y."""
@@ -50,7 +50,7 @@ class CellFlow:
     sections: Real
 
     def turned(self) -> CellFlow:
-        """The same with x and y exchanged."""
+        """Return the flow with x and y exchanged."""
         of_x, of_y = (each[::-1].swapaxes(1, 2) for each in self.rates)
         faces_x, faces_y = (each.T for each in self.conductances)
         return CellFlow(
@@ -75,12 +75,12 @@ def cell_flow(network: Network, found: Windings) -> CellFlow:
     grounds, parts = _grounds(network, faces, periods, gauge, found)
     rates = [face * period for face, period in zip(faces, periods, strict=True)]
     pressures, summed = np.zeros((2, 2, *network.cells.shape))
-    for _ in range(_MOST_TIMES):
+    for _ in range(_MOST_CORRECTIONS):
         x, y = (rate - np.roll(rate, -1, axis) for axis, rate in enumerate(rates, 1))
-        raised, lowered = network.response(x + y, grounds, parts)
-        change = raised - lowered
+        increase, decrease = network.response(x + y, grounds, parts)
+        change = increase - decrease
         pressures += change
-        summed += np.abs(raised) + lowered
+        summed += np.abs(increase) + decrease
         for axis, (rate, face) in enumerate(zip(rates, faces, strict=True), 1):
             rate += face * (np.roll(change, 1, axis) - change)
         crossing = sum(
@@ -88,12 +88,12 @@ def cell_flow(network: Network, found: Windings) -> CellFlow:
             for period, rate in zip(periods, rates, strict=True)
         )
         sections = _sections(rates, faces, summed, crossing)
-        if (sections - crossing.diagonal() <= _SECTIONS * crossing.diagonal()).all():
+        if (sections - crossing.diagonal() <= _FLOW_AGREEMENT * crossing.diagonal()).all():
             break
     of_x, of_y = (
         np.concatenate([rate, np.take(rate, [0], axis)], axis) for axis, rate in enumerate(rates, 1)
     )
-    of_map = _of_map(pressures + np.moveaxis(gauge.shift, 2, 0), found)
+    of_map = _map_pressures(pressures + np.moveaxis(gauge.shift, 2, 0), found)
     return CellFlow((of_x, of_y), conductances, of_map, crossing, sections)
 
 
@@ -107,13 +107,13 @@ def _sections(rates: list[Real], faces: _Pair, summed: Real, crossing: Real) -> 
     for k, (rate, face) in enumerate(zip(rates, faces, strict=True)):
         sums = rate[k].sum(axis=1 - k)
         beside = summed[k] + np.roll(summed[k], 1, k)
-        rounding = _EPS * (face * beside).sum(axis=1 - k)
-        beyond = np.maximum(np.abs(sums - crossing[k, k]) - rounding, 0.0)
-        found[k] = crossing[k, k] + beyond.max()
+        rounding = _PRESSURE_ROUNDING * (face * beside).sum(axis=1 - k)
+        excess = np.maximum(np.abs(sums - crossing[k, k]) - rounding, 0.0)
+        found[k] = crossing[k, k] + excess.max()
     return found
 
 
-def _of_map(pressures: Real, found: Windings) -> Real:
+def _map_pressures(pressures: Real, found: Windings) -> Real:
     """Pressures with 1 before the map and 0 behind it, in the mean of each part."""
     parts, falls = found.parts, np.empty_like(pressures)
     for k, n in enumerate(parts.shape):

@@ -29,7 +29,7 @@ class EndedFlow:
     pressure: Real
 
     def turned(self) -> EndedFlow:
-        """The same along y."""
+        """Return the flow with x and y exchanged."""
         (of_x, of_y), (faces_x, faces_y) = self.rates, self.conductances
         return EndedFlow((of_y.T, of_x.T), (faces_y.T, faces_x.T), self.pressure.T)
 

@@ -16,10 +16,10 @@ from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public_names
 from roughline.fluid.gap import REPEATS, Along, Gap, Sides
 
-_AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
-_NARROW = 0.25  # of the width: what is wider is no single channel
-_STEEP = 0.3  # slope of the gap beyond which Reynolds' equation is no longer good
-_HIGH = 0.1  # hydraulic aperture over the shorter side beyond which it is not either
+_FLOW_AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
+_LARGEST_CHANNEL = 0.25  # of the width: what is wider is no single channel
+_STEEPEST_GAP = 0.3  # slope of the gap beyond which Reynolds' equation is no longer good
+_HIGHEST_APERTURE = 0.1  # hydraulic aperture over the shorter side beyond which it is not either
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +104,7 @@ class Flow:
     @property
     def converged(self) -> bool:
         """Whether inflow, outflow and dissipation agree to 1e-8."""
-        return bool(self.imbalance <= _AGREEMENT)
+        return bool(self.imbalance <= _FLOW_AGREEMENT)
 
     @property
     def has_ends(self) -> bool:
@@ -227,7 +227,7 @@ class Flow:
         if self._repeats("y" if self.along == "x" else "x"):  # no channel is cut where rows begin
             closed = (rows == 0).argmax(axis=1)[:, np.newaxis]
             rows = np.take_along_axis(rows, (closed + np.arange(rows.shape[1])) % rows.shape[1], 1)
-        width = _NARROW * rows.shape[1]
+        width = _LARGEST_CHANNEL * rows.shape[1]
         rates = np.pad(rows, ((0, 0), (0, 1))).ravel()  # a channel ends with its row
         edges = np.flatnonzero(np.diff(rates != 0, prepend=False))
         if edges.size == 0:
@@ -259,7 +259,7 @@ class Flow:
         """Says why Reynolds' equation is not good for this gap; empty where it is."""
         if steep := why_too_steep(self.slope):
             return steep
-        if self.hydraulic_aperture > _HIGH * min(self.sizes):
+        if self.hydraulic_aperture > _HIGHEST_APERTURE * min(self.sizes):
             return (
                 f"the hydraulic aperture is {self.hydraulic_aperture / min(self.sizes):.2g} of the "
                 "shorter side: Reynolds' equation holds for thin gaps"
@@ -291,7 +291,7 @@ class Flow:
 
 def why_too_steep(slope: float) -> str:
     """Say why Reynolds' equation is not good for a gap of such a slope; empty where it is."""
-    if slope <= _STEEP:
+    if slope <= _STEEPEST_GAP:
         return ""
     return (
         f"the gap has a slope of {slope:.2g} where the flow is throttled: Reynolds' equation holds "

@@ -28,9 +28,9 @@ REPEATS: dict[Sides, tuple[bool, bool]] = {
 }
 """Whether a gap repeats along x and along y."""
 
-_LEAST, _MOST = 1e-40, 1e40  # of lengths: squares of their third powers are numbers
-_LONGEST = 1e10  # of cells, over their width
-_BYTES = 130  # that an open cell takes for each doubling of a side
+_SHORTEST_LENGTH, _LONGEST_LENGTH = 1e-40, 1e40  # squares of their third powers are numbers
+_ASPECT = 1e10  # largest of a cell
+_CELL_BYTES = 130  # that an open cell takes for each doubling of a side
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +53,8 @@ class Gap:
         if sizes is None:
             raise InputError("is not given; give the sides of the rectangle, (Lx, Ly)", "sizes")
         gap = cls(distances, checked_sides(sizes), checked, checked_free_path(mean_free_path))
-        if not 1 / _LONGEST <= gap.ratio <= _LONGEST:
-            refuse("sizes", sizes, f"cells at most {_LONGEST:g} times as long as wide are needed")
+        if not 1 / _ASPECT <= gap.ratio <= _ASPECT:
+            refuse("sizes", sizes, f"cells at most {_ASPECT:g} times as long as wide are needed")
         return gap
 
     def repeats(self, side: Along) -> bool:
@@ -68,7 +68,7 @@ class Gap:
         return lx / nx / (ly / ny)
 
     def turned(self) -> Gap:
-        """The same with x and y exchanged."""
+        """Return the gap with x and y exchanged."""
         other: dict[Sides, Sides] = {"x": "y", "y": "x"}
         sides = other.get(self.sides, self.sides)
         return Gap(self.distances.T, (self.sizes[1], self.sizes[0]), sides, self.path)
@@ -76,7 +76,7 @@ class Gap:
     def conducting(self, through: Mask) -> Real:
         """Conductances of the cells through which a fluid flows, were they square. [length³]"""
         refuse_beyond_memory(
-            int(_BYTES * through.sum() * np.log2(max(through.shape))),
+            int(_CELL_BYTES * through.sum() * np.log2(max(through.shape))),
             f"a flow through {through.shape[0]} x {through.shape[1]} cells",
             "coarsen the gap",
         )
@@ -87,8 +87,8 @@ class Gap:
 
 def checked_free_path(given: Any) -> float:
     """A mean free path; refused where it is negative, or its conductance is beyond numbers."""
-    needed = f"a number from 0 to {_MOST:g} is needed"
-    return between("mean_free_path", given, 0.0, _MOST, needed)
+    needed = f"a number from 0 to {_LONGEST_LENGTH:g} is needed"
+    return between("mean_free_path", given, 0.0, _LONGEST_LENGTH, needed)
 
 
 def _checked(given: Any) -> Real:
@@ -121,13 +121,13 @@ def _checked(given: Any) -> Real:
             given,
             "two dimensions of at least 2 cells are needed: in one, any contact stops the flow",
         )
-    wrong = ~((gap == 0) | ((gap >= _LEAST) & (gap <= _MOST)))
+    wrong = ~((gap == 0) | ((gap >= _SHORTEST_LENGTH) & (gap <= _LONGEST_LENGTH)))
     if wrong.any():
         i, j = np.argwhere(wrong)[0]
         raise InputError(
             f"has {int(wrong.sum())} values that are no distances, the first {gap[i, j]} at "
             f"({i}, {j}); a distance is 0 where the bodies touch, and else a number from "
-            f"{_LEAST:g} to {_MOST:g}, not masked",
+            f"{_SHORTEST_LENGTH:g} to {_LONGEST_LENGTH:g}, not masked",
             "gap",
         )
     return gap

@@ -49,7 +49,7 @@ def _found(fields: Fields, along: Along, fluid: Rarefied) -> _Found:
         places = _along_seal(fields, along, fluid)
         for through in zip(*(flows for _, flows in places), strict=True):
             weights = [weight for weight, _ in places]
-            known[through[0].along, fluid] = _kept(weights, through, fluid)
+            known[through[0].along, fluid] = _combined(weights, through, fluid)
     return known[along, fluid]
 
 
@@ -71,18 +71,18 @@ def _flows(fields: Fields, along: Along, path: float) -> tuple[Flow, ...]:
     return (flow(fields, along=along, mean_free_path=path),)
 
 
-def _kept(weights: Sequence[float], through: Sequence[Flow], fluid: Rarefied) -> _Found:
+def _combined(weights: Sequence[float], through: Sequence[Flow], fluid: Rarefied) -> _Found:
     """What is kept of the flow at places along the seal; of channels, at the last of them."""
     if not all(each.converged for each in through):
         return _Found()
     last = through[-1]
     permeance = sum(weight * each.permeance for weight, each in zip(weights, through, strict=True))
-    found = _of_permeance(permeance, float(last.gap.mean()), fluid)
+    found = _from_permeance(permeance, float(last.gap.mean()), fluid)
     places = [(weight, each.mean_free_path) for weight, each in zip(weights, through, strict=True)]
     return replace(found, share=last.largest_share, slope=last.slope, places=places)
 
 
-def _of_permeance(permeance: float, mean_gap: float, fluid: Rarefied) -> _Found:
+def _from_permeance(permeance: float, mean_gap: float, fluid: Rarefied) -> _Found:
     """What follows from the permeance alone."""
     aperture = fluid.gap_of_plates(permeance)
     of_liquid = permeance if fluid == LIQUID else aperture**3
@@ -90,7 +90,7 @@ def _of_permeance(permeance: float, mean_gap: float, fluid: Rarefied) -> _Found:
 
 
 def _at_border(fields: Fields, along: Along, fluid: Rarefied) -> tuple[_Found, _Found]:
-    """The same with the flow given along the border across it, and with the pressure held even."""
+    """Let a fluid through with the flow given along the border, then with the pressure even."""
     from roughline.fluid.border import permeances_of_border  # here because it loads slowly
 
     known = _AT_BORDER.setdefault(fields, {})
@@ -101,7 +101,7 @@ def _at_border(fields: Fields, along: Along, fluid: Rarefied) -> tuple[_Found, _
             gap = Gap.of(fields, None, None, path)
             sums += weight * np.array(permeances_of_border(gap, along))
         mean = float(gap.distances.mean()) if places else math.nan
-        given, held = (_of_permeance(float(each), mean, fluid) for each in sums)
+        given, held = (_from_permeance(float(each), mean, fluid) for each in sums)
         known[along, fluid] = given, held
     return known[along, fluid]
 
@@ -150,7 +150,7 @@ def hydraulic_aperture(along: Along = "x", mean_free_path: float = 0.0) -> Measu
 @functools.cache
 def _hydraulic_aperture(along: Along, path: float) -> Measure:
     if path == 0:
-        return aperture_of(LIQUID, along)
+        return equivalent_aperture(LIQUID, along)
     return Measure(
         f"slip_aperture_{along}",
         "u_s",
@@ -162,7 +162,7 @@ def _hydraulic_aperture(along: Along, path: float) -> Measure:
 
 
 @functools.cache
-def aperture_of(fluid: Rarefied, along: Along) -> Measure:
+def equivalent_aperture(fluid: Rarefied, along: Along) -> Measure:
     """Gap of flat plates that let as much through as a gap does, of a liquid or of a gas."""
     return Measure(
         f"hydraulic_aperture_{along}",
@@ -206,7 +206,10 @@ def measures_at_border(fluid: Rarefied, along: Along) -> Sequence[Measure]:
     They are of what repeats along the flow.
     """
     listed = []
-    for of, key in ((aperture_of(fluid, along), "aperture"), (flow_factor(fluid, along), "factor")):
+    for of, key in (
+        (equivalent_aperture(fluid, along), "aperture"),
+        (flow_factor(fluid, along), "factor"),
+    ):
         for k, what in enumerate(("flow given", "pressure held even")):
             value = functools.partial(_value_at_border, along, fluid, k, key)
             meaning = f"{of.meaning}, with the {what} along the border"

@@ -33,11 +33,11 @@ from roughline.computing.linear_algebra import on_one_thread
 
 _INLET, _OUTLET = 0, 1  # numbers of these two among the faces
 
-_ROUNDING = 64 * np.finfo(float).eps  # of a sum of flows, over that
+_FLOW_ROUNDING = 64 * np.finfo(float).eps  # of a sum of flows, over that
 
-_LARGEST = 16  # cells a side of the rectangles that are condensed cell by cell
+_RECTANGLE_CELLS = 16  # cells a side of the rectangles that are condensed cell by cell
 
-_AT_ONCE = 256  # faces that are eliminated together
+_FACES_AT_ONCE = 256  # faces that are eliminated together
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ class Network:
         have to be joined to inlet and outlet.
         """
         ends = np.full((2, *self.cells.shape), -1)
-        dissection = _Dissection.of(self, ends[0], ends[1], kept=2)
+        dissection = _Dissection.of(self, ends[0], ends[1], retained=2)
         return dissection.solved(np.zeros((*self.cells.shape, 2)), lambda _: np.eye(2))
 
     def response(self, into: Real, grounds: tuple[Indices, Indices], parts: Indices) -> Real:
@@ -111,11 +111,11 @@ class Network:
         columns = into.shape[0]
         signed = np.concatenate([np.maximum(into, 0.0), np.maximum(-into, 0.0)])
 
-        def of_grounds(last: _Block) -> Real:
+        def ground_pressures(last: _Block) -> Real:
             """Pressures at the grounds, of which those of positive flows hold those of all."""
             inward, outward = last.sources[:, :columns], last.sources[:, columns:]
             net = inward - outward
-            net[np.abs(net) <= _ROUNDING * (inward + outward)] = 0.0  # nothing but rounding
+            net[np.abs(net) <= _FLOW_ROUNDING * (inward + outward)] = 0.0  # nothing but rounding
             held = np.zeros((parts.size, 2 * columns))
             of_faces = parts[last.faces]
             free = np.ones(last.faces.size, bool)
@@ -126,8 +126,8 @@ class Network:
                 held[last.faces[free], :columns] = lower.T @ (lower @ net[free])
             return held
 
-        dissection = _Dissection.of(self, *grounds, kept=parts.size)
-        found = dissection.solved(np.ascontiguousarray(np.moveaxis(signed, 0, 2)), of_grounds)
+        dissection = _Dissection.of(self, *grounds, retained=parts.size)
+        found = dissection.solved(np.ascontiguousarray(np.moveaxis(signed, 0, 2)), ground_pressures)
         return found.reshape(2, columns, *self.cells.shape)
 
     def borders(self) -> tuple[Mask, Mask]:
@@ -178,18 +178,18 @@ class _Dissection:
     along: Indices  # numbers of faces along the flow, (nx + 1, ny); -1 where one is closed
     across: Indices  # and across it, (nx, ny + 1)
 
-    kept: int  # faces with smaller numbers are kept to the end
+    retained: int  # faces with smaller numbers are kept to the end
 
     @classmethod
-    def of(cls, network: Network, along: Indices, across: Indices, kept: int) -> _Dissection:
+    def of(cls, network: Network, along: Indices, across: Indices, retained: int) -> _Dissection:
         """Cut a network, and number the faces between two open cells.
 
         Faces before cells that are kept have their numbers already, all others -1.
         """
         nx, ny = network.cells.shape
         open_cells = network.cells > 0
-        of_along = np.arange((nx + 1) * ny).reshape(nx + 1, ny) + kept
-        of_across = np.arange(nx * (ny + 1)).reshape(nx, ny + 1) + kept + of_along.size
+        of_along = np.arange((nx + 1) * ny).reshape(nx + 1, ny) + retained
+        of_across = np.arange(nx * (ny + 1)).reshape(nx, ny + 1) + retained + of_along.size
         of_along[:-1][along >= 0] = along[along >= 0]
         of_across[:, :-1][across >= 0] = across[across >= 0]
         open_along = np.ones(of_along.shape, bool)
@@ -212,19 +212,19 @@ class _Dissection:
             _cuts(ny, network.repeats_across),
             np.where(open_along, of_along, -1),
             np.where(open_across, of_across, -1),
-            kept,
+            retained,
         )
 
-    def solved(self, sources: Real, of_kept: Callable[[_Block], Real]) -> Real:
+    def solved(self, sources: Real, retained_pressures: Callable[[_Block], Real]) -> Real:
         """Pressures of the cells, (columns, nx, ny), under flows into them.
 
         Those at the faces that are kept follow from all, condensed into what is between these.
         """
         with on_one_thread(), ThreadPoolExecutor(available_cores()) as pool:
-            return self._solved(sources, of_kept, pool)
+            return self._solved(sources, retained_pressures, pool)
 
     def _solved(
-        self, sources: Real, of_kept: Callable[[_Block], Real], pool: ThreadPoolExecutor
+        self, sources: Real, retained_pressures: Callable[[_Block], Real], pool: ThreadPoolExecutor
     ) -> Real:
         corners = list(product(pairwise(self.rows), pairwise(self.columns)))
         blocks = list(pool.map(lambda corner: self._condensed(corner, sources), corners))
@@ -240,11 +240,11 @@ class _Dissection:
             else:
                 pairs = zip(grid[:, ::2].ravel(), grid[:, 1::2].ravel(), strict=True)
                 shape = shape[0], shape[1] // 2
-            joined = pool.map(lambda pair: _joined(pair[0], pair[1], self.kept), pairs)
+            joined = pool.map(lambda pair: _joined(pair[0], pair[1], self.retained), pairs)
             blocks, new = map(list, zip(*joined, strict=True))
             steps += chain.from_iterable(new)
-        of_faces = np.zeros((self.kept + self.along.size + self.across.size, sources.shape[2]))
-        of_faces[: self.kept] = of_kept(blocks[0])
+        of_faces = np.zeros((self.retained + self.along.size + self.across.size, sources.shape[2]))
+        of_faces[: self.retained] = retained_pressures(blocks[0])
         for step in reversed(steps):
             step.descend(of_faces)
         pressures = np.empty((sources.shape[2], *self.network.cells.shape))
@@ -268,7 +268,7 @@ class _Dissection:
     def _condensed(self, corner: _Corner, sources: Real) -> _Block:
         """A rectangle, condensed."""
         numbers, places = self._border(corner)
-        found = self._eliminated(corner, sources, places, numbers.size, kept=1)
+        found = self._eliminated(corner, sources, places, numbers.size, retained=1)
         return _Block(numbers, *found[:2])
 
     def _spread(self, corner: _Corner, sources: Real, of_faces: Real, pressures: Real) -> None:
@@ -276,12 +276,12 @@ class _Dissection:
         (i, i_end), (j, j_end) = corner
         numbers, places = self._border(corner)
         rows, columns = i_end - i, j_end - j
-        found = self._eliminated(corner, sources, places, numbers.size, kept=rows * columns)
+        found = self._eliminated(corner, sources, places, numbers.size, retained=rows * columns)
         of_border = of_faces[numbers]
         pressures[:, i:i_end, j:j_end] = _follow_cells(*found[2:], of_border, rows, columns)
 
     def _eliminated(
-        self, corner: _Corner, sources: Real, places: list[Indices], faces: int, kept: int
+        self, corner: _Corner, sources: Real, places: list[Indices], faces: int, retained: int
     ) -> tuple[Real, Real, Real, Real, Indices]:
         """What the elimination of the cells of a rectangle gives."""
         (i, i_end), (j, j_end) = corner
@@ -289,7 +289,7 @@ class _Dissection:
         cells, into = self.network.cells[i:i_end, j:j_end], sources[i:i_end, j:j_end]
         before, behind, left, right = places
         borders = before, behind, left, right
-        return _eliminate_cells(cells, into, square, borders, faces, kept)
+        return _eliminate_cells(cells, into, square, borders, faces, retained)
 
 
 _Corner = tuple[tuple[int, int], tuple[int, int]]
@@ -302,12 +302,12 @@ def _cuts(n: int, repeats: bool) -> Indices:
     They are two at least where the side repeats, so that no rectangle is its own neighbour.
     """
     pieces = 2 if repeats else 1
-    while n > pieces * _LARGEST:
+    while n > pieces * _RECTANGLE_CELLS:
         pieces *= 2
     return np.arange(pieces + 1) * n // pieces
 
 
-def _joined(first: _Block, second: _Block, kept: int) -> tuple[_Block, list[_Step]]:
+def _joined(first: _Block, second: _Block, retained: int) -> tuple[_Block, list[_Step]]:
     """Condense two blocks into one."""
     numbers, inner, conductances, sources = _assembled(
         first.faces,
@@ -316,11 +316,11 @@ def _joined(first: _Block, second: _Block, kept: int) -> tuple[_Block, list[_Ste
         second.faces,
         second.conductances,
         second.sources,
-        kept,
+        retained,
     )
     steps = []
-    for start in range(0, inner, _AT_ONCE):
-        end = min(start + _AT_ONCE, inner)
+    for start in range(0, inner, _FACES_AT_ONCE):
+        end = min(start + _FACES_AT_ONCE, inner)
         n = end - start
         to_others = conductances[:n, n:]
         lower = _inverse_factor(conductances[:n, :n].copy(), to_others.sum(axis=1))
@@ -340,7 +340,7 @@ def _assembled(
     others: Indices,
     of_others: Real,
     into_others: Real,
-    kept: int,
+    retained: int,
 ) -> tuple[Indices, int, Real, Real]:
     """Faces of two blocks, those between them first, and how many these are.
 
@@ -353,7 +353,7 @@ def _assembled(
             j += 1
         if j < others.size and others[j] == face:
             both += 1
-            between += face >= kept
+            between += face >= retained
     numbers = np.empty(faces.size + others.size - both, faces.dtype)
     places, of_second = np.empty_like(faces), np.empty_like(others)
     i = j = inner = 0
@@ -363,7 +363,7 @@ def _assembled(
         in_second = i == faces.size or (j < others.size and others[j] <= faces[i])
         face = faces[i] if in_first else others[j]
         place = outer
-        if in_first and in_second and face >= kept:
+        if in_first and in_second and face >= retained:
             place = inner
             inner += 1
         else:
@@ -421,7 +421,7 @@ def _eliminate_cells(
     square: tuple[float, float],
     borders: tuple[Indices, Indices, Indices, Indices],
     faces: int,
-    kept: int,
+    retained: int,
 ) -> tuple[Real, Real, Real, Real, Indices]:
     """Condense a rectangle, cell by cell, and tell how the pressure of each cell follows.
 
@@ -438,7 +438,7 @@ def _eliminate_cells(
     slots = np.full(faces, -1)
     g = np.zeros((window + faces, window + faces))
     into = np.zeros((window + faces, sources.shape[2]))
-    shares, driven = np.zeros((kept, window + faces)), np.zeros((kept, sources.shape[2]))
+    shares, driven = np.zeros((retained, window + faces)), np.zeros((retained, sources.shape[2]))
     for cell in range(nx * ny):
         i, j = cell // ny, cell % ny
         k = cells[i, j]
@@ -465,7 +465,7 @@ def _eliminate_cells(
         if j + 1 < ny and cells[i, j + 1] > 0:
             next_one = cells[i, j + 1]
             row[(cell + 1) % window] += 2 * across * k * (next_one / (k + next_one))
-        _eliminate(g, into, here, shares[cell % kept, :reach], driven[cell % kept])
+        _eliminate(g, into, here, shares[cell % retained, :reach], driven[cell % retained])
     conductances = np.empty((faces, faces))
     for i in range(faces):
         for j in range(faces):
@@ -496,7 +496,7 @@ def _follow_cells(
 
 
 @compiled
-def _inverse_factor(g: Real, beyond: Real) -> Real:
+def _inverse_factor(g: Real, to_others: Real) -> Real:
     """Inverse of the Cholesky factor of the nodes of a network.
 
     `g` are the conductances between them, `beyond` the sums of those to all other nodes; both are
@@ -506,7 +506,7 @@ def _inverse_factor(g: Real, beyond: Real) -> Real:
     column = np.empty(n)
     factor = np.zeros((n, n))
     for k in range(n):
-        pivot = beyond[k]
+        pivot = to_others[k]
         for i in range(k + 1, n):
             column[i] = g[i, k]
             pivot += column[i]
@@ -516,7 +516,7 @@ def _inverse_factor(g: Real, beyond: Real) -> Real:
             if column[i] > 0:
                 factor[i, k] = column[i] / root
                 part = column[i] / pivot
-                beyond[i] += part * beyond[k]
+                to_others[i] += part * to_others[k]
                 for j in range(k + 1, i):
                     g[i, j] += part * column[j]
     inverse = np.zeros((n, n))

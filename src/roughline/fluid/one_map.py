@@ -18,10 +18,10 @@ from roughline.topography.body import Surface
 _FEWEST_WAVES = 3.0  # of the roll-off along a side of a piece that tells of its whole
 _FEWEST_POINTS = 32  # along a side that is halved, or cut into quarters
 _STUDENT = 3.182  # of 95 %, with the three degrees of freedom of four quarters
-_FURTHER = 2.0  # times the step from the quarters to a piece, from there to its whole
+_EXTRAPOLATION = 2.0  # times the step from the quarters to a piece, from there to its whole
 
 
-def is_judged(surface: Surface, half_space: HalfSpace) -> bool:
+def can_be_cut(surface: Surface, half_space: HalfSpace) -> bool:
     """Whether a surface has points enough to be halved, and cut into quarters.
 
     Half as many points along a side have to resolve the half-space, too.
@@ -76,5 +76,5 @@ def factor_left_open(
     logs = np.log(of_quarters)
     finer = max(abs(math.log(half / value)), math.log(of_grid))
     of_size = _STUDENT * float(logs.std(ddof=1)) / math.sqrt(logs.size)
-    step = 0.0 if tells else _FURTHER * (float(logs.mean()) - math.log(value))
+    step = 0.0 if tells else _EXTRAPOLATION * (float(logs.mean()) - math.log(value))
     return math.exp(math.hypot(finer, of_size, step))

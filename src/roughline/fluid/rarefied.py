@@ -21,19 +21,19 @@ _Value = TypeVar("_Value", float, NDArray[np.float64])
 
 # Flow between plates by the BGK equation over that of slip of the first order, found to 1e-4 by
 # the program that writes the page on the flow; from the last one on with its limit, 2/π ln.
-_PATHS = (0, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 300, 1000)  # over the gap
-_MORE = (
+_TABLED_PATHS = (0, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 300, 1000)  # over the gap
+_TABLED_EXCESS = (
     *(1, 1.0185, 1.0477, 1.0948, 1.174, 1.332, 1.4919, 1.6895, 2.0132, 2.3049, 2.6332),
     *(3.1136, 3.5041, 4.1554, 4.8965),
 )
-_STRETCH = 4.0  # ln(1 + 4 λ/u) makes it nearly a straight line
+_PATH_STRETCH = 4.0  # ln(1 + 4 λ/u) makes it nearly a straight line
 
 _NODES = (0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3))  # of Gauss on 0 to 1
-_STEPS = 40  # towards the gap of plates; each leaves less than a third of the error
-_EXPONENT = 2.5  # about that of a conductance in the gap: 3 of a liquid, 2 of molecules alone
+_MOST_STEPS = 40  # towards the gap of plates; each leaves less than a third of the error
+_CONDUCTANCE_EXPONENT = 2.5  # about that in the gap: 3 of a liquid, 2 of molecules alone
 
 
-def beyond_slip(path: float | _Value, gap: _Value) -> _Value:
+def kinetic_excess(path: float | _Value, gap: _Value) -> _Value:
     """How much more than slip of the first order lets through kinetic theory does. [1]
 
     It is that of flat plates that reflect diffusely, by the BGK equation [1]_, to 0.4 %. Mean free
@@ -44,9 +44,9 @@ def beyond_slip(path: float | _Value, gap: _Value) -> _Value:
     .. [1] Cercignani, C., Daneri, A. Flow of a rarefied gas between two parallel plates. J. Appl.
        Phys. 34, 3509-3513 (1963).
     """
-    known = np.log1p(_STRETCH * np.array(_PATHS))
-    rare = np.log(gap + _STRETCH * path) - np.log(gap)
-    return np.interp(rare, known, _MORE) + 2 / math.pi * np.maximum(rare - known[-1], 0.0)
+    known = np.log1p(_PATH_STRETCH * np.array(_TABLED_PATHS))
+    rare = np.log(gap + _PATH_STRETCH * path) - np.log(gap)
+    return np.interp(rare, known, _TABLED_EXCESS) + 2 / math.pi * np.maximum(rare - known[-1], 0.0)
 
 
 def conductance(gap: _Value, path: float | _Value) -> _Value:
@@ -54,7 +54,7 @@ def conductance(gap: _Value, path: float | _Value) -> _Value:
 
     The gap is positive.
     """
-    return gap**2 * (gap + 6 * path) * beyond_slip(path, gap)
+    return gap**2 * (gap + 6 * path) * kinetic_excess(path, gap)
 
 
 @dataclass(frozen=True)
@@ -108,6 +108,6 @@ class Rarefied:
         gap = float(np.cbrt(permeance))
         if self.path == 0 or gap == 0:
             return gap
-        for _ in range(_STEPS):
-            gap *= (permeance / float(self.plates(gap))) ** (1 / _EXPONENT)
+        for _ in range(_MOST_STEPS):
+            gap *= (permeance / float(self.plates(gap))) ** (1 / _CONDUCTANCE_EXPONENT)
         return gap

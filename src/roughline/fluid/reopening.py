@@ -22,8 +22,8 @@ from roughline.errors.public import public_names
 from roughline.fluid.gap import Along
 from roughline.fluid.measures import hydraulic_aperture
 from roughline.fluid.one_map import (
+    can_be_cut,
     factor_left_open,
-    is_judged,
     on_half,
     quarters,
     tells_of_larger,
@@ -32,9 +32,9 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
-_TIMES = math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
-_LEAST = 1e-4  # share of the load below which it counts as taken off
-_FLOOR = 3e-3  # below which an interval tells no shares apart
+_LARGER_FACTOR = math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
+_SMALLEST_SHARE = 1e-4  # share of the load below which it counts as taken off
+_NARROWEST_INTERVAL = 3e-3  # below which an interval tells no shares apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +147,7 @@ def reopening(
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
     search = _Search(curve.half_space, times, along, rtol)
     found = search.bracket(left, law, float(history[-1]))
-    if not interval or not is_judged(curve.surface, curve.half_space):
+    if not interval or not can_be_cut(curve.surface, curve.half_space):
         return found
     forces = np.array([np.nanmax(history), history[-1]])
     return search.with_interval(found, curve.surface, law, forces)
@@ -171,11 +171,11 @@ class _Search:
             self.after(forces * (each.area / surface.area), each, its_law)
             for each, its_law in quarters(surface, law)
         ]
-        value, *others = np.array([found.value, half, *of_quarters]) + _FLOOR
+        value, *others = np.array([found.value, half, *of_quarters]) + _NARROWEST_INTERVAL
         factor = factor_left_open(value, others[0], others[1:], tells=tells_of_larger(surface))
-        low = (found.low + _FLOOR) / factor - _FLOOR
-        high = (found.high + _FLOOR) * factor - _FLOOR
-        ends = low if low > _FLOOR else 0.0, min(max(high, _FLOOR), 1.0)
+        low = (found.low + _NARROWEST_INTERVAL) / factor - _NARROWEST_INTERVAL
+        high = (found.high + _NARROWEST_INTERVAL) * factor - _NARROWEST_INTERVAL
+        ends = low if low > _NARROWEST_INTERVAL else 0.0, min(max(high, _NARROWEST_INTERVAL), 1.0)
         return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
     def after(self, forces: Real, untouched: Surface, law: ContactLaw) -> float:
@@ -187,7 +187,8 @@ class _Search:
         """Bisect the shares of the force."""
         full = self._aperture(left, law, force)
         most = full * float(np.cbrt(self.times))  # if sealed, whatever leaks is too much
-        low, high, at_low, at_high = _LEAST, 1.0, self._aperture(left, law, _LEAST * force), full
+        at_low, at_high = self._aperture(left, law, _SMALLEST_SHARE * force), full
+        low, high = _SMALLEST_SHARE, 1.0
         if not (at_low >= most and at_low > 0):
             return Reopening(0.0, 0.0, (full, at_low, at_low), self.times, self.along)
         while high > low * (1 + self.rtol):

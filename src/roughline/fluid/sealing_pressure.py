@@ -23,8 +23,8 @@ from roughline.errors.checks import allowed_choice, between, flag
 from roughline.errors.public import public_names
 from roughline.fluid.gap import Along
 from roughline.fluid.one_map import (
+    can_be_cut,
     factor_left_open,
-    is_judged,
     on_half,
     quarters,
     tells_of_larger,
@@ -34,12 +34,12 @@ from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
-_PERCOLATING = 0.277  # mean pressure over E* and the rms slope at which Persson's area is 0.42
-_OF_HARDNESS = 0.4  # about the share of the area that seals, all of which bears the hardness
-_WIDER = 1.5  # step from one trial to the next, until one is open and the other sealed
+_PERCOLATION_PRESSURE = 0.277  # over E* and the rms slope, where Persson's area is 0.42
+_HARDNESS_SHARE = 0.4  # about the share of the area that seals, all of which bears the hardness
+_TRIAL_STEP = 1.5  # step from one trial to the next, until one is open and the other sealed
 _MOST_TRIALS = 60
-_FINER = 1e4  # times than the ends are apart contacts are solved, so that it decides no cell
-_NEARLY_ALL = 0.999  # of the hardness: all of the area bears it
+_RTOL_FACTOR = 1e4  # of the ends over that of contacts, which so decides no cell
+_LARGEST_LOADING = 0.999  # of the hardness: all of the area bears it
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,12 +156,12 @@ def sealing_pressure(
     law = given_law(law, hardness)
     full = in_full_contact(surface, half_space)
     # in round numbers, so that it is sought alike wherever a repeated surface is cut
-    share = float(f"{_PERCOLATING * _slope(full, half_space.repeats):.6g}")
-    guess = min(share * half_space.E_star, _OF_HARDNESS * Bounds.of(law).largest_force(1.0))
+    share = float(f"{_PERCOLATION_PRESSURE * _slope(full, half_space.repeats):.6g}")
+    guess = min(share * half_space.E_star, _HARDNESS_SHARE * Bounds.of(law).largest_force(1.0))
     search = _Search(half_space, along, rtol)
     (low, open_area), (high, sealed_area) = search.bracket(surface, law, guess)
     found = SealingPressure(low, high, (open_area, sealed_area), along)
-    if not interval or not is_judged(surface, half_space):
+    if not interval or not can_be_cut(surface, half_space):
         return found
     half = search.middle(*on_half(surface, law), found.value)
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
@@ -176,9 +176,9 @@ def _slope(surface: Surface, repeats: tuple[bool, bool]) -> float:
     """Rms slope of a surface, over the borders as well across which it goes on. [1]"""
     squares = 0.0
     for axis, step in enumerate(surface.spacing):
-        beyond = np.take(surface.heights, [0] if repeats[axis] else [], axis)
+        next_row = np.take(surface.heights, [0] if repeats[axis] else [], axis)
         squares += (
-            float(np.square(np.diff(surface.heights, axis=axis, append=beyond)).mean()) / step**2
+            float(np.square(np.diff(surface.heights, axis=axis, append=next_row)).mean()) / step**2
         )
     return math.sqrt(squares)
 
@@ -202,7 +202,7 @@ class _Search:
         """Mean pressure and area fraction of the last open gap, and of the first sealed one."""
         ends: dict[bool, tuple[float, float]] = {}
         largest = Bounds.of(law).largest_force(1.0)
-        pressure, step = guess if guess < largest else _OF_HARDNESS * largest, _WIDER
+        pressure, step = guess if guess < largest else _HARDNESS_SHARE * largest, _TRIAL_STEP
         for _ in range(_MOST_TRIALS):
             is_open, area = self._is_open(surface, law, pressure)
             ends[is_open] = pressure, area
@@ -214,7 +214,7 @@ class _Search:
             else:
                 pressure = pressure * step if is_open else pressure / step
                 step *= step
-            if pressure >= _NEARLY_ALL * largest:
+            if pressure >= _LARGEST_LOADING * largest:
                 pressure = math.sqrt(ends[True][0] * largest)
         raise InputError("does not seal under any load that was tried", "surface")
 
@@ -226,7 +226,7 @@ class _Search:
             law=law,
             forces=[pressure * surface.area],
             measures=[OPEN[self.along]],
-            rtol=self.rtol / _FINER,
+            rtol=self.rtol / _RTOL_FACTOR,
         )
         return bool(curve.measured[OPEN[self.along].name].values[0]), float(curve.area_fraction[0])
 

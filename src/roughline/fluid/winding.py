@@ -15,7 +15,7 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.computing.compiled import compiled
 
-_THREAD = 1e-3
+_THREAD_SHARE = 1e-3
 """What joins two cores over what they are made of, below which they hang together by a thread."""
 
 
@@ -150,7 +150,7 @@ def _moved(order: Indices, strengths: Real, nx: int, ny: int) -> tuple[Indices, 
                 place[_root(place, none, cell)] = _root(place, none, other)
             elif winds[first] == 0:
                 core[first] = core[second]
-            elif winds[second] > 0 and strength >= _THREAD * max(winds[first], winds[second]):
+            elif winds[second] > 0 and strength >= _THREAD_SHARE * max(winds[first], winds[second]):
                 place[_root(place, none, core[second])] = _root(place, none, core[first])
             winds[first] = max(winds[first], winds[second])
         elif winds[first] == 0 and (x != 0 or y != 0):

@@ -26,7 +26,7 @@ from roughline.errors.words import called
 from roughline.fluid.flow import why_too_steep
 from roughline.fluid.gap import Along
 from roughline.fluid.measures import (
-    aperture_of,
+    equivalent_aperture,
     flow_factor,
     inverse_gap,
     largest_share,
@@ -69,7 +69,7 @@ def _along_each(*measures_of: Callable[[Rarefied, Along], Measure]) -> _Needed:
     ]
 
 
-_APERTURES = _along_each(aperture_of)
+_APERTURES = _along_each(equivalent_aperture)
 _FACTORS = _along_each(flow_factor)
 _SHARES = _along_each(largest_share)
 _SLOPES = _along_each(slope_of_flow)
@@ -101,7 +101,7 @@ def _along(along: Along, pressed: Pressed) -> Real | None:
     """Aperture along one direction, where both are asked for."""
     if pressed.sealing is None or len(pressed.sealing.directions) == 1:
         return None
-    return pressed.measure(aperture_of(pressed.sealing.rarefied, along).name)
+    return pressed.measure(equivalent_aperture(pressed.sealing.rarefied, along).name)
 
 
 def _placed(pressed: Pressed) -> Mapping[str, str]:
