@@ -92,8 +92,8 @@ def test_a_map_of_four_times_the_area_shows_four_times_the_independent_values():
         next(coarser_selves(rl.Surface(h, (1.0, 1.0)))) for h in (heights[:512, :512], heights)
     )
     for of_small, of_large in (
-        (small.of_heights, large.of_heights),
-        (small.of_detail, large.of_detail),
+        (small.heights_chance, large.heights_chance),
+        (small.detail_chance, large.detail_chance),
     ):
         assert of_large.independent(3) == pytest.approx(4 * of_small.independent(3), rel=0.3)
 

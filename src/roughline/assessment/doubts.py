@@ -29,8 +29,8 @@ from roughline.engineering.rules.mechanical import (
 )
 from roughline.errors.remark import INTERVALS, Remark, remarks
 from roughline.errors.words import called
-from roughline.spectra.alike import ALIKE
 from roughline.spectra.departures import departures
+from roughline.spectra.homogeneity import ISOTROPIC_FROM
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface

@@ -262,7 +262,7 @@ def _gaussian_doubt(
 def independent_heights(scan: Line) -> float:
     """Number of independent heights whose skewness scatters like that of a scan."""
     own = next(coarser_selves(scan), None)
-    return 0.0 if own is None else own.of_heights.independent(3)
+    return 0.0 if own is None else own.heights_chance.independent(3)
 
 
 def _stiffness_doubt(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.spectra.departures import ROUNDING, in_line, levelled
+from roughline.spectra.departures import HEIGHT_ROUNDING, in_line, levelled
 from roughline.topography.body import Surface, with_heights
 
 _SMALLEST_SHARE = 0.01  # share of heights on plateaus that matters
@@ -23,7 +23,7 @@ def with_whole_plateaus(surface: Surface) -> Surface | None:
     if not flat.any() or surface.rms_height == 0:
         return None
     level = levelled(heights, flat)
-    step = ROUNDING * float(np.ptp(level))
+    step = HEIGHT_ROUNDING * float(np.ptp(level))
     counts = np.round(level / step)
     levels = np.unique(counts[flat])
     plateau = np.isin(counts, levels)

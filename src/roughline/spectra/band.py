@@ -11,7 +11,7 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 
 # A wavenumber computed as m q_low may miss a cutoff of the same name by rounding.
-_ROUNDING = 1e-12
+_WAVENUMBER_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,9 @@ class Band:
         shape = np.ones_like(q)
         falling = q > self.q_roll
         shape[falling] = (q[falling] / self.q_roll) ** -self.decay
-        outside = (q < self.q_low * (1 - _ROUNDING)) | (q > self.q_high * (1 + _ROUNDING))
+        outside = (q < self.q_low * (1 - _WAVENUMBER_ROUNDING)) | (
+            q > self.q_high * (1 + _WAVENUMBER_ROUNDING)
+        )
         shape[outside] = 0.0
         return shape
 

@@ -12,8 +12,8 @@ from scipy import special
 from roughline.computing import fft
 from roughline.computing.arrays import Mask, Real
 
-MOST = 512  # cells along a side of a map, from which correlations are taken
-_LEAST_CHANCE = 1e-300
+MOST_CELLS = 512  # cells along a side of a map, from which correlations are taken
+_SMALLEST_CHANCE = 1e-300
 
 
 @dataclass(frozen=True)
@@ -73,15 +73,17 @@ def score_of_square(freedom: float, ratio: float) -> float:
     """Return the standard score of a chi-squared variable over its mean."""
     over = float(special.chdtrc(freedom, freedom * ratio))
     if over < 0.5:
-        return -float(special.ndtri(max(over, _LEAST_CHANCE)))
-    return float(special.ndtri(max(float(special.chdtr(freedom, freedom * ratio)), _LEAST_CHANCE)))
+        return -float(special.ndtri(max(over, _SMALLEST_CHANCE)))
+    return float(
+        special.ndtri(max(float(special.chdtr(freedom, freedom * ratio)), _SMALLEST_CHANCE))
+    )
 
 
 def _fine_part(field: Real) -> Real:
     """Return the part of a field from which correlations are taken: all but of large maps."""
     if field.ndim == 1:
         return field
-    return field[tuple(slice(0, MOST) for _ in field.shape)]
+    return field[tuple(slice(0, MOST_CELLS) for _ in field.shape)]
 
 
 def _correlated(values: Real, reach: int) -> Real:

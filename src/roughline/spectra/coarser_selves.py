@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.spectra.chance import MOST, Chance
+from roughline.spectra.chance import MOST_CELLS, Chance
 from roughline.topography.body import Body
 
-_LEAST = 8  # cells along the shortest side of a coarser self
-_FINE_REACH = 32  # cells over which detail is correlated at most
+_FEWEST_CELLS = 8  # along the shortest side of a coarser self
+_DETAIL_REACH = 32  # cells over which detail is correlated at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,15 +35,15 @@ class CoarserSelf:
         return total
 
     @cached_property
-    def of_detail(self) -> Chance:
+    def detail_chance(self) -> Chance:
         """Chance of its detail."""
-        return Chance.of(self.detail, _FINE_REACH)
+        return Chance.of(self.detail, _DETAIL_REACH)
 
     @cached_property
-    def of_heights(self) -> Chance:
+    def heights_chance(self) -> Chance:
         """Chance of its heights, those of large maps on coarser cells, as long waves decide."""
         heights = self.heights
-        while heights.ndim == 2 and max(heights.shape) > MOST and min(heights.shape) > 1:
+        while heights.ndim == 2 and max(heights.shape) > MOST_CELLS and min(heights.shape) > 1:
             heights = _halved(heights)
         return Chance.of(heights, max(heights.shape))
 
@@ -60,7 +60,7 @@ def coarser_selves(body: Body) -> Iterator[CoarserSelf]:
         return
     heights /= largest
     cell = 1
-    while min(heights.shape) >= _LEAST:
+    while min(heights.shape) >= _FEWEST_CELLS:
         yield CoarserSelf(cell, heights)
         cell *= 2
         heights = _halved(heights)

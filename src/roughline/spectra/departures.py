@@ -14,12 +14,16 @@ from scipy import special
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.words import called
-from roughline.spectra.alike import of_directions, of_places, of_sides
 from roughline.spectra.chance import Finding
 from roughline.spectra.coarser_selves import coarser_selves
 from roughline.spectra.fit import SelfAffineFit, fitted
-from roughline.spectra.gaussian_heights import of_heights
-from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
+from roughline.spectra.gaussian_heights import shapes_on_every_scale
+from roughline.spectra.homogeneity import (
+    drift_along_sides,
+    scatter_between_places,
+    slopes_by_direction,
+)
+from roughline.spectra.longer_waves import LongShape, known_tilt, long_shapes
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import outliers
 from roughline.units import in_words
@@ -41,24 +45,24 @@ FIT_RESTS_ON: frozenset[Assumption] = frozenset(
 )
 """Assumptions behind one self-affine law for all directions and places."""
 
-_CHANCE = 0.002  # of a departure from an assumption that a topography fulfils, over all its tests
-_CHANCE_OF_DRIFT = 0.02  # of a drift over a map, which goes on beyond it
-_CHANCE_OF_WAVES = 0.02  # of tilt and bow: what few coefficients show is easily missed
-_LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
-_ON_LINES = 0.1  # share of heights that stand in steps that matters
-_ON_A_LEVEL = 0.003  # share of heights on one level, beyond the lowest, that matters
-_FILLED = 0.1  # share of filled points: beyond, intervals of light loads hold too few surfaces
-_JUMPS = 0.02  # of the rms height, by which rows jump that matters
-_NO_ROLL_OFF = 2.0  # gravity of a roll-off that is not seen
-_LEVELLED = 1.01  # gravity of a tilt that is not known
+_DEPARTURE_CHANCE = 0.002  # where a topography fulfils an assumption, over all its tests
+_DRIFT_CHANCE = 0.02  # of a drift over a map, which goes on beyond it
+_LONG_WAVES_CHANCE = 0.02  # of tilt and bow: what few coefficients show is easily missed
+_LONG_WAVES_SHARE = 0.02  # mean square of longer waves, over that of the rest, that matters
+_STEPPED_SHARE = 0.1  # of heights in steps, that matters
+_LEVEL_SHARE = 0.003  # of heights on one level, beyond the lowest, that matters
+_FILLED_SHARE = 0.1  # of points: beyond, intervals of light loads hold too few surfaces
+_LARGEST_JUMP = 0.02  # of the rms height, by which rows jump that matters
+_NO_ROLL_OFF_GRAVITY = 2.0
+_LEVELLED_GRAVITY = 1.01  # of a tilt that is not known
 
-_LEAST = 8  # points along the shortest side that tell of faults
-_MOST = 1024  # points along a side that are searched for equal heights
-ROUNDING = 1e-9  # of the largest height, within which heights are equal
-_BESIDE = 3  # levels on either side of one that show how many heights are equal by their steps
-_MORE = 3.0  # times as many as on any of them that are not equal by steps alone
-_SCATTERS = 8.0  # of rows from the line through those beside them that are not by chance
-_STEEPER = 3.0  # than the slopes beside it is a step
+_FEWEST_POINTS = 8  # along the shortest side, that tell of faults
+_MOST_SEARCHED = 1024  # points along a side, for equal heights
+HEIGHT_ROUNDING = 1e-9  # of the largest height, within which heights are equal
+_LEVELS_BESIDE = 3  # on either side of one, that show how many heights are equal by their steps
+_LEVEL_EXCESS = 3.0  # times as many as on any of them that are not equal by steps alone
+_JUMP_SCATTERS = 8.0  # of rows from the line through those beside them that are not by chance
+_STEP_STEEPNESS = 3.0  # than the slopes beside it is a step
 _SIGMA = 1.4826  # standard deviation of normal values over the median of their moduli
 
 
@@ -86,57 +90,57 @@ def _departures(body: Body) -> tuple[Departure, ...]:
         return ()
     selves = list(coarser_selves(body))
     found = [
-        _first("gaussian", of_heights(body, selves), body),
-        _first("stationary", of_places(selves), body),
-        _of_steps(body),
+        _first("gaussian", shapes_on_every_scale(body, selves), body),
+        _first("stationary", scatter_between_places(selves), body),
+        _find_steps(body),
     ]
     if isinstance(body, Surface):
-        found.append(_first("isotropic", of_directions(body), body))
+        found.append(_first("isotropic", slopes_by_direction(body), body))
         if body.is_cut_out:
-            found.append(_first("steady", of_sides(body), body, _CHANCE_OF_DRIFT))
+            found.append(_first("steady", drift_along_sides(body), body, _DRIFT_CHANCE))
     if body.is_cut_out and selves:
-        found += _of_long_waves(body)
-    found += _of_faults(body)
+        found += _find_long_waves(body)
+    found += _find_faults(body)
     return tuple(sorted(filter(None, found), key=lambda each: -each.gravity))
 
 
-def _of_steps(body: Body) -> Departure | None:
+def _find_steps(body: Body) -> Departure | None:
     """Say whether heights stand in steps, as an instrument rounds them or ends its range."""
     share = _share_on_lines(body.heights)
-    if share <= _ON_LINES:
+    if share <= _STEPPED_SHARE:
         return None
     text = (
         f"{share:.0%} of the heights lie in line with their neighbours to the last digit, which "
         "chance does not do: they are rounded, filled, or at the end of the instrument's "
         "range, so slopes there are not the surface's: measure with finer steps or a larger range"
     )
-    return Departure("resolution", text, share / _ON_LINES)
+    return Departure("resolution", text, share / _STEPPED_SHARE)
 
 
-def _of_faults(body: Body) -> Iterator[Departure]:
+def _find_faults(body: Body) -> Iterator[Departure]:
     """Say where heights are not the surface's, so that no answer holds."""
-    if (share := body.provenance.missing_share) > _FILLED:
+    if (share := body.provenance.missing_share) > _FILLED_SHARE:
         text = (
             f"{share:.0%} of the points are missing and were filled, so that summits may be "
             f"missing as well: measure again, or crop to where points are known ({called('crop')})"
         )
-        yield Departure("measured", text, share / _FILLED)
+        yield Departure("measured", text, share / _FILLED_SHARE)
     if not body.is_cut_out or not body.rms_height:
         return
-    if (share := _share_on_a_level(body.heights)) > _ON_A_LEVEL:
+    if (share := _share_on_a_level(body.heights)) > _LEVEL_SHARE:
         text = (
             f"{100 * share:.2g}% of the heights are equal to the last digit: the range of the "
             "instrument ends there, and cuts summits off, or missing points were written as a "
             "number: measure with a larger range, or mark missing points"
         )
-        yield Departure("measured", text, share / _ON_A_LEVEL)
+        yield Departure("measured", text, share / _LEVEL_SHARE)
     rows = _jump(body) if isinstance(body, Surface) else None
-    if isinstance(body, Surface) and rows and abs(rows.height) > _JUMPS * body.rms_height:
-        gravity = abs(rows.height) / _JUMPS / body.rms_height
-        yield Departure("measured", _of_rows(rows, body), gravity)
+    if isinstance(body, Surface) and rows and abs(rows.height) > _LARGEST_JUMP * body.rms_height:
+        gravity = abs(rows.height) / _LARGEST_JUMP / body.rms_height
+        yield Departure("measured", _describe_jump(rows, body), gravity)
 
 
-def _of_rows(rows: _Jump, surface: Surface) -> str:
+def _describe_jump(rows: _Jump, surface: Surface) -> str:
     """Say where rows of a map jump."""
     height, scatter = (in_words(abs(each), surface.unit, 2) for each in (rows.height, rows.scatter))
     at = in_words(rows.index * surface.spacing[rows.axis], surface.unit, 3)
@@ -156,7 +160,7 @@ def _of_rows(rows: _Jump, surface: Surface) -> str:
 
 def _share_on_lines(heights: Real) -> float:
     """Return the share of heights in line with their neighbours along every side."""
-    heights = _some_of(heights)
+    heights = _searched_corner(heights)
     inner = in_line(heights)[(slice(1, -1),) * heights.ndim]
     return 0.0 if inner.all() else float(inner.mean())
 
@@ -167,17 +171,17 @@ def _share_on_a_level(heights: Real) -> float:
     Heights that are rounded stand on levels, but on none of them are many more than on those beside
     it.
     """
-    heights = _some_of(heights)
+    heights = _searched_corner(heights)
     flat = in_line(heights)
     if not flat.any():
         return 0.0
     level = levelled(heights, flat)
-    steps = np.round((level - level.max()) / (ROUNDING * np.abs(heights).max()))
+    steps = np.round((level - level.max()) / (HEIGHT_ROUNDING * np.abs(heights).max()))
     _, counts = np.unique(steps, return_counts=True)
-    ends = np.pad(counts, _BESIDE, constant_values=1)
-    beside = np.lib.stride_tricks.sliding_window_view(ends, 2 * _BESIDE + 1).copy()
-    beside[:, _BESIDE] = 0
-    many = counts > _MORE * beside.max(axis=1)
+    ends = np.pad(counts, _LEVELS_BESIDE, constant_values=1)
+    beside = np.lib.stride_tricks.sliding_window_view(ends, 2 * _LEVELS_BESIDE + 1).copy()
+    beside[:, _LEVELS_BESIDE] = 0
+    many = counts > _LEVEL_EXCESS * beside.max(axis=1)
     return float(counts[1:][many[1:]].max(initial=0) / heights.size)
 
 
@@ -193,7 +197,7 @@ def levelled(heights: Real, flat: Mask) -> Real:
 def in_line(heights: Real) -> Mask:
     """Mark heights in line with their neighbours along every side; those at the rim are not."""
     found = np.zeros(heights.shape, dtype=bool)
-    if min(heights.shape) < _LEAST:
+    if min(heights.shape) < _FEWEST_POINTS:
         return found
     inner = (slice(1, -1),) * heights.ndim
     scale = float(np.abs(heights).max())
@@ -201,13 +205,13 @@ def in_line(heights: Real) -> Mask:
     for axis in range(heights.ndim):
         along = np.moveaxis(np.diff(heights, n=2, axis=axis), axis, 0)
         others = np.moveaxis(along[(slice(None), *inner[1:])], 0, axis)
-        found[inner] &= np.abs(others) <= ROUNDING * scale
+        found[inner] &= np.abs(others) <= HEIGHT_ROUNDING * scale
     return found
 
 
-def _some_of(heights: Real) -> Real:
+def _searched_corner(heights: Real) -> Real:
     """A corner of heights that is quickly searched."""
-    return heights[(slice(_MOST),) * heights.ndim]
+    return heights[(slice(_MOST_SEARCHED),) * heights.ndim]
 
 
 @dataclass(frozen=True)
@@ -239,9 +243,9 @@ def _highest_jump(heights: Real) -> _Jump | None:
     found = [
         each
         for axis in range(2)
-        if heights.shape[axis] >= _LEAST
+        if heights.shape[axis] >= _FEWEST_POINTS
         for each in _jumps(np.asarray(heights.mean(axis=1 - axis)), axis)
-        if abs(each.height) > _SCATTERS * each.scatter
+        if abs(each.height) > _JUMP_SCATTERS * each.scatter
     ]
     return max(found, key=lambda each: abs(each.height), default=None)
 
@@ -253,7 +257,7 @@ def _jumps(means: Real, axis: int) -> Iterator[_Jump]:
     up, down = slopes[1:-2], -slopes[2:-1]  # to a row, and from it
     single = _least(up, down, up - slopes[:-3], down + slopes[3:])
     before, step, after = slopes[:-2], slopes[1:-1], slopes[2:]
-    steep = np.abs(step) > _STEEPER * np.maximum(np.abs(before), np.abs(after))
+    steep = np.abs(step) > _STEP_STEEPNESS * np.maximum(np.abs(before), np.abs(after))
     steps = np.where(steep, _least(step, step - before, step - after), 0.0)
     for heights, is_single in ((single, True), (steps, False)):
         worst = int(np.argmax(np.abs(heights)))
@@ -263,12 +267,15 @@ def _jumps(means: Real, axis: int) -> Iterator[_Jump]:
 def _least(*values: Real) -> Real:
     """The smallest of values where all have one sign, else none."""
     signs = np.sign(values)
-    alike = (signs == signs[0]).all(axis=0)
-    return np.where(alike, signs[0] * np.abs(values).min(axis=0), 0.0)
+    same_sign = (signs == signs[0]).all(axis=0)
+    return np.where(same_sign, signs[0] * np.abs(values).min(axis=0), 0.0)
 
 
 def _first(
-    assumption: Assumption, findings: Iterable[Finding], body: Body, chance: float = _CHANCE
+    assumption: Assumption,
+    findings: Iterable[Finding],
+    body: Body,
+    chance: float = _DEPARTURE_CHANCE,
 ) -> Departure | None:
     """The gravest of findings that chance does not explain; None if there is none."""
     findings = list(findings)
@@ -290,7 +297,7 @@ def _what(body: Body) -> str:
 _REMEDIES = {"map": "several maps of a part show what one does not", "scan": "measure a map"}
 
 
-def _of_long_waves(body: Body) -> list[Departure | None]:
+def _find_long_waves(body: Body) -> list[Departure | None]:
     """Say whether a piece shows a roll-off, and whether it lies on waves longer than itself."""
     what = _what(body)
     try:
@@ -299,17 +306,17 @@ def _of_long_waves(body: Body) -> list[Departure | None]:
         return []
     if not fit.is_judged:
         return []
-    found = [_of_shapes(body, fit, what)]
+    found = [_find_tilt_and_bow(body, fit, what)]
     if not fit.shows_roll_off:
         text = (
             f"the {what} shows no roll-off: its spectrum still rises at its longest waves, so "
             f"longer ones are missing: a longer {what} would hold more of them"
         )
-        found.append(Departure("roll-off", text, _NO_ROLL_OFF))
+        found.append(Departure("roll-off", text, _NO_ROLL_OFF_GRAVITY))
     return found
 
 
-def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
+def _find_tilt_and_bow(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
     if body.provenance.is_levelled_by_lines:
         text = (
@@ -317,18 +324,18 @@ def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
             "jumps, so its heights do not tell whether it lies on waves longer than itself: "
             "measure with less drift, or along both sides"
         )
-        return Departure("longer waves", text, _LEVELLED)
+        return Departure("longer waves", text, _LEVELLED_GRAVITY)
     if grave := _grave_shapes(body, fit):
         worst = max(grave, key=lambda each: each.share)
         return Departure(
-            "longer waves", _in_words(worst, body, what), math.sqrt(worst.share / _LONGER)
+            "longer waves", _in_words(worst, body, what), math.sqrt(worst.share / _LONG_WAVES_SHARE)
         )
-    if tilt_of(body) is None and not body.provenance.tilt.is_of_mounting:
+    if known_tilt(body) is None and not body.provenance.tilt.is_of_mounting:
         text = (
             f"the {what} was levelled before it was given, so its heights do not tell whether it "
             f"lies on waves longer than itself: give it as it was measured, or {_say_so()}"
         )
-        return Departure("longer waves", text, _LEVELLED)
+        return Departure("longer waves", text, _LEVELLED_GRAVITY)
     return None
 
 
@@ -338,11 +345,11 @@ def _grave_shapes(body: Body, fit: SelfAffineFit) -> list[LongShape]:
     return [
         each
         for each in shapes
-        if each.chance < _CHANCE_OF_WAVES / len(shapes) and each.share > _LONGER
+        if each.chance < _LONG_WAVES_CHANCE / len(shapes) and each.share > _LONG_WAVES_SHARE
     ]
 
 
-def judged(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
+def checked_fit(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
     """Take the intervals down of a refused law, and where a body departs from what one rests on.
 
     So does a bow, which stands in the place of the longest waves.

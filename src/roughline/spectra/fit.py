@@ -18,7 +18,7 @@ from roughline.errors.public import public
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
 from roughline.spectra.law_search import Corner, Law, LikelyLaws, Observed, power_law
 from roughline.spectra.map_rings import MapRings
-from roughline.spectra.means import LEAST_MEANS
+from roughline.spectra.means import FEWEST_MEANS
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
@@ -28,12 +28,12 @@ from roughline.topography.provenance import UNKNOWN
 _Spectrum = IsotropicSpectrum | ProfileSpectrum
 _Interval = tuple[float, float]
 
-_LEVEL = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
-_LEAST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
-_DRAWN_OUT = 1 / 3  # least over largest slope, below which directions have no law in common
-_CONTRADICTED = 4.0  # deviance that the true instrument rarely has beyond that of the best one
-_CHANGED = math.log(1.2)  # of the spectrum, by the instrument
-_REACHED = 0.5  # rms curvature times the tip's radius, up to which a tip follows the surface
+_CONFIDENCE = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
+_SHORTEST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
+_LEAST_ISOTROPY = 1 / 3  # least over largest slope, below which directions have no law in common
+_CONTRADICTING_DEVIANCE = 4.0  # beyond that of the best instrument, which the true one rarely has
+_LARGEST_CHANGE = math.log(1.2)  # of the spectrum, by the instrument
+_TIP_CURVATURE = 0.5  # rms curvature times the tip's radius, up to which a tip follows the surface
 _MOST_SCATTER = 0.15  # rms of log10 of the spectrum about the law
 
 
@@ -233,10 +233,11 @@ def nearest_law(spectrum: _Spectrum) -> SelfAffineFit:
     spectrum = _within_reach(spectrum)
     observed, remarks = _observed(spectrum)
     fit = _fitted(spectrum, observed, remarks)
-    if isinstance(spectrum, IsotropicSpectrum) and spectrum.isotropy < _DRAWN_OUT:
+    if isinstance(spectrum, IsotropicSpectrum) and spectrum.isotropy < _LEAST_ISOTROPY:
         return fit.without_intervals(
             f"slopes differ by direction, least over largest {spectrum.isotropy:.2f}: one law for "
-            f"all directions is not judged below {_DRAWN_OUT:.2f}; fit line scans across the lay"
+            f"all directions is not judged below {_LEAST_ISOTROPY:.2f}; fit line scans across the "
+            "lay"
         )
     return fit
 
@@ -260,7 +261,7 @@ def _fitted(spectrum: _Spectrum, observed: Observed, remarks: tuple[str, ...]) -
     hurst, roll, end, corner, response = law
     log_level = laws.log_level[laws.best]
     deviations = observed.means.deviations(observed.log_powers(law) + log_level)
-    likely = LikelyLaws.of(laws, _LEVEL)
+    likely = LikelyLaws.of(laws, _CONFIDENCE)
     first_roll, last_roll = likely.roll_interval
     first_end, last_end = likely.end_interval
     rms, lowest_rms, highest_rms = spectrum.rms_height * _rms_factors(observed, likely)
@@ -294,7 +295,7 @@ def _refusals(hurst: float, interval: _Interval, span: float, scatter: float) ->
     """Say why a law does not describe a spectrum, from its slope, its span and what is off it."""
     if interval[1] < 0 or interval[0] > 1:
         yield f"the slope is that of H = {hurst:.2f}, outside 0 to 1"
-    if span < _LEAST_RANGE:
+    if span < _SHORTEST_RANGE:
         yield f"the power law spans a factor of {span:.2g} only"
     if scatter > _MOST_SCATTER:
         yield f"the spectrum is off the law by a factor of {10**scatter:.2f} (rms)"
@@ -304,7 +305,7 @@ def _tail(observed: Observed, law: Law, q_low: float) -> float | None:
     """From where on an instrument changes the spectrum; None if it does so nowhere."""
     own, seen = (observed.log_powers(law, seen=each) for each in (False, True))
     inside = np.isfinite(own)
-    changed = np.abs(seen[inside] - own[inside]) > _CHANGED
+    changed = np.abs(seen[inside] - own[inside]) > _LARGEST_CHANGE
     return q_low * float(observed.means.q[changed.argmax()]) if changed.any() else None
 
 
@@ -313,24 +314,24 @@ def _observed(spectrum: _Spectrum) -> tuple[Observed, tuple[str, ...]]:
 
     An instrument that contradicts the spectrum's tail is taken as unknown.
     """
-    observed, told = _compared(spectrum), spectrum.instrument
-    if told.pixels is None and told.blur is None:
+    observed, instrument = _compared(spectrum), spectrum.instrument
+    if instrument.pixels is None and instrument.blur is None:
         return observed, ()
     unknown = _compared(replace(spectrum, instrument=UNKNOWN))
     laws = unknown.laws
-    if told.pixels == "points" and told.blur is None:  # as if unknown, but for this
-        as_told = laws.of_responses[unknown.responses.blurs == 0].min()
+    if instrument.pixels == "points" and instrument.blur is None:  # as if unknown, but for this
+        as_stated = laws.of_responses[unknown.responses.blurs == 0].min()
     else:
-        as_told = observed.laws.deviance.min()
-    if as_told <= laws.deviance.min() + _CONTRADICTED:
+        as_stated = observed.laws.deviance.min()
+    if as_stated <= laws.deviance.min() + _CONTRADICTING_DEVIANCE:
         return observed, ()
     blur = unknown.responses.blurs[laws.at(*laws.best).response]
-    said = (
+    objection = (
         "the spectrum's tail is not that of the instrument as it was told: a blur of "
         f"{blur:.2g} pixels explains it better, and means over pixels act as one of 0.29: "
         "check pixels and blur"
     )
-    return unknown, (said,)
+    return unknown, (objection,)
 
 
 def _compared(spectrum: _Spectrum) -> Observed:
@@ -351,11 +352,11 @@ def _within_reach(spectrum: _Spectrum) -> _Spectrum:
         squares = 2 * q**4 * spectrum.C_profile * np.diff(spectrum.edges)
     else:  # along one direction, 3/8 of q⁴
         squares = 3 / 8 * 2 * math.pi * q**5 * spectrum.C_2d * np.gradient(q)
-    n = int(np.count_nonzero(radius * np.sqrt(np.cumsum(squares)) < _REACHED))
-    if n < min(LEAST_MEANS, q.size):
+    n = int(np.count_nonzero(radius * np.sqrt(np.cumsum(squares)) < _TIP_CURVATURE))
+    if n < min(FEWEST_MEANS, q.size):
         raise InputError(
             f"a tip of radius {radius:.3g} follows {n} wavenumbers of the spectrum; a fit needs "
-            f"{LEAST_MEANS}: check tip_radius, or measure with a finer tip"
+            f"{FEWEST_MEANS}: check tip_radius, or measure with a finer tip"
         )
     # edges are one more than wavenumbers
     longest: dict[str, Any] = {
@@ -372,13 +373,13 @@ def _rms_factors(observed: Observed, likely: LikelyLaws) -> Real:
     The mean square of a piece has about a gamma distribution, whose shape is that of its powers.
     The interval misses where the law is missed or where chance is larger; both are as rare.
     """
-    factors, missed = [], 1 - _LEVEL
+    factors, miss_chance = [], 1 - _CONFIDENCE
     for which in (likely.laws.best, *likely.outline()):
         law = likely.laws.at(*which)
         whole, piece = observed.mean_square(law)
         power = observed.modes * np.exp(observed.log_powers(law))
         shape = power.sum() ** 2 / (2 * (power**2 / observed.modes).sum())
-        chance = special.gammaincinv(shape, [1 - missed / 2, missed / 2]) / shape
+        chance = special.gammaincinv(shape, [1 - miss_chance / 2, miss_chance / 2]) / shape
         factors.append(whole / piece / np.array([1.0, *chance]))
     best, low, high = factors[0][0], np.min(factors, axis=0)[1], np.max(factors, axis=0)[2]
     return np.sqrt([best, low, high])

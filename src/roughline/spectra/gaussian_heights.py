@@ -14,23 +14,27 @@ from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Body, point_spacings
 from roughline.units import in_words
 
-_LEAST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
-_SKEW = 0.45  # skewness that matters
-_EXCESS = (1.0, 2.5)  # kurtosis over 3 that matters, of heights and of curvatures
-_LACK = 0.6  # kurtosis under 3 that matters
-_HIGHEST = (0.02, 0.05, 0.1, 0.2)  # shares of the highest places whose slopes are judged
-_AS_OF_ALL = 0.3  # logarithm of the ratio of their rms slope to that of all that matters
-_HEAVY = 0.88  # of a score: squares that correlate have heavier tails than those that do not
-_LEAST_CELLS = 16  # along a side, for their slopes
-_LEAST_SLOPES = 24  # independent slopes of the highest places
+_FEWEST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
+_LARGEST_SKEWNESS = 0.45  # more matters
+_LARGEST_EXCESS = (1.0, 2.5)  # of the kurtosis over 3, of heights and of curvatures
+_LARGEST_LACK = 0.6  # of the kurtosis under 3
+_HIGHEST_SHARES = (0.02, 0.05, 0.1, 0.2)  # shares of the highest places whose slopes are judged
+_LARGEST_SLOPE_RATIO = 0.3  # logarithm of the ratio of their rms slope to that of all that matters
+_SCORE_SHARE = 0.88  # of a score: squares that correlate have heavier tails than those that do not
+_FEWEST_CELLS = 16  # along a side, for their slopes
+_FEWEST_SLOPES = 24  # independent slopes of the highest places
 _SLOPE_REACH = 32  # cells over which slopes are correlated at most
 
 
-def of_heights(body: Body, selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
+def shapes_on_every_scale(body: Body, selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
     """Yield shapes of the distributions of heights and of detail on every scale."""
     for own in selves:
-        yield from _shape(own.heights, own.of_heights, _named(body, own, "heights"), _EXCESS[0])
-        yield from _shape(own.detail, own.of_detail, _named(body, own, "curvatures"), _EXCESS[1])
+        yield from _shape(
+            own.heights, own.heights_chance, _named(body, own, "heights"), _LARGEST_EXCESS[0]
+        )
+        yield from _shape(
+            own.detail, own.detail_chance, _named(body, own, "curvatures"), _LARGEST_EXCESS[1]
+        )
         yield from _slopes_of_the_highest(body, own)
 
 
@@ -48,7 +52,7 @@ def _cells(body: Body, own: CoarserSelf) -> str:
 def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[Finding]:
     """Skewness and kurtosis of values."""
     third, fourth = chance.independent(3), chance.independent(4)
-    if min(third, fourth) < _LEAST_VALUES or not values.any():
+    if min(third, fourth) < _FEWEST_VALUES or not values.any():
         return
     skewness, kurtosis = skewness_and_kurtosis(values)
 
@@ -64,8 +68,8 @@ def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[F
             f"chance allows 3 with {_in_digits(limit * math.sqrt(24 / fourth))} more or less"
         )
 
-    yield Finding(_skewness_score(skewness, third), abs(skewness) / _SKEW, skewed)
-    gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LACK)
+    yield Finding(_skewness_score(skewness, third), abs(skewness) / _LARGEST_SKEWNESS, skewed)
+    gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LARGEST_LACK)
     yield Finding(_kurtosis_score(kurtosis, fourth), gravity, tailed)
 
 
@@ -113,10 +117,10 @@ def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[Finding]:
     means, slopes = _mean_and_slopes(own.heights)
     squares = np.sum([each**2 for each in slopes], axis=0)
     mean = float(squares.mean())
-    if min(squares.shape) < _LEAST_CELLS or not mean:
+    if min(squares.shape) < _FEWEST_CELLS or not mean:
         return
     chances = [Chance.of(each, _SLOPE_REACH) for each in slopes]
-    for share in _HIGHEST:
+    for share in _HIGHEST_SHARES:
         highest = means > np.quantile(means, 1 - share)
         count = int(highest.sum())
         if not count:
@@ -125,7 +129,7 @@ def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[Finding]:
             (float((each**2).mean()) / mean) ** 2 * chance.scatter_within(highest)
             for each, chance in zip(slopes, chances, strict=True)
         )
-        if variance > 2 / _LEAST_SLOPES:
+        if variance > 2 / _FEWEST_SLOPES:
             continue
         ratio = float(squares[highest].mean()) / mean
         yield _as_of_all(f"the highest {share:.0%} of{_cells(body, own)}", ratio, variance)
@@ -143,10 +147,10 @@ def _mean_and_slopes(heights: Real) -> tuple[Real, list[Real]]:
 def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
     """Judge the mean square slope of the highest places over that of all."""
     shape = 2 / variance  # of a chi-squared variable with as many degrees of freedom
-    score = _HEAVY * score_of_square(shape, ratio)
+    score = _SCORE_SHARE * score_of_square(shape, ratio)
 
     def text(limit: float) -> str:
-        chance = special.ndtr(-limit / _HEAVY)
+        chance = special.ndtr(-limit / _SCORE_SHARE)
         least, most = (
             math.sqrt(special.chdtri(shape, each) / shape) for each in (1 - chance, chance)
         )
@@ -156,7 +160,7 @@ def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
             f"to {_in_digits(most)}"
         )
 
-    return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _AS_OF_ALL, text)
+    return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _LARGEST_SLOPE_RATIO, text)
 
 
 def _in_digits(value: float) -> str:

@@ -19,9 +19,9 @@ from roughline.topography.body import Line, Surface
 from roughline.topography.provenance import UNKNOWN, Instrument
 from roughline.topography.settings import Settings
 
-_TENTHS = 10  # of a decade
-_LEAST_RINGS = 3  # of wavenumbers, as 8 x 8 square pixels have
-_LEAST_INDEPENDENT = 0.02
+_BINS_PER_DECADE = 10
+_FEWEST_RINGS = 3  # of wavenumbers, as 8 x 8 square pixels have
+_SMALLEST_INDEPENDENT = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +140,7 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     [ 6.28 12.57 18.85] True
     """
     level = surface.detrended() if surface.is_cut_out else surface
-    q, power = waves_of(level)
+    q, power = surface_waves(level)
     q_low = 2 * math.pi / surface.length
     last = _rings(surface)
     if not has_rings(surface):
@@ -179,7 +179,7 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
 
 def has_rings(surface: Surface) -> bool:
     """Whether enough wavenumbers are seen along both sides of a surface; long pixels show none."""
-    return _rings(surface) >= _LEAST_RINGS
+    return _rings(surface) >= _FEWEST_RINGS
 
 
 def _rings(surface: Surface) -> int:
@@ -188,7 +188,7 @@ def _rings(surface: Surface) -> int:
     return int(min(np.pi / spacing for spacing in surface.spacing) / q_low - 0.5)
 
 
-def waves_of(surface: Surface) -> tuple[Real, Real]:
+def surface_waves(surface: Surface) -> tuple[Real, Real]:
     """Wavenumbers of the modes of a surface, and their shares of <h²>, as an FFT orders them.
 
     A piece of a larger surface is seen through a Hann window.
@@ -228,12 +228,12 @@ def _independent(waves: Real, counts: Real, sums: Real, squares: Real) -> Real:
     The powers of n such modes are exponential and come in pairs; the square of their sum is n / 2
     + 1 times the sum of their squares. Where they are not alike, it is less.
     """
-    tenth = np.floor(_TENTHS * np.log10(waves)).astype(np.intp)
+    tenth = np.floor(_BINS_PER_DECADE * np.log10(waves)).astype(np.intp)
     known = squares > 0
-    alike = np.where(known, 2 * sums**2 / np.where(known, squares, 1.0) - 2, counts)
+    effective = np.where(known, 2 * sums**2 / np.where(known, squares, 1.0) - 2, counts)
     modes = np.bincount(tenth, counts)
-    share = np.bincount(tenth, alike) / np.maximum(modes, 1)
-    return np.clip(share, _LEAST_INDEPENDENT, 1.0)[tenth]
+    share = np.bincount(tenth, effective) / np.maximum(modes, 1)
+    return np.clip(share, _SMALLEST_INDEPENDENT, 1.0)[tenth]
 
 
 def isotropy(surface: Surface) -> float:

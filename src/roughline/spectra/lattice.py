@@ -23,7 +23,7 @@ from roughline.spectra.band import Band
 
 BodyName = Literal["surface", "line"]
 
-_BLOCK = 2**20  # wavevectors summed at a time
+_BLOCK_WAVES = 2**20  # wavevectors summed at a time
 
 
 @public
@@ -137,7 +137,7 @@ def lattice_waves(q_0: float, n: int) -> Iterator[tuple[Real, int]]:
     """Give the wavenumbers of the lattice that n points carry, each for 4 wavevectors."""
     most = (n - 1) // 2
     along = np.arange(0.0, most + 1)
-    rows = max(1, _BLOCK // (most + 1))
+    rows = max(1, _BLOCK_WAVES // (most + 1))
     for start in range(1, most + 1, rows):  # a quarter of the plane: mx > 0, my >= 0
         across = along[start : start + rows, np.newaxis]
         m = np.hypot(across, along).ravel()

@@ -31,7 +31,7 @@ _HURSTS = np.linspace(-0.49, 1.5, 200)  # exponents that are tried
 _NODES = np.linspace(_HURSTS[0], _HURSTS[-1], 25)
 """Exponents with which deviances are computed; they are smooth in between."""
 
-_MARGIN = 15.0  # of deviances in which a law may still turn out to be likely
+_DEVIANCE_MARGIN = 15.0  # of deviances in which a law may still turn out to be likely
 _FEW_NODES = slice(None, None, 3)  # exponents of a first search
 _FEW_ROLLS = 4  # from roll-off to roll-off in the first search
 _FEW_ENDS = 6  # that are tried in the first search
@@ -228,8 +228,8 @@ class Observed(ABC):
     def laws(self) -> _Laws:
         """_Laws that are not far from the spectrum."""
         with linear_algebra.on_one_thread():  # threads gain nothing on small matrices
-            kept, ends = self._first_search()
-            return self._second_search(kept, ends)
+            selected, ends = self._first_search()
+            return self._second_search(selected, ends)
 
     def log_powers(self, law: Law, *, seen: bool = True) -> Real:
         """Logarithm of the expected power in each mean for a plateau of one; -inf beyond its end.
@@ -256,8 +256,8 @@ class Observed(ABC):
         shares = self.responses.log_share[responses]
         total = (weight @ inside)[:, np.newaxis]
         scaled = weight * means.power * np.exp(-shares)
-        kept = np.exp(-law) * (inside * np.exp(-log_share))
-        log_level = np.log(np.tensordot(scaled, kept, (1, 1)) / total)
+        inverse_law = np.exp(-law) * (inside * np.exp(-log_share))
+        log_level = np.log(np.tensordot(scaled, inverse_law, (1, 1)) / total)
         logs = np.tensordot(weight, (law + log_share) * inside, (1, 1))
         logs += ((weight * (shares - np.log(means.power))) @ inside)[:, np.newaxis]
         deviance = 2 * (logs + total * log_level) + self.ends.beyond[ends]
@@ -290,21 +290,21 @@ class Observed(ABC):
         of_ends = least("sharp", blurs, np.arange(none + 1)).min(axis=(0, 1))
         few = np.append(np.argsort(of_ends[:-1], kind="stable")[:_FEW_ENDS], none)
         found = np.array([least(corner, every, few).min(axis=2) for corner in _CORNERS])
-        most = float(found.min()) + _MARGIN
+        most = float(found.min()) + _DEVIANCE_MARGIN
         return found <= most, np.append(np.flatnonzero(of_ends[:-1] <= most), none)
 
-    def _second_search(self, kept: Mask, ends: Indices) -> _Laws:
+    def _second_search(self, selected: Mask, ends: Indices) -> _Laws:
         """Compare the spectrum with all laws between those that were found."""
         shape = (_HURSTS.size, self.rolls.size, ends.size)
         deviance, log_level = np.full(shape, np.inf), np.zeros(shape)
         explained = np.zeros(shape, dtype=np.intp)
         explanations: list[tuple[Corner, int]] = []
-        of_responses = np.full(kept.shape[-1], np.inf)
+        of_responses = np.full(selected.shape[-1], np.inf)
         finer = _between(_NODES.tobytes(), _HURSTS.tobytes())
         for j, roll in enumerate(self.rolls):
             around = slice(j // _FEW_ROLLS, -(-j // _FEW_ROLLS) + 1)
             for i, corner in enumerate(_CORNERS):
-                which = np.flatnonzero(kept[i, around].any(axis=0))
+                which = np.flatnonzero(selected[i, around].any(axis=0))
                 if which.size == 0:
                     continue
                 found = self.deviances(corner, float(roll), slice(None), which, ends)

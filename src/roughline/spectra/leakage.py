@@ -25,12 +25,12 @@ LONGER = np.geomspace(1 / 16, 0.5, 13)
 """Ends of the ranges of waves that are longer than the piece and leave a trace in it. [q_low]"""
 
 LONG_WAVES = 8  # wavenumber up to which a line scan's waves are those of a cosine series [q_low]
-_MODES = 48  # from the longest; beyond, a power law is smeared by less than 0.3 %
-_PLANE_MATTERS = 12  # rings whose power the removed plane changes
-_REACH = 8  # modes; a window leaks less than 1e-6 of a wave farther away
-_STEP = 0.25  # width of the other ranges of waves
+_MOST_MODES = 48  # from the longest; beyond, a power law is smeared by less than 0.3 %
+_PLANE_RINGS = 12  # rings whose power the removed plane changes
+_LEAKAGE_REACH = 8  # modes; a window leaks less than 1e-6 of a wave farther away
+_RANGE_WIDTH = 0.25  # of the other waves
 _DIRECTIONS = 24  # of waves, on a quarter of a circle
-_OF_A_RING = 24  # modes that are computed of a large ring
+_MODES_PER_RING = 24  # that are computed of a large ring
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,31 +44,31 @@ class _Leakage:
     edges: Real  # of the ranges
     waves: Real  # their middles
     response: Real  # over (ring or function, range)
-    kept: Real  # share of the waves' mean square that is left without the mean plane
+    remaining: Real  # share of the waves' mean square that is left without the mean plane
 
 
 @lru_cache(maxsize=8)
 def map_leakage(aspect: float = 1.0) -> _Leakage:
     """Leakage into the longest rings of a map of some Lx / Ly, the mean over all directions."""
     sides = _sides(aspect)
-    reach = _REACH / min(sides)
-    edges = _edges(_MODES + reach)
+    reach = _LEAKAGE_REACH / min(sides)
+    edges = _edges(_MOST_MODES + reach)
     waves, widths = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
-    response, kept = np.zeros((_MODES, waves.size)), np.ones(waves.size)
-    low = waves < _PLANE_MATTERS + reach
-    means, kept[low] = _without_plane(waves[low], sides)
-    response[:_PLANE_MATTERS, low] = 2 * math.pi * waves[low] * widths[low] * means
+    response, remaining = np.zeros((_MOST_MODES, waves.size)), np.ones(waves.size)
+    low = waves < _PLANE_RINGS + reach
+    means, remaining[low] = _without_plane(waves[low], sides)
+    response[:_PLANE_RINGS, low] = 2 * math.pi * waves[low] * widths[low] * means
     offset, power = _patch(8)
-    mx, my, ring = _ring_modes(sides, _MODES)
-    for k in range(_PLANE_MATTERS + 1, _MODES + 1):
+    mx, my, ring = _ring_modes(sides, _MOST_MODES)
+    for k in range(_PLANE_RINGS + 1, _MOST_MODES + 1):
         members = np.flatnonzero(ring == k)
-        members = members[:: -(-members.size // _OF_A_RING)]
+        members = members[:: -(-members.size // _MODES_PER_RING)]
         for x, y in zip(mx[members], my[members], strict=True):
             q = np.hypot((x + offset[:, np.newaxis]) / sides[0], (y + offset) / sides[1])
-            wave = LONGER.size - 1 + ((q - LONGER[-1]) / _STEP).astype(np.intp)
+            wave = LONGER.size - 1 + ((q - LONGER[-1]) / _RANGE_WIDTH).astype(np.intp)
             by_wave = np.bincount(wave.ravel(), power.ravel(), minlength=waves.size)
             response[k - 1] += by_wave[: waves.size] / members.size
-    return _Leakage(edges, waves, response, kept)
+    return _Leakage(edges, waves, response, remaining)
 
 
 @lru_cache(maxsize=1)
@@ -78,7 +78,9 @@ def scan_leakage() -> _Leakage:
     Its functions are sqrt(2) cos(pi k (x + 1/2)) over a unit length, k = 2, 3, ..., with the
     wavenumbers k / 2.
     """
-    edges = np.append(LONGER, np.arange(LONGER[-1] + _STEP / 2, 4 * LONG_WAVES, _STEP / 2))
+    edges = np.append(
+        LONGER, np.arange(LONGER[-1] + _RANGE_WIDTH / 2, 4 * LONG_WAVES, _RANGE_WIDTH / 2)
+    )
     waves, widths = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
     k = np.arange(2, 2 * LONG_WAVES + 1)[:, np.newaxis]
     turn = np.exp(0.5j * np.pi * k)
@@ -100,7 +102,7 @@ def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
     sides = _sides(aspect)
     far, steps = 200.0, 16
     offset, power = _patch(steps)
-    reach = math.hypot(*(_REACH / side for side in sides)) + 1
+    reach = math.hypot(*(_LEAKAGE_REACH / side for side in sides)) + 1
     edges = np.arange(-reach, reach + 1 / steps, 1 / steps)
     share = np.zeros(edges.size - 1)
     angles = (np.arange(steps) + 0.5) / steps * math.pi / 2
@@ -150,10 +152,10 @@ def _without_plane(q: Real, sides: _Sides) -> tuple[Real, Real]:
     The mean plane is removed. The mean and the slopes of exp(2 pi i (x + y)) over a unit square
     are products of sinc and of its derivative, and so are the transforms of that plane.
     """
-    along_x, along_y, ring = _ring_modes(sides, _PLANE_MATTERS)
+    along_x, along_y, ring = _ring_modes(sides, _PLANE_RINGS)
     mx, my = (along.astype(np.float64) for along in (along_x, along_y))
     tilted = 3 / math.pi**2  # 12 / (2 pi)², from the transform of x over its mean square
-    power, kept = np.zeros((mx.size, q.size)), np.zeros(q.size)
+    power, remaining = np.zeros((mx.size, q.size)), np.zeros(q.size)
     angles = (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS * math.pi / 2
     for angle in angles:
         for sign in (1, -1):
@@ -169,23 +171,25 @@ def _without_plane(q: Real, sides: _Sides) -> tuple[Real, Real]:
         removed = (np.sinc(x) * np.sinc(y)) ** 2
         removed += tilted * (_sinc_slope(x) * np.sinc(y)) ** 2
         removed += tilted * (np.sinc(x) * _sinc_slope(y)) ** 2
-        kept += 1 - removed
-    counts = np.bincount(ring, minlength=_PLANE_MATTERS + 1)[1:]
-    sums = np.zeros((_PLANE_MATTERS + 1, q.size))
+        remaining += 1 - removed
+    counts = np.bincount(ring, minlength=_PLANE_RINGS + 1)[1:]
+    sums = np.zeros((_PLANE_RINGS + 1, q.size))
     np.add.at(sums, ring, power)
     means = sums[1:] / np.maximum(counts, 1)[:, np.newaxis]
-    return means / (2 * angles.size), kept / angles.size
+    return means / (2 * angles.size), remaining / angles.size
 
 
 def _patch(steps: int) -> tuple[Real, Real]:
     """Offsets from a mode along one side, and the power of the window over both sides."""
-    offset = (np.arange(2 * steps * _REACH) + 0.5) / steps - _REACH
+    offset = (np.arange(2 * steps * _LEAKAGE_REACH) + 0.5) / steps - _LEAKAGE_REACH
     along = _hann(offset) ** 2 / steps
     return offset, np.outer(along, along)
 
 
 def _edges(last: float) -> Real:
-    return np.append(LONGER, np.arange(LONGER[-1] + _STEP, last + _STEP, _STEP))
+    return np.append(
+        LONGER, np.arange(LONGER[-1] + _RANGE_WIDTH, last + _RANGE_WIDTH, _RANGE_WIDTH)
+    )
 
 
 def _sides(aspect: float) -> _Sides:

@@ -20,12 +20,12 @@ from roughline.spectra.fit import SelfAffineFit
 from roughline.topography.body import Body, Line, point_spacings, side_lengths
 from roughline.topography.trend import polynomials, slopes_of_plane
 
-_DEGREES = 8  # of polynomials, from 0
-_OWN = 4  # degree from which on waves are the piece's own
-_LONGEST = 1 / 32  # wavenumber of the longest waves of a law without a roll-off [q_low]
-_SHORTEST = 32.0  # that of the shortest waves that leave a trace in these degrees [q_low]
+_DEGREE_COUNT = 8  # of polynomials, from 0
+_FIRST_OWN_DEGREE = 4  # from which on waves are the piece's own
+_LOWEST_WAVENUMBER = 1 / 32  # of a law without a roll-off [q_low]
+_HIGHEST_WAVENUMBER = 32.0  # of waves that leave a trace in these degrees [q_low]
 _WAVES, _DIRECTIONS = 160, 48
-_ROUNDING = 1e-12  # share of the mean square, below which a plane is rounding
+_PLANE_ROUNDING = 1e-12  # share of the mean square, below which a plane is rounding
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class LongShape:
     chance: float  # of as much or more
 
 
-def tilt_of(body: Body) -> tuple[float, ...] | None:
+def known_tilt(body: Body) -> tuple[float, ...] | None:
     """Slopes of the plane that a body had before it was levelled; None if it is not known. [1]"""
     left = slopes_of_plane(body.heights, point_spacings(body))
     removed = body.provenance.tilt.removed or (0.0,) * len(left)
@@ -67,32 +67,32 @@ def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShap
         squares[1] = lies / max(1, len(known) - 1)
         free[1] -= counts[1] * (len(known) > 1)
     laws = [_expected(bodies[0], fit.hurst, roll) for roll in _rolls(fit)]
-    own = slice(_OWN, _DEGREES)
-    for degree in range(1, _OWN):
-        if squares[degree] <= _ROUNDING * rest:  # removed, and not known
+    own = slice(_FIRST_OWN_DEGREE, _DEGREE_COUNT)
+    for degree in range(1, _FIRST_OWN_DEGREE):
+        if squares[degree] <= _PLANE_ROUNDING * rest:  # removed, and not known
             continue
-        judged = []
+        chances = []
         for law in laws:
             level_of_law = float((squares[own] / law[own]).sum() / counts[own].sum())
             explained = law[degree] * level_of_law
             ratio = squares[degree] / counts[degree] / explained
             chance = float(special.fdtrc(free[degree], free[own].sum(), ratio))
-            judged.append((chance, explained * counts[degree]))
-        chance, explained = max(judged)
-        without = max(rest - (squares[degree] if degree > 1 else 0.0), _ROUNDING * rest)
+            chances.append((chance, explained * counts[degree]))
+        chance, explained = max(chances)
+        without = max(rest - (squares[degree] if degree > 1 else 0.0), _PLANE_ROUNDING * rest)
         share, rms = float(squares[degree]) / without, math.sqrt(squares[degree])
         yield LongShape(degree, rms, math.sqrt(explained), share, chance)
 
 
 def _own_tilt(body: Body) -> tuple[float, ...] | None:
     """The tilt of a body if it is known, and not its mounting's."""
-    return None if body.provenance.tilt.is_of_mounting else tilt_of(body)
+    return None if body.provenance.tilt.is_of_mounting else known_tilt(body)
 
 
 def _rolls(fit: SelfAffineFit) -> list[float]:
     """Roll-offs of the law and of both ends of its interval. [q_low]"""
     ends = [*fit.q_roll_interval] if fit.q_roll is None else [*fit.q_roll_interval, fit.q_roll]
-    return [max(each / fit.q_low, _LONGEST) for each in ends]
+    return [max(each / fit.q_low, _LOWEST_WAVENUMBER) for each in ends]
 
 
 def _mean_squares(body: Body) -> tuple[Real, Real]:
@@ -100,51 +100,51 @@ def _mean_squares(body: Body) -> tuple[Real, Real]:
     heights = body.heights - body.heights.mean()
     shares = heights
     for n in heights.shape:
-        shares = np.tensordot(shares, polynomials(n, min(_DEGREES, n) - 1), axes=(0, 0))
+        shares = np.tensordot(shares, polynomials(n, min(_DEGREE_COUNT, n) - 1), axes=(0, 0))
     degree = np.indices(shares.shape).sum(axis=0).ravel()
     sums = np.bincount(degree, shares.ravel() ** 2 / heights.size)
     counts = np.bincount(degree).astype(np.float64)
-    return np.array(sums[:_DEGREES], dtype=np.float64), counts[:_DEGREES]
+    return np.array(sums[:_DEGREE_COUNT], dtype=np.float64), counts[:_DEGREE_COUNT]
 
 
 def _expected(body: Body, hurst: float, roll: float) -> Real:
     """Expected mean square in one polynomial of each degree, for a law with some level."""
     if isinstance(body, Line):
-        q, response = _of_scan()
-        k = np.geomspace(_LONGEST / 4, 64 * _SHORTEST, 400)
+        q, response = _scan_response()
+        k = np.geomspace(_LOWEST_WAVENUMBER / 4, 64 * _HIGHEST_WAVENUMBER, 400)
         along = np.hypot(q[:, np.newaxis], k)
         law = np.trapezoid(np.maximum(along / roll, 1.0) ** (-2 - 2 * hurst), k, axis=1)
     else:
-        q, response = _of_map(round(body.sizes[0] / body.sizes[1], 2))
+        q, response = _map_response(round(body.sizes[0] / body.sizes[1], 2))
         law = np.maximum(q / roll, 1.0) ** (-2 - 2 * hurst)
     return response @ law
 
 
 @lru_cache(maxsize=8)
-def _of_map(aspect: float) -> tuple[Real, Real]:
+def _map_response(aspect: float) -> tuple[Real, Real]:
     """Waves of a surface, and what each leaves in one polynomial of each degree of a map."""
-    q = np.geomspace(_LONGEST, _SHORTEST, _WAVES)
+    q = np.geomspace(_LOWEST_WAVENUMBER, _HIGHEST_WAVENUMBER, _WAVES)
     angle = (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS * math.pi / 2
     sides = math.sqrt(aspect), 1 / math.sqrt(aspect)
     along_x, along_y = (
         _legendre(np.outer(q, of_angle) * side)
         for of_angle, side in zip((np.cos(angle), np.sin(angle)), sides, strict=True)
     )
-    response = np.zeros((_DEGREES, q.size))
-    for degree in range(_DEGREES):
+    response = np.zeros((_DEGREE_COUNT, q.size))
+    for degree in range(_DEGREE_COUNT):
         pairs = [along_x[a] * along_y[degree - a] for a in range(degree + 1)]
         response[degree] = np.mean(pairs, axis=(0, 2)) * 2 * math.pi * q**2
     return q, response
 
 
 @lru_cache(maxsize=1)
-def _of_scan() -> tuple[Real, Real]:
+def _scan_response() -> tuple[Real, Real]:
     """Waves of a scan, and what each leaves in the polynomial of each degree."""
-    q = np.geomspace(_LONGEST, _SHORTEST, _WAVES)
+    q = np.geomspace(_LOWEST_WAVENUMBER, _HIGHEST_WAVENUMBER, _WAVES)
     return q, _legendre(q) * q
 
 
 def _legendre(q: Real) -> Real:
     """Mean square of a unit wave in the Legendre polynomial of each degree, over a side of 1."""
-    degrees = np.arange(_DEGREES).reshape(-1, *[1] * q.ndim)
+    degrees = np.arange(_DEGREE_COUNT).reshape(-1, *[1] * q.ndim)
     return np.asarray((2 * degrees + 1) * special.spherical_jn(degrees, math.pi * q) ** 2)

@@ -12,12 +12,12 @@ from roughline.computing.arrays import Real
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.law_search import Corner, Ends, Law, Observed, power_law
 from roughline.spectra.leakage import LONGER, map_leakage, power_inside
-from roughline.spectra.means import LEAST_MEANS, Means
+from roughline.spectra.means import FEWEST_MEANS, Means
 
-_CORRELATED = 2.4  # modes of a ring that vary together under a Hann window
+_CORRELATED_MODES = 2.4  # modes of a ring that vary together under a Hann window
 _ROLLS_PER_DECADE = 40
-_INSIDE, _BEYOND = 4, 2  # rings below and above an end in which its leakage is computed
-_STEP = 0.25  # from end to end that is tried, and from wave to wave
+_RINGS_BELOW, _RINGS_ABOVE = 4, 2  # rings below and above an end in which its leakage is computed
+_END_STEP = 0.25  # from end to end that is tried, and from wave to wave
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,9 @@ class MapRings(Observed):
         means = Means.of(
             spectrum.q / q_low,
             spectrum.C_2d * q_low**2,
-            spectrum.modes * spectrum.independent / (_CORRELATED if spectrum.windowed else 1.0),
+            spectrum.modes
+            * spectrum.independent
+            / (_CORRELATED_MODES if spectrum.windowed else 1.0),
             spectrum.windowed,
         )
         nyquist = spectrum.length / (2 * spectrum.spacing)
@@ -60,7 +62,7 @@ class MapRings(Observed):
         """Ends to try: sharp ones at every quarter of a ring, gradual ones at every ring."""
         means, q = self.means, self.means.q
         free = np.array([means.free_deviance(k) for k in range(q.size + 1)])
-        least = LEAST_MEANS // 2
+        least = FEWEST_MEANS // 2
         # a law may stop at a ring without its window's leakage: the spectrum then ends gradually
         stops = np.arange(least, q.size)
         gradual = Ends(
@@ -72,17 +74,19 @@ class MapRings(Observed):
         )
         if not self.windowed:
             return gradual
-        sharp = np.arange(q[least], q[-1] + 1.5, _STEP)
+        sharp = np.arange(q[least], q[-1] + 1.5, _END_STEP)
         ends = sharp[:, np.newaxis]
-        share = np.where(q > ends - _INSIDE, np.interp(ends - q, *power_inside(self.aspect)), 1.0)
-        inside = (q <= ends + _BEYOND) & (share > 0) & ~(means.leaked & (q > ends))
+        share = np.where(
+            q > ends - _RINGS_BELOW, np.interp(ends - q, *power_inside(self.aspect)), 1.0
+        )
+        inside = (q <= ends + _RINGS_ABOVE) & (share > 0) & ~(means.leaked & (q > ends))
         return Ends(
             at=np.append(sharp, gradual.at),
-            margins=np.append(np.full(sharp.size, _STEP), gradual.margins),
+            margins=np.append(np.full(sharp.size, _END_STEP), gradual.margins),
             inside=np.concatenate([inside, gradual.inside]),
             log_share=np.concatenate([np.log(np.where(inside, share, 1.0)), gradual.log_share]),
             beyond=np.append(
-                free[np.searchsorted(q, sharp + _BEYOND, side="right")], gradual.beyond
+                free[np.searchsorted(q, sharp + _RINGS_ABOVE, side="right")], gradual.beyond
             ),
         )
 
@@ -103,7 +107,9 @@ class MapRings(Observed):
         """Mean squares of a surface as large as the map, and of the map, for a plateau of one."""
         q_rings = self.means.q
         last = min(law.end, float(q_rings[-1]))
-        edges = np.append(LONGER, np.arange(LONGER[-1] + _STEP, last + _STEP / 2, _STEP))
+        edges = np.append(
+            LONGER, np.arange(LONGER[-1] + _END_STEP, last + _END_STEP / 2, _END_STEP)
+        )
         q = (edges[1:] + edges[:-1]) / 2
         levels = power_law(q, np.array([law.hurst]), law.roll, law.corner)[0]
         endless = law._replace(end=math.inf)
@@ -111,7 +117,9 @@ class MapRings(Observed):
         modes = modes_of_surface(edges)
         if self.windowed:
             leakage = map_leakage(self.aspect)
-            of_piece = np.interp(q, leakage.waves, leakage.kept) * 2 * math.pi * q * np.diff(edges)
+            of_piece = (
+                np.interp(q, leakage.waves, leakage.remaining) * 2 * math.pi * q * np.diff(edges)
+            )
         else:
             of_piece = modes
         in_piece = np.exp(levels + np.interp(q, q_rings, seen - own))

@@ -15,13 +15,13 @@ from scipy import special
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
 
-LEAST_MEANS = 12  # means that a spectrum needs, for laws to be compared with it
+FEWEST_MEANS = 12  # of a spectrum, for laws to be compared with it
 
-_DESCRIPTION = 0.1  # relative deviations from a law, up to which a spectrum counts as following it
+_LAW_DEVIATION = 0.1  # relative, up to which a spectrum counts as following a law
 _BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
-_FLOOR = 1e-14  # of the largest power: rounding
-_FARTHEST = 256  # means; a window leaks 1e-16 so far away
-_LEAKED = 3.0  # times the leakage of stronger waves; a smaller power may be leakage alone
+_POWER_FLOOR = 1e-14  # of the largest power: rounding
+_FARTHEST_MEAN = 256  # means; a window leaks 1e-16 so far away
+_LEAKAGE_FACTOR = 3.0  # times the leakage of stronger waves; a smaller power may be leakage alone
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,21 +42,21 @@ class Means:
         Under a window stronger waves leak into others.
         """
         q, power, modes = (array[modes > 0] for array in (q, power, modes))
-        if q.size < LEAST_MEANS:
+        if q.size < FEWEST_MEANS:
             raise InputError(
-                f"the spectrum has {q.size} wavenumbers; a fit needs {LEAST_MEANS}: take more "
+                f"the spectrum has {q.size} wavenumbers; a fit needs {FEWEST_MEANS}: take more "
                 "points"
             )
-        floor = _FLOOR * power.max()
+        floor = _POWER_FLOOR * power.max()
         leaked = power <= floor
         if windowed:
-            leaked |= power < _LEAKED * _leakage_of_others(q, power)
+            leaked |= power < _LEAKAGE_FACTOR * _leakage_of_others(q, power)
         by_chance = 2 / modes  # half of the modes are the others' conjugates
         # the means of a bin share one deviation: otherwise the shortest waves, which have most of
         # the means, would decide alone
         bins = _bins(q)
         in_tenth = np.bincount(bins)[bins].astype(np.float64)
-        weight = 1 / (by_chance + _DESCRIPTION**2 * in_tenth)
+        weight = 1 / (by_chance + _LAW_DEVIATION**2 * in_tenth)
         return cls(q, np.maximum(power, floor), by_chance, weight, leaked, in_tenth)
 
     def weighed(self, unknown: Real) -> tuple[Real, Real]:
@@ -121,7 +121,7 @@ class _Deviations:
 
     def drawn(self, generator: np.random.Generator) -> Real:
         """Draw deviations of the surface itself from its law, one for each mean."""
-        of_surface = max(self.scatter, _DESCRIPTION) ** 2  # variance
+        of_surface = max(self.scatter, _LAW_DEVIATION) ** 2  # variance
         share = of_surface / (of_surface + self.variance)
         spread = np.sqrt(of_surface * (1 - share))
         drawn = share * self.values + spread * generator.standard_normal(share.size)
@@ -131,7 +131,7 @@ class _Deviations:
 def _leakage_of_others(q: Real, power: Real) -> Real:
     """Power that a Hann window leaks into each mean from those three modes away and farther."""
     width, leaked = np.gradient(q), np.zeros(q.size)
-    for lag in range(1, min(q.size, _FARTHEST)):
+    for lag in range(1, min(q.size, _FARTHEST_MEAN)):
         distance = q[lag:] - q[:-lag] - (width[lag:] + width[:-lag]) / 2 + 1
         far = np.maximum(distance, 3.0)
         tail = np.where(distance < 3, 0.0, 1 / (3 * (np.pi * far * (far**2 - 1)) ** 2))

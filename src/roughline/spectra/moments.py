@@ -12,7 +12,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
-from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum, waves_of
+from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum, surface_waves
 from roughline.spectra.lattice import ContinuumSpectrum, LatticeSpectrum, lattice_waves
 from roughline.spectra.leakage import RING_HALF_WIDTH
 from roughline.spectra.self_affine import SelfAffine
@@ -20,8 +20,8 @@ from roughline.topography.body import Surface
 
 SurfaceOrSpectrum = Surface | SelfAffine | ContinuumSpectrum | LatticeSpectrum | IsotropicSpectrum
 
-_PER_DECADE = 200  # bands of wavenumbers
-_ROUNDING = 1e-20  # of the largest C_2d, below which a transform's rounding lies
+_BANDS_PER_DECADE = 200  # bands of wavenumbers
+_TRANSFORM_ROUNDING = 1e-20  # of the largest C_2d, below which a transform's rounding lies
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ def refuse_no_roughness(given: Any) -> None:
         refuse("roughness", given, "a Surface or a spectrum is needed")
 
 
-def of_the_continuum(roughness: SurfaceOrSpectrum) -> str:
+def continuum_note(roughness: SurfaceOrSpectrum) -> str:
     """What to add to a validity where integrals differ from the surfaces of a SelfAffine."""
     difference = roughness.difference_from_surfaces() if isinstance(roughness, SelfAffine) else ""
     return (
@@ -60,7 +60,7 @@ def bands(roughness: SurfaceOrSpectrum) -> Bands:
     if isinstance(roughness, Surface):
         if roughness.is_cut_out:
             return bands(isotropic_spectrum(roughness))
-        q, power = waves_of(roughness)
+        q, power = surface_waves(roughness)
         return _gathered([(q.ravel()[1:], power.ravel()[1:])])
     if isinstance(roughness, LatticeSpectrum):
         if roughness.body == "line":
@@ -86,7 +86,7 @@ def _averaged(spectrum: IsotropicSpectrum) -> Bands:
     # the waves of a ring are not its middle: of the second, they are 2 and sqrt(5)
     middle = np.bincount(ring[near], within[near]) / np.maximum(np.bincount(ring[near]), 1)
     middle = middle[1 : rings + 1]
-    known = spectrum.C_2d > _ROUNDING * spectrum.C_2d.max()
+    known = spectrum.C_2d > _TRANSFORM_ROUNDING * spectrum.C_2d.max()
     # a power law from ring to ring, up to the edge of the last that has waves
     law = np.interp(np.log(within), np.log(middle[known]), np.log(spectrum.C_2d[known]))
     C_2d = np.where(known[ring - 1], np.exp(law), 0.0)
@@ -102,7 +102,7 @@ def _integrated(continuum: ContinuumSpectrum) -> Bands:
             "lattice(n) for a surface of n points, or the surface itself"
         )
     low, high = math.log(band.q_low), math.log(band.q_high)
-    count = max(400, math.ceil(_PER_DECADE * (high - low) / math.log(10)))
+    count = max(400, math.ceil(_BANDS_PER_DECADE * (high - low) / math.log(10)))
     edges = np.exp(np.linspace(low, high, count + 1))
     q = np.sqrt(edges[1:] * edges[:-1])
     return Bands(q, 2 * math.pi * q * continuum.C_2d(q) * np.diff(edges))
@@ -113,7 +113,7 @@ def _gathered(waves: Iterable[tuple[Real, Real]]) -> Bands:
     sums = np.zeros((2, 0))
     first = None
     for q, power in waves:
-        number = np.rint(np.log(q) * (_PER_DECADE / math.log(10))).astype(np.intp)
+        number = np.rint(np.log(q) * (_BANDS_PER_DECADE / math.log(10))).astype(np.intp)
         if first is None:
             first = int(number.min())
         number -= first

@@ -19,8 +19,8 @@ from roughline.topography.body import Line
 from roughline.topography.provenance import Instrument
 
 _BINS_PER_DECADE = 20
-_LEAST_POINTS = 64
-_FLAT = 1e-12  # rms over the whole height, tilt included, below which it is rounding
+_FEWEST_POINTS = 64
+_HEIGHT_ROUNDING = 1e-12  # rms over the whole height, tilt included, below which it is rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,11 +92,11 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
         if (cut.heights.size, cut.length) != (first.heights.size, first.length):
             raise InputError("the lines differ in length or points; they must be alike")
     n = first.heights.size
-    if n < _LEAST_POINTS:
-        raise InputError(f"the line has {n} points; a spectrum needs {_LEAST_POINTS} or more")
+    if n < _FEWEST_POINTS:
+        raise InputError(f"the line has {n} points; a spectrum needs {_FEWEST_POINTS} or more")
     heights = np.array([cut.detrended().heights for cut in cuts])
     rms = math.sqrt(float((heights**2).mean()))
-    if rms <= _FLAT * max(float(np.ptp(cut.heights)) for cut in cuts):
+    if rms <= _HEIGHT_ROUNDING * max(float(np.ptp(cut.heights)) for cut in cuts):
         raise InputError("the heights are constant: they have no spectrum")
     q_low = 2 * math.pi / first.length
     k = np.arange(2, 2 * LONG_WAVES + 1)

@@ -14,19 +14,19 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.topography.provenance import Instrument
 
-_BLURS = np.append(0.0, np.geomspace(0.2, 4.0, 26))  # standard deviations of blurs that are tried
+_TRIED_BLURS = np.append(0.0, np.geomspace(0.2, 4.0, 26))  # standard deviations
 _AS_PIXELS = 0.3  # blur that acts as means over pixels do, or a little more
-_NOISES = np.geomspace(0.1, 1.4, 13)
+_TRIED_NOISES = np.geomspace(0.1, 1.4, 13)
 """Where white noise is as strong as the surface's waves, that is tried."""
 
 _FAINTEST = -200.0  # logarithm of a share of their power that waves keep, told from no less
 _REACHES = (1.4, 2.0, 4.0)  # where waves may end that are shorter than the spacing resolves
-_FOLDS = 0.6  # blurs up to which such waves are seen
-_EACH = 3  # of them
-_KNOWN = 0.1  # of the logarithm of what an instrument does, to which its law is known
-_IMAGES = 2  # times twice the Nyquist wavenumber, on both sides
+_LARGEST_FOLDED_BLUR = 0.6  # up to which such waves are seen
+_BLUR_STEP = 3  # from one of these blurs to the next that is tried with such waves
+_KNOWN_WITHIN = 0.1  # of the logarithm of what an instrument does, to which its law is known
+_IMAGE_COUNT = 2  # times twice the Nyquist wavenumber, on both sides
 _DIRECTIONS = 12  # of waves, on a quarter of a circle
-_PLACES = 24  # between which images of shorter waves are interpolated
+_IMAGE_PLACES = 24  # between which images of shorter waves are interpolated
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,24 +56,24 @@ class Responses:
         Its lengths are in spacings. At wavenumbers u, and for surfaces of some exponents.
         """
         means, known = instrument.pixels == "means", instrument.blur is not None
-        tried = np.array([instrument.blur]) if known else _BLURS
-        sharp = tried[tried <= _FOLDS][::_EACH]
+        tried = np.array([instrument.blur]) if known else _TRIED_BLURS
+        sharp = tried[tried <= _LARGEST_FOLDED_BLUR][::_BLUR_STEP]
         noisy = sharp[: 1 if means else 3 : 2]
         blurs, reaches = np.array(
             [(blur, 1.0) for blur in tried]
             + [(blur, reach) for blur in sharp for reach in _REACHES]
-            + [(blur, math.inf) for blur in noisy for _ in _NOISES]
+            + [(blur, math.inf) for blur in noisy for _ in _TRIED_NOISES]
         ).T
         folded = np.zeros((blurs.size, hursts.size, u.size))
         places, images = _images(tuple(hursts), dimensions, means, tuple(sharp))
         for i, image in enumerate(images, tried.size):
             folded[i] = [np.interp(u, places, of_hurst) for of_hurst in image]
         exponents = -(2 * hursts + dimensions)[:, np.newaxis]
-        for i, crossing in enumerate(np.tile(_NOISES, noisy.size), len(images) + tried.size):
+        for i, crossing in enumerate(np.tile(_TRIED_NOISES, noisy.size), len(images) + tried.size):
             folded[i] = crossing**exponents
         blurred = np.maximum(-((math.pi * blurs[:, np.newaxis] * u) ** 2), _FAINTEST)
         effect = folded[:, hursts.size // 2] * np.minimum(u, 1.0) ** (1 + dimensions)  # at H = 0.5
-        unknown = (_KNOWN * ((not known) * np.abs(blurred) + np.log1p(effect))) ** 2
+        unknown = (_KNOWN_WITHIN * ((not known) * np.abs(blurred) + np.log1p(effect))) ** 2
         pixel = _pixel_means(u, dimensions) if means else 0.0
         second = (blurs > _AS_PIXELS) & (not known)
         return cls(blurs, reaches, blurred + pixel, folded, unknown, second)
@@ -83,11 +83,11 @@ class Responses:
 
         The surface's is given over (hurst, mean), and at the Nyquist wavenumber.
         """
-        kept = law + self.log_share[which][..., np.newaxis, :]
+        own = law + self.log_share[which][..., np.newaxis, :]
         folded = self.folded[:, nodes][which]
         if not folded.any():
-            return kept
-        return np.asarray(np.log(np.exp(kept) + np.exp(last)[:, np.newaxis] * folded))
+            return own
+        return np.asarray(np.log(np.exp(own) + np.exp(last)[:, np.newaxis] * folded))
 
 
 def _pixel_means(u: Real, dimensions: int) -> Real:
@@ -104,8 +104,8 @@ def _images(
     hursts: tuple[float, ...], dimensions: int, means: bool, blurs: tuple[float, ...]
 ) -> tuple[Real, Real]:
     """Folded power at some wavenumbers, over (blur and reach, hurst, wavenumber)."""
-    places = np.linspace(0, 1, _PLACES)
-    shifts = 2.0 * np.arange(-_IMAGES, _IMAGES + 1)
+    places = np.linspace(0, 1, _IMAGE_PLACES)
+    shifts = 2.0 * np.arange(-_IMAGE_COUNT, _IMAGE_COUNT + 1)
     if dimensions == 1:
         x = places[:, np.newaxis, np.newaxis] + shifts[shifts != 0]
         y = np.zeros(x.shape)
@@ -124,7 +124,7 @@ def _images(
         for reach in _REACHES
         for weight in [np.where(q <= reach, np.exp(-((math.pi * blur * q) ** 2)), 0.0)]
     ]
-    return places, np.array(folded).reshape(-1, len(hursts), _PLACES)
+    return places, np.array(folded).reshape(-1, len(hursts), _IMAGE_PLACES)
 
 
 def _angles() -> Real:

@@ -11,7 +11,7 @@ from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.spectra.departures import departures, judged
+from roughline.spectra.departures import checked_fit, departures
 from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.spectra.gaussian_heights import skewness_and_kurtosis
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropy
@@ -120,7 +120,7 @@ def roughness(body: Body) -> Roughness:
     remarks += [each.text for each in departures(body)]
     try:
         spectrum, law = fitted(body)
-        fit = judged(body, law)
+        fit = checked_fit(body, law)
         remarks += fit.objections
     except InputError as error:
         remarks.append(str(error))

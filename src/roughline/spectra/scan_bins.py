@@ -14,18 +14,18 @@ from roughline.computing.arrays import Indices, Real
 from roughline.spectra.law_search import IMPOSSIBLE, Corner, Ends, Law, Observed, power_law
 from roughline.spectra.leakage import LONG_WAVES, LONGER, map_leakage, scan_leakage
 from roughline.spectra.map_rings import modes_of_surface
-from roughline.spectra.means import LEAST_MEANS, Means
+from roughline.spectra.means import FEWEST_MEANS, Means
 from roughline.spectra.profile import ProfileSpectrum
 
-_NOTHING = 1e-300  # replaces a power of zero where logarithms are taken
-_LEAST_LEFT = 0.01  # of a scan's mean square
-_SAME = 1 + 1e-9  # ratio of equal wavenumbers, with rounding
-_TIMES_AS_LONG = 2  # as a scan, are the periodic lines that cuts are taken from
-_TABLED = 80  # wavenumbers of a drawn spectrum of cuts
-_CORRELATED = 35 / 18  # modes that vary together under a Hann window: 1 + 2 (4/9 + 1/36)
-_WITHIN = 8  # wavenumbers that a mean over a bin is of
-_BEYOND = np.array([1.25, 1.6, 2, 4, 8, 32])  # times the shortest wavenumber of a cut
-_DECAY = 3  # of C_2d within a bin, between those of H = 0 and H = 1: 2 and 4
+_POWER_FLOOR = 1e-300  # replaces a power of zero where logarithms are taken
+_SMALLEST_REST = 0.01  # of a scan's mean square
+_SAME_WAVENUMBER = 1 + 1e-9  # ratio of equal wavenumbers, with rounding
+_LINE_LENGTH = 2  # as a scan, are the periodic lines that cuts are taken from
+_TABLED_WAVES = 80  # wavenumbers of a drawn spectrum of cuts
+_CORRELATED_MODES = 35 / 18  # modes that vary together under a Hann window: 1 + 2 (4/9 + 1/36)
+_WAVES_PER_BIN = 8  # wavenumbers that a mean over a bin is of
+_SHORTER_WAVES = np.array([1.25, 1.6, 2, 4, 8, 32])  # times the shortest wavenumber of a cut
+_BIN_DECAY = 3  # of C_2d within a bin, between those of H = 0 and H = 1: 2 and 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,24 +50,24 @@ def _cuts_of_surface(edges: Real) -> _Cuts:
     waves are smeared by the ends of the cut and by the tilt that is removed. The edges are those of
     a :class:`ProfileSpectrum`. [q_low]
     """
-    ends = np.concatenate([LONGER, edges, edges[-1] * _BEYOND])
+    ends = np.concatenate([LONGER, edges, edges[-1] * _SHORTER_WAVES])
     low, high = ends[:-1], ends[1:]
     q = np.sqrt(low * high)
 
     def cut(at: Real) -> Real:
         at = at[:, np.newaxis]
-        return 2 * q**_DECAY * (_integral(at, high) - _integral(at, np.maximum(low, at)))
+        return 2 * q**_BIN_DECAY * (_integral(at, high) - _integral(at, np.maximum(low, at)))
 
     leakage = scan_leakage()
     matrix = [leakage.response @ cut(leakage.waves)]
-    shares = (np.arange(_WITHIN) + 0.5) / _WITHIN
+    shares = (np.arange(_WAVES_PER_BIN) + 0.5) / _WAVES_PER_BIN
     for first, last in pairwise(edges[leakage.response.shape[0] :]):
         matrix.append(cut(first + shares * (last - first)).mean(axis=0, keepdims=True))
     long = 2 * np.diff(leakage.edges)[:, np.newaxis] * cut(leakage.waves)
     # of waves beyond the longest modes, the mean and the tilt take nothing
-    whole = 2 * math.pi * q**_DECAY * (1 / low - 1 / high)
+    whole = 2 * math.pi * q**_BIN_DECAY * (1 / low - 1 / high)
     short = np.where(high > leakage.edges[-1], whole - long.sum(axis=0), 0.0)
-    return _Cuts(ends, q, np.concatenate(matrix), leakage.kept @ long + short)
+    return _Cuts(ends, q, np.concatenate(matrix), leakage.remaining @ long + short)
 
 
 def _integral(q: Real, end: Real) -> Real:
@@ -93,7 +93,7 @@ class ScanBins(Observed):
         q_low = 2 * math.pi / spectrum.length
         edges = spectrum.edges / q_low
         power = spectrum.C_profile * q_low
-        correlated = np.where(edges[:-1] < LONG_WAVES, 1.0, _CORRELATED)
+        correlated = np.where(edges[:-1] < LONG_WAVES, 1.0, _CORRELATED_MODES)
         means = Means.of(spectrum.q / q_low, power, spectrum.modes / correlated, windowed=True)
         nyquist = spectrum.length / (2 * spectrum.spacing)
         instrument = spectrum.instrument.in_units(spectrum.spacing)
@@ -113,7 +113,7 @@ class ScanBins(Observed):
     def ends(self) -> Ends:
         """Ends to try: those of the bins."""
         bins = self.means.q.size
-        last = np.arange(LEAST_MEANS // 2, bins + 1)
+        last = np.arange(FEWEST_MEANS // 2, bins + 1)
         last[-1] = bins - 1
         return Ends(
             at=np.append(self.edges[last[:-1] + 1], math.inf),
@@ -126,10 +126,10 @@ class ScanBins(Observed):
     def expected(self, hursts: Real, roll: float, corner: Corner, ends: Real) -> tuple[Real, Real]:
         """Logarithm of the expected powers, over (hurst, bin, end), and at Nyquist's wavenumber."""
         cuts = self.cuts
-        held = cuts.edges[1:, np.newaxis] <= ends * _SAME
+        held = cuts.edges[1:, np.newaxis] <= ends * _SAME_WAVENUMBER
         ended = (cuts.matrix.T[:, :, np.newaxis] * held[:, np.newaxis]).reshape(cuts.q.size, -1)
         sums = np.exp(power_law(cuts.q, hursts, roll, corner)) @ ended
-        law = np.log(np.maximum(sums, _NOTHING)).reshape(hursts.size, -1, ends.size)
+        law = np.log(np.maximum(sums, _POWER_FLOOR)).reshape(hursts.size, -1, ends.size)
         beyond = math.log(self.nyquist / self.means.q[-1])
         return law, law[:, -1, -1] - (2 * hursts + 1) * beyond
 
@@ -145,11 +145,13 @@ class ScanBins(Observed):
         """Mean squares of a surface as large as the scan, and of the scan, for a plateau of one."""
         cuts, last = self.cuts, min(law.end, float(self.edges[-1]))
         levels = np.exp(power_law(cuts.q, np.array([law.hurst]), law.roll, law.corner)[0])
-        levels[cuts.edges[1:] > last * _SAME] = 0.0
+        levels[cuts.edges[1:] > last * _SAME_WAVENUMBER] = 0.0
         own, seen = (np.exp(self.log_powers(law, seen=each)) for each in (False, True))
         piece = float(cuts.mean_square @ levels)
         more = float(self.modes @ (seen - own))
-        return float(modes_of_surface(cuts.edges) @ levels), max(piece + more, _LEAST_LEFT * piece)
+        return float(modes_of_surface(cuts.edges) @ levels), max(
+            piece + more, _SMALLEST_REST * piece
+        )
 
     def surfaces(self, count: int, generator: np.random.Generator) -> Iterator[Real]:
         """Draw spectra of surfaces that the scan may have been cut from.
@@ -173,19 +175,19 @@ class ScanBins(Observed):
         Heights are in the unit of the scan.
         """
         last = float(self.edges[-1])
-        waves = np.arange(1, _TIMES_AS_LONG * points // 2) / _TIMES_AS_LONG
-        q = np.geomspace(waves[0], last, _TABLED)
-        across = np.append(0.0, np.geomspace(waves[0] / 8, last, 2 * _TABLED))
+        waves = np.arange(1, _LINE_LENGTH * points // 2) / _LINE_LENGTH
+        q = np.geomspace(waves[0], last, _TABLED_WAVES)
+        across = np.append(0.0, np.geomspace(waves[0] / 8, last, 2 * _TABLED_WAVES))
         widths, waves_of_surface = np.gradient(across), np.hypot(q[:, np.newaxis], across)
-        modes = np.zeros(_TIMES_AS_LONG * points // 2 + 1, dtype=np.complex128)
+        modes = np.zeros(_LINE_LENGTH * points // 2 + 1, dtype=np.complex128)
         for drawn in self._drawn(count, generator):
             # Abel's integral, over the wavenumbers across the cut
             powers = 2 * np.exp(drawn.log_powers(waves_of_surface)) @ widths
-            logs = np.interp(np.log(waves), np.log(q), np.log(np.maximum(powers, _NOTHING)))
+            logs = np.interp(np.log(waves), np.log(q), np.log(np.maximum(powers, _POWER_FLOOR)))
             random = generator.standard_normal((2, waves.size))
-            amplitudes = np.exp(logs / 2) / math.sqrt(2 * _TIMES_AS_LONG)
+            amplitudes = np.exp(logs / 2) / math.sqrt(2 * _LINE_LENGTH)
             modes[1 : waves.size + 1] = amplitudes * (random[0] + 1j * random[1])
-            yield np.fft.irfft(modes, _TIMES_AS_LONG * points, norm="forward")[:points]
+            yield np.fft.irfft(modes, _LINE_LENGTH * points, norm="forward")[:points]
 
     def _drawn(self, count: int, generator: np.random.Generator) -> Iterator[_DrawnSpectrum]:
         """Draw spectra of the surface, as the instrument sees it, as :meth:`surfaces` says."""
@@ -219,7 +221,7 @@ class ScanBins(Observed):
         leakage = map_leakage()
         seen = leakage.edges[1:] < self.edges[-1]
         area = np.pi * np.diff(leakage.edges**2)
-        left = area * leakage.kept - modes_of_surface(leakage.edges)
+        left = area * leakage.remaining - modes_of_surface(leakage.edges)
         return leakage.waves[seen], left[seen]
 
 

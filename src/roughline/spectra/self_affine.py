@@ -32,8 +32,8 @@ from roughline.spectra.synthesis import (
 from roughline.topography.body import Line, Surface
 from roughline.topography.settings import Settings
 
-_SUMMED = 64  # waves along L from which on the lattice's sum is its integral
-_CLOSE = 0.05  # relative difference of the continuum from bodies up to which they count as equal
+_MOST_SUMMED = 64  # waves along L from which on the lattice's sum is its integral
+_CLOSE_TO_CONTINUUM = 0.05  # relative difference of bodies, up to which they count as equal
 
 
 @public
@@ -233,7 +233,7 @@ class SelfAffine:
     def difference_from_surfaces(self) -> str:
         """Say how the continuum differs from the surfaces generated; empty within 5 %."""
         factor = _sum_over_integral(self._band, 0, "surface")
-        if abs(factor - 1) <= _CLOSE:
+        if abs(factor - 1) <= _CLOSE_TO_CONTINUUM:
             return ""
         if self.normalisation == "rms_height":
             return f"{factor:.2f} times the C_2d"
@@ -247,7 +247,7 @@ class SelfAffine:
         self, name: str, factor: float, body: BodyName = "surface"
     ) -> ContinuumSpectrum:
         """Return the continuum, for an attribute; warn where it is `factor` times the bodies'."""
-        if abs(factor - 1) > _CLOSE:
+        if abs(factor - 1) > _CLOSE_TO_CONTINUUM:
             which = 'n, "line"' if body == "line" else "n"
             warnings.warn(
                 f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "
@@ -333,6 +333,6 @@ def _sum_over_integral(band: Band, order: int, body: BodyName) -> float:
     whole_number = band.moment(order)
     summed = LatticeSpectrum.of(band, 1.0, 2 * _SUMMED + 1, body)
     # half a wave further: each wavevector stands for the cell around it
-    edge = min(band.q_high, (_SUMMED + 0.5) * band.q_low)
+    edge = min(band.q_high, (_MOST_SUMMED + 0.5) * band.q_low)
     rest = replace(band, q_roll=min(band.q_roll, edge), q_high=edge).moment(order)
     return 1 + (summed.moment(order) - rest) / whole_number

@@ -24,10 +24,10 @@ Amplitudes = Literal["fixed", "gaussian"]
 Normalisation = Literal["rms_height", "C_0"]
 
 _AMPLITUDES = 0x616D706C  # spawn key of the amplitudes; no ensemble counts realisations so far
-_STEPS = 4096  # of a turn, from which phases are reached by a small rotation
-_TURN = np.exp(2j * np.pi * np.arange(_STEPS) / _STEPS)
+_TURN_STEPS = 4096  # of a turn, from which phases are reached by a small rotation
+_TURN = np.exp(2j * np.pi * np.arange(_TURN_STEPS) / _TURN_STEPS)
 _BYTES_PER_POINT = 40  # of a surface, while it is generated
-_LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
+_MOST_POINTS: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
 
 
 def refuse_points(n: int, body: BodyName) -> None:
@@ -68,7 +68,7 @@ def realisation(
         is_map = body == "surface"
         draws = _surface_draws(n, for_amplitudes) if is_map else for_amplitudes.random(moduli.size)
         moduli = moduli * np.sqrt(-np.log1p(-draws))
-    scale = 1.0 if normalisation == "C_0" else magnitude / _rms_of(moduli)
+    scale = 1.0 if normalisation == "C_0" else magnitude / _rms(moduli)
     heights = heights_of(moduli, for_phases, scale, n)
     return heights, {"n": int(n), "amplitudes": amplitudes, "seed": seed}
 
@@ -76,7 +76,7 @@ def realisation(
 def random_line(moduli: Real, rms_height: float, n: int, rng: Seed) -> Real:
     """Sum modes of given moduli, from m = 1 on, and random phases to a line of an rms height."""
     for_phases, _ = _generators(rng)
-    return _line_heights(moduli, for_phases, rms_height / _rms_of(moduli), n)
+    return _line_heights(moduli, for_phases, rms_height / _rms(moduli), n)
 
 
 def _surface_moduli(band: Band, C_0: float, n: int) -> Real:
@@ -141,7 +141,7 @@ def _surface_draws(n: int, rng: np.random.Generator) -> Real:
     return draws
 
 
-def _rms_of(amplitudes: Real) -> float:
+def _rms(amplitudes: Real) -> float:
     """Root-mean-square height of a line or a surface with modes of given moduli (Parseval)."""
     if amplitudes.ndim == 1:
         return float(np.sqrt(2 * np.einsum("i,i->", amplitudes, amplitudes)))

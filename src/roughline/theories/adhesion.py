@@ -24,7 +24,7 @@ from roughline.errors.public import public
 from roughline.spectra.moments import (
     SurfaceOrSpectrum,
     bands,
-    of_the_continuum,
+    continuum_note,
     refuse_no_roughness,
 )
 
@@ -146,7 +146,7 @@ def stickiness(
         _pastewka_robbins(slope, curvature, E_star / work_of_adhesion, range),
         _dalvi(energy / (work_of_adhesion * area)),
     )
-    remark = of_the_continuum(roughness)
+    remark = continuum_note(roughness)
     first, second, third = (replace(each, validity=each.validity + remark) for each in criteria)
     return Stickiness(energy, area, work_of_adhesion * area - energy, (first, second, third))
 

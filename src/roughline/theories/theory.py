@@ -21,7 +21,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.spectra.moments import (
     SurfaceOrSpectrum,
     bands,
-    of_the_continuum,
+    continuum_note,
     refuse_no_roughness,
 )
 from roughline.theories.bruggeman import bruggeman, check_threshold
@@ -114,7 +114,7 @@ def theory(
         )
     others = () if threshold is None else (threshold,)
     curve = THEORIES[name](felt(spectrum, elastic), elastic.E_star, pressures, *others)
-    remark = of_the_continuum(roughness) + on_layers(ratio)
+    remark = continuum_note(roughness) + on_layers(ratio)
     return replace(curve, validity=curve.validity + remark)
 
 

@@ -14,32 +14,32 @@ from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
 from roughline.units import in_words
 
-ALIKE = 0.7  # least over largest slope, from which on a surface counts as isotropic
+ISOTROPIC_FROM = 0.7  # least over largest slope, from which on a surface counts as isotropic
 
-_VARIES = 0.05  # relative scatter of rms slopes between places that matters
-_TILES = (2, 4, 8)  # along a side, whose slopes are compared
-_NONE = 1e-6  # of the largest mean square slope: none
-_LEAST_OF_TILE = 10  # independent squares of slopes in a tile
-_STRIPS = 24  # from side to side, of which the mean squares of slopes are compared
-_MOST = 0.9  # correlation of neighbouring strips
-_DRIFTS = 0.1  # logarithm of the ratio of rms slopes at both sides that matters
-_LEAST_POINTS = 16  # along a side, for slopes by direction
-_CORRELATED = 3.78  # modes that vary together under a Hann window: (35 / 18)²
+_LARGEST_SCATTER = 0.05  # of rms slopes between places, relative; more matters
+_TILES_ALONG = (2, 4, 8)  # along a side, whose slopes are compared
+_SLOPE_FLOOR = 1e-6  # of the largest mean square slope: none
+_FEWEST_IN_TILE = 10  # independent squares of slopes in a tile
+_STRIP_COUNT = 24  # from side to side, of which the mean squares of slopes are compared
+_LARGEST_CORRELATION = 0.9  # of neighbouring strips
+_LARGEST_DRIFT = 0.1  # logarithm of the ratio of rms slopes at both sides; more matters
+_FEWEST_POINTS = 16  # along a side, for slopes by direction
+_CORRELATED_MODES = 3.78  # modes that vary together under a Hann window: (35 / 18)²
 
 
-def of_places(selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
+def scatter_between_places(selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
     """Yield the scatter of rms slopes between parts of the body, on every scale."""
     for own in selves:
         squares = own.detail**2
-        independent = own.of_detail.independent(2)
-        for tiles in _TILES:
+        independent = own.detail_chance.independent(2)
+        for tiles in _TILES_ALONG:
             cells = min(squares.shape) // tiles
             if not cells:
                 continue
             means = _means(squares, cells)
             shape = independent * cells**squares.ndim / squares.size / 2
-            if shape >= _LEAST_OF_TILE / 2 and means.max() > 0:
-                yield _scatter(np.log(np.maximum(means, _NONE * means.max())), shape)
+            if shape >= _FEWEST_IN_TILE / 2 and means.max() > 0:
+                yield _scatter(np.log(np.maximum(means, _SLOPE_FLOOR * means.max())), shape)
 
 
 def _scatter(logs: Real, shape: float) -> Finding:
@@ -57,24 +57,24 @@ def _scatter(logs: Real, shape: float) -> Finding:
             f"{spread:.3g}, and chance explains {math.exp(math.sqrt(expected) / 2):.3g}"
         )
 
-    return Finding(score, varies / _VARIES, text)
+    return Finding(score, varies / _LARGEST_SCATTER, text)
 
 
-def of_sides(surface: Surface) -> Iterable[Finding]:
+def drift_along_sides(surface: Surface) -> Iterable[Finding]:
     """Yield the drift of rms slopes along both sides of a map, if it has points enough for it.
 
     Strips across a side each have a mean square of slopes. Neighbours may correlate, and count for
     fewer then. The strips need not be Gaussian, nor the map isotropic: their own scatter is the
     measure.
     """
-    if min(surface.shape) <= _STRIPS:
+    if min(surface.shape) <= _STRIP_COUNT:
         return
     heights, (dx, dy) = surface.detrended().heights, surface.spacing
     across = (np.diff(heights, axis=0) / dx)[:, :-1]
     along = (np.diff(heights, axis=1) / dy)[:-1]
     squares = across**2 + along**2
     for axis, name in enumerate("xy"):
-        means = np.array([each.mean() for each in np.array_split(squares, _STRIPS, axis=axis)])
+        means = np.array([each.mean() for each in np.array_split(squares, _STRIP_COUNT, axis=axis)])
         if means.min() > 0:
             yield _drift(name, np.log(means) / 2)
 
@@ -89,7 +89,7 @@ def _drift(along: str, logs: Real) -> Finding:
     square = float((rest**2).sum())
     # a line takes away from the correlation of what is left, about 2 / n
     correlation = float((rest[1:] * rest[:-1]).sum()) / square + 2 / n if square else 0.0
-    correlation = min(max(correlation, 0.0), _MOST)
+    correlation = min(max(correlation, 0.0), _LARGEST_CORRELATION)
     longer = (1 + correlation) / (1 - correlation)
     error, freedom = math.sqrt(square / (n - 2) * longer / spread), max(n / longer - 2, 1.0)
     ratio = abs(change) / error if error else math.inf
@@ -103,12 +103,12 @@ def _drift(along: str, logs: Real) -> Finding:
             "surface beyond is likely to differ as well"
         )
 
-    return Finding(score, abs(change) / _DRIFTS, text)
+    return Finding(score, abs(change) / _LARGEST_DRIFT, text)
 
 
-def of_directions(surface: Surface) -> Iterable[Finding]:
+def slopes_by_direction(surface: Surface) -> Iterable[Finding]:
     """Yield slopes by direction, of all waves and of those longer than some."""
-    if min(surface.shape) < _LEAST_POINTS:
+    if min(surface.shape) < _FEWEST_POINTS:
         return
     level = surface.detrended() if surface.is_cut_out else surface
     heights = level.heights - level.heights.mean()
@@ -124,7 +124,7 @@ def of_directions(surface: Surface) -> Iterable[Finding]:
     power *= q2
     power[:, 0] /= 2  # both halves of the plane are alike
     lowest, end = 1 / min(surface.sizes), 0.5 / max(surface.spacing)
-    together = _CORRELATED if surface.is_cut_out else 1.0
+    together = _CORRELATED_MODES if surface.is_cut_out else 1.0
     while end >= 4 * lowest:
         longer = (q2 >= lowest**2) & (q2 < end**2)
         weights = power[longer]
@@ -150,10 +150,10 @@ def _lay(lay: float, variance: float, wave: float, unit: str | None) -> Finding:
             f"{_ratio(lay):.2f} of the largest, and chance allows {_ratio(min(allowed, 1.0)):.2f}"
         )
 
-    return Finding(score, lay / _lay_of(ALIKE), text)
+    return Finding(score, lay / _lay_at(ISOTROPIC_FROM), text)
 
 
-def _lay_of(ratio: float) -> float:
+def _lay_at(ratio: float) -> float:
     return (1 - ratio**2) / (1 + ratio**2)
 
 
@@ -165,7 +165,7 @@ def _ratio(lay: float) -> float:
 def _means(values: Real, cells: int) -> Real:
     """Means over groups of so many cells along each side."""
     for axis, n in enumerate(values.shape):
-        whole = np.moveaxis(values, axis, 0)[: n - n % cells]
-        groups = whole.reshape(n // cells, cells, *whole.shape[1:]).mean(axis=1)
+        complete = np.moveaxis(values, axis, 0)[: n - n % cells]
+        groups = complete.reshape(n // cells, cells, *complete.shape[1:]).mean(axis=1)
         values = np.moveaxis(groups, 0, axis)
     return values
