@@ -13,7 +13,7 @@ def machine(tmp_path, monkeypatch):
     """A machine with 20 GB that are free, and no control groups yet."""
     free = SimpleNamespace(available=20e9)
     monkeypatch.setattr(memory.psutil, "virtual_memory", lambda: free)
-    monkeypatch.setattr(memory, "_OF_THIS_PROCESS", tmp_path / "cgroup")
+    monkeypatch.setattr(memory, "_PROCESS_GROUPS", tmp_path / "cgroup")
     monkeypatch.setattr(memory, "_GROUPS", tmp_path / "groups")
     return tmp_path
 

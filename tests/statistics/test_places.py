@@ -113,7 +113,7 @@ def test_places_that_differ_do_not_agree_and_it_is_known_how_far_they_differ():
     assert not found.holds
     assert found.between == pytest.approx(np.hypot(0.5, 0.1), rel=0.2)
     assert found.within == pytest.approx(0.1, rel=0.1)
-    assert found.of_places == pytest.approx(0.25 / 0.26, abs=0.02)
+    assert found.place_share == pytest.approx(0.25 / 0.26, abs=0.02)
 
 
 @pytest.mark.parametrize("shape", [(1, 4), (3, 1), (3, 4)])

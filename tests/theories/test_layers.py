@@ -9,7 +9,7 @@ from scipy import integrate
 import roughline as rl
 from roughline.exact.layers import BondedLayer
 from roughline.spectra.moments import bands
-from roughline.theories.layers import HOLDS_UP_TO, felt, stiffening
+from roughline.theories.layers import HOLDS_UP_TO, effective_roughness, stiffening
 from theories.test_theories import IN_OTHER_UNITS, SPECTRUM
 
 SLOPE = SPECTRUM.lattice(256).rms_slope
@@ -160,7 +160,7 @@ def test_persson_against_the_full_model_where_it_holds(base, poisson, share):
     layers = rl.Layered(1.0, poisson, share / spectrum.q_roll, base, 0.3, periodic=True)
     own = bands(surface)
     assert stiffening(own, layers) < HOLDS_UP_TO
-    waves = felt(own, layers)
+    waves = effective_roughness(own, layers)
     steepness = math.sqrt(float(waves.q**2 @ waves.power)) * layers.E_star
     p = steepness * np.array([0.02, 0.05, 0.1, 0.2, 0.4])
     curve = rl.press(surface, half_space=layers, forces=p, rtol=1e-4)
@@ -193,7 +193,7 @@ def test_theories_of_flow_on_layers_are_off_as_on_one_material(n, base, share, t
     solved, theories, gaps = np.zeros(3), np.zeros((2, 3)), np.zeros((2, 3))
     for seed in range(4):
         surface = spectrum.surface(n, seed)
-        waves = felt(bands(surface), layers)
+        waves = effective_roughness(bands(surface), layers)
         steepness = math.sqrt(float(waves.q**2 @ waves.power)) * layers.E_star
         p = steepness * np.array([0.01, 0.03, 0.06])
         curve = rl.press(surface, half_space=layers, forces=p, fields=True, rtol=1e-4)

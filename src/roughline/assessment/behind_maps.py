@@ -90,7 +90,7 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
         np.stack(areas),
         math.sqrt(area),
         float(first.curve.half_space.modulus(np.array([math.pi / math.sqrt(area)]))[0]),
-        1.0 if agree is None else agree.of_places,
+        1.0 if agree is None else agree.place_share,
     )
     why_unknown = "" if law is None else _longer_waves(same, law)
     if not why_unknown and not extrapolation.is_supported:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Literal
 if TYPE_CHECKING:
     import xarray
 
-_FULL = (errno.ENOSPC, errno.EFBIG, *([errno.EDQUOT] if hasattr(errno, "EDQUOT") else []))
-_BESIDE_DATA = 100_000  # of a file, for attributes and names [bytes]
+_DISK_FULL = (errno.ENOSPC, errno.EFBIG, *([errno.EDQUOT] if hasattr(errno, "EDQUOT") else []))
+_ATTRIBUTE_BYTES = 100_000  # of a file, for attributes and names [bytes]
 
 
 def write_dataset(
@@ -24,7 +24,7 @@ def write_dataset(
     with path.open("wb") as file:
         try:
             if hasattr(os, "posix_fallocate"):
-                os.posix_fallocate(file.fileno(), 0, data.nbytes + _BESIDE_DATA)
+                os.posix_fallocate(file.fileno(), 0, data.nbytes + _ATTRIBUTE_BYTES)
         except OSError as error:
             if is_full(error):  # others are of file systems that cannot do this
                 file.truncate(0)
@@ -39,9 +39,9 @@ def write_dataset(
 def is_full(error: BaseException | None) -> bool:
     """Whether an error, or one that it came from, is of a file that there is no room for."""
     while error is not None:
-        if isinstance(error, OSError) and error.errno in _FULL:
+        if isinstance(error, OSError) and error.errno in _DISK_FULL:
             return True
-        if any(os.strerror(number) in str(error) for number in _FULL):  # as HDF5 says it
+        if any(os.strerror(number) in str(error) for number in _DISK_FULL):  # as HDF5 says it
             return True
         error = error.__cause__ or error.__context__
     return False

@@ -17,11 +17,11 @@ from scipy import special
 from roughline.computing.arrays import Real
 from roughline.computing.panels import on_panels
 
-_LONGEST = 22.0  # q times h, from which on exp(-2 q h) and a few powers of q h are below rounding
-_SHORTEST = 1e-7  # q times the longest length, below which a function no longer changes
-_IN_TURN = 10.0  # radians of J_0 that one panel holds at most
-_FAR = 40.0  # times the longest length, from which on the integral is turned: exp(-40) is left out
-_OF_K0 = np.polynomial.legendre.leggauss(80)
+_LARGEST_QH = 22.0  # from which on exp(-2 q h) and a few powers of q h are below rounding
+_SMALLEST_QL = 1e-7  # q times the longest length, below which a function no longer changes
+_PANEL_RADIANS = 10.0  # radians of J_0 that one panel holds at most
+_TURNED_FROM = 40.0  # times the longest length: exp(-40) is left out
+_K0_PANEL = np.polynomial.legendre.leggauss(80)
 
 
 def hankel(transform: Callable[[Real], Real], r: Real, length: float, longest: float) -> Real:
@@ -43,7 +43,7 @@ def hankel(transform: Callable[[Real], Real], r: Real, length: float, longest: f
     ndarray, shape (n,)
         The integrals.
     """
-    if r.min() > _FAR * longest:
+    if r.min() > _TURNED_FROM * longest:
         return _turned(transform, r)
     return _along_the_axis(transform, r, length, longest)
 
@@ -52,8 +52,8 @@ def _along_the_axis(
     transform: Callable[[Real], Real], r: Real, length: float, longest: float
 ) -> Real:
     """Integrate over panels, each twice as long as the one before, up to a turn or so of J_0."""
-    most, step = _LONGEST / length, _IN_TURN / float(r.max())
-    first = _SHORTEST / longest
+    most, step = _LARGEST_QH / length, _PANEL_RADIANS / float(r.max())
+    first = _SMALLEST_QL / longest
     growing = first * 2.0 ** np.arange(math.ceil(math.log2(max(min(step, most) / first, 2.0))))
     edges = np.concatenate([[0.0], growing, np.arange(growing[-1] + step, most + step, step)])
     q, weights = on_panels(edges)
@@ -66,8 +66,8 @@ def _turned(transform: Callable[[Real], Real], r: Real) -> Real:
 
     With t r = u^6, the logarithm of K_0 is no hindrance.
     """
-    nodes, weights = _OF_K0
-    end = _FAR ** (1 / 6)
+    nodes, weights = _K0_PANEL
+    end = _TURNED_FROM ** (1 / 6)
     u = end * (1 + nodes) / 2
     t, shares = u**6, end * weights * 6 * u**5 * special.k0(u**6) / math.pi
     return np.array([shares @ transform(1j * t / each).real / each for each in r])

@@ -12,8 +12,8 @@ import psutil
 
 from roughline.errors import InputError
 
-_USABLE = 0.95  # of the memory that is free
-_OF_THIS_PROCESS = Path("/proc/self/cgroup")  # its control groups, where Linux has them
+_USABLE_SHARE = 0.95  # of the memory that is free
+_PROCESS_GROUPS = Path("/proc/self/cgroup")  # its control groups, where Linux has them
 _GROUPS = Path("/sys/fs/cgroup")
 _NAMES = {
     "v1": ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
@@ -56,7 +56,7 @@ def fits_into_memory(needed: int) -> bool:
     usable = free_memory()
     if _limit is not None:
         usable = min(usable, _limit.most - _held())
-    return needed <= _USABLE * usable
+    return needed <= _USABLE_SHARE * usable
 
 
 def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
@@ -65,7 +65,7 @@ def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
         return
     if _limit is None:
         found = f"and {free_memory() / 1e9:.3g} GB is free"
-    elif needed > _USABLE * _limit.memory:
+    elif needed > _USABLE_SHARE * _limit.memory:
         found = f"more than one computation may have here, {_limit.memory / 1e9:.3g} GB"
     else:
         found = "more than is free here just now"
@@ -92,7 +92,7 @@ def _groups() -> Iterator[tuple[str, Path]]:
     """Folders of the control groups that this process is in, from its own to the root."""
     lines: list[str] = []
     with suppress(OSError):  # not on Linux
-        lines = _OF_THIS_PROCESS.read_text().splitlines()
+        lines = _PROCESS_GROUPS.read_text().splitlines()
     for line in lines:
         number, controllers, path = line.split(":", 2)
         inner = Path(path.lstrip("/"))

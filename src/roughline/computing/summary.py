@@ -8,7 +8,7 @@ from typing import Any
 import attrs
 import numpy as np
 
-_LONGEST = 40  # letters of a part that is written as it is
+_LONGEST_PART = 40  # letters of a part that is written as it is
 
 
 def summary(value: Any) -> str:
@@ -29,6 +29,6 @@ def _part(value: Any) -> str:
     if dataclasses.is_dataclass(value) or attrs.has(type(value)):
         return f"<{type(value).__name__}>"
     text = repr(value)
-    if len(text) <= _LONGEST:
+    if len(text) <= _LONGEST_PART:
         return text
-    return f"{text[:_LONGEST]}…" if isinstance(value, str) else f"<{len(value)} entries>"
+    return f"{text[:_LONGEST_PART]}…" if isinstance(value, str) else f"<{len(value)} entries>"

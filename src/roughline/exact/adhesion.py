@@ -23,7 +23,7 @@ from roughline.exact import westergaard
 from roughline.exact._checks import Real, positive
 
 _SMALLEST_ZONE, _LARGEST_REACH = 1e-7, 1e4  # c / a - 1 between which states are sought
-_TRIALS = 400  # ratios c / a between which the least force is narrowed down
+_TRIED_RATIOS = 400  # of c / a, between which the least force is narrowed down
 
 
 def bradley_pull_off(radius_of_curvature: float, work_of_adhesion: float) -> float:
@@ -145,21 +145,21 @@ class MaugisSphere:
 
     def radius(self, reach_ratio: float) -> float:
         """Contact radius a where the reach is m times as wide, the root of eq. 6.8. [length]"""
-        mu, angle = _of_ratio(reach_ratio)
+        mu, angle = _reach_terms(reach_ratio)
         square = self.transition / 2 * (mu + (reach_ratio**2 - 2) * angle)
         linear = 4 / 3 * self.transition**2 * (mu * angle - reach_ratio + 1)
         return 2 / (linear + sqrt(linear**2 + 4 * square)) * self.unit_of_radii
 
     def force(self, reach_ratio: float) -> float:
         """Force, eq. 6.10. [force]"""
-        mu, angle = _of_ratio(reach_ratio)
+        mu, angle = _reach_terms(reach_ratio)
         a = self.radius(reach_ratio) / self.unit_of_radii
         found = a**3 - self.transition * a**2 * (mu + reach_ratio**2 * angle)
         return float(found * pi * self.work_of_adhesion * self.radius_of_curvature)
 
     def depth(self, reach_ratio: float) -> float:
         """Depth, eq. 6.12. [length]"""
-        mu, _ = _of_ratio(reach_ratio)
+        mu, _ = _reach_terms(reach_ratio)
         a = self.radius(reach_ratio) / self.unit_of_radii
         unit = self.unit_of_radii**2 / self.radius_of_curvature
         return float((a**2 - 4 / 3 * a * self.transition * mu) * unit)
@@ -168,9 +168,9 @@ class MaugisSphere:
         """Ratio m at which the force is least."""
         from scipy.optimize import minimize_scalar  # here because it loads slowly
 
-        ratios = 1 + np.geomspace(_SMALLEST_ZONE, _LARGEST_REACH, _TRIALS)
+        ratios = 1 + np.geomspace(_SMALLEST_ZONE, _LARGEST_REACH, _TRIED_RATIOS)
         least = int(np.argmin([self.force(m) for m in ratios]))
-        ends = ratios[max(least - 1, 0)], ratios[min(least + 1, _TRIALS - 1)]
+        ends = ratios[max(least - 1, 0)], ratios[min(least + 1, _TRIED_RATIOS - 1)]
         return float(
             minimize_scalar(
                 self.force, bounds=ends, method="bounded", options={"xatol": 1e-9 * ends[1]}
@@ -192,7 +192,7 @@ class MaugisSphere:
         """
         from scipy.optimize import brentq  # here because it loads slowly
 
-        ratios = 1 + np.geomspace(_SMALLEST_ZONE, _LARGEST_REACH, 4 * _TRIALS)
+        ratios = 1 + np.geomspace(_SMALLEST_ZONE, _LARGEST_REACH, 4 * _TRIED_RATIOS)
         depths = np.array([self.depth(m) for m in ratios])
         lowest = int(depths.argmin())
         if not depths[lowest] <= depth <= depths[0]:
@@ -202,7 +202,7 @@ class MaugisSphere:
         return float(brentq(lambda m: self.depth(m) - depth, ratios[0], ratios[lowest]))
 
 
-def _of_ratio(reach_ratio: float) -> tuple[float, float]:
+def _reach_terms(reach_ratio: float) -> tuple[float, float]:
     """Return sqrt(m² - 1) and its arc tangent."""
     if not 1 < reach_ratio < inf:
         raise ValueError(f"reach_ratio is {reach_ratio}; a finite number above 1 is needed")

@@ -24,8 +24,8 @@ from numpy.typing import ArrayLike
 from roughline.exact import mdr
 from roughline.exact._checks import Real, positive
 
-_TRIALS = 200  # radii among which the states of a branch are looked for
-_SMALLEST = 1e-6  # of them, over the largest
+_TRIED_RADII = 200  # among which the states of a branch are looked for
+_SMALLEST_RADIUS = 1e-6  # of them, over the largest
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ class StickingBody:
         return self._radius_where(self.depth, depth, "depth")
 
     def _radii(self) -> Real:
-        return self.largest_radius * np.geomspace(_SMALLEST, 1, _TRIALS)
+        return self.largest_radius * np.geomspace(_SMALLEST_RADIUS, 1, _TRIED_RADII)
 
     def _radius_of_least(self, quantity: Callable[[ArrayLike], Real]) -> float:
         """Contact radius at which a quantity is least."""
@@ -125,7 +125,7 @@ class StickingBody:
 
         radii = self._radii()
         least = int(quantity(radii).argmin())
-        ends = radii[max(least - 1, 0)], radii[min(least + 1, _TRIALS - 1)]
+        ends = radii[max(least - 1, 0)], radii[min(least + 1, _TRIED_RADII - 1)]
         tolerance = 1e-9 * ends[1]
         found = minimize_scalar(
             quantity, bounds=ends, method="bounded", options={"xatol": tolerance}

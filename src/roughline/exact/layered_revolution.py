@@ -27,8 +27,9 @@ import numpy as np
 from roughline.exact._checks import Real, positive
 from roughline.exact.layers import BondedLayer
 
-_NODES, _IN_RADIUS = 64, 5  # of the springs; and so many more for each thickness in the radius
-_PANELS, _IN_PANEL, _LONGEST = 200, 8, 24.0  # of the waves, and their largest wavenumber times h
+_FEWEST_SPRINGS, _SPRINGS_PER_THICKNESS = 64, 5  # more for each thickness in the radius
+_PANEL_COUNT, _NODES_PER_PANEL = 200, 8  # of the waves
+_LARGEST_WAVENUMBER = 24.0  # times h
 
 
 @dataclass(frozen=True)
@@ -61,16 +62,16 @@ class LayeredContact:
 
     def _solved(self, line: Callable[[Real], Real]) -> tuple[Real, Real]:
         """Return forces over a of springs displaced by a line, at the edge and in total."""
-        count = _NODES + int(_IN_RADIUS * self.radius / self.layer.thickness)
+        count = _FEWEST_SPRINGS + int(_SPRINGS_PER_THICKNESS * self.radius / self.layer.thickness)
         nodes, weights = np.polynomial.legendre.leggauss(count)
         x, w = self.radius * (1 + nodes) / 2, self.radius * weights / 2
         both = np.append(x, self.radius)
         edges = (
-            np.concatenate([[0.0], np.geomspace(1e-8, _LONGEST, _PANELS + 1)])
+            np.concatenate([[0.0], np.geomspace(1e-8, _LARGEST_WAVENUMBER, _PANEL_COUNT + 1)])
             / self.layer.thickness
         )
         edges = np.union1d(edges, np.arange(0, edges[-1], pi / self.radius))
-        points, shares = np.polynomial.legendre.leggauss(_IN_PANEL)
+        points, shares = np.polynomial.legendre.leggauss(_NODES_PER_PANEL)
         half = np.diff(edges)[:, np.newaxis] / 2
         q = (edges[:-1, np.newaxis] + half * (1 + points)).ravel()
         beside = (half * shares).ravel() * (self.E_star * q / 2 * self.layer.compliance(q) - 1)

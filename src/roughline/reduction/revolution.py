@@ -17,10 +17,10 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 
-_SMALLEST = 1e-7  # of the radii between which edges are looked for, over the largest
-_NARROW, _WIDE = 400, 2000  # of these radii, so many evenly in their logarithm, and so many evenly
-_BLOCK = 10**6  # integrals computed at a time
-_FALL = 1e-6  # by which a line that rises may seem to fall, over its largest
+_SMALLEST_RADIUS = 1e-7  # of the radii between which edges are looked for, over the largest
+_LOGARITHMIC_RADII, _EVEN_RADII = 400, 2000  # of these, evenly in their logarithm, and evenly
+_BLOCK_INTEGRALS = 10**6  # integrals computed at a time
+_PROFILE_ROUNDING = 1e-6  # by which a line that rises may seem to fall, over its largest
 
 _DEPTH, _FORCE = 0, 1  # in the order of loads at rest
 _Control = Literal["depths", "forces"]
@@ -56,7 +56,7 @@ class Revolution:
 
     def line(self, a: Real) -> tuple[Real, Real]:
         """The line g and its integral G, exact for the slopes of the profile."""
-        rows = max(1, _BLOCK // self.radii.size)
+        rows = max(1, _BLOCK_INTEGRALS // self.radii.size)
         parts = [self._line(a[i : i + rows]) for i in range(0, a.size, rows)]
         g, G = np.concatenate(parts, axis=1)
         return g, G
@@ -100,8 +100,8 @@ class Revolution:
     def _lines(self) -> tuple[Real, Real, Real]:
         """Radii between which edges are looked for, and the line and its integral there."""
         most = self.radii[-1]
-        narrow = most * np.geomspace(_SMALLEST, 1, _NARROW)
-        a = np.union1d(narrow[:-1], most * np.linspace(0, 1, _WIDE + 1)[1:])
+        narrow = most * np.geomspace(_SMALLEST_RADIUS, 1, _LOGARITHMIC_RADII)
+        a = np.union1d(narrow[:-1], most * np.linspace(0, 1, _EVEN_RADII + 1)[1:])
         return a, *self.line(a)
 
     @cached_property
@@ -129,7 +129,7 @@ class Revolution:
     def falls_at(self) -> float | None:
         """Radius from which the line falls, so that the contact may be no disc. [length]"""
         a, g, _ = self._lines
-        wrong = np.maximum.accumulate(np.maximum(g, 0.0)) - g > _FALL * np.abs(g).max()
+        wrong = np.maximum.accumulate(np.maximum(g, 0.0)) - g > _PROFILE_ROUNDING * np.abs(g).max()
         return float(a[wrong.argmax()]) if wrong.any() else None
 
     def moved(self, control: _Control, start: float, value: float) -> Moved:
@@ -225,13 +225,13 @@ class Revolution:
         """Radius at which the edge rests under a load, between two others."""
         from scipy.optimize import brentq  # here because it loads slowly
 
-        def beyond(radius: float) -> float:
+        def excess(radius: float) -> float:
             return self._load_at(radius, which) - value
 
-        if beyond(low) * beyond(high) >= 0:  # one of them, but for rounding
-            return min(low, high, key=lambda radius: abs(beyond(radius)))
+        if excess(low) * excess(high) >= 0:  # one of them, but for rounding
+            return min(low, high, key=lambda radius: abs(excess(radius)))
         precise = 4 * np.finfo(float).eps
-        return float(brentq(beyond, low, high, xtol=precise * high, rtol=precise))
+        return float(brentq(excess, low, high, xtol=precise * high, rtol=precise))
 
     def _least(self, which: int, way: Real, near: int) -> float:
         """Radius at which a load is least, by radii along a way of which one is near it."""

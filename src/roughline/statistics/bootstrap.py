@@ -25,8 +25,8 @@ _Statistic = Callable[[Real], tuple[Real, Real]]
 """Takes means, shape (..., loads); returns values, shape (...), and gradients, (..., loads)."""
 
 ROUNDS = 1999  # number of resamples
-_LEAST_FREEDOM = 5.0  # with fewer degrees of freedom too many resamples are alike
-_ROUNDING = 1e-12  # relative errors below this are rounding: the realisations are all alike
+_FEWEST_FREEDOM = 5.0  # with fewer degrees of freedom too many resamples are alike
+_ERROR_ROUNDING = 1e-12  # relative: the realisations are all the same
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class Resampled:
         from scipy.special import stdtrit  # here because it loads slowly
 
         known = np.isfinite(self.value) & np.isfinite(self.error)
-        varied = known & (self.error > _ROUNDING * np.abs(self.value))
+        varied = known & (self.error > _ERROR_ROUNDING * np.abs(self.value))
         with np.errstate(divide="ignore", invalid="ignore"):
             steps = np.where(varied, (self.values - self.value) / self.errors, 0.0)
         tails = np.array([(1 + confidence) / 2, (1 - confidence) / 2])
@@ -115,7 +115,7 @@ class Resampled:
         resampled = np.nanquantile(steps, tails, axis=0, method="nearest")
         student = np.array([stdtrit(self.freedom, tail) for tail in tails])
         farther = np.maximum(resampled[0], student[0]), np.minimum(resampled[1], student[1])
-        quantiles = np.where(self.freedom < _LEAST_FREEDOM, student, np.array(farther))
+        quantiles = np.where(self.freedom < _FEWEST_FREEDOM, student, np.array(farther))
         width = np.where(varied, quantiles, 0.0) * self.error
         return np.where(known, self.value - width, np.nan)
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 
-_ROUNDING = 1e-9  # relative scatter below which values are the same
-_AGREED = 0.99  # of places that are alike
+_SCATTER_ROUNDING = 1e-9  # relative scatter below which values are the same
+_AGREEMENT_CHANCE = 0.99  # of places that are alike
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +39,7 @@ def average_of_places(
     values: Real,
     low: Real,
     high: Real,
-    whole: tuple[Real, Real] | None = None,
+    at_bounds: tuple[Real, Real] | None = None,
     confidence: float = 0.95,
 ) -> _PlaceAverage:
     """Average a positive quantity over a few places, chosen at random, of many.
@@ -52,12 +52,12 @@ def average_of_places(
     whose bounds are known alone; they are added.
 
     Values, shape (places, loads), are not negative, and NaN where there is none. Their own ends
-    count as no width where they are NaN. `whole` holds what they would become at both bounds, if
+    count as no width where they are NaN. `at_bounds` holds what they would become at both, if
     the whole differed from the mean as much; NaN counts as no difference.
     """
     from scipy.special import stdtrit  # here because it loads slowly
 
-    whole = whole or (values, values)
+    at_bounds = at_bounds or (values, values)
     known = np.isfinite(values) & (values > 0)
     count = np.count_nonzero(known, axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -66,21 +66,21 @@ def average_of_places(
         centre = np.where((count > 0) & ~extreme, logs.sum(axis=0) / count, np.nan)
         squares = np.where(known, (logs - centre) ** 2, 0.0).sum(axis=0)
         deviation = np.where(count > 1, np.sqrt(squares / (count - 1)), np.nan)
-        deviation = np.where(deviation < _ROUNDING, 0.0, deviation)
+        deviation = np.where(deviation < _SCATTER_ROUNDING, 0.0, deviation)
         student = stdtrit(np.maximum(count - 1, 1), (1 + confidence) / 2)
-        of_places = student * deviation / np.sqrt(count)
+        mean_error = student * deviation / np.sqrt(count)
         halves = [
-            np.hypot(of_places, _median_distance(np.abs(np.log(values / ends)), known))
+            np.hypot(mean_error, _median_distance(np.abs(np.log(values / ends)), known))
             + _median_distance(np.abs(np.log(values / bounds)), known)
-            for ends, bounds in zip((low, high), whole, strict=True)
+            for ends, bounds in zip((low, high), at_bounds, strict=True)
         ]
         is_open = np.fmax(*halves) > 0
         ends = [
             np.where(is_open, np.exp(centre + sign * half), np.nan)
             for sign, half in zip((-1, 1), halves, strict=True)
         ]
-    alike = (values == values[:1]).all(axis=0) & extreme
-    mean = np.where(alike, values[0], np.exp(centre))
+    all_equal = (values == values[:1]).all(axis=0) & extreme
+    mean = np.where(all_equal, values[0], np.exp(centre))
     return _PlaceAverage(mean, np.exp(deviation), ends[0], ends[1], count)
 
 
@@ -101,7 +101,7 @@ class Agreement:
     chance: float  # ratio that it does not exceed in 99 of 100 cases if all places are alike
 
     @property
-    def of_places(self) -> float:
+    def place_share(self) -> float:
         """Share of the variance between places that is not explained by their parts."""
         return max(0.0, 1 - 1 / self.ratio) if self.ratio > 0 else 0.0
 
@@ -129,5 +129,5 @@ def agreement(values: Real) -> Agreement | None:
     within = float(values.var(axis=1, ddof=1).mean()) / parts
     if not within > 0:
         return None
-    chance = float(fdtri(places - 1, places * (parts - 1), _AGREED))
+    chance = float(fdtri(places - 1, places * (parts - 1), _AGREEMENT_CHANCE))
     return Agreement(between**0.5, within**0.5, between / within, chance)

@@ -11,8 +11,8 @@ from itertools import groupby
 Range = tuple[float, float]
 """Smallest and largest number that a statement allows."""
 
-_NAMED = 6  # cases of the commonest verdict up to which they are named
-_COUNTLESS = 100_000  # realisations above which the mean lies on the border of the range
+_MOST_NAMED = 6  # cases of the commonest verdict
+_MOST_REALISATIONS = 100_000  # above which the mean lies on the border of the range
 
 
 class Verdict(StrEnum):
@@ -108,16 +108,16 @@ def in_words(cases: Sequence[Case]) -> str:
 
     Cases of the commonest verdict are not named if they are many.
     """
-    judged = sum(each.verdict is not None for each in cases)
+    decided = sum(each.verdict is not None for each in cases)
     words: list[str] = []
     for each in (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.CONFIRMED, None):
         parts = [case for case in cases if case.verdict is each]
         if not parts:
             continue
         where = f" {places(case.where for case in parts)}"
-        if each and len(parts) == judged:
+        if each and len(parts) == decided:
             where = ""
-        elif each and len(parts) > max(_NAMED, judged / 2):
+        elif each and len(parts) > max(_MOST_NAMED, decided / 2):
             where = " elsewhere" if words else ""
         words.append(f"{each or 'not judged'}{where}{_what_would_decide(parts)}")
     return "; ".join(words)
@@ -142,7 +142,7 @@ def _what_would_decide(cases: Sequence[Case]) -> str:
 
 def about(count: float) -> str:
     """Write a number of realisations to two digits, as it is known no better."""
-    if count > _COUNTLESS:
-        return f"over {_COUNTLESS:,}"
+    if count > _MOST_REALISATIONS:
+        return f"over {_MOST_REALISATIONS:,}"
     digits = 1 - math.floor(math.log10(count))
     return f"some {math.ceil(round(count, digits)):,}"

@@ -27,15 +27,15 @@ from roughline.theories.interfacial_separation import separation
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
 
-_TWO_DIMENSIONS = 0.5  # share of contact at which the medium seals, 1 - 1 / d, for d = 2
+_SEALING_SHARE = 0.5  # share of contact at which the medium seals, 1 - 1 / d, for d = 2
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)  # over the shares without contact
 
-_NARROWEST = 1e-300  # conductance over the largest, below which a place counts as contact
-_ROUNDING = 1e-14  # of a sum of shares
+_SMALLEST_CONDUCTANCE = 1e-300  # over the largest, below which a place counts as contact
+_SHARE_ROUNDING = 1e-14  # of a sum of shares
 
 
 def bruggeman(
-    spectrum: Bands, E_star: float, pressure: Real, threshold: float = _TWO_DIMENSIONS
+    spectrum: Bands, E_star: float, pressure: Real, threshold: float = _SEALING_SHARE
 ) -> TheoryCurve:
     """Flow through the effective medium of the separations that Persson's theory gives.
 
@@ -61,7 +61,7 @@ def bruggeman(
 
 
 @public
-def effective_medium(gap: ArrayLike, threshold: float = _TWO_DIMENSIONS) -> float:
+def effective_medium(gap: ArrayLike, threshold: float = _SEALING_SHARE) -> float:
     """Hydraulic aperture of a gap in Bruggeman's effective medium, which asks how wide, not where.
 
     The conductance sigma = u³ of the medium solves
@@ -123,10 +123,10 @@ def _effective_gap(gaps: Real, shares: Real, threshold: float) -> float:
     if widest == 0:
         return 0.0
     conductance = (gaps / widest) ** 3
-    is_open = conductance > _NARROWEST
+    is_open = conductance > _SMALLEST_CONDUCTANCE
     conductance, shares = conductance[is_open], shares[is_open]
     excess = float(shares.sum()) - (1 - threshold)
-    if excess <= _ROUNDING:
+    if excess <= _SHARE_ROUNDING:
         return 0.0
     odds = threshold / (1 - threshold)  # d - 1
     lowest = excess / (odds * float((shares / conductance).sum()))

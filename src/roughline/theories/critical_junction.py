@@ -20,11 +20,11 @@ from roughline.theories.interfacial_separation import separation
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
 
-_PERCOLATION = 0.42  # share of contact of isotropic elastic surfaces, where no channel is left [2]
+_PERCOLATION_SHARE = 0.42  # of contact of isotropic elastic surfaces: no channel is left [2]
 
 
 def critical_junction(
-    spectrum: Bands, E_star: float, pressure: Real, threshold: float = _PERCOLATION
+    spectrum: Bands, E_star: float, pressure: Real, threshold: float = _PERCOLATION_SHARE
 ) -> TheoryCurve:
     """Flow through one square constriction, of the gap u_c that the critical magnification shows.
 

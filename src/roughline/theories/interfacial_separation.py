@@ -21,7 +21,7 @@ from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.spectra.moments import Bands
-from roughline.theories.persson import energy_beyond, energy_density, stress_nodes
+from roughline.theories.persson import energy_density, energy_tail, stress_nodes
 
 
 def separation(spectrum: Bands, E_star: float, pressure: float, share: Real) -> Real:
@@ -43,9 +43,9 @@ def separation(spectrum: Bands, E_star: float, pressure: float, share: Real) -> 
         t, P = p / x, p / A
         with np.errstate(divide="ignore"):  # the bands of the waves that are seen have tau = 0
             ends, tau, weight = stress_nodes(spectrum, seen=t**2)
-            u_and_fall = (weight * (energy_beyond(P / tau) + energy_density(P / tau))).sum()
-            beyond = ends > 0
-            of_waves = (energy_beyond(P / ends) * steps)[beyond] / (2 * ends[beyond])
+            u_and_fall = (weight * (energy_tail(P / tau) + energy_density(P / tau))).sum()
+            is_shorter = ends > 0
+            of_waves = (energy_tail(P / ends) * steps)[is_shorter] / (2 * ends[is_shorter])
         for_loss = math.exp(x**2) * t**2 / x  # t² rises by so much over sqrt(pi) as A is lost
         found[i] = u_and_fall + 2 * A * for_loss * of_waves.sum()
     return found

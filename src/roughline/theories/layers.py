@@ -28,23 +28,23 @@ from roughline.spectra.moments import Bands
 HOLDS_UP_TO = 1.1
 """Stiffening up to which the theory was found as accurate as of a homogeneous body."""
 
-_ROUNDING = 1e-9
+_STIFFENING_ROUNDING = 1e-9
 
 
-def felt(spectrum: Bands, half_space: HalfSpace) -> Bands:
+def effective_roughness(spectrum: Bands, half_space: HalfSpace) -> Bands:
     """The roughness that a homogeneous half-space of E* would have to feel to respond alike."""
     return replace(spectrum, q=spectrum.q * (half_space.modulus(spectrum.q) / half_space.E_star))
 
 
 def stiffening(spectrum: Bands, half_space: HalfSpace) -> float:
     """Energy of full contact with a half-space over that with what lies at its surface. [1]"""
-    waves = felt(spectrum, half_space)
+    waves = effective_roughness(spectrum, half_space)
     return float(waves.q @ waves.power) / float(spectrum.q @ spectrum.power)
 
 
 def is_even(ratio: float) -> bool:
     """Whether a stiffening is none, as of layers that are of one material or thick."""
-    return abs(ratio - 1) < _ROUNDING
+    return abs(ratio - 1) < _STIFFENING_ROUNDING
 
 
 def on_layers(ratio: float) -> str:

@@ -21,9 +21,9 @@ from roughline.spectra.moments import Bands
 from roughline.theories.theory_curve import TheoryCurve
 
 KAPPA = math.sqrt(8 / math.pi)  # contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)
-_GAMMA = 0.45  # share of the elastic energy of full contact, Yang and Persson
+_ENERGY_SHARE = 0.45  # share of the elastic energy of full contact, Yang and Persson
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # within a band
-_SMALLEST, _LARGEST, _STEPS = 1e-4, 6.0, 20_000  # of the table of the energy integral
+_LOWEST_X, _HIGHEST_X, _TABLE_STEPS = 1e-4, 6.0, 20_000  # of the table of the energy integral
 
 
 def persson(spectrum: Bands, E_star: float, pressure: Real) -> TheoryCurve:
@@ -31,7 +31,7 @@ def persson(spectrum: Bands, E_star: float, pressure: Real) -> TheoryCurve:
     ends, t, weight = stress_nodes(spectrum)
     gap, compliance = np.empty((2, pressure.size))
     for i, p in enumerate(pressure / E_star):
-        gap[i] = float((weight * energy_beyond(p / t)).sum())
+        gap[i] = float((weight * energy_tail(p / t)).sum())
         compliance[i] = float((weight * energy_density(p / t)).sum()) / p
     with np.errstate(divide="ignore"):
         stiffness = E_star / compliance
@@ -63,21 +63,21 @@ def stress_nodes(spectrum: Bands, seen: float = 0.0) -> tuple[Real, Real, Real]:
 
 def energy_density(x: Real) -> Real:
     """Share of elastic energy [gamma + 3 (1 - gamma) P²] exp(-x²), P = erf(x), x = p / t."""
-    return (_GAMMA + 3 * (1 - _GAMMA) * special.erf(x) ** 2) * np.exp(-(x**2))
+    return (_ENERGY_SHARE + 3 * (1 - _ENERGY_SHARE) * special.erf(x) ** 2) * np.exp(-(x**2))
 
 
-def energy_beyond(x: Real) -> Real:
+def energy_tail(x: Real) -> Real:
     """Integrate :func:`energy_density` over x, divided by x, from x to infinity."""
     log_x, table = _energy_table()
     return np.interp(np.log(x), log_x, table, right=0.0) + np.where(
-        x < math.exp(log_x[0]), _GAMMA * (log_x[0] - np.log(x)), 0.0
+        x < math.exp(log_x[0]), _ENERGY_SHARE * (log_x[0] - np.log(x)), 0.0
     )
 
 
 @functools.cache
 def _energy_table() -> tuple[Real, Real]:
     """Logarithms of x, and the integral of :func:`energy_beyond` from each."""
-    log_x = np.linspace(math.log(_SMALLEST), math.log(_LARGEST), _STEPS)
+    log_x = np.linspace(math.log(_LOWEST_X), math.log(_HIGHEST_X), _TABLE_STEPS)
     integrand = energy_density(np.exp(log_x))
     pieces = (integrand[1:] + integrand[:-1]) / 2 * np.diff(log_x)
     return log_x, np.concatenate([np.cumsum(pieces[::-1])[::-1], [0.0]])

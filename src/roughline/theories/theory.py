@@ -28,22 +28,28 @@ from roughline.theories.bruggeman import bruggeman, check_threshold
 from roughline.theories.bush_gibson_thomas import bush_gibson_thomas
 from roughline.theories.critical_junction import critical_junction
 from roughline.theories.greenwood_williamson import greenwood_williamson
-from roughline.theories.layers import HOLDS_UP_TO, felt, is_even, on_layers, stiffening
+from roughline.theories.layers import (
+    HOLDS_UP_TO,
+    effective_roughness,
+    is_even,
+    on_layers,
+    stiffening,
+)
 from roughline.theories.persson import persson
 from roughline.theories.theory_curve import TheoryCurve
 
-_OF_FLOW = {"critical-junction": critical_junction, "bruggeman": bruggeman}
+_FLOW_THEORIES = {"critical-junction": critical_junction, "bruggeman": bruggeman}
 """Theories of the flow through the gap; each seals at a threshold that may be given."""
 
 THEORIES: dict[str, Callable[..., TheoryCurve]] = {
     "persson": persson,
     "bush-gibson-thomas": bush_gibson_thomas,
     "greenwood-williamson": greenwood_williamson,
-    **_OF_FLOW,
+    **_FLOW_THEORIES,
 }
 """Every theory, by its name."""
 
-OF_ONE_MATERIAL = ("bush-gibson-thomas", "greenwood-williamson")
+ONE_MATERIAL_ONLY = ("bush-gibson-thomas", "greenwood-williamson")
 """Theories of summits as spheres, which have no solution on layers."""
 
 
@@ -100,20 +106,22 @@ def theory(
     """
     allowed_choice("name", name, THEORIES)
     refuse_no_roughness(roughness)
-    elastic = _given(E_star, half_space)
+    elastic = _checked_half_space(E_star, half_space)
     pressures = _pressures(pressure)
     if threshold is not None:
         _refuse_threshold(name, threshold)
     spectrum = bands(roughness)
     ratio = stiffening(spectrum, elastic)
-    if name in OF_ONE_MATERIAL and not is_even(ratio):
+    if name in ONE_MATERIAL_ONLY and not is_even(ratio):
         raise InputError(
             f"has layers, and the summits of {name} are spheres of one material: leave it out, or "
             'take "persson"',
             "half_space",
         )
     others = () if threshold is None else (threshold,)
-    curve = THEORIES[name](felt(spectrum, elastic), elastic.E_star, pressures, *others)
+    curve = THEORIES[name](
+        effective_roughness(spectrum, elastic), elastic.E_star, pressures, *others
+    )
     remark = continuum_note(roughness) + on_layers(ratio)
     return replace(curve, validity=curve.validity + remark)
 
@@ -123,7 +131,7 @@ def why_not(name: str, roughness: SurfaceOrSpectrum, half_space: HalfSpace) -> s
     ratio = stiffening(bands(roughness), half_space)
     if is_even(ratio):
         return ""
-    if name in OF_ONE_MATERIAL:
+    if name in ONE_MATERIAL_ONLY:
         return "its summits are spheres of one material, and one body is coated"
     if ratio > HOLDS_UP_TO:
         return (
@@ -133,7 +141,7 @@ def why_not(name: str, roughness: SurfaceOrSpectrum, half_space: HalfSpace) -> s
     return ""
 
 
-def _given(E_star: float | None, half_space: HalfSpace | None) -> HalfSpace:
+def _checked_half_space(E_star: float | None, half_space: HalfSpace | None) -> HalfSpace:
     """What waves feel: that of a half-space, or a contact modulus."""
     if half_space is None:
         needed = "a positive, finite contact modulus is needed"
@@ -147,8 +155,12 @@ def _given(E_star: float | None, half_space: HalfSpace | None) -> HalfSpace:
 
 def _refuse_threshold(name: str, threshold: float) -> None:
     """Refuse a threshold of a theory that has none, or one that is no share."""
-    if name not in _OF_FLOW:
-        refuse("threshold", threshold, f"theories of flow alone have one: {' and '.join(_OF_FLOW)}")
+    if name not in _FLOW_THEORIES:
+        refuse(
+            "threshold",
+            threshold,
+            f"theories of flow alone have one: {' and '.join(_FLOW_THEORIES)}",
+        )
     check_threshold(threshold)
 
 

@@ -33,7 +33,7 @@ from roughline.lab.maps import Map, contact_maps, height_map
 from roughline.lab.panels import Filled, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
-from roughline.theories.theory import OF_ONE_MATERIAL, why_not
+from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 
 _COARSE, _COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
@@ -279,7 +279,7 @@ def _theories(
     remarks, pressures = [], state.force(_THEORY_FORCES) / surface.area
     for name in state.theories:
         called = CHOICES["theories"].options[name]
-        if name in OF_ONE_MATERIAL and (reason := why_not(name, surface, state.half_space)):
+        if name in ONE_MATERIAL_ONLY and (reason := why_not(name, surface, state.half_space)):
             remarks.append(f"{called}: not drawn, {reason}")
             continue
         with warnings.catch_warnings():
