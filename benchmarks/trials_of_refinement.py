@@ -12,7 +12,7 @@ from trials_of_grids import GRID, rows_beside
 
 import roughline as rl
 from roughline.spectra.moments import bands
-from roughline.theories.layers import felt
+from roughline.theories.layers import effective_roughness
 
 N = 64
 KINDS = {"rough down to the grid": None, "cutoff at 16 waves": math.tau * 16}
@@ -56,7 +56,7 @@ def layer_rows(kind, option, seed):
     for coarse, fine in _pairs(kind, seed):
         thickness = 10 ** rng.uniform(np.log10(0.6), np.log10(8)) / N
         layer = rl.Layered(1.0, 0.3, thickness, base, 0.3, periodic=periodic)
-        waves = felt(bands(fine), layer)
+        waves = effective_roughness(bands(fine), layer)
         forces = np.sqrt(waves.q**2 @ waves.power) * layer.E_star * LAYER_BARS
         yield from _of(rows_beside(fine, coarse, forces, LAYER_BARS, half_space=layer), "k", "A")
 

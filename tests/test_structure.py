@@ -131,3 +131,60 @@ def test_settings_decide_nothing():
 )
 def test_every_way_to_look_a_setting_up_is_seen(line, is_read):
     assert bool(list(_reads_of_settings(ast.parse(line)))) is is_read
+
+
+_ROOMS_WITH_OLD_NAMES = {
+    *("assessment", "campaign", "cli", "engineering", "errors", "lab", "paper", "plot", "report"),
+    *("texture", "topography", "units.py"),
+}
+_NOT_GENITIVES = {"fluid_of", "one_of"}  # public; and a check that a value is one of several
+_BARE_WORDS = {
+    *("ALIKE", "BEYOND", "CLOSE", "FAR", "FARTHEST", "FEW", "FEWEST", "FINE", "FURTHER", "KEPT"),
+    *("LARGE", "LARGEST", "LEAST", "LONGER", "LONGEST", "MANY", "MORE", "MOST", "MUCH", "NEAR"),
+    *("NEARER", "NEAREST", "ROUNDING", "SAME", "SHORTEST", "SMALL", "SMALLEST", "STEEP"),
+}
+
+
+def _riddles(tree):
+    """Functions that are named as genitives, and constants that say no quantity."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef):
+            name = node.name.lstrip("_")
+            if re.match("of_|.*_of$", name) and name not in _NOT_GENITIVES:
+                yield node.name
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for target in targets:
+                for each in ast.walk(target):
+                    name = each.id.lstrip("_") if isinstance(each, ast.Name) else ""
+                    if name in _BARE_WORDS or name.startswith("OF_"):
+                        yield each.id
+
+
+def test_names_say_what_a_function_gives_and_what_a_constant_bounds():
+    found = [
+        f"{name}: {riddle}"
+        for path in sorted(SOURCE.rglob("*.py"))
+        if (name := path.relative_to(SOURCE).as_posix()).split("/")[0] not in _ROOMS_WITH_OLD_NAMES
+        for riddle in _riddles(ast.parse(path.read_text("utf-8")))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("line", "is_riddle"),
+    [
+        ("def of_places(): ...", True),
+        ("def _of_yield(): ...", True),
+        ("def steepening_of(): ...", True),
+        ("def one_of(): ...", False),
+        ("def work_of_adhesion(): ...", False),
+        ("_LEAST = 8", True),
+        ("_LEAST, _MOST = 1e-40, 1e40", True),
+        ("_OF_HARDNESS: float = 0.4", True),
+        ("_FEWEST_POINTS = 8", False),
+        ("largest = max(values)", False),
+    ],
+)
+def test_every_kind_of_riddle_is_seen(line, is_riddle):
+    assert bool(list(_riddles(ast.parse(line)))) is is_riddle

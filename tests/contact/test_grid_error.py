@@ -9,7 +9,7 @@ from roughline.contact.grid_error import grid_steepening
 from roughline.contact.terraces import with_whole_plateaus
 from roughline.exact.indenters import PowerLawIndenter
 from roughline.spectra.moments import bands
-from roughline.theories.layers import felt
+from roughline.theories.layers import effective_roughness
 
 CLAIMED_ON_64 = np.array([0.109, 0.017, 0.060])  # of the sphere below, on 64 x 64 points
 PUNCH = 1.15230  # k / (E* L) of a square punch, tests/exact
@@ -142,7 +142,7 @@ def test_it_covers_a_layer_of_few_cells_harder_or_softer_than_its_base(base, per
     spectrum = rl.SelfAffine(hurst=0.5, rms_height=1.0)
     coarse, fine = spectrum.surface(32, 4000), spectrum.surface(128, 4000)
     layer = rl.Layered(1.0, 0.3, 2 / 32, base, 0.3, periodic=periodic)
-    waves = felt(bands(fine), layer)
+    waves = effective_roughness(bands(fine), layer)
     steepness = np.sqrt(waves.q**2 @ waves.power) * layer.E_star
     loads = {"half_space": layer, "forces": steepness * np.geomspace(0.01, 0.3, 4)}
     curve = rl.press(coarse, grid_error=True, **loads)

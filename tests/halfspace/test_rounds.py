@@ -10,7 +10,7 @@ import pytest
 import roughline as rl
 from roughline.halfspace.search.pull import Pull, Shares
 from roughline.halfspace.search.region import Region
-from roughline.halfspace.search.rounds import Rounds, _History
+from roughline.halfspace.search.rounds import Rounds, _RoundHistory
 
 DUGDALE = rl.Dugdale(work_of_adhesion=0.02, range=0.2)
 EXPONENTIAL = rl.Exponential(work_of_adhesion=0.02, range=0.2)
@@ -125,7 +125,7 @@ def test_rounds_end_where_shares_are_those_of_their_gap(law):
 def test_nodes_that_join_a_history_have_rested_before():
     """The extrapolation is that of all nodes together, whichever moved first."""
     nodes, rng = np.arange(6), np.random.default_rng(5)
-    taken, history, every = Shares(nodes, rng.uniform(0.2, 0.8, 6)), _History.none(), []
+    taken, history, every = Shares(nodes, rng.uniform(0.2, 0.8, 6)), _RoundHistory.none(), []
     for moving in ([0, 1], [0, 1, 3], [1, 3, 4]):
         moved = np.zeros(6)
         moved[moving] = rng.uniform(-0.05, 0.05, len(moving))

@@ -138,10 +138,10 @@ def sticking_law(name: str, work_of_adhesion: float, reach: float) -> ContactLaw
 def checked_count(name: str, value: Any, least: int = -_MOST_COUNT) -> int:
     """Return a whole number; refuse what is none, too small, or beyond all that is countable."""
     plain = as_plain(value)
-    whole = is_whole(plain) or (isinstance(plain, float) and plain.is_integer())
-    if not whole or not least <= plain <= _MOST_COUNT:
+    is_integer = is_whole(plain) or (isinstance(plain, float) and plain.is_integer())
+    if not is_integer or not least <= plain <= _MOST_COUNT:
         bound = "" if least == -_MOST_COUNT else f" of at least {least}"
-        at_most = f" and at most {_MOST_COUNT:.0e}" if whole and plain > _MOST_COUNT else ""
+        at_most = f" and at most {_MOST_COUNT:.0e}" if is_integer and plain > _MOST_COUNT else ""
         refuse(name, value, f"a whole number{bound}{at_most} is needed")
     return int(plain)
 

@@ -37,18 +37,18 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
 
     Shares are NaN where a load was not solved.
     """
-    beyond = np.flatnonzero(shares > _LARGEST_SHARE)
-    if not surface.is_cut_out or not beyond.size:
+    heavy = np.flatnonzero(shares > _LARGEST_SHARE)
+    if not surface.is_cut_out or not heavy.size:
         return ()
-    extremes = force[beyond].min(), force[beyond].max()
+    extremes = force[heavy].min(), force[heavy].max()
     ends = [
         engineering(each, "N", 3) if surface.unit == "m" else f"{each:.3g}" for each in extremes
     ]
-    at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
+    at = f"a force of {ends[0]}" if heavy.size == 1 else f"forces of {ends[0]} to {ends[1]}"
     text = (
-        f"at {at}, up to {shares[beyond].max():.0%} of the force is carried within {_FRAME:.0%} of "
+        f"at {at}, up to {shares[heavy].max():.0%} of the force is carried within {_FRAME:.0%} of "
         "the border, where this surface was cut out of a larger one: the surface beyond it would "
         "carry a part of the load, so depth, stiffness and area are those of the piece alone, a "
         "punch with this outline. Take a larger piece, or the periodic half-space"
     )
-    return (Remark(text, is_grave=bool(shares[beyond].max() > _DECISIVE_SHARE)),)
+    return (Remark(text, is_grave=bool(shares[heavy].max() > _DECISIVE_SHARE)),)

@@ -127,8 +127,7 @@ def with_grid_error(
        3840-3861 (2001).
     """
     k, k_u, area = curve.stiffness, curve.unloading_stiffness, curve.area_fraction_corrected
-    law = curve.law
-    grids = _Grids.of(surface)
+    law, grids = curve.law, _Grids.of(surface)
     laws = grids.laws(law)
     try:
         coarser = [press(*each) for each in zip(grids.coarser, [loads] * 3, laws, strict=True)]
@@ -146,10 +145,8 @@ def with_grid_error(
         of_k = np.maximum(
             steepening * _compliance_difference("stiffness", coarser, curve), of_k_u + taken
         )
-        at_the_interface = grid_steepening(in_full_contact(surface, curve.half_space))
-        of_area = _area_difference(
-            curve, law, coarser, max(steepening, at_the_interface), surface.heights.size
-        )
+        steepest = max(steepening, grid_steepening(in_full_contact(surface, curve.half_space)))
+        of_area = _area_difference(curve, law, coarser, steepest, surface.heights.size)
         of_area = np.hypot(of_area, rims_of_area)
         return replace(
             curve,

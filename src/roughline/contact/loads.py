@@ -88,8 +88,8 @@ def profile_loads(profile: Profile, body: Revolution, given: GivenLoads) -> Load
     if body.work_of_adhesion:
         missing = OVER_PULL_OFF * -float(forces.min()) - float(forces[-1])
         # where all of it touches, it is a flat punch
-        beyond = max(missing, 0.0) / (2 * body.E_star * profile.largest_radius)
-        deepest = float(depths[-1]) + beyond
+        last_step = max(missing, 0.0) / (2 * body.E_star * profile.largest_radius)
+        deepest = float(depths[-1]) + last_step
         return even_cycle(0.0, deepest, _PULL_OFF_MARGIN * float(depths.min()), _counted(given))
     few = profile.radii[min(RESOLVED_FROM, profile.radii.size - 1)]
     lowest = float(body.at_rest(np.array([few]))[1][0])

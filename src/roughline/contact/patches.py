@@ -135,12 +135,12 @@ def _across_borders(pieces: NDArray[np.intp], repeats: tuple[bool, bool]) -> lis
     """Return which pieces meet across a border, from 0, and by how many sides (x, y) it is."""
     met = [np.empty((0, 4), dtype=np.intp)]
     for axis in np.flatnonzero(repeats).tolist():
-        last, beyond = np.take(pieces, -1, axis), np.take(pieces, 0, axis)
+        last, next_pieces = np.take(pieces, -1, axis), np.take(pieces, 0, axis)
         for step in (-1, 0, 1):  # along the border: corners meet too
             place = np.arange(last.size) + step
             turn = np.ones((last.size, 2), dtype=np.intp)
             turn[:, 1 - axis] = place // last.size
-            pair = np.stack([last, beyond[place % last.size]], axis=1) - 1
+            pair = np.stack([last, next_pieces[place % last.size]], axis=1) - 1
             meet = (pair >= 0).all(axis=1)
             if not repeats[1 - axis]:  # a corner has none beyond the end of the border
                 meet &= turn[:, 1 - axis] == 0

@@ -281,7 +281,7 @@ def press_creep(
 
 
 @dataclass(frozen=True, eq=False)
-class _History:
+class _LoadHistory:
     """Force or depth over time, straight between times, after a step from zero at the first."""
 
     control: Literal["force", "depth"]
@@ -290,7 +290,7 @@ class _History:
     asked: slice  # of these times
 
 
-def _given_history(times: Any, force: Any, depth: Any) -> _History:
+def _given_history(times: Any, force: Any, depth: Any) -> _LoadHistory:
     """Return what is given of force and depth."""
     if (force is None) == (depth is None):
         count = "neither force nor depth" if force is None else "both force and depth"
@@ -316,7 +316,7 @@ def _given_history(times: Any, force: Any, depth: Any) -> _History:
                 "from time zero on, or a value for each time",
                 name,
             )
-        return _History(name, times, values, slice(0, None))
+        return _LoadHistory(name, times, values, slice(0, None))
     if times[0] < 0:
         raise InputError(
             f"start at {times[0]:g}; a number is held from time zero on: give times from 0 on, or "
@@ -325,7 +325,7 @@ def _given_history(times: Any, force: Any, depth: Any) -> _History:
         )
     first = int(times[0] > 0)
     times = np.append(np.zeros(first), times)
-    return _History(name, times, np.full(times.size, values[0]), slice(first, None))
+    return _LoadHistory(name, times, np.full(times.size, values[0]), slice(first, None))
 
 
 def _checked(name: str, given: Any) -> Real:
@@ -357,7 +357,7 @@ def _refuse_elastic_parts(half_space: HalfSpace) -> None:
         )
 
 
-def _growing_loads(history: _History, memory: FadingMemory) -> Real:
+def _growing_loads(history: _LoadHistory, memory: FadingMemory) -> Real:
     """Return the forces of the same contacts of an elastic body; refuse that they fall.
 
     Their slopes between two times are sums of exponentials, whose zeros are all found.
@@ -384,7 +384,7 @@ def _growing_loads(history: _History, memory: FadingMemory) -> Real:
     return loads[np.searchsorted(at, times)]
 
 
-def _rising(history: _History) -> _History:
+def _rising(history: _LoadHistory) -> _LoadHistory:
     """Return a history of depths that rise or stay; refuse one that falls by more than rounding."""
     depth = history.values
     falls = np.flatnonzero(np.diff(depth) < -_LOAD_ROUNDING * depth.max())
@@ -415,7 +415,7 @@ def _pressed(
 
 
 def _relaxed(
-    history: _History,
+    history: _LoadHistory,
     memory: FadingMemory,
     elastic: Curve,
     pressed: Callable[..., Curve],
@@ -485,7 +485,7 @@ class _Trajectory:
     stiffness: Real
 
     @classmethod
-    def of(cls, history: _History, reached: _Reached) -> _Trajectory:
+    def of(cls, history: _LoadHistory, reached: _Reached) -> _Trajectory:
         """Lead a body along its history through all depths that were pressed."""
         depths = np.setdiff1d(reached.depth, history.values)
         times = np.append(history.times, np.interp(depths, history.values, history.times))

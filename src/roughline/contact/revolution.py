@@ -96,10 +96,10 @@ def _works(body: Revolution, moves: list[Moved], depth: Real) -> tuple[Real, Rea
 
 def _warnings(body: Revolution, radius: Real, depth: Real) -> tuple[str, ...]:
     """Say under which loads all of the body touches."""
-    beyond = (radius == body.radii[-1]) & (depth > body.table[1][-1] * (1 + 1e-9))
-    if not beyond.any():
+    ended = (radius == body.radii[-1]) & (depth > body.table[1][-1] * (1 + 1e-9))
+    if not ended.any():
         return ()
     return (
-        f"from depth {depth[beyond].min():.3g} on all of the profile touches: the body ends at its "
+        f"from depth {depth[ended].min():.3g} on all of the profile touches: the body ends at its "
         "largest radius, as a cylinder does. Where it goes on, give a larger one",
     )

@@ -145,7 +145,7 @@ def reopening(
     history = curve.force[: load % curve.force.size + 1]
     if not history[-1] > 0:
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
-    search = _Search(curve.half_space, times, along, rtol)
+    search = _ShareSearch(curve.half_space, times, along, rtol)
     found = search.bracket(left, law, float(history[-1]))
     if not interval or not can_be_cut(curve.surface, curve.half_space):
         return found
@@ -154,7 +154,7 @@ def reopening(
 
 
 @dataclass(frozen=True)
-class _Search:
+class _ShareSearch:
     """How surfaces are pressed that a force has left, and how near both shares have to be."""
 
     half_space: HalfSpace

@@ -158,7 +158,7 @@ def sealing_pressure(
     # in round numbers, so that it is sought alike wherever a repeated surface is cut
     share = float(f"{_PERCOLATION_PRESSURE * _slope(full, half_space.repeats):.6g}")
     guess = min(share * half_space.E_star, _HARDNESS_SHARE * Bounds.of(law).largest_force(1.0))
-    search = _Search(half_space, along, rtol)
+    search = _PressureSearch(half_space, along, rtol)
     (low, open_area), (high, sealed_area) = search.bracket(surface, law, guess)
     found = SealingPressure(low, high, (open_area, sealed_area), along)
     if not interval or not can_be_cut(surface, half_space):
@@ -184,7 +184,7 @@ def _slope(surface: Surface, repeats: tuple[bool, bool]) -> float:
 
 
 @dataclass(frozen=True)
-class _Search:
+class _PressureSearch:
     """How surfaces are pressed, and how near both ends of a bracket have to be."""
 
     half_space: HalfSpace

@@ -376,10 +376,10 @@ def _rms_factors(observed: Observed, likely: LikelyLaws) -> Real:
     factors, miss_chance = [], 1 - _CONFIDENCE
     for which in (likely.laws.best, *likely.outline()):
         law = likely.laws.at(*which)
-        whole, piece = observed.mean_square(law)
+        larger, piece = observed.mean_square(law)
         power = observed.modes * np.exp(observed.log_powers(law))
         shape = power.sum() ** 2 / (2 * (power**2 / observed.modes).sum())
         chance = special.gammaincinv(shape, [1 - miss_chance / 2, miss_chance / 2]) / shape
-        factors.append(whole / piece / np.array([1.0, *chance]))
+        factors.append(larger / piece / np.array([1.0, *chance]))
     best, low, high = factors[0][0], np.min(factors, axis=0)[1], np.max(factors, axis=0)[2]
     return np.sqrt([best, low, high])

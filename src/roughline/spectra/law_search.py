@@ -168,7 +168,7 @@ class Ends:
     margins: Real  # distance to the next end
     inside: Mask  # means that hold the law's power, over (end, mean)
     log_share: Real  # logarithm of the share of it that they have
-    beyond: Real  # deviance of the means beyond, where the spectrum is free
+    free_deviance: Real  # of the means beyond, where the spectrum is free
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,7 +260,7 @@ class Observed(ABC):
         log_level = np.log(np.tensordot(scaled, inverse_law, (1, 1)) / total)
         logs = np.tensordot(weight, (law + log_share) * inside, (1, 1))
         logs += ((weight * (shares - np.log(means.power))) @ inside)[:, np.newaxis]
-        deviance = 2 * (logs + total * log_level) + self.ends.beyond[ends]
+        deviance = 2 * (logs + total * log_level) + self.ends.free_deviance[ends]
         deviance += (added @ inside)[:, np.newaxis]
         two_ends = np.outer(self.responses.is_second_end[responses], np.isfinite(at))
         deviance += math.log(means.weight.sum() + 1) * two_ends[:, np.newaxis]

@@ -21,7 +21,7 @@ _Sides = tuple[float, float]
 
 RING_HALF_WIDTH = 0.25
 """Modes this near to a ring's wavenumber belong to it; wider rings would smear a steep spectrum."""
-LONGER = np.geomspace(1 / 16, 0.5, 13)
+LONGER_WAVES = np.geomspace(1 / 16, 0.5, 13)
 """Ends of the ranges of waves that are longer than the piece and leave a trace in it. [q_low]"""
 
 LONG_WAVES = 8  # wavenumber up to which a line scan's waves are those of a cosine series [q_low]
@@ -65,7 +65,7 @@ def map_leakage(aspect: float = 1.0) -> _Leakage:
         members = members[:: -(-members.size // _MODES_PER_RING)]
         for x, y in zip(mx[members], my[members], strict=True):
             q = np.hypot((x + offset[:, np.newaxis]) / sides[0], (y + offset) / sides[1])
-            wave = LONGER.size - 1 + ((q - LONGER[-1]) / _RANGE_WIDTH).astype(np.intp)
+            wave = LONGER_WAVES.size - 1 + ((q - LONGER_WAVES[-1]) / _RANGE_WIDTH).astype(np.intp)
             by_wave = np.bincount(wave.ravel(), power.ravel(), minlength=waves.size)
             response[k - 1] += by_wave[: waves.size] / members.size
     return _Leakage(edges, waves, response, remaining)
@@ -79,7 +79,8 @@ def scan_leakage() -> _Leakage:
     wavenumbers k / 2.
     """
     edges = np.append(
-        LONGER, np.arange(LONGER[-1] + _RANGE_WIDTH / 2, 4 * LONG_WAVES, _RANGE_WIDTH / 2)
+        LONGER_WAVES,
+        np.arange(LONGER_WAVES[-1] + _RANGE_WIDTH / 2, 4 * LONG_WAVES, _RANGE_WIDTH / 2),
     )
     waves, widths = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
     k = np.arange(2, 2 * LONG_WAVES + 1)[:, np.newaxis]
@@ -188,7 +189,7 @@ def _patch(steps: int) -> tuple[Real, Real]:
 
 def _edges(last: float) -> Real:
     return np.append(
-        LONGER, np.arange(LONGER[-1] + _RANGE_WIDTH, last + _RANGE_WIDTH, _RANGE_WIDTH)
+        LONGER_WAVES, np.arange(LONGER_WAVES[-1] + _RANGE_WIDTH, last + _RANGE_WIDTH, _RANGE_WIDTH)
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.law_search import Corner, Ends, Law, Observed, power_law
-from roughline.spectra.leakage import LONGER, map_leakage, power_inside
+from roughline.spectra.leakage import LONGER_WAVES, map_leakage, power_inside
 from roughline.spectra.means import FEWEST_MEANS, Means
 
 _CORRELATED_MODES = 2.4  # modes of a ring that vary together under a Hann window
@@ -53,7 +53,7 @@ class MapRings(Observed):
     def rolls(self) -> Real:
         """Roll-offs to try, closer to each other than the rings where these are few."""
         last = max(float(self.means.q[-1]) / 2, 4.0)
-        longer = np.geomspace(LONGER[0], 1, 9)[:-1] if self.windowed else np.zeros(0)
+        longer = np.geomspace(LONGER_WAVES[0], 1, 9)[:-1] if self.windowed else np.zeros(0)
         count = max(2, round(_ROLLS_PER_DECADE * math.log10(last / 4)))
         return np.concatenate([longer, np.arange(1.0, 4.0, 0.25), np.geomspace(4, last, count)])
 
@@ -70,7 +70,7 @@ class MapRings(Observed):
             margins=np.append(np.diff(q)[stops[:-1]] / 2, 0.0),
             inside=np.arange(q.size) <= stops[:, np.newaxis],
             log_share=np.zeros((stops.size, q.size)),
-            beyond=free[stops + 1],
+            free_deviance=free[stops + 1],
         )
         if not self.windowed:
             return gradual
@@ -85,8 +85,8 @@ class MapRings(Observed):
             margins=np.append(np.full(sharp.size, _END_STEP), gradual.margins),
             inside=np.concatenate([inside, gradual.inside]),
             log_share=np.concatenate([np.log(np.where(inside, share, 1.0)), gradual.log_share]),
-            beyond=np.append(
-                free[np.searchsorted(q, sharp + _RINGS_ABOVE, side="right")], gradual.beyond
+            free_deviance=np.append(
+                free[np.searchsorted(q, sharp + _RINGS_ABOVE, side="right")], gradual.free_deviance
             ),
         )
 
@@ -108,7 +108,7 @@ class MapRings(Observed):
         q_rings = self.means.q
         last = min(law.end, float(q_rings[-1]))
         edges = np.append(
-            LONGER, np.arange(LONGER[-1] + _END_STEP, last + _END_STEP / 2, _END_STEP)
+            LONGER_WAVES, np.arange(LONGER_WAVES[-1] + _END_STEP, last + _END_STEP / 2, _END_STEP)
         )
         q = (edges[1:] + edges[:-1]) / 2
         levels = power_law(q, np.array([law.hurst]), law.roll, law.corner)[0]

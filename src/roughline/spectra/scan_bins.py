@@ -12,7 +12,7 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 from roughline.spectra.law_search import IMPOSSIBLE, Corner, Ends, Law, Observed, power_law
-from roughline.spectra.leakage import LONG_WAVES, LONGER, map_leakage, scan_leakage
+from roughline.spectra.leakage import LONG_WAVES, LONGER_WAVES, map_leakage, scan_leakage
 from roughline.spectra.map_rings import modes_of_surface
 from roughline.spectra.means import FEWEST_MEANS, Means
 from roughline.spectra.profile import ProfileSpectrum
@@ -50,7 +50,7 @@ def _cuts_of_surface(edges: Real) -> _Cuts:
     waves are smeared by the ends of the cut and by the tilt that is removed. The edges are those of
     a :class:`ProfileSpectrum`. [q_low]
     """
-    ends = np.concatenate([LONGER, edges, edges[-1] * _SHORTER_WAVES])
+    ends = np.concatenate([LONGER_WAVES, edges, edges[-1] * _SHORTER_WAVES])
     low, high = ends[:-1], ends[1:]
     q = np.sqrt(low * high)
 
@@ -65,8 +65,8 @@ def _cuts_of_surface(edges: Real) -> _Cuts:
         matrix.append(cut(first + shares * (last - first)).mean(axis=0, keepdims=True))
     long = 2 * np.diff(leakage.edges)[:, np.newaxis] * cut(leakage.waves)
     # of waves beyond the longest modes, the mean and the tilt take nothing
-    whole = 2 * math.pi * q**_BIN_DECAY * (1 / low - 1 / high)
-    short = np.where(high > leakage.edges[-1], whole - long.sum(axis=0), 0.0)
+    total = 2 * math.pi * q**_BIN_DECAY * (1 / low - 1 / high)
+    short = np.where(high > leakage.edges[-1], total - long.sum(axis=0), 0.0)
     return _Cuts(ends, q, np.concatenate(matrix), leakage.remaining @ long + short)
 
 
@@ -120,7 +120,7 @@ class ScanBins(Observed):
             margins=np.append(np.diff(self.edges)[last[:-1]], 0.0),
             inside=np.arange(bins) <= last[:, np.newaxis],
             log_share=np.zeros((last.size, bins)),
-            beyond=np.array([self.means.free_deviance(int(each) + 1) for each in last]),
+            free_deviance=np.array([self.means.free_deviance(int(each) + 1) for each in last]),
         )
 
     def expected(self, hursts: Real, roll: float, corner: Corner, ends: Real) -> tuple[Real, Real]:
@@ -130,8 +130,8 @@ class ScanBins(Observed):
         ended = (cuts.matrix.T[:, :, np.newaxis] * held[:, np.newaxis]).reshape(cuts.q.size, -1)
         sums = np.exp(power_law(cuts.q, hursts, roll, corner)) @ ended
         law = np.log(np.maximum(sums, _POWER_FLOOR)).reshape(hursts.size, -1, ends.size)
-        beyond = math.log(self.nyquist / self.means.q[-1])
-        return law, law[:, -1, -1] - (2 * hursts + 1) * beyond
+        to_nyquist = math.log(self.nyquist / self.means.q[-1])
+        return law, law[:, -1, -1] - (2 * hursts + 1) * to_nyquist
 
     def deviances(
         self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Indices
@@ -199,11 +199,11 @@ class ScanBins(Observed):
             endless = self.log_powers(law._replace(end=math.inf), seen=False) + level
             inside = np.isfinite(ended)
             deviations = means.deviations(seen + level).drawn(generator)
-            beyond = np.log(means.power) - endless
+            without_end = np.log(means.power) - endless
             weight = means.weight[inside].sum()
             level -= math.log(generator.gamma(weight) / weight)
             effect = np.where(inside, seen, 0.0) - np.where(inside, ended, 0.0)
-            change = np.where(inside, deviations + effect, beyond)
+            change = np.where(inside, deviations + effect, without_end)
             yield _DrawnSpectrum(law, float(level), self.edges, change)
 
     def _left_of_longer(self, law: Law) -> float:

@@ -71,9 +71,9 @@ class Case:
     @classmethod
     def together(cls, where: str, parts: Sequence[Case]) -> Case:
         """Judge cases as one; what decides all that are open decides."""
-        whole = joint_verdict(each.verdict for each in parts if each.verdict)
+        verdict = joint_verdict(each.verdict for each in parts if each.verdict)
         needed = [each.enough for each in parts if each.verdict is Verdict.UNDECIDED]
-        return cls(where, whole, max(needed) if whole is Verdict.UNDECIDED else math.nan)
+        return cls(where, verdict, max(needed) if verdict is Verdict.UNDECIDED else math.nan)
 
 
 @dataclass(frozen=True)
@@ -99,8 +99,8 @@ class Claim:
         allowed: str = "-",
     ) -> Claim:
         """Return a claim about several cases, which are judged one by one."""
-        whole = joint_verdict(each.verdict for each in cases if each.verdict)
-        return cls(statement, found, interval, basis, whole, in_words(cases), allowed)
+        verdict = joint_verdict(each.verdict for each in cases if each.verdict)
+        return cls(statement, found, interval, basis, verdict, in_words(cases), allowed)
 
 
 def in_words(cases: Sequence[Case]) -> str:

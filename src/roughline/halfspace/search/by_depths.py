@@ -110,9 +110,9 @@ def _under_force(path: Continuation, state: State | None, force: float, rtol: fl
 
     Where bodies that do not touch are to be pulled they are first brought to rest without a force.
     """
-    search = _Search(force, rtol)
+    search = _DepthSearch(force, rtol)
     if state is None or not state.is_solved or not state.contact.nodes.size:
-        first = _Search(max(force, 0.0), rtol)
+        first = _DepthSearch(max(force, 0.0), rtol)
         state = first.nearer(path, None)
         search.convolutions += first.convolutions
     if state.is_solved and not search.is_at(state):
@@ -120,7 +120,7 @@ def _under_force(path: Continuation, state: State | None, force: float, rtol: fl
     return search.with_force_error(state)
 
 
-class _Search:
+class _DepthSearch:
     """The search for a force over depths, from one side."""
 
     def __init__(self, force: float, rtol: float) -> None:
@@ -183,7 +183,7 @@ class _Search:
             lowest_force = self._lowest_of_full_contact(state)
             if self._force > lowest_force:
                 return self.under_force(state.path)
-            last = _Search(lowest_force, self._rtol)
+            last = _DepthSearch(lowest_force, self._rtol)
             state = last.under_force(state.path)
             self.convolutions += last.convolutions
             if not state.is_solved or self.is_at(state):

@@ -29,7 +29,7 @@ _SMALL_CHANGE, _MOST_ROUNDS, _NO_END_FROM, _MOST_SPEED_UP = 0.1, 6, 0.9, 8.0
 
 
 @dataclass(frozen=True, eq=False)
-class _History:
+class _RoundHistory:
     """What followed from shares in the last rounds, at the nodes that have moved in any."""
 
     nodes: InGrid
@@ -37,7 +37,7 @@ class _History:
     moved: tuple[Real, ...] = ()  # by which these differ from the shares of the contact
 
     @classmethod
-    def none(cls) -> _History:
+    def none(cls) -> _RoundHistory:
         """No rounds."""
         return cls(InGrid(np.empty(0, np.intp)))
 
@@ -46,7 +46,7 @@ class _History:
         """The largest difference in the last round."""
         return float(np.abs(self.moved[-1]).max(initial=0.0))
 
-    def joined_by(self, taken: Shares, followed: Shares, moved: Shares) -> _History:
+    def joined_by(self, taken: Shares, followed: Shares, moved: Shares) -> _RoundHistory:
         """Return the history with another round; others are what they were while they rested."""
         nodes, before, differed = self.nodes, self.followed, self.moved
         joining = moved.nodes
@@ -59,7 +59,7 @@ class _History:
             before = tuple(np.append(each, rested)[order] for each in before)
             differed = tuple(np.append(each, nothing)[order] for each in differed)
         before, differed = (*before, followed.at(nodes)), (*differed, moved.at(nodes))
-        return _History(nodes, before[-_MOST_ROUNDS:], differed[-_MOST_ROUNDS:])
+        return _RoundHistory(nodes, before[-_MOST_ROUNDS:], differed[-_MOST_ROUNDS:])
 
     def last(self, shares: Shares) -> Shares:
         """Return what followed in the last round, and elsewhere other shares."""
@@ -84,7 +84,9 @@ class Rounds:
     pull: Pull
     shares: Shares
     misfit: float = 0.0  # of the last contact: gap that its shares go with, from its own [length]
-    history: _History = field(default_factory=_History.none)  # of which shares are extrapolated
+    history: _RoundHistory = field(
+        default_factory=_RoundHistory.none
+    )  # of which shares are extrapolated
     near: float = _SMALL_CHANGE  # change of the shares below which they are
     factor: float = 1.0  # by which the shares went further than they followed
     change: float = 0.0  # by the last round
