@@ -85,7 +85,7 @@ def _surface(file: Path, reading: Reading) -> Surface:
 def _what_is_in(name: str, surface: Surface) -> str:
     """Say what is compared, and whether a spectrum without directions stands for it."""
     what = f"{name}, {surface.shape[0]} x {surface.shape[1]} points, and lines of its spectrum"
-    if (ratio := isotropy(surface)) < ALIKE:
+    if (ratio := isotropy(surface)) < ISOTROPIC_FROM:
         what += (
             f"; its rms slope depends on direction, the least is {ratio:.2f} of the largest: a "
             "spectrum averaged over directions does not describe such a surface"

@@ -176,7 +176,11 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[Re
                 "touch; under repeated loads they deform elastically about their flattened shape"
             )
     found = remarks(broken, is_grave=True)
-    if question.theories and isinstance(body, Surface) and (ratio := isotropy(body)) < ALIKE:
+    if (
+        question.theories
+        and isinstance(body, Surface)
+        and (ratio := isotropy(body)) < ISOTROPIC_FROM
+    ):
         text = (
             "theories assume an isotropic surface, and the rms slope depends on direction: the "
             f"least is {ratio:.2f} of the largest"

@@ -131,7 +131,7 @@ def reopening(
     0.36 0.32
     """
     load = checked_count("load", load)
-    times = between("times", times, *_TIMES)
+    times = between("times", times, *_LARGER_FACTOR)
     allowed_choice("along", along, ("both", "x", "y"))
     rtol = between("rtol", rtol, 1e-6, 1.0, "a tolerance from 1e-6 to 1 is needed")
     interval = flag("interval", interval)

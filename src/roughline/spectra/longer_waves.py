@@ -45,7 +45,7 @@ def known_tilt(body: Body) -> tuple[float, ...] | None:
     removed = body.provenance.tilt.removed or (0.0,) * len(left)
     found = [slope + before for slope, before in zip(left, removed, strict=True)]
     lies = float(np.square(np.multiply(found, side_lengths(body))).sum()) / 12
-    if not any(removed) and lies < _ROUNDING * body.rms_height**2:
+    if not any(removed) and lies < _PLANE_ROUNDING * body.rms_height**2:
         return None
     return tuple(found)
 

@@ -330,9 +330,9 @@ def _sum_over_integral(band: Band, order: int, body: BodyName) -> float:
 
     The sum is taken over the longest waves; over shorter ones it equals the integral.
     """
-    whole_number = band.moment(order)
-    summed = LatticeSpectrum.of(band, 1.0, 2 * _SUMMED + 1, body)
+    integral = band.moment(order)
+    summed = LatticeSpectrum.of(band, 1.0, 2 * _MOST_SUMMED + 1, body)
     # half a wave further: each wavevector stands for the cell around it
     edge = min(band.q_high, (_MOST_SUMMED + 0.5) * band.q_low)
     rest = replace(band, q_roll=min(band.q_roll, edge), q_high=edge).moment(order)
-    return 1 + (summed.moment(order) - rest) / whole_number
+    return 1 + (summed.moment(order) - rest) / integral

@@ -32,9 +32,9 @@ _MOST_POINTS: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
 
 def refuse_points(n: int, body: BodyName) -> None:
     """Refuse what is neither "surface" nor "line", and a number of points that neither has."""
-    allowed_choice("body", body, _LARGEST)
-    if not is_whole(n) or not 3 <= n <= _LARGEST[body]:
-        refuse("n", n, f"a whole number of points from 3 to {_LARGEST[body]} is needed")
+    allowed_choice("body", body, _MOST_POINTS)
+    if not is_whole(n) or not 3 <= n <= _MOST_POINTS[body]:
+        refuse("n", n, f"a whole number of points from 3 to {_MOST_POINTS[body]} is needed")
 
 
 def realisation(
