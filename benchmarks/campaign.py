@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 
 from roughline import campaign
-from roughline.campaign.run import log_of
+from roughline.campaign.run import log_path
 
 PLAN = {
     "name": "cheap",
@@ -35,7 +35,7 @@ def main() -> None:
         started = time.perf_counter()
         campaign.run(campaign.plan_from(PLAN), store)
         whole = time.perf_counter() - started
-        entry = json.loads(log_of(store).read_text())
+        entry = json.loads(log_path(store).read_text())
     cases, work = entry["done"]["lines"], entry["core_seconds"]["lines"]
     used = entry["seconds"] * entry["cores"]
     print(f"{cases} lines of 2^12 points, {1e3 * work / cases:.3f} ms each on one core")

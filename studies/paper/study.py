@@ -18,7 +18,7 @@ import roughline as rl
 from roughline import campaign
 from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
-from roughline.campaign.run import log_of
+from roughline.campaign.run import log_path
 from roughline.contact.comparison.trust import COLUMNS, TrustMap
 from roughline.paper.laws import exponents_of
 from roughline.paper.page import compose
@@ -106,7 +106,7 @@ def _write_map(store: Store, name: str, roll_offs: Sequence[int], path: Path) ->
 
 def computing_of(path: Path) -> dict[str, Any]:
     """Return what the runs of a store took, one after another, and on which machine."""
-    runs = [json.loads(line) for line in log_of(path).read_text(encoding="utf-8").splitlines()]
+    runs = [json.loads(line) for line in log_path(path).read_text(encoding="utf-8").splitlines()]
     done: Counter[str] = Counter()
     core_seconds: Counter[str] = Counter()
     for each in runs:

@@ -13,9 +13,9 @@ import xarray
 import roughline as rl
 from roughline import campaign
 from roughline.campaign import batch as batches
-from roughline.campaign.cost import chunk_shape, cost_of, workers_that_fit
+from roughline.campaign.cost import chunk_shape, estimated_cost, workers_that_fit
 from roughline.campaign.export import export
-from roughline.campaign.run import log_of
+from roughline.campaign.run import log_path
 from roughline.campaign.writer import writing
 from roughline.computing.cores import available_cores
 from small_campaign import tree
@@ -85,14 +85,14 @@ def test_bytes_do_not_depend_on_workers_or_threads(plan, finished, tmp_path):
 
 
 def test_nothing_is_computed_twice(plan, finished, tmp_path):
-    before, log = tree(finished), log_of(finished).read_text()
+    before, log = tree(finished), log_path(finished).read_text()
     cases = {each.name: each.cases for each in plan.ensembles}
     told = []
     summary = campaign.run(plan, finished, progress=lambda *args: told.append(args))
     assert (summary.done, summary.failed) == ({}, {})
     assert told == [(name, count, 0, count) for name, count in cases.items()]
     assert tree(finished) == before
-    assert log_of(finished).read_text() == log
+    assert log_path(finished).read_text() == log
     assert json.loads(log)["done"] == cases
 
 
@@ -307,11 +307,11 @@ def test_the_cost_is_told_before_the_work(plan, two_workers, tmp_path, monkeypat
     assert told[0].startswith(f"small: {plan.cases} cases to compute; about ")
     assert "GB of memory each, up to" in told[0]
     assert told[1].startswith("dashboard: http://127.0.0.1:")
-    entry = json.loads(log_of(tmp_path / "store").read_text())
+    entry = json.loads(log_path(tmp_path / "store").read_text())
     assert entry["processor"]
     spent = entry["core_seconds"]
     monkeypatch.setattr(time, "perf_counter", time.thread_time)  # whatever else the core does
-    cost = cost_of(plan, {each.name: each.cases for each in plan.ensembles})
+    cost = estimated_cost(plan, {each.name: each.cases for each in plan.ensembles})
     # good to a factor of two or three, and machines are noisy
     assert 0.2 < cost.core_seconds / sum(spent.values()) < 5
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline._version import __version__
-from roughline.campaign.layout import variables_of
+from roughline.campaign.layout import stored_variables
 from roughline.campaign.plan import Ensemble
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
@@ -71,7 +71,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
     ensemble = batch.ensemble
     loads = len(ensemble.force_bars)
     results: _Results = {}
-    for variable in variables_of(ensemble):
+    for variable in stored_variables(ensemble):
         shape = (len(batch.cells),) if variable.per_body else (len(batch.cells), loads)
         results[variable.name] = np.full(shape, variable.fill, dtype=variable.dtype)
     failures: dict[int, str] = {}
@@ -111,5 +111,5 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
     loads = len(ensemble.force_bars)
     return {
         name: np.asarray(of_body[name] if name in of_body else getattr(curve, name)[:loads])
-        for name in (variable.name for variable in variables_of(ensemble))
+        for name in (variable.name for variable in stored_variables(ensemble))
     }

@@ -25,10 +25,10 @@ from roughline.errors import ClusterError, InputError
 
 GONE = "the Dask scheduler is gone; what is done is kept: start it again and repeat the command"
 
-_PATIENCE = 30.0  # until a scheduler and its workers are ready [s]
-_TO_ANSWER = 3.0  # until a scheduler has answered [s]
+_READY_WITHIN = 30.0  # a scheduler and its workers [s]
+_ANSWER_WITHIN = 3.0  # a scheduler [s]
 _SCHEMES = ("tcp", "tls", "ws", "wss")  # of addresses that lead to another machine
-_ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
+_ENVIRONMENT_KEY = "distributed.nanny.pre-spawn-environ"
 # Dask makes its workers give freed memory back to the system at once; to get it again takes longer
 # than an FFT, so here they keep it.
 _KEEP_MEMORY = {
@@ -92,7 +92,7 @@ def local(workers: int) -> Iterator[Cluster]:
     from distributed import Client, LocalCluster
 
     # these hold for workers that are started later, too
-    settings = _WITHOUT_PROFILES | _SILENT_WHEN_CLOSED | {_ENVIRONMENT: _KEEP_MEMORY}
+    settings = _WITHOUT_PROFILES | _SILENT_WHEN_CLOSED | {_ENVIRONMENT_KEY: _KEEP_MEMORY}
     with _quiet(), dask.config.set(settings), ExitStack() as stack:
         with interrupts_held_back():
             try:
@@ -122,12 +122,12 @@ def _wait_for_starting_workers(cluster: Any, client: Any) -> None:
     """
     from distributed import Status
 
-    deadline = time.monotonic() + _PATIENCE
+    deadline = time.monotonic() + _READY_WITHIN
     while time.monotonic() < deadline:
-        kept = [nanny for nanny in cluster.workers.values() if nanny.status == Status.running]
+        running = [nanny for nanny in cluster.workers.values() if nanny.status == Status.running]
         # not by the cluster's own waiting, which loses what it was to be told of workers that leave
         workers = client.scheduler_info()["workers"].values()
-        if sum(worker["status"] == Status.running.name for worker in workers) >= len(kept):
+        if sum(worker["status"] == Status.running.name for worker in workers) >= len(running):
             return
         time.sleep(0.1)
 
@@ -141,7 +141,7 @@ def remote(address: str) -> Iterator[Cluster]:
         try:
             _hear_from(address)
             # as the default, a client that fails would break later calls that ask for a scheduler
-            client = Client(address, timeout=_PATIENCE / 3, set_as_default=False)
+            client = Client(address, timeout=_READY_WITHIN / 3, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             means = " with the certificates of Dask's configuration" if "tls:" in address else ""
             raise ClusterError(
@@ -157,7 +157,7 @@ def remote(address: str) -> Iterator[Cluster]:
 
 def _wait_for_workers(client: Any, address: str) -> None:
     try:
-        client.wait_for_workers(1, timeout=_PATIENCE)
+        client.wait_for_workers(1, timeout=_READY_WITHIN)
     except TimeoutError as error:
         raise ClusterError(
             f"the scheduler at {address} has no workers; start some with `dask worker {address}`"
@@ -191,7 +191,7 @@ def _hear_from(address: str) -> None:
 
     async def greet() -> None:
         secured = Security().get_connection_args("client")
-        connection = await connect(address, timeout=_TO_ANSWER, **secured)
+        connection = await connect(address, timeout=_ANSWER_WITHIN, **secured)
         await connection.close()
 
     def listen() -> None:
@@ -204,7 +204,7 @@ def _hear_from(address: str) -> None:
 
     threading.Thread(target=listen, daemon=True).start()
     try:
-        error = answer.get(timeout=2 * _TO_ANSWER)
+        error = answer.get(timeout=2 * _ANSWER_WITHIN)
     except queue.Empty:
         error = TimeoutError("no answer")
     if error is not None:

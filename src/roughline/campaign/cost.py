@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from roughline.campaign.batch import evaluate_case
-from roughline.campaign.layout import CASE_DIGEST, CASE_STATUS, variables_of
+from roughline.campaign.layout import CASE_DIGEST, CASE_STATUS, stored_variables
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
@@ -20,12 +20,12 @@ from roughline.contact import estimates
 from roughline.errors import InputError, StoreError
 
 _BATCH_SECONDS = 1.0  # sending, receiving and writing a batch takes some ten milliseconds
-_MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes
+_MOST_VALUES_PER_CHUNK = 2**20  # of one variable, so that one chunk is some megabytes
 _GENERATION_BYTES = 40  # per point of a surface, while it is generated
 _LINE_BYTES = 60  # per point of a line, to generate and to press it
-_BLOCK = 4096  # of a file system [bytes]
-_FILES_OF_METADATA = 30  # of an ensemble
-_SATURATED = 3.0  # reduced force, up to which some of a free surface is in contact
+_BLOCK_BYTES = 4096  # of a file system
+_METADATA_FILES = 30  # of each ensemble
+_SATURATING_FORCE = 3.0  # reduced force, up to which some of a free surface is in contact
 _WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
 
 
@@ -58,23 +58,23 @@ def chunk_shape(ensemble: Ensemble) -> tuple[int, int]:
     equal plans give equal stores on all machines.
     """
     loads = len(ensemble.force_bars)
-    most = max(1, min(round(_BATCH_SECONDS / _nominal(ensemble)), _MOST_PER_CHUNK // loads))
+    most = max(1, min(round(_BATCH_SECONDS / _nominal(ensemble)), _MOST_VALUES_PER_CHUNK // loads))
     realisations = min(most, ensemble.realisations)
     return min(most // realisations, len(ensemble.fractal_dimensions)), realisations
 
 
-def cost_of(plan: Plan, missing: dict[str, int]) -> _Cost:
+def estimated_cost(plan: Plan, missing: dict[str, int]) -> _Cost:
     """Estimate the cost of what is missing, from the time of one small problem of each kind."""
     seconds, memory = 0.0, 0
     for ensemble in plan.ensembles:
         count = missing[ensemble.name]
         if count:
             seconds += count * _timed(ensemble)
-            memory = max(memory, _memory_of(ensemble))
-    return _Cost(sum(missing.values()), seconds, memory, _disk_of(plan, missing))
+            memory = max(memory, _worker_memory(ensemble))
+    return _Cost(sum(missing.values()), seconds, memory, _result_bytes(plan, missing))
 
 
-def _memory_of(ensemble: Ensemble) -> int:
+def _worker_memory(ensemble: Ensemble) -> int:
     """Return the memory of a worker with one case of an ensemble. [bytes]"""
     if ensemble.model == "reduced":
         return _WORKER_BYTES + _LINE_BYTES * ensemble.n
@@ -85,7 +85,7 @@ def _memory_of(ensemble: Ensemble) -> int:
         half_space.periodic,
         0,
         yielding=law.memory == "dents",
-        area_fraction=1.0 if max(ensemble.force_bars) > _SATURATED else None,
+        area_fraction=1.0 if max(ensemble.force_bars) > _SATURATING_FORCE else None,
         of_pull=estimates.bytes_of_pull(law, 1.0),
         of_layers=estimates.bytes_of_layers(half_space, shape, (spacing, spacing)),
     )
@@ -93,7 +93,7 @@ def _memory_of(ensemble: Ensemble) -> int:
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
 
 
-def _disk_of(plan: Plan, missing: dict[str, int]) -> int:
+def _result_bytes(plan: Plan, missing: dict[str, int]) -> int:
     """Return the size of results, before compression. [bytes]"""
     return sum(
         _bytes_on_disk(ensemble, missing[ensemble.name])
@@ -102,12 +102,12 @@ def _disk_of(plan: Plan, missing: dict[str, int]) -> int:
     )
 
 
-def refuse_beyond_disk(plan: Plan, missing: dict[str, int], store: Path) -> None:
+def refuse_more_than_disk(plan: Plan, missing: dict[str, int], store: Path) -> None:
     """Refuse a campaign whose results the disk cannot hold."""
     folder = store.absolute()
     while not folder.exists():
         folder = folder.parent
-    needed, free = _disk_of(plan, missing), shutil.disk_usage(folder).free
+    needed, free = _result_bytes(plan, missing), shutil.disk_usage(folder).free
     if needed > free:
         raise StoreError(
             f"{sum(missing.values())} cases need up to {needed / 1e9:.3g} GB of disk, and "
@@ -146,10 +146,12 @@ def _bytes_on_disk(ensemble: Ensemble, cases: int) -> int:
     high, wide = chunk_shape(ensemble)
     chunks = math.ceil(cases / (high * wide))
     per_chunk = 0
-    for variable in (*variables_of(ensemble), CASE_DIGEST, CASE_STATUS):
+    for variable in (*stored_variables(ensemble), CASE_DIGEST, CASE_STATUS):
         values = high * wide * (1 if variable.per_body else loads)
-        per_chunk += _BLOCK * math.ceil(values * np.dtype(variable.dtype).itemsize / _BLOCK)
-    return chunks * per_chunk + _BLOCK * _FILES_OF_METADATA
+        per_chunk += _BLOCK_BYTES * math.ceil(
+            values * np.dtype(variable.dtype).itemsize / _BLOCK_BYTES
+        )
+    return chunks * per_chunk + _BLOCK_BYTES * _METADATA_FILES
 
 
 def _duration(seconds: float) -> str:

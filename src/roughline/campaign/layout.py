@@ -44,7 +44,7 @@ class Variable:
         return {"long_name": self.meaning, "units": "1"}
 
 
-def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variable:
+def _curve_variable(name: str, meaning: str = "", *, averaged: bool = False) -> Variable:
     """Declare that stores keep a quantity of the curve; flags are small integers there."""
     quantity = QUANTITIES[name]
     dtype, fill = ("f8", np.nan) if quantity.dtype == "f8" else ("i1", -1)
@@ -59,29 +59,37 @@ def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variab
     )
 
 
-def _of_body(name: str, meaning: str, *memories: str) -> Variable:
+def _body_variable(name: str, meaning: str, *memories: str) -> Variable:
     return Variable(name, "f8", np.nan, meaning, _DIMENSIONS[:2], memories=memories)
 
 
 _DECLARED = (
-    _of_curve("stiffness", "raw stiffness k / (E* L)", averaged=True),
-    _of_curve("depth", "depth since touch / h", averaged=True),
-    _of_curve("area_fraction", "real over nominal contact area, cells in contact", averaged=True),
-    _of_curve("area_fraction_corrected"),
-    _of_curve("unloading_stiffness", "raw stiffness on unloading k_u / (E* L)", averaged=True),
-    _of_curve("plastic_fraction", averaged=True),
-    _of_curve("indentation", "largest permanent indentation / h", averaged=True),
-    _of_curve("pulling_fraction", averaged=True),
-    _of_curve("work", "work done by the load / (E* h² L)", averaged=True),
-    _of_curve("dissipated_work", "work dissipated / (E* h² L)", averaged=True),
-    _of_curve("status", "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
-    _of_curve(
+    _curve_variable("stiffness", "raw stiffness k / (E* L)", averaged=True),
+    _curve_variable("depth", "depth since touch / h", averaged=True),
+    _curve_variable(
+        "area_fraction", "real over nominal contact area, cells in contact", averaged=True
+    ),
+    _curve_variable("area_fraction_corrected"),
+    _curve_variable(
+        "unloading_stiffness", "raw stiffness on unloading k_u / (E* L)", averaged=True
+    ),
+    _curve_variable("plastic_fraction", averaged=True),
+    _curve_variable("indentation", "largest permanent indentation / h", averaged=True),
+    _curve_variable("pulling_fraction", averaged=True),
+    _curve_variable("work", "work done by the load / (E* h² L)", averaged=True),
+    _curve_variable("dissipated_work", "work dissipated / (E* h² L)", averaged=True),
+    _curve_variable(
+        "status", "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"
+    ),
+    _curve_variable(
         "resolved",
         f"1 where at least {RESOLVED_FROM} springs or cells are in contact, -1 not done",
     ),
-    _of_body("rms_slope", "rms slope L / h of the grid, forward differences"),
-    _of_body("highest", "highest point above the mean / h"),
-    _of_body("pull_off_force", "largest pull after the largest load / (E* h L), negative", "path"),
+    _body_variable("rms_slope", "rms slope L / h of the grid, forward differences"),
+    _body_variable("highest", "highest point above the mean / h"),
+    _body_variable(
+        "pull_off_force", "largest pull after the largest load / (E* h L), negative", "path"
+    ),
 )
 
 VARIABLES = {variable.name: variable for variable in _DECLARED}
@@ -121,7 +129,7 @@ COORDINATES = {coordinate.name: coordinate for coordinate in _COORDINATES}
 """What the arrays are over, by name."""
 
 
-def variables_of(ensemble: Ensemble) -> list[Variable]:
+def stored_variables(ensemble: Ensemble) -> list[Variable]:
     """Return what is kept of an ensemble.
 
     The reduced model gives no contact area, elastic bodies no indentation, and others no pull.

@@ -22,7 +22,7 @@ from roughline.spectra.self_affine import SelfAffine
 
 _Model = Literal["full", "reduced"]
 
-_SMALLEST, _LARGEST = 3, {"full": 2**15, "reduced": 2**28}
+_FEWEST_POINTS, _MOST_POINTS = 3, {"full": 2**15, "reduced": 2**28}
 BODIES = ("hardness_bar", "law", "half_space")
 """Settings of bodies that are not elastic, or not of one material; others have none of them."""
 
@@ -96,11 +96,11 @@ class Ensemble:
             object.__setattr__(self, "hardness_bar", None)
         if not _NAME.fullmatch(self.name):
             refuse("a name has letters, digits, hyphens, dots and underscores")
-        if self.model not in _LARGEST:
+        if self.model not in _MOST_POINTS:
             refuse(f'model is {self.model!r}; allowed are "full" and "reduced"')
         self._refuse_boundary()
-        if not _SMALLEST <= self.n <= _LARGEST[self.model]:
-            refuse(f"{self.n} points; allowed are {_SMALLEST} to {_LARGEST[self.model]}")
+        if not _FEWEST_POINTS <= self.n <= _MOST_POINTS[self.model]:
+            refuse(f"{self.n} points; allowed are {_FEWEST_POINTS} to {_MOST_POINTS[self.model]}")
         if self.realisations < 1:
             refuse(f"{self.realisations} realisations; at least one is needed")
         if self.seed < 0:

@@ -86,7 +86,7 @@ def plan_from(content: dict[str, Any], default_name: str = "campaign") -> Plan:
 def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemble]:
     """The ensembles of a table, which is called by its name, or by its number if it has none."""
     called = repr(table["name"]) if isinstance(table.get("name"), str) else number
-    given = _values(
+    settings = _values(
         table,
         f"ensemble {called}",
         _ENSEMBLE,
@@ -97,8 +97,8 @@ def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemb
         law=(None,),
         half_space=None,
     )
-    name, several = given.pop("name"), ("points", "roll_off_ratios", "hardness_bar", "law")
-    points, roll_offs, hardnesses, laws = (given.pop(key) for key in several)
+    name, several = settings.pop("name"), ("points", "roll_off_ratios", "hardness_bar", "law")
+    points, roll_offs, hardnesses, laws = (settings.pop(key) for key in several)
     for n, roll_off, hardness, (number, law) in product(
         points, roll_offs, hardnesses, enumerate(laws, 1)
     ):
@@ -110,7 +110,7 @@ def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemb
         parts += [f"law{number}"] if len(laws) > 1 else []
         own = {"n": n, "seed": seed, "roll_off_ratio": roll_off, "hardness_bar": hardness}
         own["law"] = law
-        yield Ensemble(name="-".join(parts), **own, **given)
+        yield Ensemble(name="-".join(parts), **own, **settings)
 
 
 def _values(
@@ -128,8 +128,8 @@ def _values(
             except InputError as error:
                 raise InputError(f"{place}: {key} {error}") from error
             except _WrongKindError as error:
-                told = f"{place}: {key} is {shown(table[key])}; {error} is needed"
-                raise InputError(told) from None
+                message = f"{place}: {key} is {shown(table[key])}; {error} is needed"
+                raise InputError(message) from None
         elif key not in left_out:
             raise InputError(f"{place} has no {key!r}, which is needed")
     return left_out | found
@@ -137,8 +137,8 @@ def _values(
 
 def _hint(key: str, known: Sequence[str]) -> str:
     """What may be meant by an unknown key."""
-    if key in _MEANT and _MEANT[key][0].rstrip(",") in known:
-        return f"give {' '.join(_MEANT[key])}"
+    if key in _MEANT_KEYS and _MEANT_KEYS[key][0].rstrip(",") in known:
+        return f"give {' '.join(_MEANT_KEYS[key])}"
     near = difflib.get_close_matches(key, known, 1)
     return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
 
@@ -153,7 +153,7 @@ def _text(value: Any) -> str:
     return value
 
 
-def _whole(value: Any) -> int:
+def _integer(value: Any) -> int:
     if not isinstance(value, int) or isinstance(value, bool):
         raise _WrongKindError("a whole number")
     return value
@@ -171,11 +171,11 @@ def _tables(value: Any) -> list[dict[str, Any]]:
     return value
 
 
-def _wholes(value: Any) -> tuple[int, ...]:
+def _integers(value: Any) -> tuple[int, ...]:
     values = value if isinstance(value, list) else [value]
     if not values:
         raise _WrongKindError("at least one whole number")
-    return tuple(_whole(item) for item in values)
+    return tuple(_integer(item) for item in values)
 
 
 def _numbers(value: Any) -> tuple[float, ...]:
@@ -193,15 +193,15 @@ def _laws(value: Any) -> tuple[ContactLaw, ...]:
     values = value if isinstance(value, list) else [value]
     if not values:
         raise _WrongKindError("at least one law")
-    return tuple(_of_bodies(ContactLaw, item) for item in values)
+    return tuple(_made_by_name(ContactLaw, item) for item in values)
 
 
 def _half_space(value: Any) -> HalfSpace:
-    found: HalfSpace = _of_bodies(HalfSpace, value)
+    found: HalfSpace = _made_by_name(HalfSpace, value)
     return found
 
 
-def _of_bodies(kind: type, value: Any) -> Any:
+def _made_by_name(kind: type, value: Any) -> Any:
     if isinstance(value, kind):
         return value
     if not isinstance(value, dict):
@@ -213,7 +213,7 @@ def _range(value: dict[str, Any]) -> tuple[float, ...]:
     step = "per_decade" if "per_decade" in value else "count"
     if set(value) != {"from", "to", step}:
         raise _WrongKindError("a number, a list, or {from, to, count} or {from, to, per_decade}")
-    low, high, count = _number(value["from"]), _number(value["to"]), _whole(value[step])
+    low, high, count = _number(value["from"]), _number(value["to"]), _integer(value[step])
     if step == "count":
         if not (2 <= count <= _MOST_VALUES and low < high):
             raise _WrongKindError(f"from < to and a count of 2 to {_MOST_VALUES}")
@@ -223,14 +223,14 @@ def _range(value: dict[str, Any]) -> tuple[float, ...]:
     return decades(low, high, count)
 
 
-_PLAN = {"name": _text, "seed": _whole, "ensemble": _tables}
+_PLAN = {"name": _text, "seed": _integer, "ensemble": _tables}
 _ENSEMBLE = {
     "name": _text,
     "model": _text,
     "fractal_dimensions": _numbers,
-    "points": _wholes,
+    "points": _integers,
     "roll_off_ratios": _numbers,
-    "realisations": _whole,
+    "realisations": _integer,
     "force_bars": _numbers,
     "cutoff_ratio": _number,
     "boundary": _text,
@@ -240,17 +240,17 @@ _ENSEMBLE = {
 }
 """Keys of an ensemble, and of what kind each is."""
 
-_A_LAW = (
+_MEANT_LAW = (
     "law",
     '= { name = "Dugdale", work_of_adhesion = ..., range = ... }, w L / (E* h²) and h_0 / h',
 )
-_MEANT = {
+_MEANT_KEYS = {
     "hurst": ("fractal_dimensions,", "which are 3 - H"),
     "H": ("fractal_dimensions,", "which are 3 - H"),
     "n": ("points",),
     "surfaces": ("realisations",),
     "hardness": ("hardness_bar,", "H / (E* times the rms slope)"),
-    **dict.fromkeys(("work_bar", "range_bar", "work_of_adhesion", "range"), _A_LAW),
+    **dict.fromkeys(("work_bar", "range_bar", "work_of_adhesion", "range"), _MEANT_LAW),
     "attraction": ("law", '= { name = "Exponential", ... }'),
     "forces": ("force_bars,", "F / (E* h L)"),
     "loads": ("force_bars,", "F / (E* h L)"),

@@ -17,7 +17,7 @@ from typing import Any
 from roughline._version import __version__
 from roughline.campaign import cluster as clusters
 from roughline.campaign.batch import Batch, BatchResult, VersionError, evaluate
-from roughline.campaign.cost import cost_of, refuse_beyond_disk, workers_that_fit
+from roughline.campaign.cost import estimated_cost, refuse_more_than_disk, workers_that_fit
 from roughline.campaign.plan import Plan
 from roughline.campaign.writer import Writer, writing
 from roughline.computing.cores import available_cores, processor_name
@@ -30,7 +30,7 @@ from roughline.errors.public import public
 _BYTES_PER_CASE = 500  # in the process that runs the campaign, which lists all cases
 _BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for work
 _CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
-_LONGEST_WITHOUT_WORKERS = 60.0  # [s]
+_LONGEST_WAIT_FOR_WORKERS = 60.0  # [s]
 
 _Progress = Callable[[str, int, int, int], None]
 """Called with (ensemble, cases done, cases failed, cases in all)."""
@@ -128,8 +128,8 @@ def run(
     try:
         return _computed(plan, Path(store), scheduler, workers, threads, report, say)
     except KeyboardInterrupt:
-        kept = f"interrupted; what is done is kept in {store}: run again to go on"
-        raise KeyboardInterrupt(kept) from None
+        message = f"interrupted; what is done is kept in {store}: run again to go on"
+        raise KeyboardInterrupt(message) from None
 
 
 def _computed(
@@ -149,9 +149,9 @@ def _computed(
     with ExitStack() as stack:
         if not store.exists() or (store.is_dir() and not any(store.iterdir())):
             # a new store is made once its cluster is there: what is refused leaves nothing behind
-            whole = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
-            refuse_beyond_disk(plan, whole, store)
-            cluster, threads = _started(stack, plan, whole, scheduler, workers, threads, say)
+            all_cases = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
+            refuse_more_than_disk(plan, all_cases, store)
+            cluster, threads = _started(stack, plan, all_cases, scheduler, workers, threads, say)
         with clusters.interrupts_held_back():
             writer = stack.enter_context(writing(store, plan))
             batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
@@ -160,7 +160,7 @@ def _computed(
             _report_all(plan, missing, report)
             return Summary()
         if cluster is None:
-            refuse_beyond_disk(plan, missing, store)
+            refuse_more_than_disk(plan, missing, store)
             cluster, threads = _started(stack, plan, missing, scheduler, workers, threads, say)
         _report_all(plan, missing, report)
         dispatch = _Dispatch(writer, cluster, threads or 1, missing, report)
@@ -184,7 +184,7 @@ def _started(
     """Return a cluster for cases that are missing, which ends with the stack, and its threads."""
     if scheduler is not None:
         cluster = stack.enter_context(clusters.remote(scheduler))
-    cost = cost_of(plan, missing)
+    cost = estimated_cost(plan, missing)
     if scheduler is None:
         workers = workers_that_fit(max(cost.memory, 1), workers)
         threads = _threads_that_fit(workers, threads)
@@ -238,11 +238,11 @@ def _log(store: Path, started: float, dispatch: _Dispatch) -> None:
         "failed": dict(+summary.failed),
         "core_seconds": {name: round(value, 1) for name, value in summary.core_seconds.items()},
     }
-    with suppress(OSError), log_of(store).open("a", encoding="utf-8") as file:
+    with suppress(OSError), log_path(store).open("a", encoding="utf-8") as file:
         file.write(json.dumps(entry) + "\n")
 
 
-def log_of(store: Path) -> Path:
+def log_path(store: Path) -> Path:
     """Return the file that says when, and for how long, runs worked on a store."""
     return store.with_name(f"{store.name}.log")
 
@@ -331,9 +331,9 @@ class _Dispatch:
         self._checked, self.cores = now, self._cluster.cores()
         if self.cores:
             self._last_with_workers = now
-        elif now - self._last_with_workers > _LONGEST_WITHOUT_WORKERS:
+        elif now - self._last_with_workers > _LONGEST_WAIT_FOR_WORKERS:
             raise ClusterError(
-                f"there has been no worker for {_LONGEST_WITHOUT_WORKERS:g} s; what is done is "
+                f"there has been no worker for {_LONGEST_WAIT_FOR_WORKERS:g} s; what is done is "
                 "kept: start workers and repeat the command"
             )
 

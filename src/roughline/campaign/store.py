@@ -105,7 +105,7 @@ class Store:
         }
         coordinates = {
             key: (COORDINATES[key].dims, value, COORDINATES[key].attributes)
-            for key, value in sorted(coordinates_of(group, read.marks.shape).items())
+            for key, value in sorted(coordinate_values(group, read.marks.shape).items())
         }
         attributes = {
             key: json.dumps(each) if isinstance(each, dict) else each
@@ -123,7 +123,7 @@ class Store:
         for key in (*VARIABLES, CASE_DIGEST.name):
             if key in group:
                 values[key] = read_filled(group[key])[0][:high, :wide]
-        coordinates = coordinates_of(group, marks.shape)
+        coordinates = coordinate_values(group, marks.shape)
         lost = lost_cases(coordinates["fractal_dimension"], marks, values)
         marks[lost] = PENDING
         for key, each in values.items():
@@ -172,7 +172,7 @@ def _named(cases: NDArray[np.bool_], dimensions: NDArray[np.float64]) -> list[st
     return names
 
 
-def coordinates_of(group: Any, cases: tuple[int, int]) -> dict[str, NDArray[Any]]:
+def coordinate_values(group: Any, cases: tuple[int, int]) -> dict[str, NDArray[Any]]:
     """Return what the arrays of an ensemble of so many cases are over, as its attributes say."""
     return {
         "fractal_dimension": np.array(group.attrs["fractal_dimensions"][: cases[0]]),
@@ -231,9 +231,9 @@ def read_or_none(array: Any) -> NDArray[Any] | None:
 
 def read_filled(array: Any) -> tuple[NDArray[Any], list[tuple[slice, ...]]]:
     """Return the values of an array, and the chunks that cannot be read, which hold fill values."""
-    whole = read_or_none(array)
-    if whole is not None:
-        return whole, []
+    values = read_or_none(array)
+    if values is not None:
+        return values, []
     values = np.full(array.shape, array.fill_value, dtype=array.dtype)
     unreadable = []
     steps = [range(0, size, chunk) for size, chunk in zip(array.shape, array.chunks, strict=True)]

@@ -35,11 +35,11 @@ from roughline.campaign.layout import (
     PENDING,
     Variable,
     codecs,
-    variables_of,
+    stored_variables,
 )
 from roughline.campaign.plan import BODIES, Ensemble, Plan
 from roughline.campaign.store import (
-    coordinates_of,
+    coordinate_values,
     damaged_or_foreign,
     opened,
     read_filled,
@@ -243,7 +243,7 @@ def _prepared_group(root: Any, ensemble: Ensemble) -> Any:
     before_digests = CASE_STATUS.name in group and CASE_DIGEST.name not in group
     stored = group[CASE_STATUS.name].shape[1] if CASE_STATUS.name in group else 0
     realisations = max(ensemble.realisations, stored)
-    for name, value in coordinates_of(group, (len(known), realisations)).items():
+    for name, value in coordinate_values(group, (len(known), realisations)).items():
         array = _prepared_array(group, COORDINATES[name], value.shape, value.shape)
         stored_value = read_or_none(array)
         if stored_value is None or not np.array_equal(stored_value, value):
@@ -252,7 +252,7 @@ def _prepared_group(root: Any, ensemble: Ensemble) -> Any:
     chunks = (*chunk_shape(ensemble), len(ensemble.force_bars))
     of_cases = (CASE_STATUS,) if before_digests else (CASE_DIGEST, CASE_STATUS)
     # marks last: who reads meanwhile finds all else as large as they are
-    for variable in (*variables_of(ensemble), *of_cases):
+    for variable in (*stored_variables(ensemble), *of_cases):
         rank = len(variable.dims)
         _prepared_array(group, variable, shape[:rank], tuple(map(min, chunks, shape[:rank])))
     return group
