@@ -21,7 +21,7 @@ from roughline.topography.body import Body, Surface
 from roughline.units import decimal, digits_known, in_words
 
 _GAP_ELASTIC_PLASTIC = ListedColormap(["white", "black", "tab:red"])
-_TITLE = 8  # font size [pt]
+_TITLE_SIZE = 8  # [pt]
 
 
 @public
@@ -68,9 +68,9 @@ def _draw_scale(
     cmap: str = "cividis",
 ) -> None:
     """Draw values on a map with a colour bar."""
-    shown = draw_map(axes, thinned(values), sizes, unit, cmap=cmap)
+    image = draw_map(axes, thinned(values), sizes, unit, cmap=cmap)
     assert axes.figure is not None
-    axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.85)
+    axes.figure.colorbar(image, ax=axes, label=label, shrink=0.85)
 
 
 @public
@@ -121,15 +121,15 @@ def draw_contact(axes: Axes, fields: Fields, unit: str | None) -> None:
 def _draw_contact_with_key(axes: Axes, fields: Fields, unit: str | None) -> None:
     """Draw where bodies touch, and explain red in the title."""
     draw_contact(axes, fields, unit)
-    axes.set_title(axes.get_title() + yield_key(fields), fontsize=_TITLE)
+    axes.set_title(axes.get_title() + yield_key(fields), fontsize=_TITLE_SIZE)
 
 
 def draw_pressure(axes: Axes, fields: Fields, unit: str | None) -> None:
     """Draw the pressure where bodies touch."""
     of_pressure = "Pa" if unit == "m" else None
     label, factor = in_unit("pressure $p$", fields.pressure, of_pressure)
-    shown = np.where(fields.contact, fields.pressure * factor, np.nan)
-    _draw_scale(axes, shown, fields.sizes, unit, label, "viridis_r")
+    pressure = np.where(fields.contact, fields.pressure * factor, np.nan)
+    _draw_scale(axes, pressure, fields.sizes, unit, label, "viridis_r")
 
 
 def drawn_at(
@@ -145,7 +145,7 @@ def drawn_at(
             number = load % curve.status.size
             say(drawn, f"load {number} was not solved\n{Status(curve.status[load]).reason}")
         else:
-            drawn.set_title(_title(curve, load), fontsize=_TITLE)
+            drawn.set_title(_title(curve, load), fontsize=_TITLE_SIZE)
             draw(drawn, fields, curve.unit)
     return drawn
 

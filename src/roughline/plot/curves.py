@@ -14,7 +14,7 @@ from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.style import FORCE_LABEL, OPEN, drawing_on, in_unit, label_decades, say
 
-_ELASTIC, _AFTER_A_LARGER = "k", "tab:blue"
+_ELASTIC_COLOUR, _AFTER_LARGER_COLOUR = "k", "tab:blue"
 
 
 @public
@@ -91,7 +91,9 @@ def area(curve: Curve, axes: Axes | None = None) -> Axes:
     )
     label, factor = _label(curve, "force", curve.force)
     with drawing_on(axes) as drawn:
-        drawn.plot([], [], "o", color=_ELASTIC, label="corrected for the steps of its outline")
+        drawn.plot(
+            [], [], "o", color=_ELASTIC_COLOUR, label="corrected for the steps of its outline"
+        )
         is_pulled = bool((curve.force < 0).any())
         draw_loads(drawn, curve.force * factor, corrected, curve, linear=is_pulled)
         loaded = rising(curve)
@@ -116,17 +118,17 @@ def draw_loads(axes: Axes, x: Real, y: Real, curve: Curve, *, linear: bool = Fal
     """
     loaded, resolved = rising(curve), curve.resolved | (curve.force == 0)
     # on logarithmic scales bodies just apart have no place
-    shown = np.isfinite(x * y) if linear else (x > 0) & (y > 0)
+    is_drawn = np.isfinite(x * y) if linear else (x > 0) & (y > 0)
     draw = axes.plot if linear else axes.loglog
-    draw(x[shown], y[shown], color="0.5", linewidth=0.8)
-    for when, colour in ((loaded, _ELASTIC), (~loaded, _AFTER_A_LARGER)):
+    draw(x[is_drawn], y[is_drawn], color="0.5", linewidth=0.8)
+    for when, colour in ((loaded, _ELASTIC_COLOUR), (~loaded, _AFTER_LARGER_COLOUR)):
         for which, look in ((resolved, {}), (~resolved, OPEN)):
-            points = shown & when & which
+            points = is_drawn & when & which
             draw(x[points], y[points], "o", color=colour, **look)
     if not linear:
         label_decades(axes)
-    if left_out := int((curve.converged & ~shown).sum()):
-        text = f"{left_out} of {shown.size} loads not shown, at zero or infinite"
+    if left_out := int((curve.converged & ~is_drawn).sum()):
+        text = f"{left_out} of {is_drawn.size} loads not shown, at zero or infinite"
         axes.plot([], [], linestyle="", label=text)
         axes.legend()
 
@@ -154,10 +156,10 @@ def _explain(axes: Axes, curve: Curve) -> None:
     marks: list[tuple[str, dict[str, Any]]] = []
     if (solved & ~curve.resolved & (curve.force != 0)).any():
         text = f"fewer than {RESOLVED_FROM} {_cells(curve)} touch"
-        marks.append((text, {"marker": "o", "color": _ELASTIC, **OPEN}))
+        marks.append((text, {"marker": "o", "color": _ELASTIC_COLOUR, **OPEN}))
     if (solved & ~rising(curve)).any():
         text = "as the bodies go apart" if _sticks(curve) else "after a larger load"
-        marks.append((text, {"marker": "o", "color": _AFTER_A_LARGER}))
+        marks.append((text, {"marker": "o", "color": _AFTER_LARGER_COLOUR}))
     if missing := int((~solved).sum()):
         marks.append((f"{missing} of {solved.size} loads not solved", {}))
     for text, look in marks:
@@ -174,7 +176,7 @@ def _cells(curve: Curve) -> str:
 
 def _values(curve: Curve, name: str) -> Real:
     """Return a quantity of a curve over its loads."""
-    name_of(name)
+    quantity_name(name)
     values: Real | None = getattr(curve, name, None)
     if values is None:
         raise InputError(
@@ -185,10 +187,10 @@ def _values(curve: Curve, name: str) -> Real:
 
 def _label(curve: Curve, name: str, values: Real) -> tuple[str, float]:
     """Return the label of a quantity's axis, and the factor to the unit in it."""
-    return in_unit(name_of(name), values, QUANTITIES[name].unit_in(curve.unit))
+    return in_unit(quantity_name(name), values, QUANTITIES[name].unit_in(curve.unit))
 
 
-def name_of(quantity: str) -> str:
+def quantity_name(quantity: str) -> str:
     """Name a quantity over the loads in words, with its symbol."""
     known = [
         name

@@ -18,9 +18,9 @@ from roughline.plot.bodies import drawn_at
 from roughline.plot.style import in_unit, label_decades, say
 from roughline.units import decimal, in_words
 
-_BARS = "0.75"
+_BAR_COLOUR = "0.75"
 _DIGITS = 3  # of what is written in a picture
-_TITLE = 8  # font size [pt]
+_TITLE_SIZE = 8  # [pt]
 
 
 @public
@@ -66,16 +66,16 @@ def draw_distribution(
     if not in_contact and of == "pressure":
         say(axes, "no contact")
         return
-    whole = 1.0 if of == "gap" else in_contact
-    density = found.density / whole / factor
-    axes.stairs(density, found.edges * factor, fill=True, color=_BARS)
+    area = 1.0 if of == "gap" else in_contact
+    density = found.density / area / factor
+    axes.stairs(density, found.edges * factor, fill=True, color=_BAR_COLOUR)
     axes.stairs(density, found.edges * factor, color="k", linewidth=0.8)
-    axes.axvline(found.mean / whole * factor, color="tab:blue", linestyle="--")
-    mean = in_words(found.mean / whole, own if "[" in label else None, _DIGITS)
-    told = [f"dashed: mean {mean}", f"{_percent(in_contact)} of the cells in contact"]
+    axes.axvline(found.mean / area * factor, color="tab:blue", linestyle="--")
+    mean = in_words(found.mean / area, own if "[" in label else None, _DIGITS)
+    remarks = [f"dashed: mean {mean}", f"{_percent(in_contact)} of the cells in contact"]
     if found.at_hardness:
-        told.append(f"{_percent(found.at_hardness / in_contact)} of them at the hardness")
-    _tell(axes, told)
+        remarks.append(f"{_percent(found.at_hardness / in_contact)} of them at the hardness")
+    _tell(axes, remarks)
     where = "" if of == "gap" else " in contact"
     axes.set(xlabel=label, ylabel=f"density{where}{_per(label)}")
     axes.set_xlim(left=0)
@@ -104,7 +104,7 @@ def draw_patches(axes: Axes, fields: Fields, unit: str | None) -> None:
 def _tell(axes: Axes, lines: Sequence[str]) -> None:
     """Write lines above axes, below a title that they have."""
     title = axes.get_title()
-    axes.set_title("\n".join([title] * bool(title) + [*lines]), fontsize=_TITLE)
+    axes.set_title("\n".join([title] * bool(title) + [*lines]), fontsize=_TITLE_SIZE)
 
 
 def _percent(share: float) -> str:

@@ -14,15 +14,15 @@ from matplotlib.patheffects import withStroke
 
 from roughline.errors.public import public
 from roughline.fluid.flow import Flow
-from roughline.plot.pixels import any_marked, draw_map, sides_shown
+from roughline.plot.pixels import any_marked, draw_map, drawn_sides
 from roughline.plot.style import drawing_on
 from roughline.topography.heights import checked_unit
 from roughline.units import in_words
 
-_WEAKEST = 1e-2  # of the mean flux: what is less has the colour of no flow
-_DARKEST = 0.85  # of the colours: darker ones are too near to the black of the contact
-_TITLE = 8  # font size [pt]
-_ONE_CHANNEL = 0.5  # share of the flow from which on a channel is told
+_WEAKEST_FLUX = 1e-2  # of the mean: what is less has the colour of no flow
+_DARKEST_COLOUR = 0.85  # of the colours: darker ones are too near to the black of the contact
+_TITLE_SIZE = 8  # [pt]
+_CHANNEL_SHARE = 0.5  # share of the flow from which on a channel is told
 
 
 @public
@@ -69,29 +69,29 @@ def flow(flow: Flow, unit: str | None = None, axes: Axes | None = None) -> Axes:
 
 def draw_flow(axes: Axes, flow: Flow, unit: str | None) -> None:
     """Draw the flux on the gap, where lengths have a given unit."""
-    shown = partial(draw_map, axes, sizes=flow.sizes, unit=unit, interpolation="nearest")
+    draw = partial(draw_map, axes, sizes=flow.sizes, unit=unit, interpolation="nearest")
     is_open = any_marked(flow.gap > 0)
-    shown(is_open, cmap="gray", vmin=0, vmax=1)
+    draw(is_open, cmap="gray", vmin=0, vmax=1)
     if flow.is_sealed:
         reached = np.where(is_open & any_marked(flow.pressure == 1), 1.0, np.nan)
-        shown(reached, cmap=ListedColormap([_scale()(0.6)]))
+        draw(reached, cmap=ListedColormap([_scale()(0.6)]))
     else:
         width = flow.sizes[1] if flow.along == "x" else flow.sizes[0]
         flux = any_marked(np.hypot(*flow.flux)) * width / flow.inflow
-        norm = LogNorm(_WEAKEST, max(flux.max(), 1.0))
-        image = shown(np.where(flux > 0, flux, np.nan), cmap=_scale(), norm=norm)
+        norm = LogNorm(_WEAKEST_FLUX, max(flux.max(), 1.0))
+        image = draw(np.where(flux > 0, flux, np.nan), cmap=_scale(), norm=norm)
         assert axes.figure is not None
         axes.figure.colorbar(
             image, ax=axes, label=r"flux over its mean, $|j|\,/\,\bar j$", shrink=0.85, extend="min"
         )
-        _mark_constriction(axes, flow, sides_shown(image))
+        _mark_constriction(axes, flow, drawn_sides(image))
     _mark_direction(axes, flow)
-    axes.set_title(_in_words(flow, unit), fontsize=_TITLE, pad=17 if flow.along == "x" else 6)
+    axes.set_title(_in_words(flow, unit), fontsize=_TITLE_SIZE, pad=17 if flow.along == "x" else 6)
 
 
 def _scale() -> ListedColormap:
     """Colours that darken with the flux, and stay apart from black."""
-    return ListedColormap(mpl.colormaps["YlGnBu"](np.linspace(0, _DARKEST, 256)))
+    return ListedColormap(mpl.colormaps["YlGnBu"](np.linspace(0, _DARKEST_COLOUR, 256)))
 
 
 def _mark_constriction(axes: Axes, flow: Flow, sides: Sequence[float]) -> None:
@@ -128,7 +128,7 @@ def _mark_direction(axes: Axes, flow: Flow) -> None:
         ha="center" if along_x else "left",
         va="bottom" if along_x else "center",
         rotation=0 if along_x else 270,  # y counts downwards
-        fontsize=_TITLE + 1,
+        fontsize=_TITLE_SIZE + 1,
     )
 
 
@@ -139,7 +139,7 @@ def _in_words(flow: Flow, unit: str | None) -> str:
     if flow.is_sealed:
         return "sealed: no way from one repetition\nof the map to the next"
     share = flow.largest_share
-    one = f"; {100 * share:.0f}% in one channel" if share > _ONE_CHANNEL else ""
+    one = f"; {100 * share:.0f}% in one channel" if share > _CHANNEL_SHARE else ""
     aperture = in_words(flow.hydraulic_aperture, unit, 3)
     name = "aperture with slip $u_s$" if flow.mean_free_path else "hydraulic aperture $u_h$"
     return f"{name} = {aperture}{one}\nring: where it is throttled most"

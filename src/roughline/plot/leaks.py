@@ -18,8 +18,8 @@ from roughline.errors.public import public
 from roughline.plot.curves import rising
 from roughline.plot.style import MARKERS, OPEN, colours, drawing_on, in_unit
 
-_APERTURE = "hydraulic aperture $u_h$"
-_ROW = 0.035  # height of a row of marks at the foot of axes, over theirs
+_APERTURE_LABEL = "hydraulic aperture $u_h$"
+_MARK_ROW_HEIGHT = 0.035  # at the foot of axes, over theirs
 _DASHES = (":", "-.")
 
 
@@ -74,15 +74,17 @@ def hydraulic_aperture(
     >>> theory = rl.theory("critical-junction", surface, 1.0, loads[:3])
     >>> axes = rl.plot.hydraulic_aperture(curve, theories=[theory])
     """
-    given = _checked(curves, measure, theories, labels)
-    pressures = [curve.force / curve.length**2 for curve in given]
-    apertures = [curve.measured[measure].values for curve in given]
-    x_label, x = _axis_of_pressure(given[0], np.concatenate(pressures))
-    y_label, y = in_unit(_APERTURE, np.concatenate(apertures), given[0].unit)
-    looks = _looks(labels or range(len(given)))
+    curve_list = _checked(curves, measure, theories, labels)
+    pressures = [curve.force / curve.length**2 for curve in curve_list]
+    apertures = [curve.measured[measure].values for curve in curve_list]
+    x_label, x = _axis_of_pressure(curve_list[0], np.concatenate(pressures))
+    y_label, y = in_unit(_APERTURE_LABEL, np.concatenate(apertures), curve_list[0].unit)
+    looks = _looks(labels or range(len(curve_list)))
     lines = [
         _Line(pressure * x, aperture * y, rising(curve), look)
-        for curve, pressure, aperture, look in zip(given, pressures, apertures, looks, strict=True)
+        for curve, pressure, aperture, look in zip(
+            curve_list, pressures, apertures, looks, strict=True
+        )
     ]
     with drawing_on(axes, height=4.4) as drawn:
         drawn.set(xscale="log", yscale="log", xlabel=x_label, ylabel=y_label)
@@ -91,7 +93,7 @@ def hydraulic_aperture(
         lines += _drawn_theories(drawn, theories, (x, y), lines)
         _mark_sealed(drawn, lines)
         _explain(drawn, lines)
-        _add_leak(drawn, y_label.removeprefix(_APERTURE))
+        _add_leak(drawn, y_label.removeprefix(_APERTURE_LABEL))
     return drawn
 
 
@@ -113,13 +115,13 @@ class _Line:
 
     def draw(self, axes: Axes) -> None:
         """Draw what is not sealed; dashed and open after a larger load."""
-        shown = np.where(self.aperture > 0, self.aperture, np.nan)
-        axes.plot(self.pressure[self.rising], shown[self.rising], **self.look)
+        positive = np.where(self.aperture > 0, self.aperture, np.nan)
+        axes.plot(self.pressure[self.rising], positive[self.rising], **self.look)
         after = {**self.look, "linestyle": "--", "label": None, **OPEN}
         edges = np.flatnonzero(np.diff(self.rising, append=True))
         for last, end in zip(edges[::2], edges[1::2], strict=True):
             part = slice(last, end + 1)  # from the last rising load on, which has its own mark
-            axes.plot(self.pressure[part], shown[part], markevery=slice(1, None), **after)
+            axes.plot(self.pressure[part], positive[part], markevery=slice(1, None), **after)
 
     def sealed(self, rising: bool) -> Real:
         """Pressures under which it is sealed, of rising loads or of those after a larger one."""
@@ -144,9 +146,11 @@ def _drawn_theories(
     lines = []
     for theory, dashes in zip(theories, cycle(_DASHES), strict=False):
         pressure, aperture = theory.pressure * factors[0], theory.hydraulic_aperture * factors[1]
-        kept = (aperture > least) | ((aperture == 0) & (np.cumsum(aperture == 0) == 1))
+        is_drawn = (aperture > least) | ((aperture == 0) & (np.cumsum(aperture == 0) == 1))
         look = {"color": "k", "linestyle": dashes, "label": theory.name}
-        lines.append(_Line(pressure[kept], aperture[kept], np.full(kept.sum(), True), look))
+        lines.append(
+            _Line(pressure[is_drawn], aperture[is_drawn], np.full(is_drawn.sum(), True), look)
+        )
         lines[-1].draw(axes)
     return lines
 
@@ -162,10 +166,15 @@ def _mark_sealed(axes: Axes, lines: Sequence[_Line]) -> None:
                 sealed
             )
     bottom, top = axes.get_ylim()
-    axes.set_ylim(top * (bottom / top) ** (1 / (1 - _ROW * (len(rows) + 0.5))), top)
+    axes.set_ylim(top * (bottom / top) ** (1 / (1 - _MARK_ROW_HEIGHT * (len(rows) + 0.5))), top)
     for place, (pressures, look) in zip(range(len(rows), 0, -1), rows.values(), strict=True):
         x = np.concatenate(pressures)
-        axes.plot(x, np.full(x.size, _ROW * place), transform=axes.get_xaxis_transform(), **look)
+        axes.plot(
+            x,
+            np.full(x.size, _MARK_ROW_HEIGHT * place),
+            transform=axes.get_xaxis_transform(),
+            **look,
+        )
 
 
 def _explain(axes: Axes, lines: Sequence[_Line]) -> None:
@@ -190,14 +199,14 @@ def _add_leak(axes: Axes, of_length: str) -> None:
 
 def _checked(curves: Any, measure: str, theories: Any, labels: Any) -> list[SurfaceCurve]:
     """Curves that have a measure; theories of something else and other labels are refused."""
-    given = [curves] if isinstance(curves, SurfaceCurve) else several(curves)
-    if not given or not all(isinstance(curve, SurfaceCurve) for curve in given):
+    curve_list = [curves] if isinstance(curves, SurfaceCurve) else several(curves)
+    if not curve_list or not all(isinstance(curve, SurfaceCurve) for curve in curve_list):
         refuse("curves", curves, "one or several curves, as rl.press returns them, are needed")
-    if any(measure not in curve.measured for curve in given):
+    if any(measure not in curve.measured for curve in curve_list):
         raise InputError(
             f'a curve has no measure "{measure}": press with measures=[rl.hydraulic_aperture("x")]'
         )
-    if len({curve.unit for curve in given}) > 1:
+    if len({curve.unit for curve in curve_list}) > 1:
         raise InputError("curves are in different units: press bodies in the same unit")
     if not isinstance(theories, list | tuple) or any(
         getattr(each, "hydraulic_aperture", None) is None for each in theories
@@ -205,6 +214,6 @@ def _checked(curves: Any, measure: str, theories: Any, labels: Any) -> list[Surf
         known = '"critical-junction" and "bruggeman"'
         refuse("theories", theories, f"a list of what rl.theory gives for {known} is needed")
     texts = isinstance(labels, list | tuple) and all(isinstance(label, str) for label in labels)
-    if not texts or len(labels) not in (0, len(given)):
-        refuse("labels", labels, f"a list of {len(given)} texts is needed, one for each curve")
-    return given
+    if not texts or len(labels) not in (0, len(curve_list)):
+        refuse("labels", labels, f"a list of {len(curve_list)} texts is needed, one for each curve")
+    return curve_list

@@ -18,7 +18,7 @@ from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.style import FORCE_LABEL, OPEN, SHADE, colours, drawing_on
 
-_DIFFERENCE = "$k_{3D} / k_{1D} - 1$"
+_DIFFERENCE_LABEL = "$k_{3D} / k_{1D} - 1$"
 
 TRUST_LEVELS = (-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4)
 """Differences at which the colour of the trust map changes."""
@@ -85,7 +85,7 @@ def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None =
         for sure, look in ((compared.resolved, {}), (~compared.resolved, OPEN)):
             drawn.semilogx(force[sure], compared.difference[sure], "o", color=colour, **look)
         drawn.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
-        drawn.set(xlabel=FORCE_LABEL, ylabel=_DIFFERENCE)
+        drawn.set(xlabel=FORCE_LABEL, ylabel=_DIFFERENCE_LABEL)
     return drawn
 
 
@@ -120,9 +120,9 @@ def trust_map(
         known = ", ".join(f"{ratio:g}" for ratio in trust.roll_off_ratios)
         raise InputError(f"roll_off_ratio is {roll_off_ratio:g}; the map has {known}")
     with drawing_on(axes) as drawn:
-        shown = draw_trust(drawn, trust, int(found[0]))
+        mesh = draw_trust(drawn, trust, int(found[0]))
         drawn.set(xlabel=FORCE_LABEL, ylabel="fractal dimension $D_f$")
-        add_bar(drawn, shown)
+        add_bar(drawn, mesh)
     return drawn
 
 
@@ -132,18 +132,18 @@ def draw_trust(axes: Axes, trust: TrustMap, roll_off: int) -> Any:
     scale = ListedColormap(trust_colours())
     norm = BoundaryNorm(levels, levels.size + 1, extend="both")
     over = (trust.force_bars, trust.fractal_dimensions)
-    shown = axes.pcolormesh(*over, trust.difference[roll_off], cmap=scale, norm=norm)
+    mesh = axes.pcolormesh(*over, trust.difference[roll_off], cmap=scale, norm=norm)
     axes.contourf(
         *over, trust.resolved[roll_off], levels=[-1, 0.5], colors="none", hatches=["////"]
     )
     axes.set(xscale="log", title=f"$q_r/q_0$ = {trust.roll_off_ratios[roll_off]:g}")
-    return shown
+    return mesh
 
 
-def add_bar(axes: Any, shown: Any) -> None:
+def add_bar(axes: Any, mesh: Any) -> None:
     """Add the bar of a trust map's colours beside axes."""
     figure = np.ravel(axes)[0].figure
-    bar = figure.colorbar(shown, ax=axes, label=_DIFFERENCE, ticks=np.array(TRUST_LEVELS))
+    bar = figure.colorbar(mesh, ax=axes, label=_DIFFERENCE_LABEL, ticks=np.array(TRUST_LEVELS))
     bar.ax.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
 
 

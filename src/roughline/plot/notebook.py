@@ -29,15 +29,15 @@ from roughline.topography.borders import whole_or_piece
 from roughline.units import MOST_DIGITS, decimal, digits_known, in_words
 
 _WIDTH, _HEIGHT = 3.2, 1.6  # of a thumbnail [inch]
-_PICTURE = 2.6  # height of a picture with axes [inch]
+_PICTURE_HEIGHT = 2.6  # height of a picture with axes [inch]
 _DPI = 100
 _MOST_POINTS = 2000  # of a line in a thumbnail
 _MOST_PIXELS = 200  # of a surface in a thumbnail, along a side
-_FIRST, _LAST = 12, 4  # loads of a long curve that are shown
+_FIRST_LOADS, _LAST_LOADS = 12, 4  # loads of a long curve that are shown
 
 
 @in_notebook.register
-def _of_body(body: Body) -> str:
+def _body_html(body: Body) -> str:
     """A table, and a picture of the heights."""
     is_surface = isinstance(body, Surface)
     rows = [
@@ -58,7 +58,7 @@ def _of_body(body: Body) -> str:
 
 
 @in_notebook.register
-def _of_curve(curve: Curve) -> str:
+def _curve_html(curve: Curve) -> str:
     """A table of the loads."""
     # name, values, their errors and their dimension; None for numbers
     columns: list[tuple[str, Real, Real | None, str | None]] = [
@@ -88,10 +88,10 @@ def _of_curve(curve: Curve) -> str:
             *(_cell(i, values, errors, kind, curve.unit) for _, values, errors, kind in columns),
             _remark(curve, i),
         ]
-        for i in reached[_shown(reached.size)].tolist()
+        for i in reached[_listed_loads(reached.size)].tolist()
     ]
     if len(rows) < reached.size:
-        rows.insert(_FIRST, ["…"] * len(header))
+        rows.insert(_FIRST_LOADS, ["…"] * len(header))
     if left := curve.status.size - reached.size:  # told once
         missing = ["–"] * len(columns)
         rows.append([f"{left} of {curve.status.size}", *missing, Status.INTERRUPTED.reason])
@@ -99,7 +99,7 @@ def _of_curve(curve: Curve) -> str:
 
 
 @in_notebook.register
-def _of_creep(curve: CreepCurve) -> str:
+def _creep_html(curve: CreepCurve) -> str:
     """A table of the times, and the quantities over them."""
     unit = curve.elastic.unit
     columns: list[tuple[str, Real, str | None]] = [
@@ -112,12 +112,12 @@ def _of_creep(curve: CreepCurve) -> str:
     rows = [
         [decimal(float(curve.time[i]), MOST_DIGITS)]
         + [_cell(i, values, None, kind, unit) for _, values, kind in columns]
-        for i in _shown(curve.time.size)
+        for i in _listed_loads(curve.time.size)
     ]
     if len(rows) < curve.time.size:
-        rows.insert(_FIRST, ["…"] * (1 + len(columns)))
+        rows.insert(_FIRST_LOADS, ["…"] * (1 + len(columns)))
     with styled():
-        figure = new_figure(COLUMN, _PICTURE)
+        figure = new_figure(COLUMN, _PICTURE_HEIGHT)
         # the one of both that is not held, as a rule
         changes = [float(np.ptp(values) / np.abs(values).max()) for _, values, _ in columns[:2]]
         name, drawn, _ = columns[int(np.argmax(changes))]
@@ -132,7 +132,7 @@ def _of_creep(curve: CreepCurve) -> str:
 
 
 @in_notebook.register
-def _of_fields(fields: Fields) -> str:
+def _fields_html(fields: Fields) -> str:
     """A table of means, and the pressure."""
     rows = [
         ("points", " × ".join(map(str, fields.gap.shape))),
@@ -143,14 +143,14 @@ def _of_fields(fields: Fields) -> str:
         ("mean gap", _number(float(fields.gap.mean()))),
     ]
     with styled():
-        figure = new_figure(COLUMN, _PICTURE)
+        figure = new_figure(COLUMN, _PICTURE_HEIGHT)
         draw_pressure(figure.subplots(), fields, None)
         picture = png(figure)
     return html("Fields of a load", ("", ""), rows, picture)
 
 
 @in_notebook.register
-def _of_flow(flow: Flow) -> str:
+def _flow_html(flow: Flow) -> str:
     """A table of what flows, and where."""
     aperture = "0, sealed" if flow.is_sealed else _number(flow.hydraulic_aperture)
     rows = [
@@ -171,22 +171,22 @@ def _of_flow(flow: Flow) -> str:
 
 
 @in_notebook.register
-def _of_sealing(found: SealingPressure) -> str:
+def _sealing_html(found: SealingPressure) -> str:
     """Both ends, the interval, and what coarser grid and quarters give."""
     areas = " to ".join(map(_number, found.area_fractions))
     title = f"Mean pressure at which the gap seals, along {found.along}"
-    return _of_search(found, title, [("contact area A/A_0", areas)])
+    return _search_html(found, title, [("contact area A/A_0", areas)])
 
 
 @in_notebook.register
-def _of_reopening(found: Reopening) -> str:
+def _reopening_html(found: Reopening) -> str:
     """Both shares, the interval, and what coarser grid and quarters give."""
     apertures = ", ".join(map(_number, found.apertures))
     title = f"Share of the load down to which less than {_number(found.times)} times as much leaks"
-    return _of_search(found, title, [("apertures under the load and at both shares", apertures)])
+    return _search_html(found, title, [("apertures under the load and at both shares", apertures)])
 
 
-def _of_search(
+def _search_html(
     found: SealingPressure | Reopening, title: str, further: list[tuple[str, str]]
 ) -> str:
     """A table of what was found, and a picture of what leaves it open."""
@@ -285,8 +285,8 @@ def _remark(curve: Curve, load: int) -> str:
     return "" if curve.resolved[load] or curve.force[load] == 0 else "the grid decides"
 
 
-def _shown(count: int) -> list[int]:
+def _listed_loads(count: int) -> list[int]:
     """Return which loads are shown: the first and the last of many."""
-    if count <= _FIRST + _LAST:
+    if count <= _FIRST_LOADS + _LAST_LOADS:
         return list(range(count))
-    return [*range(_FIRST), *range(count - _LAST, count)]
+    return [*range(_FIRST_LOADS), *range(count - _LAST_LOADS, count)]

@@ -33,7 +33,7 @@ def show_map(
     return axes.imshow(values.T, origin="upper", extent=extent, **look)
 
 
-def sides_shown(image: AxesImage) -> tuple[float, float]:
+def drawn_sides(image: AxesImage) -> tuple[float, float]:
     """Sides of a map that was drawn, in the units of its axes."""
     _, right, bottom, _ = image.get_extent()
     return right, bottom

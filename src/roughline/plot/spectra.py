@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.plot.curves import name_of
+from roughline.plot.curves import quantity_name
 from roughline.plot.style import SHADE, drawing_on, in_unit, label_decades, say
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import ProfileSpectrum
@@ -86,7 +86,7 @@ def power_law(
     InputError
         If there is no such quantity.
     """
-    labels = [name_of(name) for name in (x, y)]
+    labels = [quantity_name(name) for name in (x, y)]
     force = np.asarray(force_bar, dtype=np.float64)
     stiffness = np.atleast_2d(np.asarray(stiffness_bar, dtype=np.float64))
     if force.ndim != 1 or stiffness.ndim != 2 or stiffness.shape[1] != force.size:

@@ -19,7 +19,7 @@ from roughline.units import SI, prefix
 
 COLUMN, PAGE = 3.5, 7.2  # widths of one and two journal columns [inch]
 MARKERS = "osD^vP"
-_FEW = 0.4  # decades, in which some more labels have room
+_FEW_DECADES = 0.4  # in which some more labels have room
 _DIMENSIONS = {"length", "force", "pressure", "energy"}  # units of no system
 
 FORCE_LABEL = r"force $\bar F = F\,/\,(E^* h L)$"
@@ -125,7 +125,7 @@ def label_decades(axes: Axes) -> None:
         if np.floor(high) - np.ceil(low) >= 1:
             return ""
         multiple = round(value / 10 ** np.floor(np.log10(value)), 6)
-        some = (2, 3, 5, 7) if high - low < _FEW else (2, 5) if high - low < 1 else (3,)
+        some = (2, 3, 5, 7) if high - low < _FEW_DECADES else (2, 5) if high - low < 1 else (3,)
         return written(value) if multiple in some else ""
 
     axes.xaxis.set_minor_formatter(FuncFormatter(label))
@@ -140,8 +140,8 @@ def legend_dimensions(axes: Axes, dimensions: NDArray[np.float64]) -> None:
     """Draw a legend of the fractal dimensions alone, in two columns."""
     handles, labels = axes.get_legend_handles_labels()
     wanted = {dimension_label(dimension) for dimension in dimensions}
-    kept = [(h, label) for h, label in zip(handles, labels, strict=True) if label in wanted]
-    axes.legend(*zip(*kept, strict=True), title="$D_f$", loc="lower right", ncols=2)
+    labelled = [(h, label) for h, label in zip(handles, labels, strict=True) if label in wanted]
+    axes.legend(*zip(*labelled, strict=True), title="$D_f$", loc="lower right", ncols=2)
 
 
 def say(axes: Axes, text: str) -> None:

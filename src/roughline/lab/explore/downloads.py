@@ -34,7 +34,7 @@ from roughline.lab.frames import frame
 from roughline.lab.maps import Map
 from roughline.lab.panels import Filled, Panel
 from roughline.lab.server.tasks import Arguments, Progress
-from roughline.plot.pixels import draw_map, sides_shown
+from roughline.plot.pixels import draw_map, drawn_sides
 from roughline.plot.style import PAGE, new_figure, styled
 
 _ROW = 3.4  # height of a row of two plots [inch]
@@ -265,7 +265,7 @@ def _draw_map(axes: Axes, shown: Map, sizes: tuple[float, float]) -> None:
     if shown.title:
         label = f"{shown.title} {unit if unit.startswith('/') else f'[{unit}]'}"
         axes.figure.colorbar(image, ax=axes, shrink=0.85, label=label)
-    x, y = sides_shown(image)
+    x, y = drawn_sides(image)
     for place in shown.rings:
         for width, colour in _RING:
             ring = axes.plot(place[0] * x, place[1] * y, "o", markerfacecolor="none")[0]
