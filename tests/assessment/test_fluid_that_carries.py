@@ -11,7 +11,7 @@ import roughline as rl
 from roughline.assessment.from_fields import build_question
 from roughline.cli import app
 from roughline.engineering.sealing import ATMOSPHERE
-from roughline.report.json_output import of_assessment, to_json
+from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 
 WATER, AIR = rl.Fluid("water").fluid, rl.Fluid("air").fluid
@@ -187,7 +187,7 @@ def test_where_all_loads_open_it_the_pressure_that_does_is_all_that_is_known(bod
     assert {*found.answers} == expected
     assert found.answers["opening_pressure"].leads
     assert found.is_solved
-    content = json.loads(to_json(of_assessment(found)))
+    content = json.loads(to_json(assessment_json(found)))
     assert content["curve"]["status"] == ["lifted", "lifted"]
     assert content["answers"]["P_o"]["values"] == pytest.approx([301325.0, 501325.0])
 

@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from roughline.report.contact_report import write_contact_report
-from roughline.report.json_output import of_assessment, to_json
+from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 
 DEEPEST = rl.Measure(
@@ -138,7 +138,7 @@ def test_it_stands_on_the_terminal_in_json_and_in_the_report(
     result = asked(surface, grid_error=True)
     print_assessment(result)
     assert "deepest valley u_0" in capsys.readouterr().out
-    written = json.loads(to_json(of_assessment(result)))
+    written = json.loads(to_json(assessment_json(result)))
     assert written["answers"]["u_0"]["key"] == "valley"
     measured = written["measures"]["counted_gap"]
     assert (measured["symbol"], measured["unit"]) == ("u_0", "m")

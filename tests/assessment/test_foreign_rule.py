@@ -10,7 +10,7 @@ import roughline as rl
 from lab.test_measured import Page
 from roughline.report.contact_report import write_contact_report
 from roughline.report.contact_tables import symbol_table
-from roughline.report.json_output import of_assessment, of_part, to_json
+from roughline.report.json_output import assessment_json, part_json, to_json
 from roughline.report.terminal import print_assessment
 
 LIMIT = 1.05  # of its value at the first load, beyond which no interval reaches
@@ -120,7 +120,7 @@ def test_it_is_averaged_over_maps(resonance, surface):
     found = part.answers["resonance"]
     of_maps = [each.answers["resonance"].values for each in part.assessments]
     assert found.mean == pytest.approx(np.sqrt(of_maps[0] * of_maps[1]), rel=1e-12)
-    assert of_part(part)["part"]["f_0"]["key"] == "resonance"
+    assert part_json(part)["part"]["f_0"]["key"] == "resonance"
 
 
 def test_it_stands_on_the_terminal_in_json_and_in_the_report(
@@ -130,10 +130,10 @@ def test_it_stands_on_the_terminal_in_json_and_in_the_report(
     result = asked(surface)
     print_assessment(result)
     assert "resonance of one kilogram f_0" in capsys.readouterr().out
-    written = of_assessment(result)["answers"]["f_0"]
+    written = assessment_json(result)["answers"]["f_0"]
     assert written["key"] == "resonance"
     assert np.isfinite([written["low"], written["high"]]).all()
-    assert "Rayleigh 1877" in to_json(of_assessment(result))
+    assert "Rayleigh 1877" in to_json(assessment_json(result))
     files = write_contact_report(result, tmp_path, "")
     page = files[0].read_text("utf-8")
     assert page.count("esonance of one kilogram") >= 3  # headline, table, formulas

@@ -13,7 +13,7 @@ from roughline.fluid import measures
 from roughline.fluid.rarefied import Rarefied
 from roughline.report.contact_tables import symbol_table
 from roughline.report.fields_of_load import _of_flow
-from roughline.report.json_output import of_assessment, to_json
+from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 from roughline.report.typeset import formula_in_symbols
 from roughline.units import engineering
@@ -169,7 +169,7 @@ def test_sealed_is_exactly_zero_and_says_what_the_grid_leaves_open(surface, caps
     said = capsys.readouterr().out
     assert "0 m³/s (up to " in said or "0 m³/s  (up to " in said
     assert "no path leads through the map" in said
-    assert json.loads(to_json(of_assessment(result)))["answers"]["Q"]["values"] == [0.0]
+    assert json.loads(to_json(assessment_json(result)))["answers"]["Q"]["values"] == [0.0]
 
 
 def test_what_dents_seal_on_the_way_back_is_not_said_to_be_sealed_from_there_on():

@@ -57,7 +57,7 @@ def test_the_help_of_press_begins_with_bodies_and_loads(invoke):
 @pytest.mark.parametrize("many", [100, 1000])
 def test_many_loads_are_estimated_before_and_told_in_one_line(tmp_path, invoke, monkeypatch, many):
     monkeypatch.setattr("roughline.assessment.cost._ANNOUNCED_LOADS", many)
-    monkeypatch.setattr("roughline.report.terminal.MOST_SHOWN", many)
+    monkeypatch.setattr("roughline.report.terminal.MOST_PRINTED", many)
     loads = many + 1
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
     rl.write(replace(spectrum.surface(8, 1), unit="m"), tmp_path / "small.nc")

@@ -11,7 +11,7 @@ import xarray
 import roughline as rl
 from roughline.assessment import case, doubts
 from roughline.assessment import loads as load_cases
-from roughline.report.values import scale_of
+from roughline.report.values import written_scale
 from roughline.units import decimal, engineering
 
 PAIR = ("--materials", "steel,copper")
@@ -250,7 +250,7 @@ def test_any_number_of_loads_prints_resistance_and_conductance(
         each = answers[symbol]
         assert out.count(f"{each['name']} {symbol}") == 1
         for value in {each["values"][0], each["values"][-1]}:
-            factor, unit = scale_of(value, "%" if symbol == "A/A_0" else each["unit"])
+            factor, unit = written_scale(value, "%" if symbol == "A/A_0" else each["unit"])
             assert f"{decimal(value * factor, 4)}{unit}" in out, (symbol, value)
     assert answers["R"]["if_elastic"] is not None
     told = out.index("constriction resistance R")

@@ -7,9 +7,9 @@ import pytest
 from attrs import evolve
 
 import roughline as rl
-from roughline.report.answers import answer_table, star_is_shown
+from roughline.report.answers import answer_table, has_star
 from roughline.report.contact_tables import symbol_table
-from roughline.report.json_output import of_assessment
+from roughline.report.json_output import assessment_json
 from roughline.report.terminal import print_assessment
 from roughline.report.typeset import formula_in_symbols
 
@@ -24,7 +24,7 @@ def test_no_star_is_explained_that_is_not_shown(rough, loads_of_curve, capsys):
     assert not pressed.curve.resolved.all()  # lighter loads of a report's figure
     print_assessment(pressed)
     assert "fewer than ten points in contact" not in capsys.readouterr().out
-    assert not star_is_shown(pressed)
+    assert not has_star(pressed)
 
 
 def test_a_table_has_the_loads_that_are_wanted(rough):
@@ -105,7 +105,7 @@ def test_json_and_the_curve_say_of_what_they_are(rough, joint):
     pressed = rl.assess(
         rl.Question(rough, PAIR, loads="5 MPa", ask=rl.Joint(joint) if joint else ())
     )
-    told = of_assessment(pressed)
+    told = assessment_json(pressed)
     whose = "body" if joint is None else "map"
     assert (told["curve"]["of"], told["intervals_of"]) == (whose, whose)
     assert told["answers_of"] == ("body" if joint is None else "joint")

@@ -9,7 +9,7 @@ import roughline as rl
 from lab.test_measured import Page
 from roughline.report.answers import figure_keys, groups, headline
 from roughline.report.document import _sections
-from roughline.report.json_output import of_assessment, to_json
+from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment, print_part
 
 SEAL = {"inlet": "6 bar", "outlet": "1 bar", "seal": "100 mm x 2 mm"}
@@ -59,7 +59,7 @@ def answered(request, surface):
 
 def test_it_leads_all_answers_and_its_group_all_groups(answered):
     result, expected = answered
-    first = [key for group in groups(result) for key in group.shown]
+    first = [key for group in groups(result) for key in group.headlines]
     assert first[: len(expected)] == expected
     assert figure_keys(result)[: len(expected)] == expected
     names = [result.answers[key].name for key in expected]
@@ -105,7 +105,7 @@ def test_its_section_is_the_first_of_a_document(answered):
 
 def test_it_is_the_first_answer_in_json(answered):
     result, expected = answered
-    written = json.loads(to_json(of_assessment(result)))["answers"].values()
+    written = json.loads(to_json(assessment_json(result)))["answers"].values()
     assert [each["key"] for each in written][: len(expected[:1])] == expected[:1]
 
 

@@ -19,15 +19,12 @@ import roughline as rl
 from roughline.errors import InputError
 from roughline.errors.checks import shown
 
-_NAME_KEY = "name"
+_KEY = "name"
 
 
 def described(value: Any) -> dict[str, Any]:
     """Return the name of a value's class and its own fields, as JSON holds them."""
-    return {
-        _NAME_KEY: _name(type(value)),
-        **{key: _plain(each) for key, each in _fields(value).items()},
-    }
+    return {_KEY: _name(type(value)), **{key: _plain(each) for key, each in _fields(value).items()}}
 
 
 def made(kind: type, table: Mapping[str, Any]) -> Any:
@@ -38,10 +35,7 @@ def made(kind: type, table: Mapping[str, Any]) -> Any:
     InputError
         If there is no such class, or it does not take the fields.
     """
-    name, example = (
-        table.get(_NAME_KEY),
-        '{ name = "Dugdale", ... } or { name = "module:Class", ... }',
-    )
+    name, example = table.get(_KEY), '{ name = "Dugdale", ... } or { name = "module:Class", ... }'
     if not isinstance(name, str):
         raise InputError(f"is {shown(table)}; its name is needed, as in {example}")
     module, _, of_module = name.rpartition(":")
@@ -55,7 +49,7 @@ def made(kind: type, table: Mapping[str, Any]) -> Any:
     if not (isinstance(found, type) and issubclass(found, kind)):
         raise InputError(f"is {name}, which is no rl.{kind.__name__}; give one as {example}")
     try:
-        return found(**{key: each for key, each in table.items() if key != _NAME_KEY})
+        return found(**{key: each for key, each in table.items() if key != _KEY})
     except (TypeError, ValueError) as error:
         raise InputError(f"{name}: {error}") from error
 

@@ -79,7 +79,7 @@ def ball_command(
     --load "1 uN" --load "0 N" --load "-2 uN"
     """
     from roughline.assessment.ball import BallQuestion, press_ball
-    from roughline.report.ball import of_ball, print_ball
+    from roughline.report.ball import ball_json, print_ball
 
     question = BallQuestion(
         radius=radius,
@@ -98,7 +98,7 @@ def ball_command(
         result.curve.write(out)
         files.append(out)
     if json:
-        print_json(of_ball(result, files))
+        print_json(ball_json(result, files))
     else:
         print_ball(result, files)
     if not result.curve.converged.all():

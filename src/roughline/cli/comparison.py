@@ -54,7 +54,7 @@ def compare_command(
     from roughline.assessment.comparison import compare_models
     from roughline.assessment.from_fields import build_reading
     from roughline.report.comparison import print_comparison, write_comparison
-    from roughline.report.json_output import of_comparison
+    from roughline.report.json_output import comparison_json
     from roughline.report.progress import load_progress
 
     reading = build_reading(told)
@@ -85,7 +85,7 @@ def compare_command(
         if out is not None:
             files = write_comparison(result, out)
     if json:
-        print_json(of_comparison(result, files))
+        print_json(comparison_json(result, files))
     else:
         print_comparison(result, files)
 

@@ -158,7 +158,7 @@ def _press_body(
 ) -> None:
     """Press the body of a question, show what follows, and end with the exit code."""
     from roughline.assessment.assess import assess_body
-    from roughline.report.json_output import of_assessment
+    from roughline.report.json_output import assessment_json
     from roughline.report.progress import load_progress
     from roughline.report.terminal import announce, print_assessment
 
@@ -178,7 +178,7 @@ def _press_body(
         if table is not None and not result.interrupted:
             files.append(rl.export_table(result, table))
     if json:
-        print_json(of_assessment(result, files))
+        print_json(assessment_json(result, files))
     else:
         print_assessment(result, files, unfolded_by=unfolded_by)
     if result.interrupted:
@@ -192,7 +192,7 @@ def _press_part(
 ) -> None:
     """Press the maps of a question, show what they say together, and end with the exit code."""
     from roughline.assessment.assess_part import assess_part
-    from roughline.report.json_output import of_part
+    from roughline.report.json_output import part_json
     from roughline.report.progress import part_progress
     from roughline.report.terminal import announce, print_part
 
@@ -208,7 +208,7 @@ def _press_part(
             files += write_part_report(part, report, _as_typed()) if report else []
             files += write_part(part, out) if out else []
     if json:
-        print_json(of_part(part, files))
+        print_json(part_json(part, files))
     else:
         print_part(part, files, unfolded_by=unfolded_by)
     if part.interrupted:

@@ -81,7 +81,7 @@ def creep_command(
     """
     from roughline.assessment.creep import CreepQuestion, press_with_creep
     from roughline.assessment.from_fields import build_preparation, build_reading
-    from roughline.report.creep import of_creep, print_creep
+    from roughline.report.creep import creep_json, print_creep
 
     question = CreepQuestion(
         file,
@@ -102,6 +102,6 @@ def creep_command(
         result.curve.write(out)
         files.append(out)
     if json:
-        print_json(of_creep(result, files))
+        print_json(creep_json(result, files))
     else:
         print_creep(result, files)

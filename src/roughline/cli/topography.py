@@ -59,7 +59,7 @@ def info(
     from roughline.assessment.from_fields import build_preparation, build_reading
     from roughline.report.curve_file import as_json, print_curve_file
     from roughline.report.description_table import print_description
-    from roughline.report.json_output import of_description
+    from roughline.report.json_output import description_json
     from roughline.topography.files.curves import curve_in
     from roughline.topography.files.write import checked_name, write
     from roughline.units import in_si
@@ -90,7 +90,7 @@ def info(
 
         files += write_description(result, out)
     if json:
-        print_json(of_description(result, files))
+        print_json(description_json(result, files))
     else:
         print_description(result, files)
 
@@ -120,7 +120,7 @@ def generate(
     json: options.Json = False,
 ) -> None:
     """Generate a random self-affine surface, or its reduced line, and write it to a file."""
-    from roughline.report.json_output import of_generated
+    from roughline.report.json_output import generated_json
     from roughline.report.terminal import print_generated
     from roughline.topography.files.write import write
 
@@ -129,6 +129,6 @@ def generate(
     body = replace(make(n, seed, "gaussian" if gaussian else "fixed"), unit="m")
     write(body, out)
     if json:
-        print_json(of_generated(body, out))
+        print_json(generated_json(body, out))
     else:
         print_generated(body, out)

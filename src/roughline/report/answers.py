@@ -29,7 +29,7 @@ NO_MEAN = "-"
 """Written where maps have no common value."""
 
 _MOST_FIGURES = 5  # that a page begins with, beside what was asked for
-_SAME = 1e-6  # scatter below which a quantity was given, and did not come out
+_GIVEN_SCATTER = 1e-6  # scatter below which a quantity was given, and did not come out
 
 
 @dataclass(frozen=True)
@@ -41,12 +41,12 @@ class _Group:
 
     name: str
     keys: Sequence[str]
-    shown: Sequence[str]
+    headlines: Sequence[str]
 
     @property
     def headline(self) -> str:
         """The one that stands for them all."""
-        return self.shown[0]
+        return self.headlines[0]
 
 
 def groups(result: Assessment | PartAssessment) -> list[_Group]:
@@ -88,11 +88,11 @@ def figure_keys(result: Assessment | PartAssessment) -> list[str]:
     Others that lead follow as long as there is room.
     """
     asked, leading = asked_keys(result), leading_keys(result)
-    first = [key for each in groups(result) for key in each.shown if key in leading]
+    first = [key for each in groups(result) for key in each.headlines if key in leading]
     further = [key for key in leading if key not in first]
     room = _MOST_FIGURES - len({*first} - {*asked})
-    shown = {*first, *further[: max(room, 0)]}
-    return [key for key in result.answers if key in shown]
+    chosen = {*first, *further[: max(room, 0)]}
+    return [key for key in result.answers if key in chosen]
 
 
 def headline(result: Assessment | PartAssessment, write: Write = with_interval) -> Headline:
@@ -114,7 +114,7 @@ def headline(result: Assessment | PartAssessment, write: Write = with_interval) 
     )
 
 
-def lead_of(result: Assessment | PartAssessment) -> str:
+def lead_sentence(result: Assessment | PartAssessment) -> str:
     """What was asked: both materials, and the largest load; of a body, with its nominal area."""
     pair, joint = result.question.pair, result.question.joint
     if pair is None:
@@ -140,7 +140,9 @@ def lead_of(result: Assessment | PartAssessment) -> str:
     return sentence(text + (f" ({UNRESOLVED})" if unsure else ""))
 
 
-def told(result: Assessment | PartAssessment, key: str, write: Write = with_interval) -> str:
+def answer_in_words(
+    result: Assessment | PartAssessment, key: str, write: Write = with_interval
+) -> str:
     """Name and value of an answer at the largest load."""
     answer = result.answers[key]
     return f"{answer.name} {answer.symbol} {quantity(answer, result.largest, write)}"
@@ -151,12 +153,12 @@ def elastic_in_words(result: Assessment | PartAssessment) -> str:
 
     Answers that yield does not change by more than their interval are left out.
     """
-    i, shown = result.largest, []
+    i, texts = result.largest, []
     for key in leading_keys(result):
         elastic = result.elastic.get(key)
         if elastic is not None and _differs(elastic, result.answers[key], i):
-            shown.append(f"{elastic.name} {_value_alone(elastic, i)}")
-    return f"for comparison, {IF_ELASTIC}: {', '.join(shown)}" if shown else ""
+            texts.append(f"{elastic.name} {_value_alone(elastic, i)}")
+    return f"for comparison, {IF_ELASTIC}: {', '.join(texts)}" if texts else ""
 
 
 def answer_table(
@@ -173,9 +175,9 @@ def answer_table(
     answer of elastic bodies below where yield changes it by more than its interval.
     """
     headings, of_part = starred(result), isinstance(result, PartAssessment)
-    shown = range(len(headings)) if loads is None else loads
+    chosen = range(len(headings)) if loads is None else loads
     header = [""]
-    for i in shown:
+    for i in chosen:
         header += [headings[i], "scatter"] if of_part else [headings[i]]
     rows = []
     for key in result.answers if keys is None else keys:
@@ -183,13 +185,13 @@ def answer_table(
         rows.append(
             [
                 f"{each.name} {each.symbol}",
-                *(cell for i in shown for cell in _cells(each, i, write)),
+                *(cell for i in chosen for cell in _cells(each, i, write)),
             ]
         )
         elastic = result.elastic.get(key) if with_elastic else None
-        if elastic is not None and any(_differs(elastic, each, i) for i in shown):
+        if elastic is not None and any(_differs(elastic, each, i) for i in chosen):
             blank = [""] if of_part else []
-            cells = [cell for i in shown for cell in (_value_alone(elastic, i, write), *blank)]
+            cells = [cell for i in chosen for cell in (_value_alone(elastic, i, write), *blank)]
             rows.append([IF_ELASTIC, *cells])
     return header, rows
 
@@ -221,7 +223,8 @@ def counted(
         return answer_table(result, keys=group.keys, with_elastic=with_elastic)[1]
 
     return [
-        (each.name, told(result, each.headline, write), len(rows(each))) for each in groups(result)
+        (each.name, answer_in_words(result, each.headline, write), len(rows(each)))
+        for each in groups(result)
     ]
 
 
@@ -235,12 +238,12 @@ def scatter_in_words(answer: PartAnswer, i: int) -> str:
     factor = float(answer.scatter[i])
     if np.isnan(factor) or answer.count[i] < 2:
         return NO_MEAN
-    if factor < 1 + _SAME:
+    if factor < 1 + _GIVEN_SCATTER:
         return "none"
     return f"{100 * (factor - 1):.2g}%" if factor < 1.5 else f"factor {decimal(factor, 3)}"
 
 
-def unit_shown(answer: Answer | PartAnswer) -> str:
+def written_unit(answer: Answer | PartAnswer) -> str:
     """Unit in which an answer is written: its own, or per cent."""
     return "%" if answer.rule.in_per_cent else answer.unit
 
@@ -261,7 +264,7 @@ def starred(result: Assessment | PartAssessment) -> list[str]:
     return [f"{name} *" if star else name for name, star in zip(names, stars, strict=True)]
 
 
-def star_is_shown(result: Assessment | PartAssessment) -> bool:
+def has_star(result: Assessment | PartAssessment) -> bool:
     """Whether the grid decides one of the loads that were asked for."""
     return any(heading.endswith(" *") for heading in starred(result))
 
@@ -288,7 +291,7 @@ def _written(
     value = _value(answer, i)
     if np.isnan(value) and isinstance(answer, PartAnswer):
         return NO_MEAN
-    return write(value, ends, unit_shown(answer))
+    return write(value, ends, written_unit(answer))
 
 
 def _value(answer: Answer | PartAnswer, i: int) -> float:

@@ -53,13 +53,13 @@ def ball_table(ball: PressedBall) -> tuple[list[str], list[list[str]]]:
     }
     del columns["force F" if ball.question.loads else "depth d"]  # the load itself
     rows = [
-        [heading, *(_shown(float(values[i]), unit) for values, unit in columns.values())]
+        [heading, *(_written(float(values[i]), unit) for values, unit in columns.values())]
         for i, heading in enumerate(ball.question.headings)
     ]
     return ["load", *columns], rows
 
 
-def of_ball(ball: PressedBall, files: Sequence[Path] = ()) -> dict[str, Any]:
+def ball_json(ball: PressedBall, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What pressing a ball gave, in SI units, over the loads in their order."""
     asked, curve, pair = ball.question, ball.curve, ball.question.pair
     return {
@@ -84,5 +84,5 @@ def of_ball(ball: PressedBall, files: Sequence[Path] = ()) -> dict[str, Any]:
     }
 
 
-def _shown(value: float, unit: str) -> str:
+def _written(value: float, unit: str) -> str:
     return "-" if math.isnan(value) else engineering(value, unit)

@@ -11,8 +11,8 @@ from rich.cells import cell_len
 
 from roughline.report.values import value_and_interval
 
-_GAP = 2  # blanks between columns
-_LEAST = 20  # columns of the screen up to which headers and names stay in one line
+_COLUMN_GAP = 2  # blanks between columns
+_ONE_LINE_WIDTH = 20  # columns of the screen up to which headers and names stay in one line
 
 
 @dataclass(frozen=True)
@@ -25,21 +25,21 @@ class _Block:
 
 @dataclass(frozen=True)
 class _Column:
-    """A header, and lines of each cell below it; a long header may be broken, unless `whole`."""
+    """A header, and lines of each cell below it; a long header may be broken, unless `unbroken`."""
 
     header: str
     cells: Sequence[Sequence[str]]
-    whole: bool = False
+    unbroken: bool = False
 
     @property
     def width(self) -> int:
         """Columns of the screen that the cells and the header need."""
-        whole = self.whole or cell_len(self.header) <= _LEAST
-        header = [self.header] if whole else self.header.split()
+        unbroken = self.unbroken or cell_len(self.header) <= _ONE_LINE_WIDTH
+        header = [self.header] if unbroken else self.header.split()
         return _longest([*header, *(line for cell in self.cells for line in cell)])
 
     def stacked(self) -> _Column:
-        """The same with intervals below the values, without brackets."""
+        """A column with the intervals below the values, without brackets."""
         cells = []
         for (cell,) in self.cells:
             value, *interval = value_and_interval(cell)
@@ -58,12 +58,13 @@ def blocks(header: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> 
         _Column(head, [[cell] for cell in cells])
         for head, *cells in zip(header, *rows, strict=True)
     )
-    if names.width + _widths(whole := [replace(each, whole=True) for each in values]) <= width:
-        values = whole
+    in_line = [replace(each, unbroken=True) for each in values]
+    if names.width + _widths(in_line) <= width:
+        values = in_line
     elif names.width + _widths(values) > width:
         values = [each.stacked() for each in values]
     words = [word for (name,) in names.cells for word in name.split()]
-    least = min(names.width, max(_LEAST, _longest([*words, *names.header.split()])))
+    least = min(names.width, max(_ONE_LINE_WIDTH, _longest([*words, *names.header.split()])))
     above = least + max(map(_widths, ([each] for each in values)), default=0) > width
     while values:
         count = 1
@@ -75,7 +76,7 @@ def blocks(header: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> 
 
 def paragraph(name: str, text: str, indent: int, width: int) -> str:
     """A name, and beside it a text that is broken between words."""
-    lines = _wrapped(text, max(width - indent, _LEAST))
+    lines = _wrapped(text, max(width - indent, _ONE_LINE_WIDTH))
     return f"{name:{indent}}" + f"\n{'':{indent}}".join(lines)
 
 
@@ -113,14 +114,14 @@ def _lines(
             place = i - (high - len(cell)) * at_bottom
             text = cell[place] if 0 <= place < len(cell) else ""
             blank = " " * (width - cell_len(text))
-            line += " " * _GAP + blank + text if j else text + blank
+            line += " " * _COLUMN_GAP + blank + text if j else text + blank
         lines.append(line.rstrip())
     return lines
 
 
 def _widths(columns: Sequence[_Column]) -> int:
     """Columns of the screen that values take, with the blanks before them."""
-    return sum(_GAP + each.width for each in columns)
+    return sum(_COLUMN_GAP + each.width for each in columns)
 
 
 def _wrapped(text: str, width: int) -> list[str]:

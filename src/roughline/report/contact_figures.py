@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     from roughline.engineering.intervals import Ends
     from roughline.engineering.slip import PartialSlip
 
-_PANEL, _PANELS = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
+_PANEL_HEIGHT, _MOST_HEIGHT = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
 _DASHES = ("--", ":", "-.", (0, (6, 1)), (0, (3, 1, 1, 1, 1, 1)))  # for each theory one
-_FOOT = 0.1  # of the least value: where the band of an interval ends that goes down to zero
-_APERTURE = "hydraulic_aperture_"  # measures along either side begin so
+_BAND_END = 0.1  # of the least value: where the band of an interval ends that goes down to zero
+_APERTURE_PREFIX = "hydraulic_aperture_"  # measures along either side begin so
 
 
 def write_contact(assessment: Assessment, out: Path) -> list[Path]:
@@ -93,7 +93,7 @@ def overview(assessment: Assessment) -> Figure:
     if assessment.question.friction is not None:
         panels.append(partial(_draw_partial_slip, slip=assessment.partial_slip))
     rows = -(-len(panels) // 2)
-    figure = new_figure(PAGE, min(_PANEL * rows, _PANELS))
+    figure = new_figure(PAGE, min(_PANEL_HEIGHT * rows, _MOST_HEIGHT))
     axes = figure.subplots(rows, 2, squeeze=False).ravel()
     for draw, each in zip(panels, axes, strict=False):
         draw(each)
@@ -115,7 +115,7 @@ def overview_in_words(assessment: Assessment) -> str:
     marks = ["open marks: fewer than ten points in contact"]
     marks += ["dashed: on unloading"] if yields else []
     marks += ["blue: after a larger load"] if _has_falling_loads(assessment) else []
-    shown = [
+    panels = [
         ("Heights of the map" if question.joint is not None else "Heights")
         + (" (red: filled points)" if marked else ""),
         "spectrum with the nearest self-affine law",
@@ -123,20 +123,20 @@ def overview_in_words(assessment: Assessment) -> str:
     ]
     if isinstance(assessment.body, Surface):
         red = " (red: at the hardness)" if yields else ""
-        shown.append(
+        panels.append(
             "contact area, corrected for the outline's steps as in the table, over force; the "
             f"points in contact at the largest load{red}"
         )
     if _apertures(assessment):
-        shown.append("hydraulic aperture over force")
+        panels.append("hydraulic aperture over force")
     if assessment.sought.separation is not None:
-        shown.append("force over depth as the bodies are drawn apart after the largest load")
+        panels.append("force over depth as the bodies are drawn apart after the largest load")
     if _has_falling_loads(assessment):
-        shown.append("force over depth")
+        panels.append("force over depth")
     if question.friction is not None:
-        shown.append("partial slip at the largest load")
+        panels.append("partial slip at the largest load")
     with_theories = "; with theories for the same spectrum" if assessment.theories else ""
-    return f"{'; '.join(shown)}{with_theories}."
+    return f"{'; '.join(panels)}{with_theories}."
 
 
 def _draw_force(axes: Axes, assessment: Assessment) -> None:
@@ -156,10 +156,10 @@ def _draw_separation(axes: Axes, assessment: Assessment, drawn: Curve) -> None:
     loaded = rising(assessment.curve)
     x_label, depth = in_unit("depth since touch $d$", drawn.depth, "m")
     y_label, force = _force_axis(assessment)
-    shown = slice(int(np.flatnonzero(drawn.force)[-1]) + 2)  # up to the first depth without a force
+    attracted = slice(int(np.flatnonzero(drawn.force)[-1]) + 2)  # to the first depth without force
     axes.plot(
-        drawn.depth[shown] * depth,
-        drawn.force[shown] * force,
+        drawn.depth[attracted] * depth,
+        drawn.force[attracted] * force,
         ".-",
         color="tab:blue",
         label="drawn apart",
@@ -216,14 +216,14 @@ def _draw_apertures(axes: Axes, assessment: Assessment) -> None:
     y_label, length = in_unit("hydraulic aperture $u_h$", held, "m")
     loading = rising(curve)
     for (name, each), colour in zip(found.items(), ("k", "tab:orange"), strict=False):
-        label = f"along {name.removeprefix(_APERTURE)}"
+        label = f"along {name.removeprefix(_APERTURE_PREFIX)}"
         rows = np.where(each.rows > 0, each.rows, np.nan) * length
         x = curve.force * force
         look: dict[str, Any] = {"color": colour, "markersize": 3}
         axes.loglog(x[loading], rows[0][loading], ".-", label=label, **look)
         axes.loglog(x[~loading], rows[0][~loading], ".", markerfacecolor="none", **look)
         if len(rows) == 3:
-            ends = np.fmax(rows[1:], _FOOT * np.nanmin(rows, initial=np.inf)) / length
+            ends = np.fmax(rows[1:], _BAND_END * np.nanmin(rows, initial=np.inf)) / length
             _draw_interval(axes, curve, (ends[0], ends[1]), (force, length), colour)
         if (sealed := x[each.values == 0]).size:  # which a logarithmic axis cannot show
             foot = np.full(sealed.size, 0.04)
@@ -238,7 +238,7 @@ def _draw_apertures(axes: Axes, assessment: Assessment) -> None:
 def _apertures(assessment: Assessment) -> dict[str, Measured]:
     """Hydraulic apertures over the loads, along each side that was asked for."""
     taken = assessment.measured.items()
-    return {name: each for name, each in taken if name.startswith(_APERTURE)}
+    return {name: each for name, each in taken if name.startswith(_APERTURE_PREFIX)}
 
 
 def _draw_theories(
@@ -248,9 +248,9 @@ def _draw_theories(
     for theory, dashes in zip(assessment.theories, cycle(_DASHES), strict=False):
         values, of_flow = getattr(theory, quantity), theory.hydraulic_aperture is not None
         if values is not None and of_flow == (quantity == "hydraulic_aperture"):
-            shown = np.where(values > 0, values, np.nan) * factors[1]
+            positive = np.where(values > 0, values, np.nan) * factors[1]
             x = assessment.load_on(theory.pressure * assessment.area) * factors[0]
-            axes.plot(x, shown, linestyle=dashes, label=theory.name)
+            axes.plot(x, positive, linestyle=dashes, label=theory.name)
             axes.legend()
 
 
@@ -275,24 +275,24 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
         marks = part.filled_region
         if isinstance(marks, Surface) and 0 < marks.heights.mean() < 1:
             # the second of two bodies is turned over
-            shown = any_marked(marks.heights if i == 0 else marks.heights[::-1])
+            filled = any_marked(marks.heights if i == 0 else marks.heights[::-1])
             x, y = (
                 (np.arange(n) + 0.5) / n * side * size
-                for n, side in zip(shown.shape, marks.sizes, strict=True)
+                for n, side in zip(filled.shape, marks.sizes, strict=True)
             )
-            axes.contourf(x, y, shown.T, levels=[0.5, 1], colors="tab:red", alpha=0.3)
-            axes.contour(x, y, shown.T, levels=[0.5], colors="tab:red", linewidths=0.7)
+            axes.contourf(x, y, filled.T, levels=[0.5, 1], colors="tab:red", alpha=0.3)
+            axes.contour(x, y, filled.T, levels=[0.5], colors="tab:red", linewidths=0.7)
     axes.axis(bounds)
 
 
 def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
     """Real contact area at the last load with stored fields; red where it yields."""
     curve = assessment.curve_over_loads
-    kept = loads_with_fields(curve)
-    if not kept:
+    pressed = loads_with_fields(curve)
+    if not pressed:
         label_sides(axes, surface.sizes, "m")
         return
-    load, fields = kept[-1]
+    load, fields = pressed[-1]
     draw_contact(axes, fields, "m")
     force = engineering(curve.force[load] * assessment.scale, "N")
     share = area_in_words(assessment, load)

@@ -15,8 +15,8 @@ from roughline.report.page import Picture, Section, Table, sentence
 from roughline.report.texture_table import (
     causes_in_words,
     filters_in_words,
+    standard_title,
     texture_table,
-    title_of,
 )
 from roughline.topography.body import Body, Line, Surface, side_lengths
 from roughline.units import engineering
@@ -24,9 +24,9 @@ from roughline.units import engineering
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
 
-_RANGE = re.compile(r"(?:([xy]) )?(\d+):(\d+)")
+_POINT_RANGE = re.compile(r"(?:([xy]) )?(\d+):(\d+)")
 
-_LESS = "low_pass_kept"  # setting: points that a low pass left of a piece
+_LOW_PASS_KEPT = "low_pass_kept"  # setting: points that a low pass left of a piece
 
 _STEPS = (
     "cropped",
@@ -68,13 +68,13 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
 def settings_in_words(assessment: Assessment) -> str:
     """Settings of the run; those of the preparation are told with the surface."""
     return "; ".join(
-        f"{key} = {_shown(value)}"
+        f"{key} = {_written(value)}"
         for key, value in assessment.settings.items()
         if key.removeprefix("body_") not in _STEPS
     )
 
 
-def _shown(value: object) -> str:
+def _written(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
@@ -107,13 +107,13 @@ def _texture(assessment: Assessment) -> list[Section]:
     found = assessment.texture
     if found is None:
         return []
-    told = [f"{title_of(found)}; filters: {filters_in_words(found)}", *found.remarks]
+    words = [f"{standard_title(found)}; filters: {filters_in_words(found)}", *found.remarks]
     return [
         Section(
             "Surface texture",
-            [" ".join(map(sentence, [*told, *causes_in_words(found)]))],
+            [" ".join(map(sentence, [*words, *causes_in_words(found)]))],
             tables=[Table(*texture_table(found), numbers=(1,))],
-            behind=f"{title_of(found).lower().replace('iso', 'ISO')} of what was pressed",
+            behind=f"{standard_title(found).lower().replace('iso', 'ISO')} of what was pressed",
         )
     ]
 
@@ -121,18 +121,24 @@ def _texture(assessment: Assessment) -> list[Section]:
 def _preparation(body: Body) -> str:
     """What was done to a body before it was pressed, with units; "none" if nothing was."""
     settings: Mapping[str, str | int | float] = body.settings
-    done = [f"{name.replace('_', ' ')}: {_told(name, body)}" for name in _STEPS if name in settings]
+    done = [
+        f"{name.replace('_', ' ')}: {_step_in_words(name, body)}"
+        for name in _STEPS
+        if name in settings
+    ]
     return ", ".join(done) or "none"
 
 
-def _told(name: str, body: Body) -> str:
+def _step_in_words(name: str, body: Body) -> str:
     """What one step did, in lengths where it is of lengths."""
     value = body.settings[name]
     if name == "cropped":
         return _crop(str(value), body)
     if name == "low_pass":
         text = f"waves shorter than {engineering(float(value), 'm')} (Gaussian, ISO 16610)"
-        return text + (", half of it left out at borders" if _LESS in body.settings else "")
+        return text + (
+            ", half of it left out at borders" if _LOW_PASS_KEPT in body.settings else ""
+        )
     if name == "resampled_to":
         return f"{value} points"
     return str(value)
@@ -143,13 +149,13 @@ def _crop(points: str, body: Body) -> str:
 
     But for a low pass later steps keep its sides, so points had the distance of side over points.
     """
-    counts = _RANGE.findall(str(body.settings.get(_LESS, points)))
-    kept = []
+    counts = _POINT_RANGE.findall(str(body.settings.get(_LOW_PASS_KEPT, points)))
+    ranges = []
     for (axis, *ends), (_, *left), side in zip(
-        _RANGE.findall(points), counts, side_lengths(body), strict=True
+        _POINT_RANGE.findall(points), counts, side_lengths(body), strict=True
     ):
         first, end = map(int, ends)
         step = side / (int(left[1]) - int(left[0]))
         low, high = (engineering(each * step, "m") for each in (first, end))
-        kept.append(f"{axis} {low} to {high}".strip())
-    return f"{' and '.join(kept)} (points {points})"
+        ranges.append(f"{axis} {low} to {high}".strip())
+    return f"{' and '.join(ranges)} (points {points})"

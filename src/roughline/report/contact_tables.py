@@ -94,14 +94,16 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the symbols of the formulas that are no answers."""
     header = ["symbol", "meaning", "value"]
-    told = {each.symbol: each for answer in assessment.answers.values() for each in answer.symbols}
+    by_symbol = {
+        each.symbol: each for answer in assessment.answers.values() for each in answer.symbols
+    }
     rows = [
         [
             formula_in_symbols(each.symbol),
             formula_in_symbols(each.meaning),
             "" if each.value is None else with_interval(each.value, None, each.unit),
         ]
-        for each in told.values()
+        for each in by_symbol.values()
     ]
     return header, rows
 

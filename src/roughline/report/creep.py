@@ -52,7 +52,7 @@ def creep_table(pressed: PressedCreep) -> tuple[list[str], list[list[str]]]:
     return header, [list(row) for row in rows]
 
 
-def of_creep(pressed: PressedCreep, files: Sequence[Path] = ()) -> dict[str, Any]:
+def creep_json(pressed: PressedCreep, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What pressing into a body that creeps gave, in SI units, over the times."""
     asked, curve, pair = pressed.question, pressed.curve, pressed.question.pair
     return {

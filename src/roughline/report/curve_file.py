@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from rich.console import Console
 
-from roughline.report.terminal import MOST_SHOWN, print_rows, print_table
+from roughline.report.terminal import MOST_PRINTED, print_rows, print_table
 from roughline.units import SI, engineering
 
 if TYPE_CHECKING:
@@ -29,9 +29,9 @@ def print_curve_file(curve: CurveInFile) -> None:
     console = Console(markup=False)
     print_rows(console, _settings_table(curve))
     header, loads = _loads_table(curve)
-    print_table(console, header, loads[:MOST_SHOWN])
-    if len(loads) > MOST_SHOWN:
-        console.print(f"{len(loads) - MOST_SHOWN} more loads: use --json", highlight=False)
+    print_table(console, header, loads[:MOST_PRINTED])
+    if len(loads) > MOST_PRINTED:
+        console.print(f"{len(loads) - MOST_PRINTED} more loads: use --json", highlight=False)
     opened = f'xarray.open_dataset("{curve.file}", engine="h5netcdf")'
     console.print(f"all of it in Python: {opened}", highlight=False, soft_wrap=True)
 
@@ -42,13 +42,13 @@ def _settings_table(curve: CurveInFile) -> list[tuple[str, str]]:
     rows = [
         ("file", f"{curve.file}, a curve that roughline wrote"),
         ("times" if "time" in curve.columns else "loads", str(curve.columns["force"].size)),
-        ("E*", _shown(settings["E_star"], settings.get("E_star_units", ""))),
+        ("E*", _written(settings["E_star"], settings.get("E_star_units", ""))),
     ]
     if "boundary" in settings:
         rows.append(("half-space", str(settings["boundary"])))
     if "hardness" in settings:
-        rows.append(("hardness", _shown(settings["hardness"], settings.get("E_star_units", ""))))
-    rows.append(("rms height", _shown(settings["rms_height"], settings.get("length_units", ""))))
+        rows.append(("hardness", _written(settings["hardness"], settings.get("E_star_units", ""))))
+    rows.append(("rms height", _written(settings["rms_height"], settings.get("length_units", ""))))
     for name in ("file", "origin"):
         if f"body_{name}" in settings:
             rows.append((f"{name} of the body", str(settings[f"body_{name}"])))
@@ -62,7 +62,7 @@ def _loads_table(curve: CurveInFile) -> tuple[list[str], list[list[str]]]:
         names.remove("area_fraction")
     header = [_HEADER[name] for name in names]
     rows = [
-        [_shown(float(curve.columns[name][i]), curve.units[name]) for name in names]
+        [_written(float(curve.columns[name][i]), curve.units[name]) for name in names]
         for i in range(curve.columns["force"].size)
     ]
     return header, rows
@@ -78,7 +78,7 @@ def as_json(curve: CurveInFile) -> dict[str, Any]:
     }
 
 
-def _shown(value: float, unit: str) -> str:
+def _written(value: float, unit: str) -> str:
     if np.isnan(value):
         return "-"
     if unit == "1":

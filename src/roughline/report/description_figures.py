@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from roughline.topography.files.measurement import Measurement
     from roughline.topography.missing import MissingPattern
 
-_MISSING = "tab:red"
+_MISSING_COLOUR = "tab:red"
 
 
 def write_description(description: Description, out: Path) -> list[Path]:
@@ -79,18 +79,18 @@ def _measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
     figure.set_layout_engine("compressed")  # which knows where maps of equal scales end
     left, right = figure.subplots(1, 2)
     across = (sides[0], sides[1]) if sides else (heights.shape[0], heights.shape[1])
-    shown = show_map(left, thinned(heights), across, cmap="cividis")
+    image = show_map(left, thinned(heights), across, cmap="cividis")
     ticks = _ticks(content.unit is not None)
     bar = figure.colorbar(
-        shown, ax=(left, right), orientation="horizontal", format=ticks, shrink=0.6, aspect=40
+        image, ax=(left, right), orientation="horizontal", format=ticks, shrink=0.6, aspect=40
     )
     bar.ax.locator_params(nbins=5)
-    bar.set_label("height" + _of(content))
+    bar.set_label("height" + _unit_remark(content))
     show_map(
         right,
         any_marked(unknown),
         across,
-        cmap=ListedColormap(["0.92", _MISSING]),
+        cmap=ListedColormap(["0.92", _MISSING_COLOUR]),
         vmin=0,
         vmax=1,
         interpolation="nearest",
@@ -114,18 +114,18 @@ def _draw_line(
         x = content.positions * sides[0] / content.sizes[0]
     axes.plot(x, heights, color="k", linewidth=0.6)
     for point in np.flatnonzero(np.ma.getmaskarray(heights)):
-        axes.axvspan(x[point] - step / 2, x[point] + step / 2, color=_MISSING, linewidth=1)
+        axes.axvspan(x[point] - step / 2, x[point] + step / 2, color=_MISSING_COLOUR, linewidth=1)
     _label(axes, content)
     axes.yaxis.set_major_formatter(_ticks(content.unit is not None))
-    axes.set_ylabel("height" + _of(content))
+    axes.set_ylabel("height" + _unit_remark(content))
 
 
 def _label(axes: Axes, content: Measurement) -> None:
-    axes.set_xlabel("x" + _of(content) if content.sizes is not None else "x [points]")
+    axes.set_xlabel("x" + _unit_remark(content) if content.sizes is not None else "x [points]")
     axes.xaxis.set_major_formatter(_ticks(content.unit is not None and content.sizes is not None))
 
 
-def _of(content: Measurement) -> str:
+def _unit_remark(content: Measurement) -> str:
     return "" if content.unit else " [the file states no unit]"
 
 

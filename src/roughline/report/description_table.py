@@ -9,7 +9,7 @@ from rich.console import Console
 
 from roughline.assessment.assumptions import broken
 from roughline.report.terminal import print_files, print_remarks, print_rows
-from roughline.report.texture_table import texture_rows, title_of
+from roughline.report.texture_table import standard_title, texture_rows
 from roughline.report.values import Write, figure, with_interval
 from roughline.topography.body import Surface, point_spacings, side_lengths
 from roughline.units import engineering, metres_per
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
 _SHADES = ".+#"
 
-_NOT_JUDGED = "not judged"
+_NO_VERDICT = "not judged"
 
 
 def description_table(
@@ -57,7 +57,7 @@ def print_description(description: Description, files: Iterable[Path] = ()) -> N
     for obstacle in description.obstacles:
         console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
     if description.texture is not None:
-        console.print(f"\n{title_of(description.texture)}", highlight=False)
+        console.print(f"\n{standard_title(description.texture)}", highlight=False)
         print_rows(console, texture_rows(description.texture))
         print_remarks(console, "note", description.texture.remarks)
     print_remarks(console, "note", description.notes)
@@ -153,7 +153,7 @@ def _rows_of_roughness(
                 "Sq of such surfaces",
                 f"{write(low, None, 'm')} to {write(high, None, 'm')}"
                 if fit.is_judged
-                else _NOT_JUDGED,
+                else _NO_VERDICT,
             ),
             ("Hurst exponent", fit.hurst_in_words),
             ("fractal dimension", f"{3 - fit.hurst:.2f}"),
@@ -177,19 +177,19 @@ def _verdict(fit: SelfAffineFit, departures: Sequence[Departure]) -> str:
 
 def _blur(fit: SelfAffineFit) -> str:
     """What the tail of a spectrum says of the instrument."""
-    shown = engineering(fit.blur, "m", 3) if fit.blur else "none"
+    text = engineering(fit.blur, "m", 3) if fit.blur else "none"
     if not fit.is_judged:
-        return f"{shown} ({_NOT_JUDGED})"
+        return f"{text} ({_NO_VERDICT})"
     low, high = (engineering(end, "m", 3) if end else "0" for end in fit.blur_interval)
-    return shown if low == high else f"{shown} ({low} to {high})"
+    return text if low == high else f"{text} ({low} to {high})"
 
 
 def _wavelength(q: float | None, interval: tuple[float, float], otherwise: str) -> str:
-    shown = otherwise if q is None else engineering(2 * np.pi / q, "m", 3)
+    text = otherwise if q is None else engineering(2 * np.pi / q, "m", 3)
     if np.isnan(interval[0]):
-        return f"{shown} ({_NOT_JUDGED})"
+        return f"{text} ({_NO_VERDICT})"
     longest, shortest = (engineering(2 * np.pi / end, "m", 3) if end else "" for end in interval)
-    return f"{shown} ({shortest} {f'to {longest}' if longest else 'or longer'})"
+    return f"{text} ({shortest} {f'to {longest}' if longest else 'or longer'})"
 
 
 def _times(points: tuple[int, ...]) -> str:

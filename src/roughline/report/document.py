@@ -13,14 +13,14 @@ from roughline.assessment.notes import listed, listed_in_short
 from roughline.assessment.part import PartAssessment
 from roughline.report.answers import (
     UNRESOLVED,
+    answer_in_words,
     answer_table,
     groups,
+    has_star,
     headline,
-    lead_of,
+    lead_sentence,
     leading_keys,
     load_table,
-    star_is_shown,
-    told,
 )
 from roughline.report.contact_tables import formula_table, solid_in_words, symbol_table
 from roughline.report.page import Section, Table, render, sentence
@@ -30,25 +30,25 @@ from roughline.topography.body import Line
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
 
-_ABREAST, _ABREAST_OF_PART = 3, 2  # loads that fit beside each other; those of a part have scatter
+_LOADS_ABREAST, _PART_LOADS_ABREAST = 3, 2  # those of a part have scatter
 
-_OF_HEIGHTS = (
+_ASSUMPTION_ON_HEIGHTS = (
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less."
 )
-_OF_JOINT = (
+_ASSUMPTION_ON_JOINT = (
     "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and "
     "has the roughness of the map. The map is pressed at that pressure in a periodic half-space, "
     "and quantities per area are multiplied by the joint's area. Answers are those of the "
     "interface; waviness longer than the map, bending, and the constriction of the bodies to the "
     "joint's outline are left out."
 )
-_ASSUMPTION_OF_LAYERS = (
+_ASSUMPTION_ON_LAYERS = (
     "Layers are bonded to each other and to their base, which is as deep as one wishes. The "
     "hardness of a coated body is that of its top layer, and what lies below does not yield. No "
     "interval of a coated body holds what a map does not show of the surface around it."
 )
-_ASSUMPTION_OF_PART = (
+_ASSUMPTION_ON_PART = (
     "Intervals of the part hold the scatter between its places as well. They assume that the "
     "places were chosen at random, and that quantities scatter by factors."
 )
@@ -73,7 +73,7 @@ def write_document(
     """
     made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
     sections = _sections(result, own, how_to_repeat)
-    lead, first = lead_of(result), headline(result)
+    lead, first = lead_sentence(result), headline(result)
     page, sheets = folder / "report.html", folder / "report.pdf"
     page.write_text(render(title, lead, sections, made, first), encoding="utf-8")
     write_pdf(sheets, title, lead, sections, made, first)
@@ -92,7 +92,7 @@ def _sections(
     return [
         Section(
             "The part" if is_part else "Answers",
-            [*_materials(body), *([star] if star_is_shown(result) else [])],
+            [*_materials(body), *([star] if has_star(result) else [])],
             tables=_many_loads(result),
         ),
         *_groups(result),
@@ -105,7 +105,7 @@ def _sections(
         ),
         Section(
             "Assumptions",
-            [*_assumptions(body), *([_ASSUMPTION_OF_PART] if is_part else [])],
+            [*_assumptions(body), *([_ASSUMPTION_ON_PART] if is_part else [])],
             behind="what all answers and their intervals rest on",
         ),
         Section(
@@ -123,7 +123,7 @@ def _materials(assessment: Assessment) -> list[str]:
 
 
 def _abreast(result: Assessment | PartAssessment) -> int:
-    return _ABREAST_OF_PART if isinstance(result, PartAssessment) else _ABREAST
+    return _PART_LOADS_ABREAST if isinstance(result, PartAssessment) else _LOADS_ABREAST
 
 
 def _many_loads(result: Assessment | PartAssessment) -> list[Table]:
@@ -134,7 +134,7 @@ def _many_loads(result: Assessment | PartAssessment) -> list[Table]:
     if not isinstance(result, PartAssessment):
         beside = [key for key, each in result.answers.items() if each.rule.is_shown_at_many_loads]
         keys = [key for key in result.answers if key in {*keys, *beside}]
-    return [Table.of_numbers(*load_table(result, keys))]
+    return [Table.with_numbers(*load_table(result, keys))]
 
 
 def _groups(result: Assessment | PartAssessment) -> list[Section]:
@@ -144,12 +144,12 @@ def _groups(result: Assessment | PartAssessment) -> list[Section]:
         Section(
             each.name.capitalize(),
             tables=[
-                Table.of_numbers(
+                Table.with_numbers(
                     *answer_table(result, loads[i : i + abreast], each.keys, with_elastic=True)
                 )
                 for i in loads[::abreast]
             ],
-            behind=told(result, each.headline),
+            behind=answer_in_words(result, each.headline),
         )
         for each in groups(result)
     ]
@@ -161,15 +161,15 @@ def _assumptions(assessment: Assessment) -> list[str]:
     return [
         f"Both bodies are half-spaces, {assessment.curve.assumption}; small slopes, no friction in "
         "the normal problem, static loads.",
-        _OF_HEIGHTS,
-        *([] if assessment.question.joint is None else [_OF_JOINT]),
-        *_of_intervals(assessment),
-        *([_ASSUMPTION_OF_LAYERS] if pair is not None and pair.coated else []),
+        _ASSUMPTION_ON_HEIGHTS,
+        *([] if assessment.question.joint is None else [_ASSUMPTION_ON_JOINT]),
+        *_interval_assumptions(assessment),
+        *([_ASSUMPTION_ON_LAYERS] if pair is not None and pair.coated else []),
         *(f"{theory.name}: {theory.validity}." for theory in assessment.theories),
     ]
 
 
-def _of_intervals(assessment: Assessment) -> list[str]:
+def _interval_assumptions(assessment: Assessment) -> list[str]:
     """Say what the intervals hold, and what they do not; nothing where there are none."""
     if assessment.intervals is None:
         return []
@@ -180,13 +180,13 @@ def _of_intervals(assessment: Assessment) -> list[str]:
         *(["the scatter of the hardness"] if assessment.hardness_scatter else []),
     ]
     held = f"what {listed(causes)} {'leaves' if len(causes) == 1 else 'leave'} open"
-    beyond = "one map does not show of the surface around it"
+    unseen = "one map does not show of the surface around it"
     if is_of_joint:
-        held += f", and what {beyond}"
+        held += f", and what {unseen}"
     else:
         ours = [each.name for each in assessment.answers.values() if each.rule.is_of_interface]
         if ours:
-            held += f"; those of {listed_in_short(ours)} hold what {beyond} as well"
+            held += f"; those of {listed_in_short(ours)} hold what {unseen} as well"
     other = "other material data" if assessment.hardness_scatter else "material data"
     places = "of places which are not alike" if is_of_joint else "between places on the part"
     return [

@@ -20,17 +20,17 @@ if TYPE_CHECKING:
     from roughline.contact.fields import Fields
 
 _DIGITS = 3  # of statistics of one map
-_OF_FLOW = (
+_FLOW_CAPTION = (
     "Flux over its mean, on the gap of the map; black: contact. A ring marks where the fluid is "
     "throttled most, near sealing the last channel."
 )
-_SIDES = {
+_SIDES_IN_WORDS = {
     "periodic": "The map repeats along both sides.",
     "closed": "The other two sides are closed.",
     "x": "The map repeats along x; along y it has an inlet and an outlet, or is closed.",
     "y": "The map repeats along y; along x it has an inlet and an outlet, or is closed.",
 }
-_OF_DISTRIBUTIONS = (
+_DISTRIBUTIONS_CAPTION = (
     "Density of the gap over the nominal area, without the points in contact, and of the pressure "
     "in contact, without the points at the hardness (bins chosen by the data: Freedman and "
     "Diaconis); number of contact patches of at least an area. Points that meet at a corner belong "
@@ -44,17 +44,17 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
 
     There are none where no fields are kept.
     """
-    kept = loads_with_fields(assessment.curve)
-    if not kept:
+    pressed = loads_with_fields(assessment.curve)
+    if not pressed:
         return [], []
-    load, fields = kept[-1]
+    load, fields = pressed[-1]
     force = engineering(assessment.curve_over_loads.force[load] * assessment.scale, "N")
     files = save(fields_figure(fields), folder, "distributions")
     sections = [
         Section(
             f"Gap, pressure and contact patches at {force}",
             tables=[Table(*fields_table(fields))],
-            pictures=[Picture(files[0], "Distributions", _OF_DISTRIBUTIONS)],
+            pictures=[Picture(files[0], "Distributions", _DISTRIBUTIONS_CAPTION)],
             behind="how far the bodies are apart, and where the load is borne",
         )
     ]
@@ -62,16 +62,16 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
         files += save(flow_figure(assessment), folder, "flow")
         of_flow = Section(
             f"Where the fluid goes at {force}",
-            pictures=[Picture(files[2], "Flow", _of_flow(assessment, load))],
+            pictures=[Picture(files[2], "Flow", _flow_caption(assessment, load))],
             behind="where it goes, and where it is throttled",
         )
         sections.insert(0, of_flow)
     return sections, files
 
 
-def _of_flow(assessment: Assessment, load: int) -> str:
+def _flow_caption(assessment: Assessment, load: int) -> str:
     """Say what the pictures of the flow show."""
-    text = f"{_OF_FLOW} {_SIDES[assessment.flows[0].sides]}"
+    text = f"{_FLOW_CAPTION} {_SIDES_IN_WORDS[assessment.flows[0].sides]}"
     text += " Apertures are those of the map, to three digits whatever is open of them."
     sealing = assessment.question.sealing
     if sealing is not None and sealing.free_path:
@@ -79,12 +79,12 @@ def _of_flow(assessment: Assessment, load: int) -> str:
             each.along: assessment.measured[f"hydraulic_aperture_{each.along}"].values[load]
             for each in assessment.flows
         }
-        told = [f"{engineering(u, 'm', _DIGITS)} along {along}" for along, u in of_map.items()]
+        apertures = [f"{engineering(u, 'm', _DIGITS)} along {along}" for along, u in of_map.items()]
         gas = sealing.medium.name
         text += (
             f" They are those of {gas} at its mean pressure: u_s is the gap of flat "
             "plates between which as much of a liquid would flow; between which as much of the gas "
-            f"flows along the seal, it is {' and '.join(told)}."
+            f"flows along the seal, it is {' and '.join(apertures)}."
         )
     if assessment.fields_of_gap is not assessment.fields:
         text += " The map is pressed repeated on all sides here, as for the answers about its gap."

@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     from roughline.assessment.question import Question
     from roughline.computing.arrays import Real
 
-_BROAD = 96  # letters of a line of comments
-_LEAST_STEP = 1e-10  # of overclosures that CalculiX tells apart, in the unit of its model
-_WRITTEN = 1e-8  # of the largest overclosure: nearer ones may be written alike
-_NEAR = 0.05  # of the pressure, within which an exponential law stands for the table
-_FEWEST = 3  # loads that an exponential law has to meet, as any two are met
-_PROGRAM_OF = {".csv": "csv", ".i": "moose"}  # by the file's ending; .inp is that of two
+_COMMENT_WIDTH = 96  # letters of a line of comments
+_LEAST_OVERCLOSURE_STEP = 1e-10  # that CalculiX tells apart, in the unit of its model
+_LEAST_RELATIVE_STEP = 1e-8  # of the largest overclosure: nearer ones may be written alike
+_EXPONENTIAL_WITHIN = 0.05  # of the pressure, within which an exponential law stands for the table
+_FEWEST_LOADS = 3  # loads that an exponential law has to meet, as any two are met
+_PROGRAM_BY_ENDING = {".csv": "csv", ".i": "moose"}  # by the file's ending; .inp is that of two
 _STIFFNESS, _UNLOADING = "stiffness [Pa/m]", "unloading_stiffness [Pa/m]"
 _HEAT = "thermal_conductance [W/(m^2 K)]"
 _CURRENT = "electrical_conductance [S/m^2]"
@@ -48,7 +48,7 @@ class _JointTable:
     overclosure: Real  # approach since first touch [m]
     columns: Mapping[str, Real]  # other quantities by their headings, in rows: (1 or 3, pressures)
 
-    def of_pressure(self, heading: str) -> tuple[Real, Real] | None:
+    def over_pressure(self, heading: str) -> tuple[Real, Real] | None:
         """Pressures and values of a quantity as far as they are finite; None where it is not."""
         if heading not in self.columns:
             return None
@@ -56,9 +56,9 @@ class _JointTable:
         known = np.isfinite(values)  # full contact has no end
         return (self.pressure[known], values[known]) if known.sum() > 1 else None
 
-    def of_overclosure(self, least: float = 0.0) -> tuple[Real, Real]:
+    def pressure_over_overclosure(self, least: float = 0.0) -> tuple[Real, Real]:
         """Overclosures that are further than this from the one before, and their pressures."""
-        least = max(least, _WRITTEN * float(self.overclosure[-1]))
+        least = max(least, _LEAST_RELATIVE_STEP * float(self.overclosure[-1]))
         rising = [0]
         for i in range(1, self.overclosure.size):
             if self.overclosure[i] - self.overclosure[rising[-1]] > least:
@@ -82,9 +82,11 @@ class _ExponentialLaw:
 
         It is that of the three largest where it is near to none of these; None for fewer loads.
         """
-        overclosure, pressure = (each[1:] for each in table.of_overclosure(_LEAST_STEP))
+        overclosure, pressure = (
+            each[1:] for each in table.pressure_over_overclosure(_LEAST_OVERCLOSURE_STEP)
+        )
         found = None
-        for first in range(pressure.size - _FEWEST + 1):
+        for first in range(pressure.size - _FEWEST_LOADS + 1):
             slope, start = np.polyfit(overclosure[first:], np.log(pressure[first:]), 1)
             ratio = np.exp(start + slope * overclosure) / pressure
             error = float(np.abs(ratio[first:] - 1).max())
@@ -97,7 +99,7 @@ class _ExponentialLaw:
     @property
     def is_near(self) -> bool:
         """Whether its pressures are those of the table."""
-        return self.error <= _NEAR
+        return self.error <= _EXPONENTIAL_WITHIN
 
     @property
     def clearance(self) -> float:
@@ -148,7 +150,7 @@ def export_table(assessment: Assessment, table: str | Path) -> Path:
     *Surface Interaction, name=ROUGH_JOINT
     """
     program, file = checked_table(table, assessment.question)
-    joint = _table_of(assessment)
+    joint = _joint_table(assessment)
     lines = _PROGRAMS[program](joint, _remarks(assessment, joint))
     text = "\n".join([*lines, ""]).replace("²", "^2").replace("µ", "u")
     try:
@@ -170,7 +172,7 @@ def checked_table(table: str | Path, question: Question) -> tuple[str, Path]:
     text = str(table)
     program, colon, name = text.partition(":")
     if not colon or len(program) < 2 or "/" in program:  # a letter is that of a disk
-        program, name = _PROGRAM_OF.get(Path(text).suffix.lower(), ""), text
+        program, name = _PROGRAM_BY_ENDING.get(Path(text).suffix.lower(), ""), text
     if not program:
         refuse(
             "table",
@@ -207,7 +209,7 @@ def _refuse_without_interface(question: Question) -> None:
         raise InputError(f"{called('table')} needs two loads or more; give {called('loads')} again")
 
 
-def _table_of(assessment: Assessment) -> _JointTable:
+def _joint_table(assessment: Assessment) -> _JointTable:
     """The loads on the loading branch of an assessment, as they rise, after that of no load."""
     curve, body, known = assessment.curve_as_asked, assessment.body, assessment.intervals_as_asked
     if not isinstance(body, Surface):
@@ -226,7 +228,7 @@ def _table_of(assessment: Assessment) -> _JointTable:
     if isinstance(curve, SurfaceCurve) and curve.hardness is not None:
         unloading = np.stack([curve.unloading_stiffness, *unloading_ends])
         columns[_UNLOADING] = unloading / assessment.area
-    columns |= _of_answers(assessment)
+    columns |= _answer_columns(assessment)
     at_touch = {_MEAN_GAP: body.heights.max() - body.heights.mean()}
     return _JointTable(
         np.insert(pressure, 0, 0.0),
@@ -238,7 +240,7 @@ def _table_of(assessment: Assessment) -> _JointTable:
     )
 
 
-def _of_answers(assessment: Assessment) -> dict[str, Real]:
+def _answer_columns(assessment: Assessment) -> dict[str, Real]:
     """Conductances per area and the mean gap over the loads that were asked for, in rows."""
     keys = {
         _HEAT: "thermal_conductance_per_area",
@@ -317,8 +319,8 @@ def _csv(table: _JointTable, remarks: Sequence[str]) -> list[str]:
 
 def _calculix(table: _JointTable, remarks: Sequence[str]) -> list[str]:
     """Surface interactions for CalculiX, as none of its types of contact reads all of a table."""
-    overclosure, pressure = table.of_overclosure(_LEAST_STEP)
-    conductance, law = table.of_pressure(_HEAT), _ExponentialLaw.of(table)
+    overclosure, pressure = table.pressure_over_overclosure(_LEAST_OVERCLOSURE_STEP)
+    conductance, law = table.over_pressure(_HEAT), _ExponentialLaw.of(table)
     heat = [] if conductance is None else ["*GAP CONDUCTANCE", *_pairs(conductance)]
     own = [
         "For CalculiX 2.20. Which interaction it reads as it is meant depends on the TYPE of the "
@@ -331,7 +333,7 @@ def _calculix(table: _JointTable, remarks: Sequence[str]) -> list[str]:
     if (near := table.overclosure.size - overclosure.size) > 0:
         own.append(
             f"{near} of the overclosures are left out, which are within "
-            f"{_LEAST_STEP:g} of the one before: CalculiX does not tell such apart."
+            f"{_LEAST_OVERCLOSURE_STEP:g} of the one before: CalculiX does not tell such apart."
         )
     if _CURRENT in table.columns:
         own.append("It has no electrical contact, so that conductance is left out.")
@@ -368,12 +370,13 @@ def _exponential_in_words(law: _ExponentialLaw | None, table: _JointTable) -> st
     """Say how near an exponential law is to a table, and from which load on; or why it is none."""
     none = "There is no ROUGH_JOINT_EXPONENTIAL, with heat in either type of penalty contact: "
     if law is None:
-        return f"{none}it takes {_FEWEST} loads."
+        return f"{none}it takes {_FEWEST_LOADS} loads."
     error = f"{100 * law.error:.2g} %"
     if not law.is_near:
         return (
-            f"{none}at the {_FEWEST} largest loads its pressure would be off by up to {error}, "
-            f"and {100 * _NEAR:g} % are allowed. Press loads that lie closer together."
+            f"{none}at the {_FEWEST_LOADS} largest loads its pressure would be off by up to "
+            f"{error}, and {100 * _EXPONENTIAL_WITHIN:g} % are allowed. Press loads that lie "
+            "closer together."
         )
     text = (
         "ROUGH_JOINT_EXPONENTIAL is for NODE TO SURFACE and for SURFACE TO SURFACE, with heat in "
@@ -400,10 +403,10 @@ def _abaqus(table: _JointTable, remarks: Sequence[str]) -> list[str]:
         *_comments("** ", [*remarks, own]),
         "*Surface Interaction, name=ROUGH_JOINT",
         "*Surface Behavior, pressure-overclosure=TABULAR",
-        *_pairs(table.of_overclosure()),
+        *_pairs(table.pressure_over_overclosure()),
     ]
     for heading, keyword in conductances.items():
-        if (found := table.of_pressure(heading)) is not None:
+        if (found := table.over_pressure(heading)) is not None:
             lines += [keyword, *_pairs(found)]
     return lines
 
@@ -419,10 +422,10 @@ def _moose(table: _JointTable, remarks: Sequence[str]) -> list[str]:
     )
     lines = [*_comments("# ", [*remarks, own]), "[Functions]"]
     named = {
-        "contact_pressure_over_overclosure": table.of_overclosure(),
-        "contact_stiffness": table.of_pressure(_STIFFNESS),
-        "thermal_contact_conductance": table.of_pressure(_HEAT),
-        "electrical_contact_conductance": table.of_pressure(_CURRENT),
+        "contact_pressure_over_overclosure": table.pressure_over_overclosure(),
+        "contact_stiffness": table.over_pressure(_STIFFNESS),
+        "thermal_contact_conductance": table.over_pressure(_HEAT),
+        "electrical_contact_conductance": table.over_pressure(_CURRENT),
     }
     for name, pair in named.items():
         if pair is not None:
@@ -451,4 +454,8 @@ def _number(value: float) -> str:
 
 
 def _comments(mark: str, remarks: Sequence[str]) -> list[str]:
-    return [mark + line for remark in remarks for line in textwrap.wrap(remark, _BROAD - len(mark))]
+    return [
+        mark + line
+        for remark in remarks
+        for line in textwrap.wrap(remark, _COMMENT_WIDTH - len(mark))
+    ]

@@ -14,7 +14,7 @@ import numpy as np
 from roughline._version import __version__
 from roughline.contact.quantities import IN_JSON
 from roughline.contact.status import Status
-from roughline.report.texture_table import of_texture
+from roughline.report.texture_table import texture_json
 from roughline.topography.body import Body, side_lengths
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def to_json(content: Mapping[str, Any]) -> str:
     return json.dumps(plain({"roughline_version": __version__, **content}), indent=1)
 
 
-def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[str, Any]:
+def assessment_json(assessment: Assessment, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What pressing gave, in SI units, over the loads that were asked for, in their order.
 
     Of a joint the answers are the joint's; the curve and its intervals are those of the map, under
@@ -46,7 +46,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "file": (question.reading.name or question.body)
         if isinstance(question.body, Path)
         else None,
-        "body": _of_body(assessment.body),
+        "body": _body_json(assessment.body),
         "materials": pair and [pair.first.name, pair.second.name],
         "E_star": curve.E_star,
         "nominal_area": assessment.area,
@@ -66,12 +66,12 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "unloading_stiffness_interval": intervals and intervals.unloading,
         "area_fraction_interval": intervals and intervals.area,
         "measures": {
-            name: {"unit": each.quantity.unit_in("m"), **_of_measured(each, assessment)}
+            name: {"unit": each.quantity.unit_in("m"), **_measured_json(each, assessment)}
             for name, each in assessment.measured.items()
         },
         **({} if assessment.on_filled is None else {"force_on_filled": assessment.on_filled}),
         "answers_of": "joint" if question.joint is not None else "body",
-        "answers": _of_answers(assessment),
+        "answers": _answers_json(assessment),
         "theories": {
             each.name: {
                 "pressure": each.pressure,
@@ -91,7 +91,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
     return content
 
 
-def _of_measured(measured: Measured, assessment: Assessment) -> dict[str, Any]:
+def _measured_json(measured: Measured, assessment: Assessment) -> dict[str, Any]:
     """A measure over the loads that were asked for."""
     return {
         "symbol": measured.quantity.symbol,
@@ -100,7 +100,7 @@ def _of_measured(measured: Measured, assessment: Assessment) -> dict[str, Any]:
     }
 
 
-def _of_answers(assessment: Assessment) -> dict[str, Any]:
+def _answers_json(assessment: Assessment) -> dict[str, Any]:
     """The answers by their symbols."""
     return {
         each.symbol: {
@@ -120,7 +120,7 @@ def _of_answers(assessment: Assessment) -> dict[str, Any]:
     }
 
 
-def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
+def part_json(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What several maps gave, in SI units, over the loads that were asked for.
 
     Answers are listed by their symbols; each map has the same content as a single one.
@@ -143,7 +143,7 @@ def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
             for each in part.answers.values()
         },
         "maps": {
-            name: of_assessment(each)
+            name: assessment_json(each)
             for name, each in zip(part.names, part.assessments, strict=True)
         },
         "refused": part.refused,
@@ -153,7 +153,7 @@ def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
     }
 
 
-def of_description(description: Description, files: Sequence[Path] = ()) -> dict[str, Any]:
+def description_json(description: Description, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What a topography is like, in SI units."""
     parameters, missing = description.roughness, description.missing
     content = description.measurement
@@ -184,17 +184,17 @@ def of_description(description: Description, files: Sequence[Path] = ()) -> dict
             "cells": missing.cells,
         },
         "obstacles": description.obstacles,
-        "body": None if description.body is None else _of_body(description.body),
+        "body": None if description.body is None else _body_json(description.body),
         **{name: getattr(parameters, name, None) for name in (*names, "isotropy")},
-        "self_affine": None if fit is None else _of_fit(fit),
+        "self_affine": None if fit is None else _fit_json(fit),
         "remarks": parameters.remarks if parameters is not None else [],
-        **({} if description.texture is None else {"iso": of_texture(description.texture)}),
+        **({} if description.texture is None else {"iso": texture_json(description.texture)}),
         "notes": description.notes,
         "files": list(files),
     }
 
 
-def _of_fit(fit: SelfAffineFit) -> dict[str, Any]:
+def _fit_json(fit: SelfAffineFit) -> dict[str, Any]:
     """A self-affine law; where it is refused, null but for what is off it, and why."""
     values = ("hurst", "q_roll", "q_high", "corner", "blur", "q_tail", "C_0")
     intervals = ("hurst_interval", "q_roll_interval", "q_high_interval")
@@ -206,7 +206,7 @@ def _of_fit(fit: SelfAffineFit) -> dict[str, Any]:
     }
 
 
-def of_comparison(compared: ModelComparison, files: Sequence[Path] = ()) -> dict[str, Any]:
+def comparison_json(compared: ModelComparison, files: Sequence[Path] = ()) -> dict[str, Any]:
     """Both models of one roughness, dimensionless."""
     result = compared.comparison
     return {
@@ -225,12 +225,12 @@ def of_comparison(compared: ModelComparison, files: Sequence[Path] = ()) -> dict
     }
 
 
-def of_generated(body: Body, file: Path) -> dict[str, Any]:
+def generated_json(body: Body, file: Path) -> dict[str, Any]:
     """What was generated."""
-    return {"body": _of_body(body), "files": [file]}
+    return {"body": _body_json(body), "files": [file]}
 
 
-def _of_body(body: Body) -> dict[str, Any]:
+def _body_json(body: Body) -> dict[str, Any]:
     sizes = side_lengths(body)
     return {
         "points": list(body.heights.shape),

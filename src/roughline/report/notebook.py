@@ -13,16 +13,16 @@ from roughline.computing.notebook import in_notebook, printed
 from roughline.errors.remark import grave_first
 from roughline.plot.notebook import html, png
 from roughline.plot.style import styled
-from roughline.report.answers import answer_table, lead_of, load_table
+from roughline.report.answers import answer_table, lead_sentence, load_table
 from roughline.report.contact_figures import overview
 from roughline.report.contact_tables import curve_table, modulus_in_words
 from roughline.report.terminal import print_assessment, print_part
 from roughline.report.texture_table import (
     causes_in_words,
     filters_in_words,
+    standard_title,
     texture_in_text,
     texture_table,
-    title_of,
 )
 from roughline.texture.iso import IsoParameters
 
@@ -30,17 +30,17 @@ _MOST_ABREAST = 3  # loads of which the answers stand beside each other
 
 
 @printed.register
-def _of_assessment(assessment: Assessment) -> str:
+def _assessment_text(assessment: Assessment) -> str:
     return _written(lambda console: print_assessment(assessment, console=console))
 
 
 @printed.register
-def _of_part(part: PartAssessment) -> str:
+def _part_text(part: PartAssessment) -> str:
     return _written(lambda console: print_part(part, console=console))
 
 
 @printed.register
-def _of_texture(found: IsoParameters) -> str:
+def _texture_text(found: IsoParameters) -> str:
     return texture_in_text(found)
 
 
@@ -58,7 +58,7 @@ def _table_of_assessment(assessment: Assessment) -> str:
         title = modulus_in_words(assessment)
         header, rows = curve_table(assessment)
     else:
-        title = lead_of(assessment)
+        title = lead_sentence(assessment)
         header, rows = _answers(assessment)
     with styled():
         picture = png(overview(assessment))
@@ -68,14 +68,14 @@ def _table_of_assessment(assessment: Assessment) -> str:
 @in_notebook.register
 def _table_of_part(part: PartAssessment) -> str:
     """What was asked of several maps, their answers, and the remarks."""
-    return html(lead_of(part), *_answers(part), remarks=_remarks(part))
+    return html(lead_sentence(part), *_answers(part), remarks=_remarks(part))
 
 
 @in_notebook.register
 def _table_of_texture(found: IsoParameters) -> str:
     """The parameters, and below them filters, remarks and what is not defined."""
     remarks = [filters_in_words(found), *found.remarks, *causes_in_words(found)]
-    return html(title_of(found), *texture_table(found), remarks=remarks)
+    return html(standard_title(found), *texture_table(found), remarks=remarks)
 
 
 def _answers(result: Assessment | PartAssessment) -> tuple[list[str], list[list[str]]]:

@@ -22,7 +22,7 @@ class Table:
     verdict: int | None = None
 
     @classmethod
-    def of_numbers(cls, header: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+    def with_numbers(cls, header: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
         """A table whose columns are numbers, but for the first."""
         return cls(header, rows, numbers=range(1, len(header)))
 
@@ -72,8 +72,8 @@ class KeyFigure:
     def of(cls, name: str, cell: str) -> KeyFigure:
         """A cell of a table as a key figure."""
         value, *interval = value_and_interval(cell)
-        told = " ".join(interval)
-        return cls(name, value, told[1:-1] if told.startswith("(") else told)
+        joined = " ".join(interval)
+        return cls(name, value, joined[1:-1] if joined.startswith("(") else joined)
 
 
 @dataclass(frozen=True)

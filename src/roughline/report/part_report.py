@@ -20,14 +20,14 @@ from roughline.report.answers import (
     leading_keys,
     quantity,
     starred,
-    unit_shown,
+    written_unit,
 )
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import write_contact_report
 from roughline.report.document import write_document
 from roughline.report.page import Picture, Section, Table
 from roughline.report.part_tables import count_in_words, leading_table, maps_table
-from roughline.report.values import scale_of
+from roughline.report.values import written_scale
 from roughline.topography.body import Surface
 from roughline.units import prefix
 
@@ -35,11 +35,12 @@ if TYPE_CHECKING:
     from roughline.assessment.part import PartAnswer, PartAssessment
 
 _MAPS_ABREAST = 3  # in a table
-_ABREAST = 4  # maps of heights in a row
+_HEIGHTS_ABREAST = 4  # maps of heights in a row
 _LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic
-_LONGEST, _BEGIN = 18, 4  # letters of a name under an axis, and of them from its beginning
-_BROAD = 22  # letters of a line beside an axis
-_MOST_IN_PAIRS = 6  # answers, of which more stand three abreast, so that the figure fits a sheet
+_LONGEST_NAME = 18  # letters of a name under an axis
+_NAME_BEGINNING = 4  # of them from its beginning
+_AXIS_LABEL_WIDTH = 22  # letters of a line beside an axis
+_MOST_ANSWERS_IN_PAIRS = 6  # more stand three abreast, so that the figure fits a sheet
 _MOST_NAMED = 12  # maps whose names fit under an axis
 _MOST_HEIGHTS = 16  # maps whose heights are drawn, so that the figure fits a sheet
 
@@ -61,7 +62,7 @@ def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) ->
     figures = _figures(part, folder)
     title, own = (
         f"Contact of a part, {count_in_words(part)}",
-        _of_maps(part, figures[0], figures[2]),
+        _map_sections(part, figures[0], figures[2]),
     )
     document = write_document(part, folder, title, own, [how_to_repeat])
     return [*document, *figures, *written]
@@ -95,7 +96,7 @@ def _figures(part: PartAssessment, folder: Path) -> list[Path]:
         ]
 
 
-def _of_maps(part: PartAssessment, answers: Path, heights: Path) -> list[Section]:
+def _map_sections(part: PartAssessment, answers: Path, heights: Path) -> list[Section]:
     """What the maps are, and what each of them gives."""
     loads, maps = range(len(part.headings)), range(len(part.names))
     of_maps = [
@@ -106,7 +107,10 @@ def _of_maps(part: PartAssessment, answers: Path, heights: Path) -> list[Section
     return [
         Section(
             "The maps",
-            tables=[Table.of_numbers(*maps_table(part)), Table.of_numbers(*leading_table(part))],
+            tables=[
+                Table.with_numbers(*maps_table(part)),
+                Table.with_numbers(*leading_table(part)),
+            ],
             pictures=[
                 Picture(answers, "Answers", _caption_of_answers(part)),
                 Picture(heights, "Heights", _caption_of_heights(part)),
@@ -118,7 +122,7 @@ def _of_maps(part: PartAssessment, answers: Path, heights: Path) -> list[Section
                 "Values and intervals of each map alone; its own report lies in a folder beside "
                 "this page."
             ],
-            tables=[Table.of_numbers(*each) for each in of_maps],
+            tables=[Table.with_numbers(*each) for each in of_maps],
             behind="values and intervals of each map alone",
         ),
     ]
@@ -157,7 +161,7 @@ def _each_map_table(
 def answers_figure(part: PartAssessment) -> Figure:
     """Leading answers of each map with their intervals, their mean and the part's interval."""
     keys = leading_keys(part)
-    abreast = 2 if len(keys) <= _MOST_IN_PAIRS else 3
+    abreast = 2 if len(keys) <= _MOST_ANSWERS_IN_PAIRS else 3
     rows = math.ceil(len(keys) / abreast)
     figure = new_figure(PAGE, 2.4 * max(rows, 1))
     if not keys:
@@ -173,19 +177,19 @@ def answers_figure(part: PartAssessment) -> Figure:
 def heights_figure(part: PartAssessment) -> Figure:
     """Heights of the maps, each about its mean, in the same colours; of scans, lines."""
     bodies = [each.body for each in part.assessments[:_MOST_HEIGHTS]]
-    rows = math.ceil(len(bodies) / _ABREAST)
+    rows = math.ceil(len(bodies) / _HEIGHTS_ABREAST)
     figure = new_figure(PAGE, 1.85 * rows + 0.75)
-    panels = np.atleast_1d(figure.subplots(rows, _ABREAST)).ravel()
+    panels = np.atleast_1d(figure.subplots(rows, _HEIGHTS_ABREAST)).ravel()
     spread = 4 * max(body.rms_height for body in bodies)
     factor, unit = prefix(spread, "m", 3)
-    shown = None
+    image = None
     for axes, body, name in zip(panels, bodies, part.names, strict=False):
         axes.set_title(_short(name), fontsize=8)
         axes.tick_params(labelsize=8)
         heights = (body.heights - body.heights.mean()) * factor
         if isinstance(body, Surface):
             size, sides = prefix(max(body.sizes), "m", 3)
-            shown = show_map(
+            image = show_map(
                 axes,
                 thinned(heights),
                 (body.sizes[0] * size, body.sizes[1] * size),
@@ -200,9 +204,9 @@ def heights_figure(part: PartAssessment) -> Figure:
         axes.set_xlabel(f"x [{sides}]", fontsize=8)
     for axes in panels[len(bodies) :]:
         axes.set_axis_off()
-    if shown is not None:
+    if image is not None:
         bar = figure.colorbar(
-            shown, ax=panels, orientation="horizontal", shrink=0.5, aspect=40, extend="both"
+            image, ax=panels, orientation="horizontal", shrink=0.5, aspect=40, extend="both"
         )
         bar.set_label(f"height [{unit}]", fontsize=8)
         bar.ax.tick_params(labelsize=8)
@@ -213,7 +217,7 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     """One answer of each map at the largest load, its mean, and the interval of the part."""
     load = part.largest
     values = np.array([each.values[load] for each in answer.of_maps])
-    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer))
+    factor, unit = written_scale(float(np.nanmax(values)), written_unit(answer))
     places = np.arange(1, values.size + 1)
     low, high = (end * factor for end in answer.ends_of_maps(load))
     axes.vlines(places, low, high, color="0.35", linewidth=1.0)
@@ -236,11 +240,15 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     else:
         axes.set_xlabel("number of the map")
     axes.set_xlim(0.5, values.size + 0.5)
-    name = textwrap.fill(answer.name, _BROAD)
+    name = textwrap.fill(answer.name, _AXIS_LABEL_WIDTH)
     axes.set_ylabel(name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=8)
 
 
 def _short(name: str) -> str:
     """A name that fits under an axis; maps of a part mostly differ in the end of their names."""
-    short = name if len(name) <= _LONGEST else f"{name[:_BEGIN]}…{name[_BEGIN + 1 - _LONGEST :]}"
+    short = (
+        name
+        if len(name) <= _LONGEST_NAME
+        else f"{name[:_NAME_BEGINNING]}…{name[_NAME_BEGINNING + 1 - _LONGEST_NAME :]}"
+    )
     return short.replace("$", r"\$")  # which would begin a formula

@@ -17,22 +17,22 @@ from roughline.report.values import value_and_interval
 if TYPE_CHECKING:
     from roughline.report.page import Headline, KeyFigure, Section, Table
 
-_SIZE = 9.0
+_FONT_SIZE = 9.0
 """Of the text and of tables; nothing but indices and powers is smaller. [points]"""
 
-_LARGE, _HEADING, _TITLE = 15.0, 11.5, 16.0  # of key figures, headings and the title [points]
+_FIGURE_SIZE, _HEADING_SIZE, _TITLE_SIZE = 15.0, 11.5, 16.0  # [points]
 _LEADING = 1.3  # distance of lines over their size
 _MARGIN = 38.0  # so that figures, 7.2 inches wide, keep their size [points]
-_FOOT = 20.0  # of the footer above the edge of the sheet [points]
-_PICTURE = 600.0  # height of a picture at most [points]
-_ROOM = 140.0  # below which a section or a table begins on the next sheet [points]
+_FOOTER_HEIGHT = 20.0  # above the edge of the sheet [points]
+_LARGEST_PICTURE = 600.0  # its height [points]
+_LEAST_ROOM = 140.0  # below which a section or a table begins on the next sheet [points]
 _PADDING = 4.0  # left and right of a cell [points]
-_NAMES = 0.2  # share of the width that the first column gets at least, if it needs it
-_WORD = 0.4  # share of the width from which on a word is broken
-_ABREAST = 3  # key figures beside each other
-_TOGETHER = 3  # first or last rows of a table that stay on one sheet
-_LOW, _HIGH = '<sub rise="1.5" size="7">', '<sup rise="3" size="7">'
-_GRAVE = "#fbe9e7"  # behind warnings
+_NAMES_SHARE = 0.2  # share of the width that the first column gets at least, if it needs it
+_WORD_SHARE = 0.4  # share of the width from which on a word is broken
+_FIGURES_ABREAST = 3  # key figures beside each other
+_ROWS_TOGETHER = 3  # first or last rows of a table that stay on one sheet
+_SUBSCRIPT, _SUPERSCRIPT = '<sub rise="1.5" size="7">', '<sup rise="3" size="7">'
+_WARNING_COLOUR = "#fbe9e7"  # behind warnings
 
 
 def write_pdf(
@@ -60,10 +60,10 @@ def write_pdf(
         document = _document(target, title)
 
         def foot(canvas: Any, _: Any) -> None:
-            canvas.setFont("Sans", _SIZE)
+            canvas.setFont("Sans", _FONT_SIZE)
             number = f"page {canvas.getPageNumber()} of {count}"
-            canvas.drawRightString(_MARGIN + document.width - 12, _FOOT, number)
-            canvas.drawString(_MARGIN, _FOOT, _shortened(title, 0.8 * document.width))
+            canvas.drawRightString(_MARGIN + document.width - 12, _FOOTER_HEIGHT, number)
+            canvas.drawString(_MARGIN, _FOOTER_HEIGHT, _shortened(title, 0.8 * document.width))
 
         flow = _flow(title, lead, sections, made, headline, document.width - 12)
         document.build(flow, onFirstPage=foot, onLaterPages=foot)
@@ -115,29 +115,31 @@ def _flow(
     from reportlab.lib import colors
     from reportlab.platypus import CondPageBreak, KeepTogether, Paragraph, Spacer
 
-    text, small = _style(_SIZE), _style(_SIZE, textColor=colors.HexColor("#555555"))
-    heading = _style(_HEADING, bold=True, keepWithNext=1, spaceBefore=_SIZE, spaceAfter=3)
-    item = _style(_SIZE, leftIndent=12, bulletIndent=3, spaceAfter=2)
-    flow: list[Any] = [Paragraph(escape(title), _style(_TITLE, bold=True, spaceAfter=4))]
+    text, small = _style(_FONT_SIZE), _style(_FONT_SIZE, textColor=colors.HexColor("#555555"))
+    heading = _style(_HEADING_SIZE, bold=True, keepWithNext=1, spaceBefore=_FONT_SIZE, spaceAfter=3)
+    item = _style(_FONT_SIZE, leftIndent=12, bulletIndent=3, spaceAfter=2)
+    flow: list[Any] = [Paragraph(escape(title), _style(_TITLE_SIZE, bold=True, spaceAfter=4))]
     if headline is not None:
-        grave = _style(_SIZE, backColor=colors.HexColor(_GRAVE), borderPadding=3, spaceAfter=7)
+        grave = _style(
+            _FONT_SIZE, backColor=colors.HexColor(_WARNING_COLOUR), borderPadding=3, spaceAfter=7
+        )
         flow += [Spacer(1, 3)] if headline.warnings else []
         flow += [Paragraph(f"Warning: {_set(each)}", grave) for each in headline.warnings]
-    flow += [Paragraph(escape(lead), _style(_SIZE + 1, spaceAfter=4))] if lead else []
+    flow += [Paragraph(escape(lead), _style(_FONT_SIZE + 1, spaceAfter=4))] if lead else []
     if headline is not None and headline.figures:
         flow += [_key_figures(headline.figures, width), Spacer(1, 3)]
         flow += [Paragraph(_set(headline.below), text)] if headline.below else []
     flow += [Paragraph(escape(made), small)] if made else []
-    parts = [_of_section(section, heading, text, item, width) for section in sections]
+    parts = [_section_parts(section, heading, text, item, width) for section in sections]
     last = len(sections)
     while last > 1 and not (sections[last - 1].tables or sections[last - 1].pictures):
         last -= 1  # words at the end, which would leave a sheet to a line
     for each in parts[:last]:
-        flow += [CondPageBreak(_ROOM), *each]
+        flow += [CondPageBreak(_LEAST_ROOM), *each]
     return [*flow, KeepTogether([every for each in parts[last:] for every in each])]
 
 
-def _of_section(section: Section, heading: Any, text: Any, item: Any, width: float) -> list[Any]:
+def _section_parts(section: Section, heading: Any, text: Any, item: Any, width: float) -> list[Any]:
     """A section, in styles of its heading, its text and its notes."""
     from reportlab.platypus import CondPageBreak, Paragraph, Spacer
 
@@ -148,7 +150,7 @@ def _of_section(section: Section, heading: Any, text: Any, item: Any, width: flo
     flow += [Paragraph(_set(section.note), spaced)] if section.note else []
     flow += [Paragraph(_set(note), item, bulletText="•") for note in section.notes]
     for i, grid in enumerate(grid for each in section.tables for grid in _grids(each, width)):
-        flow += [CondPageBreak(_ROOM)] if i else []  # the first stays below its heading
+        flow += [CondPageBreak(_LEAST_ROOM)] if i else []  # the first stays below its heading
         flow += [Spacer(1, 5), grid]
     for each in section.pictures:
         flow += _picture(each.path, f"{each.name}. {each.caption}", width)
@@ -159,9 +161,9 @@ def _style(size: float, *, bold: bool = False, **others: Any) -> Any:
     from reportlab.lib.styles import ParagraphStyle
 
     font = "Sans-Bold" if bold else "Sans"
-    whole = {"allowWidows": 0, "allowOrphans": 0}  # no line alone on a sheet
+    unbroken = {"allowWidows": 0, "allowOrphans": 0}  # no line alone on a sheet
     return ParagraphStyle(
-        font, fontName=font, fontSize=size, leading=_LEADING * size, **whole, **others
+        font, fontName=font, fontSize=size, leading=_LEADING * size, **unbroken, **others
     )
 
 
@@ -171,16 +173,16 @@ def _key_figures(figures: Sequence[KeyFigure], width: float) -> Any:
     from reportlab.platypus import Paragraph
     from reportlab.platypus import Table as Grid
 
-    text, large = _style(_SIZE), _style(_LARGE, bold=True)
+    text, large = _style(_FONT_SIZE), _style(_FIGURE_SIZE, bold=True)
     rows: list[list[Any]] = []
-    for i in range(0, len(figures), _ABREAST):
-        shown = figures[i : i + _ABREAST]
-        blank = [""] * (_ABREAST - len(shown))
+    for i in range(0, len(figures), _FIGURES_ABREAST):
+        row_figures = figures[i : i + _FIGURES_ABREAST]
+        blank = [""] * (_FIGURES_ABREAST - len(row_figures))
         values = [
             [Paragraph(_unbroken(each.value), large), Paragraph(_set(each.interval), text)]
-            for each in shown
+            for each in row_figures
         ]
-        rows += [[Paragraph(_set(each.name), text) for each in shown] + blank, values + blank]
+        rows += [[Paragraph(_set(each.name), text) for each in row_figures] + blank, values + blank]
     rules = [
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
         ("LEFTPADDING", (0, 0), (-1, -1), 0),
@@ -188,7 +190,7 @@ def _key_figures(figures: Sequence[KeyFigure], width: float) -> Any:
         ("BOTTOMPADDING", (0, 0), (-1, -1), 2),
         *(("LINEABOVE", (0, i), (-1, i), 0.6, colors.grey) for i in range(0, len(rows), 2)),
     ]
-    return Grid(rows, [width / _ABREAST] * _ABREAST, style=rules, hAlign="LEFT")
+    return Grid(rows, [width / _FIGURES_ABREAST] * _FIGURES_ABREAST, style=rules, hAlign="LEFT")
 
 
 def _picture(path: Path, caption: str, width: float) -> list[Any]:
@@ -197,11 +199,11 @@ def _picture(path: Path, caption: str, width: float) -> list[Any]:
     from reportlab.platypus import Image, Paragraph, Spacer
 
     wide, high = ImageReader(str(path)).getSize()
-    share = min(1.0, _PICTURE * wide / (high * width))
+    share = min(1.0, _LARGEST_PICTURE * wide / (high * width))
     image = Image(str(path), width * share, width * share * high / wide)
     space = Spacer(1, 5)
     space.keepWithNext = image.keepWithNext = 1
-    return [space, image, Paragraph(_set(caption), _style(_SIZE))]
+    return [space, image, Paragraph(_set(caption), _style(_FONT_SIZE))]
 
 
 def _grids(table: Table, width: float) -> Iterator[Any]:
@@ -211,7 +213,7 @@ def _grids(table: Table, width: float) -> Iterator[Any]:
     from reportlab.platypus import Table as Grid
 
     styles = {
-        (bold, right): _style(_SIZE, bold=bold, alignment=2 if right else 0)
+        (bold, right): _style(_FONT_SIZE, bold=bold, alignment=2 if right else 0)
         for bold in (False, True)
         for right in (False, True)
     }
@@ -223,8 +225,8 @@ def _grids(table: Table, width: float) -> Iterator[Any]:
         ("LEFTPADDING", (0, 0), (-1, -1), _PADDING),
         ("RIGHTPADDING", (0, 0), (-1, -1), _PADDING),
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
-        ("NOSPLIT", (0, 0), (-1, min(_TOGETHER, len(table.rows)))),
-        ("NOSPLIT", (0, max(-_TOGETHER, -len(table.rows))), (-1, -1)),
+        ("NOSPLIT", (0, 0), (-1, min(_ROWS_TOGETHER, len(table.rows)))),
+        ("NOSPLIT", (0, max(-_ROWS_TOGETHER, -len(table.rows))), (-1, -1)),
     ]
     lines = [table.header, *table.rows]
     for columns in _abreast(table, width):
@@ -244,7 +246,7 @@ def _grids(table: Table, width: float) -> Iterator[Any]:
 
 def _set(text: str) -> str:
     """A text with its symbols, whose low letters stay clear of the line below."""
-    return str(typeset(text)).replace("<sub>", _LOW).replace("<sup>", _HIGH)
+    return str(typeset(text)).replace("<sub>", _SUBSCRIPT).replace("<sup>", _SUPERSCRIPT)
 
 
 def _unbroken(cell: str) -> str:
@@ -258,7 +260,7 @@ def _abreast(table: Table, width: float) -> list[list[int]]:
     if not table.numbers:
         return [[*range(len(table.header))]]
     least = [_least(table, i, width) for i in range(len(table.header))]
-    least[0] = max(least[0], _NAMES * width)
+    least[0] = max(least[0], _NAMES_SHARE * width)
     groups = [[0]]
     for i in range(1, len(table.header)):
         if len(groups[-1]) > 1 and sum(least[j] for j in (*groups[-1], i)) > width:
@@ -276,7 +278,7 @@ def _widths(table: Table, columns: Sequence[int], width: float) -> list[float]:
     if sum(needed) <= width:
         return needed
     least = [_least(table, i, width) for i in columns]
-    least[0] = max(least[0], min(needed[0], _NAMES * width))
+    least[0] = max(least[0], min(needed[0], _NAMES_SHARE * width))
     wanted = [max(need - low, 0.0) for need, low in zip(needed, least, strict=True)]
     part = min(1.0, max(width - sum(least), 0.0) / (sum(wanted) or 1.0))
     return [low + part * want for low, want in zip(least, wanted, strict=True)]
@@ -290,7 +292,7 @@ def _least(table: Table, column: int, width: float) -> float:
     else:
         pieces = [word for cell in cells for word in cell.split()]
     pieces += header.split()
-    return min(max(map(_length, pieces), default=0.0) + 2 * _PADDING, _WORD * width)
+    return min(max(map(_length, pieces), default=0.0) + 2 * _PADDING, _WORD_SHARE * width)
 
 
 def _cells(table: Table, column: int) -> list[str]:
@@ -301,7 +303,7 @@ def _length(text: str) -> float:
     """Length of a text in bold, the widest that it may be set in. [points]"""
     from reportlab.pdfbase.pdfmetrics import stringWidth
 
-    return float(stringWidth(text, "Sans-Bold", _SIZE)) + 0.5
+    return float(stringWidth(text, "Sans-Bold", _FONT_SIZE)) + 0.5
 
 
 def _shortened(text: str, width: float) -> str:

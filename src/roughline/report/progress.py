@@ -26,8 +26,8 @@ class _Rate(ProgressColumn):
     def render(self, task: Task) -> Text:
         """Show the speed of the last while."""
         speed = task.speed or 0.0
-        shown = f"{speed:.1f}/s" if speed >= 1 else f"{60 * speed:.1f}/min"
-        return Text(shown if speed else "", style="progress.data.speed")
+        text = f"{speed:.1f}/s" if speed >= 1 else f"{60 * speed:.1f}/min"
+        return Text(text if speed else "", style="progress.data.speed")
 
 
 @contextmanager

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from roughline.topography.body import Surface
 
-_LIGHT = (315.0, 45.0)  # direction and height of the light [degree]
-_RELIEF = 0.35  # rms slope to which a surface is scaled for the light, so that smooth ones show
+_LIGHT_DIRECTION = (315.0, 45.0)  # direction and height of the light [degree]
+_RELIEF_SLOPE = 0.35  # rms, to which a surface is scaled for the light, so that smooth ones show
 
 
 def shaded(surface: Surface) -> NDArray[np.uint32]:
@@ -23,12 +23,12 @@ def shaded(surface: Surface) -> NDArray[np.uint32]:
     from matplotlib.colors import LightSource
 
     slope = surface.rms_slope
-    light: Any = LightSource(*_LIGHT)
+    light: Any = LightSource(*_LIGHT_DIRECTION)
     colours = light.shade(
         surface.heights.T,  # rows run along x, from the top downwards
         colormaps["cividis"],
         blend_mode="soft",
-        vert_exag=_RELIEF / slope if slope else 1.0,
+        vert_exag=_RELIEF_SLOPE / slope if slope else 1.0,
         dx=surface.spacing[0],
         dy=surface.spacing[1],
     )

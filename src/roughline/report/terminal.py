@@ -21,7 +21,7 @@ from roughline.report.answers import (
     figure_keys,
     groups,
     headline,
-    lead_of,
+    lead_sentence,
     leading_keys,
     load_table,
     quantity,
@@ -33,11 +33,11 @@ from roughline.report.part_tables import count_in_words, leading_table, maps_tab
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
-MOST_SHOWN = 1000
+MOST_PRINTED = 1000
 """Loads that are printed as a table, unless all are wanted."""
 
 _MOST_ABREAST = 3  # loads of a body whose answers stand beside each other
-_MOST_OF_PART = 2  # and of a part, whose answers have two columns
+_MOST_PART_ABREAST = 2  # and of a part, whose answers have two columns
 _MOST_NAMED = 5  # loads that were not solved, or maps, that are named
 
 
@@ -67,7 +67,7 @@ def print_assessment(
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)
     else:
         print_remarks(console, "warning", grave_first(assessment.warnings))
-        if unfolded_by and assessment.asked.size > MOST_SHOWN:
+        if unfolded_by and assessment.asked.size > MOST_PRINTED:
             ends = f"{_ends_of_curve(assessment)}; for each load use {unfolded_by}"
             console.print(ends, highlight=False, soft_wrap=True)
         else:
@@ -91,7 +91,7 @@ def print_part(
     console = console or Console(markup=False)
     some = ", ".join(part.names) if len(part.names) <= _MOST_NAMED else ""
     console.print(": ".join(filter(None, (count_in_words(part), some))), highlight=False)
-    folded = _print_answers(console, part, _MOST_OF_PART, unfolded_by)
+    folded = _print_answers(console, part, _MOST_PART_ABREAST, unfolded_by)
     if not unfolded_by or not leading_keys(part):
         console.print()
         print_table(console, *maps_table(part))
@@ -115,7 +115,7 @@ def _print_answers(
         loads = sorted({0, result.largest})
     keys = list(result.answers)
     if unfolded_by:
-        keys = [key for each in groups(result) for key in each.shown]
+        keys = [key for each in groups(result) for key in each.headlines]
     if unfolded_by and isinstance(result, Assessment) and len(headings) == 1:
         keys, loads = figure_keys(result), []  # are printed, and a table would repeat them
     elif len(loads) > abreast:
@@ -138,8 +138,8 @@ def _folded_table(
     result: Assessment | PartAssessment, loads: Sequence[int]
 ) -> tuple[list[str], list[list[str]]]:
     """What stands for each group, and how many more answers the group has."""
-    shown = {key: group for group in groups(result) for key in group.shown}
-    header, rows = answer_table(result, loads, list(shown))
+    headlines = {key: group for group in groups(result) for key in group.headlines}
+    header, rows = answer_table(result, loads, list(headlines))
     if not result.question.loading.headings:  # loads that nobody named are called by their numbers
         force = result.answers["normal_force"]
         header[1:] = [
@@ -150,9 +150,9 @@ def _folded_table(
         [
             f"{group.name}: {name}",
             *cells,
-            str(len(group.keys) - len(group.shown) or "") if key == group.shown[-1] else "",
+            str(len(group.keys) - len(group.headlines) or "") if key == group.headlines[-1] else "",
         ]
-        for (key, group), (name, *cells) in zip(shown.items(), rows, strict=True)
+        for (key, group), (name, *cells) in zip(headlines.items(), rows, strict=True)
     ]
 
 
@@ -172,7 +172,7 @@ def _print_headline(console: Console, result: Assessment | PartAssessment) -> No
     """Print what was asked in words, the answers that lead, and warnings."""
     figures = headline(result).figures
     console.print()
-    console.print(Text(lead_of(result), "bold"), soft_wrap=not console.is_terminal)
+    console.print(Text(lead_sentence(result), "bold"), soft_wrap=not console.is_terminal)
     width = max((len(each.name) for each in figures), default=0)
     for each in figures:
         interval = f"  ({each.interval})" if each.interval else ""

@@ -35,13 +35,13 @@ def texture_rows(found: IsoParameters) -> list[tuple[str, str]]:
 
 def texture_in_text(found: IsoParameters) -> str:
     """Return what the terminal says of the parameters, as text."""
-    rows = [(title_of(found), ""), *texture_rows(found)]
+    rows = [(standard_title(found), ""), *texture_rows(found)]
     indent = max(len(name) for name, _ in rows[1:]) + 2
     lines = [f"{name:{indent}}{text}".rstrip() for name, text in rows]
     return "\n".join([*lines, *(f"note: {each}" for each in found.remarks)])
 
 
-def title_of(found: IsoParameters) -> str:
+def standard_title(found: IsoParameters) -> str:
     """The standard that the parameters are of."""
     return f"Parameters of {next(found.parameters).standard}"
 
@@ -59,7 +59,7 @@ def causes_in_words(found: IsoParameters) -> list[str]:
     return [f"no {', '.join(names)}: {cause}" for cause, names in named.items()]
 
 
-def of_texture(found: IsoParameters) -> dict[str, Any]:
+def texture_json(found: IsoParameters) -> dict[str, Any]:
     """Parameters as JSON has them, in the unit of the body; undefined ones are null, with why."""
     return {
         "standard": next(found.parameters).standard,

@@ -6,9 +6,9 @@ import re
 
 from markupsafe import Markup, escape
 
-_LETTER, _LOW = r"[^\W\d_]", r"[^\W_²³]"  # of a word, and of what may be set low
+_LETTER, _LOW_LETTER = r"[^\W\d_]", r"[^\W_²³]"  # of a word, and of what may be set low
 _SYMBOL = re.compile(  # k_i and E*_l, but no names; powers; numbers such as 1e-05
-    rf"(?<![\w.])({_LETTER}\u0304?\*?)_((?!star){_LOW}{{1,5}})(?!{_LOW}|_|\.{_LETTER})"
+    rf"(?<![\w.])({_LETTER}\u0304?\*?)_((?!star){_LOW_LETTER}{{1,5}})(?!{_LOW_LETTER}|_|\.{_LETTER})"
     r"|\^\(([^()]*)\)"
     r"|(?:\^|(?<![\w.-])(\d+(?:\.\d+)?)e(?=[+-]?\d+(?!\w)))\+?(-?)0*([\wα-ω]+(?:\.\d+)?)"
 )
@@ -18,7 +18,7 @@ _GREEK = {
 }
 _NAMED = re.compile(rf"(?<!\w)(?:(m_dot)|({'|'.join(_GREEK)})(?=_))(?![^\W_])")
 _SPELLED = re.compile(rf"(?<!\w)({'|'.join(_GREEK)})(?=_|\d?\*?(?!\w))")
-_NUMBERED = re.compile(rf"(?<!\w)({_LETTER})(\d)(?!{_LOW}|_)")
+_NUMBERED = re.compile(rf"(?<!\w)({_LETTER})(\d)(?!{_LOW_LETTER}|_)")
 
 
 def typeset(text: str) -> Markup:

@@ -37,9 +37,9 @@ from roughline.report.answers import (
     UNRESOLVED,
     answer_table,
     counted,
+    has_star,
     headline,
-    lead_of,
-    star_is_shown,
+    lead_sentence,
 )
 from roughline.report.comparison import verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table, modulus_in_words
@@ -75,7 +75,7 @@ def answer(arguments: Arguments, progress: Progress) -> bytes:
 def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]:
     """What was asked, the answers that lead, and all answers in a table with groups."""
     write, has_elastic = up_to_three_digits, isinstance(result, Assessment)
-    star = f"* {UNRESOLVED}" if star_is_shown(result) else ""
+    star = f"* {UNRESOLVED}" if has_star(result) else ""
     table: tuple[Any, ...] = (["the maps have no common answers"], [])
     if result.answers:
         table = answer_table(result, with_elastic=has_elastic, write=write)
@@ -84,7 +84,7 @@ def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]
         table = curve_table(result)
     at = "part-answers" if place == "part" else place
     return {
-        "words": {f"{place}-lead": lead_of(result), f"{place}-star": star},
+        "words": {f"{place}-lead": lead_sentence(result), f"{place}-star": star},
         "figures": {place: [vars(each) for each in headline(result, write).figures]},
         "tables": {f"measured-{at}": table},
     }

@@ -24,9 +24,9 @@ from roughline.lab.measured.state import (
 )
 from roughline.lab.panels import Filled, Points
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
-from roughline.report.answers import leading_keys, unit_shown
+from roughline.report.answers import leading_keys, written_unit
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
-from roughline.report.values import figure, scale_of, up_to_three_digits
+from roughline.report.values import figure, up_to_three_digits, written_scale
 
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
 
@@ -72,7 +72,7 @@ def part_in_words(part: PartAssessment, shown: int) -> dict[str, Any]:
 def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]) -> Filled:
     """One answer of each map at the largest load, the mean, and the part's interval."""
     load, count = part.largest, len(part.names)
-    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer))
+    factor, unit = written_scale(float(np.nanmax(values)), written_unit(answer))
     unit, (low, high) = unit.strip(), (end * factor for end in answer.ends_of_maps(load))
     values, mean = values * factor, float(answer.mean[load]) * factor
     whole = [float(end[load]) * factor for end in (answer.low, answer.high)]
