@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughline.paper.windows import Window
+from roughline.paper.windows import ForceWindow
 from roughline.plot.style import PAGE, colours, new_figure
 from studies.averaging.measure import (
     BODIES,
@@ -49,7 +49,7 @@ def exponents_figure() -> Figure:
     return figure
 
 
-def _draw(axes: Axes, bodies: str, window: Window) -> None:
+def _draw(axes: Axes, bodies: str, window: ForceWindow) -> None:
     fine = np.linspace(2, 3, 51)
     for law, style in _LAWS.items():
         values = [PUBLISHED[law](each) for each in fine]
@@ -98,7 +98,7 @@ def panels() -> list[StudyPanel]:
     return [_panel(window) for window in windows("surfaces")[:2]]
 
 
-def _panel(window: Window) -> StudyPanel:
+def _panel(window: ForceWindow) -> StudyPanel:
     curves = []
     for i, choice in enumerate(choices()):
         found = {each: exponent("surfaces", window, choice, each) for each in DIMENSIONS}

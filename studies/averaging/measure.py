@@ -17,7 +17,7 @@ import xarray
 from roughline.paper.averaging import Fixed, exponent_of_means
 from roughline.paper.results import published_dataset
 from roughline.paper.stated import EXPONENT_TOLERANCE
-from roughline.paper.windows import Window
+from roughline.paper.windows import ForceWindow
 from roughline.statistics.averages import Averaging
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
@@ -61,7 +61,7 @@ def choices() -> list[Choice]:
     return [Choice(fixed, mean) for fixed in plan()["fixed"] for mean in plan()["means"]]
 
 
-def windows(bodies: str) -> list[Window]:
+def windows(bodies: str) -> list[ForceWindow]:
     """Return the windows of surfaces or lines."""
     return [(low, high) for low, high in plan()["windows"][bodies]]
 
@@ -72,7 +72,9 @@ def data() -> xarray.Dataset:
     return read_one(DATA, plan())
 
 
-def exponent(bodies: str, window: Window, choice: Choice, dimension: float) -> IntervalEstimate:
+def exponent(
+    bodies: str, window: ForceWindow, choice: Choice, dimension: float
+) -> IntervalEstimate:
     """Return one exponent with its interval; NaN where the means do not cover the window."""
     values = data().exponent.sel(
         bodies=bodies, fixed=choice.fixed, averaging=choice.averaging, fractal_dimension=dimension
@@ -85,7 +87,7 @@ def count(bodies: str) -> int:
     return int(json.loads(data().attrs["realisations"])[bodies])
 
 
-def reproductions(bodies: str, window: Window, choice: Choice, law: str) -> dict[float, Case]:
+def reproductions(bodies: str, window: ForceWindow, choice: Choice, law: str) -> dict[float, Case]:
     """Judge, for each fractal dimension, whether a choice shows a published exponent.
 
     The tolerance is 0.05, as everywhere. Empty where the means do not cover the window.

@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.paper.results import published_dataset
 from roughline.paper.stated import EXPONENT_TOLERANCE
-from roughline.paper.windows import Window
+from roughline.paper.windows import ForceWindow
 from roughline.report.page import Table
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
@@ -35,7 +35,7 @@ from studies.study import Study
 
 FORCE, LEVEL = Choice("force", "arithmetic"), Choice("level", "arithmetic")
 _GEOMETRIC, _DEPTH = Choice("force", "geometric"), Choice("depth", "arithmetic")
-USUAL: dict[str, Window] = {"surfaces": (1e-2, 1e-1), "lines": (1e-4, 1e-2)}
+USUAL: dict[str, ForceWindow] = {"surfaces": (1e-2, 1e-1), "lines": (1e-4, 1e-2)}
 """Windows of the page "The paper, recomputed"."""
 
 
@@ -96,7 +96,7 @@ def _exponent_table(bodies: str) -> Table:
 def _table(
     bodies: str,
     header: tuple[str, ...],
-    cells: Callable[[Window, Choice], list[str]],
+    cells: Callable[[ForceWindow, Choice], list[str]],
     numbers: range = range(0),
 ) -> Table:
     """Return a table with a row for every window and mean."""
@@ -108,7 +108,7 @@ def _table(
     return Table(("F̄", "averaged at", "mean", *header), rows, numbers)
 
 
-def _reproduced(bodies: str, window: Window, choice: Choice, law: str) -> str:
+def _reproduced(bodies: str, window: ForceWindow, choice: Choice, law: str) -> str:
     """Say for which fractal dimensions a published exponent is confirmed or left open."""
     found = reproductions(bodies, window, choice, law)
     if not found:

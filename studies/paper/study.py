@@ -20,7 +20,7 @@ from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
 from roughline.campaign.run import log_path
 from roughline.contact.comparison.trust import COLUMNS, TrustMap
-from roughline.paper.laws import exponents_of
+from roughline.paper.laws import exponent_table
 from roughline.paper.page import compose
 from roughline.paper.results import (
     PaperResults,
@@ -62,7 +62,7 @@ def reduce(path: Path) -> None:
         finished(store, ensemble)
     DATA.mkdir(exist_ok=True)
     lines, surfaces = store.dataset("lines"), store.dataset("surfaces")
-    write_netcdf(exponents_of(lines, Windows().all_reduced), DATA / "exponents.nc")
+    write_netcdf(exponent_table(lines, Windows().all_reduced), DATA / "exponents.nc")
     for file_name, name in ENSEMBLES.items():
         data = store.dataset(name)
         if file_name == "lines":

@@ -93,6 +93,6 @@ def test_what_the_grid_decides_stands_with_its_grid(claims):
 def test_a_verdict_needs_the_whole_interval(ends, expected):
     sure = IntervalEstimate(0.0, -0.01, 0.01)
     numbers = {"at D_f = 2.0": IntervalEstimate(0.0, *ends), "at D_f = 3.0": sure}
-    claim = Claim.of("", "", "", Numbers(numbers).judged((-0.05, 0.05)))
+    claim = Claim.of("", "", "", Numbers(numbers).judge((-0.05, 0.05)))
     assert claim.verdict is expected
     assert claim.cases.startswith(expected)

@@ -15,7 +15,7 @@ from roughline.cli.paper import study_of
 from roughline.paper.gallery import Gallery
 from roughline.paper.plan import paper_plan, with_settings
 from roughline.paper.results import results_of_store
-from roughline.paper.roles import departures, roles_of
+from roughline.paper.roles import chosen_roles, departures
 from roughline.paper.windows import Windows
 
 OWN = """
@@ -74,7 +74,9 @@ def test_settings_of_ones_own_are_in_all_ensembles_that_they_concern():
     assert (matched.n, matched.cutoff_ratio, matched.force_bars) == (2**14, 32, (0.01, 0.1))
     gallery = Gallery.of(own, (2.1, 2.5, 2.9))
     assert (gallery.fractal_dimensions, gallery.n) == ((2.1, 2.5, 2.9), 64)
-    assert roles_of({each.name: each.identity() for each in own.ensembles}).matched == matched.name
+    assert (
+        chosen_roles({each.name: each.identity() for each in own.ensembles}).matched == matched.name
+    )
     assert with_settings(paper_plan("full")) == paper_plan("full")
     with pytest.raises(rl.InputError, match="fractal dimension 3.5; allowed is 2 to 3"):
         with_settings(paper_plan("quick"), fractal_dimensions=(3.5,))
@@ -82,7 +84,7 @@ def test_settings_of_ones_own_are_in_all_ensembles_that_they_concern():
 
 def test_the_paper_s_own_plan_keeps_its_roles():
     plan = campaign.read_plan("studies/paper/plan.toml")
-    roles = roles_of({each.name: each.identity() for each in plan.ensembles})
+    roles = chosen_roles({each.name: each.identity() for each in plan.ensembles})
     assert (roles.full, roles.reduced, roles.matched) == ("surfaces", "lines", "lines-of-surfaces")
 
 
@@ -94,15 +96,15 @@ def test_roles_follow_from_settings_whatever_the_names():
         "long": settings(**LINE),
         "same": settings(**LINE, cutoff_ratio=32),
     }
-    roles = roles_of(ensembles)
+    roles = chosen_roles(ensembles)
     assert (roles.full, roles.reduced) == ("fine", "long")
     assert (roles.matched, roles.other_grid) == ("same", "coarse")
     # lines that are the only ones are both
-    alone = roles_of({"fine": settings(), "same": settings(**LINE, cutoff_ratio=32)})
+    alone = chosen_roles({"fine": settings(), "same": settings(**LINE, cutoff_ratio=32)})
     assert alone.reduced == alone.matched == "same"
     assert departures(ensembles["rolled"]) == ["with a roll-off at 2 q_0"]
     with pytest.raises(rl.InputError, match=re.escape("are needed; there is fine (full)")):
-        roles_of({"fine": settings()})
+        chosen_roles({"fine": settings()})
 
 
 def test_windows_reach_as_far_as_the_loads():

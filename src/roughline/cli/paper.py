@@ -19,7 +19,7 @@ from roughline.errors.checks import refuse
 
 if TYPE_CHECKING:
     from roughline.paper.study import Study
-    from roughline.paper.windows import Window, Windows
+    from roughline.paper.windows import ForceWindow, Windows
 
 _RANGE = re.compile(r"\s*(\S+)\s+to\s+(\S+)\s*,\s*(\d+)\s+per\s+decade\s*")
 
@@ -235,7 +235,7 @@ def _forces(text: str, flag: str) -> tuple[float, ...]:
     return decades(low, high, count)
 
 
-def _window(text: str, flag: str) -> Window:
+def _window(text: str, flag: str) -> ForceWindow:
     numbers = _numbers(text, flag, "0.01, 0.1")
     if len(numbers) != 2 or not 0 < numbers[0] < numbers[1] < float("inf"):
         needed = 'two rising, positive loads F / (E* h L) are needed, such as "0.01, 0.1"'

@@ -121,10 +121,10 @@ def _both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure
         resolved = (full.sel(fractal_dimension=dimension).resolved.values == 1).all(axis=0)
         look = {"color": colour, "marker": marker}
         left.loglog(force, np.nanmean(stiffness_1d, axis=0), color=colour, linewidth=1)
-        for shown, mark in ((resolved, {}), (~resolved, OPEN)):
+        for which, mark in ((resolved, {}), (~resolved, OPEN)):
             left.loglog(
-                force[shown],
-                np.nanmean(stiffness_3d, axis=0)[shown],
+                force[which],
+                np.nanmean(stiffness_3d, axis=0)[which],
                 linestyle="",
                 label=None if mark else dimension_label(dimension),
                 **look,

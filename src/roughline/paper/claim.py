@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray
 
     from roughline.paper.laws import DimensionLaws
-    from roughline.paper.windows import Window
+    from roughline.paper.windows import ForceWindow
     from roughline.statistics.bootstrap import IntervalEstimate
 
 ENOUGH_LOADS = "three loads or more across this range"
@@ -22,7 +22,7 @@ ENOUGH_LOADS = "three loads or more across this range"
 
 @dataclass(frozen=True)
 class Numbers:
-    """The same number at several fractal dimensions."""
+    """One number at several fractal dimensions."""
 
     by_place: Mapping[str, IntervalEstimate]  # such as "at D_f = 2.0"
     form: str = ".3f"  # in which they are told
@@ -58,7 +58,7 @@ class Numbers:
             for each in self.known.values()
         )
 
-    def judged(self, allowed: Range) -> list[Case]:
+    def judge(self, allowed: Range) -> list[Case]:
         """Judge each by the range that a statement allows."""
         return [
             Case(
@@ -82,13 +82,15 @@ class Numbers:
         is needed.
         """
         if not self.known:
-            return not_judged(statement, basis, needed)
-        told = found.replace("{}", self.with_places)
-        cases = self.judged(allowed)
-        return Claim.of(statement, told, self.intervals, cases, basis, in_range(allowed, self.form))
+            return undecided_claim(statement, basis, needed)
+        sentence = found.replace("{}", self.with_places)
+        cases = self.judge(allowed)
+        return Claim.of(
+            statement, sentence, self.intervals, cases, basis, in_range(allowed, self.form)
+        )
 
 
-def not_judged(statement: str, basis: str, needed: str) -> Claim:
+def undecided_claim(statement: str, basis: str, needed: str) -> Claim:
     """Return a claim that the data cannot judge, as they lack what it needs."""
     cases = f"{Verdict.UNDECIDED}: not judged, as these data have no {needed}"
     return Claim(statement, "-", "-", basis, Verdict.UNDECIDED, cases)
@@ -117,13 +119,13 @@ def at(dimension: float) -> str:
     return f"at D_f = {dimension_label(dimension)}"
 
 
-def basis_in(window: Window, *bodies: xarray.Dataset, averaged: str = "k") -> str:
+def basis_in(window: ForceWindow, *bodies: xarray.Dataset, averaged: str = "k") -> str:
     """Describe the window, the averaging and the grid of a number of one model, or of both."""
-    said = ", ".join(map(bodies_of, bodies))
-    return f"F̄ = {window[0]:.3g} to {window[1]:.3g}; mean {averaged} at fixed F̄; {said}"
+    described = ", ".join(map(ensemble_in_words, bodies))
+    return f"F̄ = {window[0]:.3g} to {window[1]:.3g}; mean {averaged} at fixed F̄; {described}"
 
 
-def bodies_of(data: xarray.Dataset) -> str:
+def ensemble_in_words(data: xarray.Dataset) -> str:
     """Say how many lines or surfaces an ensemble has, and their points."""
     count, n = data.sizes["realisation"], int(data.attrs["n"])
     if data.attrs["model"] == "reduced":

@@ -11,14 +11,14 @@ from roughline.paper.claim import (
     ENOUGH_LOADS,
     Numbers,
     basis_in,
-    bodies_of,
+    ensemble_in_words,
     exact_claim,
-    not_judged,
+    undecided_claim,
 )
 from roughline.paper.laws import exponent_estimate
 from roughline.paper.stated import (
-    ENDS_OF_REDUCED,
     EXPONENT_TOLERANCE,
+    REDUCED_ENDS,
     SMALL_DISCREPANCY,
     STIFFNESS_TOLERANCE,
     ModelLabel,
@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 
     from roughline.paper.laws import DimensionLaws, LocalExponents
     from roughline.paper.results import PaperResults
-    from roughline.paper.windows import Window
+    from roughline.paper.windows import ForceWindow
     from roughline.statistics.bootstrap import IntervalEstimate
 
 _NO_CHANGE = around(0, EXPONENT_TOLERANCE)
-_RANGE_OF_BOTH = (0.5 - EXPONENT_TOLERANCE, 0.8 + EXPONENT_TOLERANCE)  # of §7, for both
+_EXPONENT_RANGE = (0.5 - EXPONENT_TOLERANCE, 0.8 + EXPONENT_TOLERANCE)  # of §7, for both
 _BOTH_MODELS = "lines with the waves and the loads of the surfaces, across this range"
 
 
@@ -60,13 +60,13 @@ def claims_on_exponents(results: PaperResults) -> list[Claim]:
             )
             for model in both
         ),
-        _ends_of_reduced(reduced),
+        _reduced_ends(reduced),
         *(
             model.claim(
                 "α between 0.5 and 0.8 for D_f from 2 to 3, in both investigations (§7)",
                 "{}",
                 _Model.exponent,
-                _RANGE_OF_BOTH,
+                _EXPONENT_RANGE,
                 form=".3f",
             )
             for model in both
@@ -97,12 +97,12 @@ class _Model:
 
     label: ModelLabel
     data: xarray.Dataset
-    window: Window
+    window: ForceWindow
     laws: Sequence[DimensionLaws]
 
     def claim(
         self,
-        said: str,
+        words: str,
         found: str,
         number: Callable[[_Model, DimensionLaws], IntervalEstimate],
         allowed: Range = _NO_CHANGE,
@@ -114,7 +114,7 @@ class _Model:
         """Return a claim about a number of its laws, at some or at every fractal dimension."""
         laws = [each for each in self.laws if of(each.fractal_dimension)]
         numbers = Numbers.of(laws, lambda each: number(self, each), form)
-        return numbers.claim(f"{self.label}: {said}", found, self.basis, allowed, needed)
+        return numbers.claim(f"{self.label}: {words}", found, self.basis, allowed, needed)
 
     @property
     def basis(self) -> str:
@@ -134,39 +134,39 @@ class _Model:
         return self.exponent(laws) - scaling_exponent(laws.fractal_dimension)
 
 
-def _constant(model: _Model, said: str) -> Claim:
+def _constant(model: _Model, words: str) -> Claim:
     """Judge whether the exponent stays the same from the lowest loads to medium ones."""
     lowest = min(model.local(laws).lowest for laws in model.laws)
     carriers = "springs" if model.label == "1D" else "cells"
     drifts = Numbers.of(model.laws, lambda laws: model.local(laws).drift, "+.3f")
     return drifts.claim(
-        f"{model.label}: a power law {said}",
+        f"{model.label}: a power law {words}",
         "α in the lowest decade less α in the highest (in the two halves of a range below two "
         "decades): {}",
         f"F̄ = {lowest:.2g} (ten {carriers} touch in every body) to {MEDIUM_FORCE:g}; mean k at "
-        f"fixed F̄; {bodies_of(model.data)}",
+        f"fixed F̄; {ensemble_in_words(model.data)}",
         _NO_CHANGE,
         f"three loads in each half of the range from where ten {carriers} touch to "
         f"F̄ = {MEDIUM_FORCE:g}",
     )
 
 
-def _ends_of_reduced(model: _Model) -> Claim:
+def _reduced_ends(model: _Model) -> Claim:
     """Judge whether the reduced model has the paper's exponents at D_f = 2 and 3."""
     statement = "1D: α from 0.5 to 0.75 as D_f goes from 2 to 3 (§6)"
-    at_ends = [laws for laws in model.laws if laws.fractal_dimension in ENDS_OF_REDUCED]
+    at_ends = [laws for laws in model.laws if laws.fractal_dimension in REDUCED_ENDS]
     ends = Numbers.of(at_ends, model.exponent)
     if not ends.known:
-        return not_judged(statement, model.basis, "D_f = 2 or 3 with loads across this range")
+        return undecided_claim(statement, model.basis, "D_f = 2 or 3 with loads across this range")
     off = Numbers.of(
-        at_ends, lambda laws: model.exponent(laws) - ENDS_OF_REDUCED[laws.fractal_dimension]
+        at_ends, lambda laws: model.exponent(laws) - REDUCED_ENDS[laws.fractal_dimension]
     )
     found = ends.with_places
     elsewhere = [law.exponent for law in at_ends[-1].reduced_elsewhere if law.points]
     if elsewhere:
         found += f"; in other windows {min(elsewhere):.3f} to {max(elsewhere):.3f} at the latter"
-    allowed = f"± {EXPONENT_TOLERANCE:g} of {', '.join(f'{x:g}' for x in ENDS_OF_REDUCED.values())}"
-    return Claim.of(statement, found, ends.intervals, off.judged(_NO_CHANGE), model.basis, allowed)
+    allowed = f"± {EXPONENT_TOLERANCE:g} of {', '.join(f'{x:g}' for x in REDUCED_ENDS.values())}"
+    return Claim.of(statement, found, ends.intervals, off.judge(_NO_CHANGE), model.basis, allowed)
 
 
 def _great_accuracy(model: _Model) -> Claim:
@@ -210,7 +210,7 @@ def _agreement(results: PaperResults) -> list[Claim]:
     """Judge whether exponent and stiffness of both models are the same, with the same waves."""
     bodies = [each for each in (results.full, results.matched) if each is not None]
     return [
-        Numbers.of(results.laws, lambda laws: laws.models_apart, "+.3f").claim(
+        Numbers.of(results.laws, lambda laws: laws.models_difference, "+.3f").claim(
             "The same power-law behaviour in both models (abstract)",
             "α 3D less α 1D with the same waves: {}",
             basis_in(results.windows.full, *bodies),

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from roughline.computing.arrays import Mask, Real
     from roughline.paper.laws import DimensionLaws
     from roughline.paper.results import PaperResults
-    from roughline.paper.windows import Window
+    from roughline.paper.windows import ForceWindow
 
 _INDENTED = 1  # which body of the gallery Figure 2 shows
 _OPEN_MARKS = (
@@ -102,17 +102,17 @@ _CAPTIONS = {
 def draw_pictures(results: PaperResults, folder: Path) -> list[Picture]:
     """Draw every figure that the results allow, and write it to a folder as PNG and PDF."""
     folder.mkdir(parents=True, exist_ok=True)
-    told: dict[str, object] = {}
+    caption_words: dict[str, object] = {}
     if (gallery := results.gallery) is not None:
         count = gallery.sizes["fractal_dimension"]
-        told["force_bar"] = gallery.attrs["force_bar"]
-        told["bodies"] = f"{_COUNTS[count]} fractal dimension{'s' if count > 1 else ''}"
+        caption_words["force_bar"] = gallery.attrs["force_bar"]
+        caption_words["bodies"] = f"{_COUNTS[count]} fractal dimension{'s' if count > 1 else ''}"
     pictures = []
     with styled():
         for file_name, draw in _drawings(results).items():
             png, _ = save(draw(), folder, file_name)
             name, caption = _CAPTIONS[file_name]
-            pictures.append(Picture(png, name, caption.format(**told)))
+            pictures.append(Picture(png, name, caption.format(**caption_words)))
     return pictures
 
 
@@ -188,10 +188,10 @@ def _draw_body(
     fraction = float(body.contact.mean())
     contact.set_title(f"contact {fraction:.1%}", fontsize=8)
     deflection = figure.add_subplot(places[3])
-    shown = show_map(
+    image = show_map(
         deflection, body.displacement.values, cmap="cividis", vmin=0, vmax=deepest, **look
     )
-    figure.colorbar(shown, ax=deflection, label="deflection $u/h$", shrink=0.85)
+    figure.colorbar(image, ax=deflection, label="deflection $u/h$", shrink=0.85)
     for axes in (contact, deflection):
         axes.set(xticks=[0, 1], yticks=[0, 1])
     contact.set_ylabel("$y/L$", labelpad=-6)
@@ -234,7 +234,7 @@ def indented_figure(gallery: xarray.Dataset) -> Figure:
     return figure
 
 
-def _figure_3(reduced: xarray.Dataset, dimensions: Real, window: Window) -> Figure:
+def _figure_3(reduced: xarray.Dataset, dimensions: Real, window: ForceWindow) -> Figure:
     """Draw the stiffness over force of the reduced model, k / (E* L).
 
     Fractal dimensions are those of the surfaces, as far as the lines have them, or else all.
@@ -246,7 +246,7 @@ def _figure_3(reduced: xarray.Dataset, dimensions: Real, window: Window) -> Figu
     return figure
 
 
-def _figure_4(full: xarray.Dataset, window: Window) -> Figure:
+def _figure_4(full: xarray.Dataset, window: ForceWindow) -> Figure:
     """Draw the stiffness over force of the full model, k / (1.1419 E* L)."""
     label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
     figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, window)
@@ -263,7 +263,7 @@ def _figure_4(full: xarray.Dataset, window: Window) -> Figure:
     return figure
 
 
-def _figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: Window) -> Figure:
+def _figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: ForceWindow) -> Figure:
     """Draw the exponent over fractal dimension: both models and the two predictions."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
@@ -306,7 +306,9 @@ def _figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: Wind
     return figure
 
 
-def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Window) -> Figure:
+def _stiffness_figure(
+    data: xarray.Dataset, punch: float, label: str, window: ForceWindow
+) -> Figure:
     """Draw the mean stiffness with its standard error; dashed where the grid does not resolve."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
@@ -335,10 +337,10 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
 
 def _draw_topography(axes: Any, heights: Real) -> None:
     step = max(1, heights.shape[0] // 128)
-    shown = heights[::step, ::step]
-    x, y = np.meshgrid(*(np.arange(n) / n for n in shown.shape), indexing="ij")
+    coarse = heights[::step, ::step]
+    x, y = np.meshgrid(*(np.arange(n) / n for n in coarse.shape), indexing="ij")
     axes.plot_surface(
-        x, -y, shown, cmap="cividis", rcount=128, ccount=128, linewidth=0, rasterized=True
+        x, -y, coarse, cmap="cividis", rcount=128, ccount=128, linewidth=0, rasterized=True
     )
     axes.set_box_aspect((1, 1, 0.45), zoom=1.35)
     axes.view_init(elev=38, azim=-60)
@@ -358,7 +360,7 @@ def _as_fraction(value: float) -> str:
     return {2 + 1 / 3: "7/3", 2 + 2 / 3: "8/3"}.get(value, f"{value:g}")
 
 
-def _window_label(window: Window) -> str:
+def _window_label(window: ForceWindow) -> str:
     low, high = (_power_of_ten(edge) for edge in window)
     return rf"$\bar F = {low}$ to ${high}$"
 

@@ -23,8 +23,8 @@ from roughline.spectra.self_affine import SelfAffine
 if TYPE_CHECKING:
     import xarray
 
-_GROUP = "gallery"
-_DONE = "gallery_done"  # attribute of the root
+_GROUP_NAME = "gallery"
+_DONE_MARK = "gallery_done"  # attribute of the root
 _DIMENSIONS = {
     "heights": ("fractal_dimension", "x", "y"),
     "contact": ("fractal_dimension", "x", "y"),
@@ -50,8 +50,8 @@ class Gallery:
         surfaces = plan.ensemble(ENSEMBLE_FULL)
         rising = sorted(fractal_dimensions or (2.0, 7 / 3, 8 / 3, 3.0))
         places = {round(i * (len(rising) - 1) / 3) for i in range(4)}
-        shown = tuple(rising[place] for place in sorted(places))
-        return cls(shown, surfaces.n, surfaces.seed)
+        chosen = tuple(rising[place] for place in sorted(places))
+        return cls(chosen, surfaces.n, surfaces.seed)
 
     def bodies(self, fractal_dimension: float) -> dict[str, NDArray[Any]]:
         """Press the surface and the line of one fractal dimension.
@@ -76,13 +76,13 @@ class Gallery:
         """Press the bodies that a store lacks, and keep them there."""
         with locked(path):
             root = opened(path, "r+")
-            if root.attrs.get(_DONE, False):
-                if self._is_whole_in(root, path):
+            if root.attrs.get(_DONE_MARK, False):
+                if self._is_complete_in(root, path):
                     return
-                root.attrs[_DONE] = False
+                root.attrs[_DONE_MARK] = False
             bodies = [self.bodies(dimension) for dimension in self.fractal_dimensions]
             values = {name: np.array([body[name] for body in bodies]) for name in _DIMENSIONS}
-            group = root.require_group(_GROUP)
+            group = root.require_group(_GROUP_NAME)
             group.attrs.update(self._settings())
             for name, data in {**values, "fractal_dimension": self.fractal_dimensions}.items():
                 group.create_array(
@@ -92,16 +92,16 @@ class Gallery:
                     overwrite=True,
                     **codecs(),
                 )
-            root.attrs[_DONE] = True
+            root.attrs[_DONE_MARK] = True
             gather_metadata(path)
 
-    def _is_whole_in(self, root: Any, path: Path) -> bool:
+    def _is_complete_in(self, root: Any, path: Path) -> bool:
         """Whether all of these bodies are in a store and can be read.
 
         Where there are others, these are drawn instead, as a study grows by fractal dimensions.
         """
         try:
-            group, wanted = root[_GROUP], json.loads(json.dumps(self._settings()))
+            group, wanted = root[_GROUP_NAME], json.loads(json.dumps(self._settings()))
             differ = [key for key in wanted if group.attrs.get(key) != wanted[key]]
             if differ and differ != ["fractal_dimensions"]:
                 raise StoreError(
@@ -119,7 +119,7 @@ def gallery_in(store: Store) -> xarray.Dataset | None:
     """Return the bodies that a store keeps, over fractal_dimension, x and y, or s."""
     import xarray  # here because it loads slowly
 
-    if not opened(store.path, "r").attrs.get(_DONE, False):
+    if not opened(store.path, "r").attrs.get(_DONE_MARK, False):
         return None
-    data = xarray.open_zarr(store.path, group=_GROUP, consolidated=False, chunks=None).load()
+    data = xarray.open_zarr(store.path, group=_GROUP_NAME, consolidated=False, chunks=None).load()
     return data[sorted(map(str, data))]  # Zarr lists them in another order every time

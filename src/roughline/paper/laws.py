@@ -14,7 +14,7 @@ from roughline.paper.windows import (
     MEDIUM_FORCE,
     OTHER_WINDOWS_REDUCED,
     WINDOW_AGREEMENT,
-    Window,
+    ForceWindow,
     Windows,
     covers,
 )
@@ -57,7 +57,7 @@ class DimensionLaws:
     reduced_local: LocalExponents
     full_local: LocalExponents
     # exponent of the full model less that of the reduced one, with the same waves and window
-    models_apart: IntervalEstimate
+    models_difference: IntervalEstimate
     # raw stiffness of the full model over that of the reduced one at fixed F̄, geometric mean
     # over the window; both models have the same waves
     agreement: IntervalEstimate
@@ -84,15 +84,15 @@ def dimension_laws(
     flags = full.resolved.values[:, inside_window(full.force_bar.values, windows.full)]
     return DimensionLaws(
         fractal_dimension=float(full.fractal_dimension),
-        reduced=law_of(reduced, windows.reduced),
-        full=law_of(full, windows.full),
-        reduced_elsewhere=tuple(law_of(reduced, window) for window in OTHER_WINDOWS_REDUCED),
+        reduced=dimension_law(reduced, windows.reduced),
+        full=dimension_law(full, windows.full),
+        reduced_elsewhere=tuple(dimension_law(reduced, window) for window in OTHER_WINDOWS_REDUCED),
         reduced_by_window=_difference_between_windows(
             reduced, windows.reduced, OTHER_WINDOWS_REDUCED[-1]
         ),
         reduced_local=_local_exponents(reduced, windows.reduced),
         full_local=_local_exponents(full, windows.full),
-        models_apart=_surfaces_less_lines(
+        models_difference=_surfaces_less_lines(
             full, matched, windows.full, exponent_weights(full.force_bar.values, windows.full)
         ),
         agreement=_stiffness_ratio(full, matched),
@@ -111,7 +111,7 @@ def _stiffness_ratio(full: xarray.Dataset, matched: xarray.Dataset | None) -> In
     return _surfaces_less_lines(full, matched, WINDOW_AGREEMENT, weights).exp()
 
 
-def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Dataset:
+def exponent_table(data: xarray.Dataset, windows: Sequence[ForceWindow]) -> xarray.Dataset:
     """Fit the power law for every fractal dimension of an ensemble, in several windows.
 
     The result has exponent, low, high, prefactor and left_out over (window, fractal_dimension).
@@ -124,7 +124,7 @@ def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Data
     for j, dimension in enumerate(dimensions):
         one = data.sel(fractal_dimension=dimension)
         for i, window in enumerate(windows):
-            law, missing = law_of(one, window), _left_out(one, window)
+            law, missing = dimension_law(one, window), _left_out(one, window)
             fitted[:, i, j] = (law.exponent, *law.exponent_interval, law.prefactor, missing)
     variables = {
         name: (("window", "fractal_dimension"), values)
@@ -140,7 +140,7 @@ def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Data
     return xarray.Dataset(variables, coordinates, attrs)
 
 
-def converged_stiffness(data: xarray.Dataset, window: Window) -> Real:
+def converged_stiffness(data: xarray.Dataset, window: ForceWindow) -> Real:
     """Return k / (E* L) at all loads, of the realisations that converged throughout a window."""
     converged = _converged(data, window)
     if not converged.any():
@@ -151,26 +151,26 @@ def converged_stiffness(data: xarray.Dataset, window: Window) -> Real:
     return data.stiffness.values[converged]
 
 
-def _converged(data: xarray.Dataset, window: Window) -> Mask:
+def _converged(data: xarray.Dataset, window: ForceWindow) -> Mask:
     """Which realisations converged throughout a window."""
     inside = inside_window(data.force_bar.values, window)
     return np.isfinite(data.stiffness.values[:, inside]).all(axis=1)
 
 
-def is_fitted(data: xarray.Dataset, window: Window) -> bool:
+def is_fitted(data: xarray.Dataset, window: ForceWindow) -> bool:
     """Whether the loads cover a window, in which a realisation converged throughout."""
     return covers(data.force_bar.values, window) and bool(_converged(data, window).any())
 
 
-def _left_out(data: xarray.Dataset | None, window: Window) -> int:
+def _left_out(data: xarray.Dataset | None, window: ForceWindow) -> int:
     """Count the realisations that a fit leaves out."""
     if data is None or not is_fitted(data, window):
         return 0
     return int(np.count_nonzero(~_converged(data, window)))
 
 
-def law_of(
-    data: xarray.Dataset | None, window: Window, averaging: Averaging = "arithmetic"
+def dimension_law(
+    data: xarray.Dataset | None, window: ForceWindow, averaging: Averaging = "arithmetic"
 ) -> PowerLaw:
     """Return the power law of one fractal dimension; all NaN where there is nothing to fit."""
     if data is None or not is_fitted(data, window):
@@ -198,7 +198,7 @@ def prefactor_estimate(law: PowerLaw) -> IntervalEstimate:
     return IntervalEstimate(law.prefactor, *law.prefactor_interval)
 
 
-def _local_exponents(data: xarray.Dataset | None, window: Window) -> LocalExponents:
+def _local_exponents(data: xarray.Dataset | None, window: ForceWindow) -> LocalExponents:
     """Compare the exponent at the lowest loads with those at medium loads and in a window."""
     if data is None:
         return LocalExponents(np.nan, NO_ESTIMATE, NO_ESTIMATE)
@@ -218,7 +218,7 @@ def _local_exponents(data: xarray.Dataset | None, window: Window) -> LocalExpone
 
 
 def _difference_between_windows(
-    data: xarray.Dataset | None, first: Window, second: Window
+    data: xarray.Dataset | None, first: ForceWindow, second: ForceWindow
 ) -> IntervalEstimate:
     """Return the exponent in one window less that in another, of the same realisations."""
     if data is None:
@@ -232,7 +232,7 @@ def _difference_between_windows(
 
 
 def _surfaces_less_lines(
-    full: xarray.Dataset, matched: xarray.Dataset | None, window: Window, weights: Real
+    full: xarray.Dataset, matched: xarray.Dataset | None, window: ForceWindow, weights: Real
 ) -> IntervalEstimate:
     """Return a weighted sum over loads of the logarithm of the mean stiffness, 3D less 1D.
 

@@ -10,7 +10,7 @@ import numpy as np
 from roughline.campaign.export import mean_table, write_netcdf
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.figures import draw_pictures
-from roughline.paper.laws import law_of
+from roughline.paper.laws import dimension_law
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
 from roughline.paper.roles import departures
 from roughline.paper.sensitivity import sensitivity_section
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import xarray
 
     from roughline.paper.results import PaperResults
-    from roughline.paper.windows import Window
+    from roughline.paper.windows import ForceWindow
     from roughline.statistics.verdict import Claim
 
 _GRID_FORCES = (0.01, 0.1, 1.0)  # at which surfaces on two grids are compared
@@ -136,11 +136,11 @@ def _departures(results: PaperResults) -> list[str]:
     """Say where the bodies are not as the paper's."""
     bodies = {"surfaces": results.full, "lines": results.reduced}
     words = {name: departures(data.attrs) for name, data in bodies.items()}
-    told = [f"the {name} are {', '.join(each)}" for name, each in words.items() if each]
-    if not told:
+    others = [f"the {name} are {', '.join(each)}" for name, each in words.items() if each]
+    if not others:
         return []
     return [
-        f"Other than in the paper, and as said above, {'; '.join(told)}: the claims are judged on "
+        f"Other than in the paper, and as said above, {'; '.join(others)}: the claims are judged on "
         "these bodies."
     ]
 
@@ -157,7 +157,7 @@ def _hours(results: PaperResults) -> list[str]:
     ]
 
 
-def _two_grids_table(full: xarray.Dataset, other: xarray.Dataset, window: Window) -> Table:
+def _two_grids_table(full: xarray.Dataset, other: xarray.Dataset, window: ForceWindow) -> Table:
     """Return ratios of the same surfaces on two grids, the finer over the coarser."""
     coarse, fine = sorted((full, other), key=lambda data: int(data.attrs["n"]))
     n, n_fine = (data.attrs["n"] for data in (coarse, fine))
@@ -175,7 +175,7 @@ def _two_grids_table(full: xarray.Dataset, other: xarray.Dataset, window: Window
             data.sel(fractal_dimension=dimension, force_bar=shared).isel(realisation=slice(count))
             for data in (fine, coarse)
         )
-        laws = [law_of(data, window) for data in (coarser, finer)]
+        laws = [dimension_law(data, window) for data in (coarser, finer)]
         areas = [data.area_fraction_corrected for data in (finer, coarser)]
         rows.append(
             [

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from roughline.campaign.layout import CASE_STATUS, PENDING
 from roughline.errors import StoreError
 from roughline.paper.gallery import gallery_in
-from roughline.paper.laws import DimensionLaws, at_dimension, dimension_laws, exponents_of
-from roughline.paper.roles import roles_of
+from roughline.paper.laws import DimensionLaws, at_dimension, dimension_laws, exponent_table
+from roughline.paper.roles import chosen_roles
 from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class PaperResults:
     full: xarray.Dataset
     # lines with the waves of the surfaces and no shorter ones, at the loads of the surfaces
     matched: xarray.Dataset | None
-    exponents: xarray.Dataset  # of the reduced model over all fractal dimensions (exponents_of)
+    exponents: xarray.Dataset  # of the reduced model over all fractal dimensions (exponent_table)
     gallery: xarray.Dataset | None = None  # single bodies for Figures 1 and 2
     # one of the surfaces of `full` on other grids, by points along a side
     grids: dict[int, xarray.Dataset] = field(default_factory=dict)
@@ -97,7 +97,7 @@ def results_of_store(
         every = {each: store.dataset(each) for each in store.names}
     else:
         every = {each.name: _part(store, each) for each in plan.ensembles}
-    roles = roles_of({each: data.attrs for each, data in every.items()})
+    roles = chosen_roles({each: data.attrs for each, data in every.items()})
     for each in roles.names:
         _refuse_unfinished(store, each, every[each])
     lines, surfaces = every[roles.reduced], every[roles.full]
@@ -108,7 +108,7 @@ def results_of_store(
         reduced=lines,
         full=surfaces,
         matched=every[roles.matched] if roles.matched else None,
-        exponents=exponents_of(lines, reached.all_reduced),
+        exponents=exponent_table(lines, reached.all_reduced),
         gallery=gallery_in(store),
         other_grid=every[roles.other_grid] if roles.other_grid else None,
         windows=reached,
@@ -138,7 +138,7 @@ def published_results() -> PaperResults:
     The page "The paper, recomputed" is made of it: 500 lines of 2^20 points and 60 surfaces of
     2048² for each of six fractal dimensions.
     """
-    told = (published_folder() / "computing.json").read_text(encoding="utf-8")
+    text = (published_folder() / "computing.json").read_text(encoding="utf-8")
     return PaperResults(
         name="from the study in studies/paper",
         command="roughline campaign run studies/paper/plan.toml",
@@ -149,7 +149,7 @@ def published_results() -> PaperResults:
         gallery=published_dataset("gallery"),
         grids={n: published_dataset(f"grid_{n}") for n in _GRIDS},
         other_grid=published_dataset("coarse"),
-        computing=Computing(**json.loads(told)),
+        computing=Computing(**json.loads(text)),
     )
 
 

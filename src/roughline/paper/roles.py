@@ -33,7 +33,7 @@ class _Roles:
         return tuple(dict.fromkeys(name for name in named if name is not None))
 
 
-def roles_of(ensembles: Mapping[str, _Settings]) -> _Roles:
+def chosen_roles(ensembles: Mapping[str, _Settings]) -> _Roles:
     """Choose the ensembles of a report by their settings; both surfaces and lines are needed.
 
     Of several that fit, those with the names of the paper's own plan are taken, then elastic
@@ -50,14 +50,14 @@ def roles_of(ensembles: Mapping[str, _Settings]) -> _Roles:
             f'model = "reduced" are needed; there is {there or "none"}'
         )
     full = max(surfaces, key=lambda name: _likeness(name, ENSEMBLE_FULL, surfaces[name]))
-    alike = [name for name in lines if _has_same_waves(lines[name], surfaces[full])]
-    others = {name: lines[name] for name in lines if name not in alike} or lines
+    matching = [name for name in lines if _has_same_waves(lines[name], surfaces[full])]
+    others = {name: lines[name] for name in lines if name not in matching} or lines
     reduced = max(others, key=lambda name: _likeness(name, ENSEMBLE_REDUCED, others[name]))
     grids = [name for name in surfaces if _differs_in_grid(surfaces[name], surfaces[full])]
     return _Roles(
         full,
         reduced,
-        matched=max(alike, key=lambda name: lines[name]["n"], default=None),
+        matched=max(matching, key=lambda name: lines[name]["n"], default=None),
         other_grid=max(grids, key=lambda name: surfaces[name]["n"], default=None),
     )
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.paper.averaging import exponent_of_means
-from roughline.paper.laws import at_dimension, exponent_estimate, is_fitted, law_of
+from roughline.paper.laws import at_dimension, dimension_law, exponent_estimate, is_fitted
 from roughline.paper.tables import estimate_cell, number_cell
 from roughline.plot.style import dimension_label
 from roughline.report.page import Section, Table
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from roughline.computing.arrays import Real
     from roughline.paper.results import PaperResults
-    from roughline.paper.windows import Window
+    from roughline.paper.windows import ForceWindow
     from roughline.statistics.bootstrap import IntervalEstimate
 
 
@@ -71,7 +71,7 @@ def sensitivity_section(results: PaperResults) -> Section:
     )
 
 
-def _fitted(data: xarray.Dataset, windows: tuple[Window, ...]) -> _Sensitivity:
+def _fitted(data: xarray.Dataset, windows: tuple[ForceWindow, ...]) -> _Sensitivity:
     """Fit one fractal dimension of an ensemble in several ways."""
     force = data.force_bar.values
     usable = (np.isfinite(data.stiffness.values) & (data.resolved.values == 1)).all(axis=0)
@@ -80,7 +80,11 @@ def _fitted(data: xarray.Dataset, windows: tuple[Window, ...]) -> _Sensitivity:
     return _Sensitivity(
         fractal_dimension=float(data.fractal_dimension),
         fits=[
-            (law_of(data, window), law_of(data, window, "geometric"), _at_level(data, window))
+            (
+                dimension_law(data, window),
+                dimension_law(data, window, "geometric"),
+                _at_level(data, window),
+            )
             for window in windows
         ],
         automatic=fit_power_law(force[usable], stiffness, automatic) if automatic else None,
@@ -88,7 +92,7 @@ def _fitted(data: xarray.Dataset, windows: tuple[Window, ...]) -> _Sensitivity:
     )
 
 
-def _at_level(data: xarray.Dataset, window: Window) -> IntervalEstimate:
+def _at_level(data: xarray.Dataset, window: ForceWindow) -> IntervalEstimate:
     """Exponent between means at fixed level."""
     if not is_fitted(data, window):
         return NO_ESTIMATE

@@ -20,7 +20,7 @@ STIFFNESS_TOLERANCE = 0.10
 SMALL_DISCREPANCY = 2 * EXPONENT_TOLERANCE
 """What a "small discrepancy" of exponents may be."""
 _EXTREMELY_WELL_UP_TO = 2.6  # D_f up to which the scaling argument holds "extremely well"
-ENDS_OF_REDUCED = {2.0: 0.5, 3.0: 0.75}
+REDUCED_ENDS = {2.0: 0.5, 3.0: 0.75}
 """Exponents of the reduced model at the ends of the fractal dimensions (§6)."""
 
 
@@ -52,7 +52,7 @@ def stated_exponents(model: ModelLabel, fractal_dimension: float) -> tuple[State
     if model == "3D":
         linear = linear_exponent(fractal_dimension)
         return (scaling, StatedExponent(linear, EXPONENT_TOLERANCE, "0.2567 D_f, §7"))
-    if fractal_dimension in ENDS_OF_REDUCED:
-        end = ENDS_OF_REDUCED[fractal_dimension]
+    if fractal_dimension in REDUCED_ENDS:
+        end = REDUCED_ENDS[fractal_dimension]
         return (scaling, StatedExponent(end, EXPONENT_TOLERANCE, f"{end:g}, §6"))
     return (scaling,)

@@ -11,7 +11,7 @@ from roughline.campaign.store import Store
 from roughline.errors import StoreError
 from roughline.paper.page import write_page
 from roughline.paper.results import results_of_store
-from roughline.paper.roles import roles_of
+from roughline.paper.roles import chosen_roles
 from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def recompute(study: Study, out: Path, **how: Any) -> Path:
     and lines is refused, and so is a folder that cannot be written, or holds another study.
     """
     if study.plan is not None:
-        roles_of({ensemble.name: ensemble.identity() for ensemble in study.plan.ensembles})
+        chosen_roles({ensemble.name: ensemble.identity() for ensemble in study.plan.ensembles})
         run(study.plan, study.store, **how)
         if study.gallery is not None:
             study.gallery.draw(study.store)
