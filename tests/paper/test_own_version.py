@@ -11,7 +11,7 @@ import pytest
 
 import roughline as rl
 from roughline import campaign
-from roughline.cli.paper import study_of
+from roughline.cli.paper import described_study
 from roughline.paper.gallery import Gallery
 from roughline.paper.plan import paper_plan, with_settings
 from roughline.paper.results import results_of_store
@@ -151,7 +151,7 @@ def test_any_plan_of_both_models_becomes_the_report(
 def test_the_command_that_repeats_a_study_is_told():
     own = {"scale": None, "seed": 3, "points": 32, "fractal-dimensions": "2.1, 2.5"}
     windows = {"window": None, "line-window": "0.001, 0.1"}
-    study = study_of(own, windows, None, None, Path("out"))
+    study = described_study(own, windows, None, None, Path("out"))
     assert study.store == Path("out", "results.zarr")
     assert study.plan.ensemble("surfaces").fractal_dimensions == (2.1, 2.5)
     assert study.windows == Windows(reduced=(0.001, 0.1))
@@ -159,7 +159,7 @@ def test_the_command_that_repeats_a_study_is_told():
         *("roughline", "paper", "--seed=3", "--points=32", "--fractal-dimensions=2.1, 2.5"),
         "--line-window=0.001, 0.1",
     ]
-    of_store = study_of({}, {}, None, Path("mine.zarr"), Path("out"))
+    of_store = described_study({}, {}, None, Path("mine.zarr"), Path("out"))
     assert (of_store.plan, of_store.store) == (None, Path("mine.zarr"))
     assert of_store.command == "roughline paper --store=mine.zarr"
 

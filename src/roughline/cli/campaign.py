@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from roughline.cli.options import Json, Scheduler, Workers, interruptible, kept_in, print_json
+from roughline.cli.options import Json, Scheduler, Workers, continuation, interruptible, print_json
 
 if TYPE_CHECKING:
     from roughline.campaign.run import Summary
@@ -64,7 +64,7 @@ def _run(
     from roughline.report.terminal import announce
 
     where = store or plan.with_suffix(".zarr")
-    with interruptible(kept_in(where)), campaign_progress() as progress:
+    with interruptible(continuation(where)), campaign_progress() as progress:
         summary = run(
             read_plan(plan),
             where,
@@ -75,7 +75,7 @@ def _run(
             announce=announce,
         )
     if json:
-        print_json(_of_summary(summary, where))
+        print_json(_summary_json(summary, where))
     else:
         _print_summary(summary, where)
     if sum(summary.failed.values()) or summary.unconverged:
@@ -87,10 +87,10 @@ def _status(store: _StoreArgument, json: Json = False) -> None:
     """Print how many cases of a campaign are done, why cases failed, and what was lost on disk."""
     from roughline.campaign import Store
 
-    results = Store(_store_of(store))
+    results = Store(_store_path(store))
     lost = _lost(results)
     if json:
-        print_json(_of_status(results, lost))
+        print_json(_status_json(results, lost))
     else:
         _print_status(results)
     _end_with_lost(lost)
@@ -115,7 +115,7 @@ def _export(
     from roughline.errors import LostCasesWarning
     from roughline.report.terminal import print_files
 
-    results = Store(_store_of(store))
+    results = Store(_store_path(store))
     lost, unfinished = _lost(results), _unfinished(results)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LostCasesWarning)  # told below
@@ -129,7 +129,7 @@ def _export(
     _end_with_lost(lost)
 
 
-def _store_of(path: Path) -> Path:
+def _store_path(path: Path) -> Path:
     return path.with_suffix(".zarr") if path.suffix == ".toml" else path
 
 
@@ -158,7 +158,7 @@ def _print_failures(reasons: Counter[str]) -> None:
         typer.echo(f"{count} failed: {reason}")
 
 
-def _of_summary(summary: Summary, store: Path) -> dict[str, Any]:
+def _summary_json(summary: Summary, store: Path) -> dict[str, Any]:
     """What a run of a campaign did."""
     return {
         "store": store,
@@ -191,7 +191,7 @@ def _end_with_lost(lost: dict[str, list[str]]) -> None:
         raise typer.Exit(1)
 
 
-def _of_status(store: Store, lost: dict[str, list[str]]) -> dict[str, Any]:
+def _status_json(store: Store, lost: dict[str, list[str]]) -> dict[str, Any]:
     """What is done of a campaign."""
     names = ("done", "failed", "cases")
     return {

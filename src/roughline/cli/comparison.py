@@ -21,7 +21,7 @@ def compare_command(
         Path | None, typer.Argument(help="File with a surface, instead of a spectrum.")
     ] = None,
     *,
-    told: options.Told,
+    values: options.FieldValues,
     hurst: options.Hurst = None,
     fractal_dimension: options.FractalDimension = None,
     length: Annotated[
@@ -57,16 +57,16 @@ def compare_command(
     from roughline.report.json_output import comparison_json
     from roughline.report.progress import load_progress
 
-    reading = build_reading(told)
+    reading = build_reading(values)
     if file is None:
-        said, usual = vars(reading), vars(rl.Reading())
-        of_file = {name: value for name, value in said.items() if value != usual[name]}
+        stated, usual = vars(reading), vars(rl.Reading())
+        of_file = {name: value for name, value in stated.items() if value != usual[name]}
         _refuse(of_file, "it says how a FILE is read, and there is none: leave it out")
     else:
         of_spectrum = {"hurst": hurst, "fractal_dimension": fractal_dimension, "length": length}
         of_spectrum |= {"q_roll": roll_off, "q_high": cutoff}
         _refuse(of_spectrum, "it belongs to a spectrum, and a FILE is given: leave one of them out")
-    roughness = file or options.spectrum_of(
+    roughness = file or options.described_spectrum(
         hurst, fractal_dimension, length, "1 m", roll_off, cutoff
     )
     with interruptible("nothing is written"), load_progress() as progress:
@@ -90,8 +90,8 @@ def compare_command(
         print_comparison(result, files)
 
 
-def _refuse(options_given: Mapping[str, Any], why: str) -> None:
+def _refuse(by_name: Mapping[str, Any], why: str) -> None:
     """Refuse the first of the options that is given."""
-    for name, given in options_given.items():
-        if given is not None:
-            refuse(name, given, why)
+    for name, value in by_name.items():
+        if value is not None:
+            refuse(name, value, why)

@@ -30,7 +30,7 @@ def press_command(
             "several maps of one part, each of a different place."
         ),
     ],
-    told: options.Told,
+    values: options.FieldValues,
     report: Annotated[
         Path | None,
         typer.Option(
@@ -118,22 +118,22 @@ def press_command(
 
     if threads is not None:
         set_threads(threads)
-    asks = report or told.get("frequency") or told.get("friction") is not None
-    if told.get("periodic_along") and report is not None:
+    asks = report or values.get("frequency") or values.get("friction") is not None
+    if values.get("periodic_along") and report is not None:
         raise InputError(
             "a report is one of answers, which are not known of a body repeated along one side "
             "alone (--periodic-along): write its curve with --out"
         )
-    if told.get("materials") is None and asks and not told.get("periodic_along"):
+    if values.get("materials") is None and asks and not values.get("periodic_along"):
         raise InputError("a report, reflection and partial slip need two --materials")
-    if report is not None and not told.get("loads"):
+    if report is not None and not values.get("loads"):
         raise InputError('a report needs a --load, such as "10 N"')
-    against = told.get("against")
+    against = values.get("against")
     if against is not None and not os.path.isfile(against):  # noqa: PTH113 - of a name too long, too
         refuse("against", against, "no such file: give a file with a topography")
     question = build_question(
         file[0] if len(file) == 1 else file,
-        {**told, "whole_curve": report is not None},
+        {**values, "whole_curve": report is not None},
         fields=report is not None or out is not None,
     )
     unfolded_by = "" if everything else "--all"

@@ -58,7 +58,7 @@ def creep_command(
     ] = None,
     out: options.CurveFile = None,
     *,
-    told: options.Told,
+    values: options.FieldValues,
     json: options.Json = False,
 ) -> None:
     """Press a topography into a body that creeps, and print the contact over time.
@@ -92,8 +92,8 @@ def creep_command(
         loads=load,
         depths=depth,
         periodic=periodic,
-        reading=build_reading(told),
-        preparation=build_preparation(told),
+        reading=build_reading(values),
+        preparation=build_preparation(values),
     )
     with interruptible("there is no result"), writable_file(out):
         result = press_with_creep(question)

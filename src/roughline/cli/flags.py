@@ -15,7 +15,7 @@ _SPELLED = (
 )
 """Arguments of other commands whose flags are spelled like them."""
 
-_OTHERS = {
+_OTHER_FLAGS = {
     "q_roll": "--roll-off",
     "q_high": "--cutoff",
     "n": "--points",
@@ -31,7 +31,7 @@ _OTHERS = {
 FLAGS = Words(
     {
         **{name: f"--{name.replace('_', '-')}" for name in _SPELLED},
-        **_OTHERS,
+        **_OTHER_FLAGS,
         **names_by(lambda field: field.first_flag),
     },
     shlex.quote,

@@ -17,26 +17,28 @@ from roughline.assessment.fields import ANSWERS, BODIES, FIELDS, Field
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
 
-Told = Mapping[str, Any]
+FieldValues = Mapping[str, Any]
 """Values of options by the names of their fields."""
 
 
 def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command the options of the fields in some groups, where it has `told` of them."""
+    """Give a command the options of the fields in some groups, where it takes their `values`."""
     fields = [each for each in FIELDS if each.group in groups and each.flag]
 
     def with_options(command: Callable[..., None]) -> Callable[..., None]:
-        given = list(inspect.signature(command, eval_str=True).parameters.values())
-        place = [each.name for each in given].index("told")
-        before, after = given[:place], given[place + 1 :]
+        declared = list(inspect.signature(command, eval_str=True).parameters.values())
+        place = [each.name for each in declared].index("values")
+        before, after = declared[:place], declared[place + 1 :]
 
         @functools.wraps(command)
-        def run(**given: Any) -> None:
-            told = {each.name: each.value(given.pop(each.name)) for each in fields}
-            command(**given, told=told)
+        def run(**arguments: Any) -> None:
+            values = {each.name: each.value(arguments.pop(each.name)) for each in fields}
+            command(**arguments, values=values)
 
         options = [
-            inspect.Parameter(each.name, before[0].kind, default=None, annotation=_option_of(each))
+            inspect.Parameter(
+                each.name, before[0].kind, default=None, annotation=_field_option(each)
+            )
             for each in fields
         ]
         parameters = [*before, *options, *after]
@@ -47,7 +49,7 @@ def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., N
     return with_options
 
 
-def _option_of(field: Field) -> Any:
+def _field_option(field: Field) -> Any:
     """The option of a field, as an annotation; where it is not given, its value is None."""
     kind: Any = field.kind
     text, otherwise = field.help.rstrip("."), field.otherwise
@@ -66,21 +68,21 @@ def _option_of(field: Field) -> Any:
     return Annotated[kind | None, option]
 
 
-def _of_spectrum(text: str) -> Any:
+def _spectrum_option(text: str) -> Any:
     """An option of a spectrum."""
     return typer.Option(help=text, rich_help_panel="Spectrum")
 
 
-Hurst = Annotated[float | None, _of_spectrum("Hurst exponent, 0 to 1.")]
+Hurst = Annotated[float | None, _spectrum_option("Hurst exponent, 0 to 1.")]
 FractalDimension = Annotated[
-    float | None, _of_spectrum("Fractal dimension, 2 to 3, instead of the Hurst exponent.")
+    float | None, _spectrum_option("Fractal dimension, 2 to 3, instead of the Hurst exponent.")
 ]
 RollOff = Annotated[
-    str | None, _of_spectrum('Wavelength above which the spectrum is flat, such as "0.2 mm".')
+    str | None, _spectrum_option('Wavelength above which the spectrum is flat, such as "0.2 mm".')
 ]
 Cutoff = Annotated[
     str | None,
-    _of_spectrum('Shortest wavelength, such as "5 um" [default: that of the grid].'),
+    _spectrum_option('Shortest wavelength, such as "5 um" [default: that of the grid].'),
 ]
 Materials = Annotated[
     str | None,
@@ -116,7 +118,7 @@ Scheduler = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units, for other programs.")]
 
 
-def spectrum_of(
+def described_spectrum(
     hurst: float | None,
     fractal_dimension: float | None,
     length: str | None,
@@ -163,23 +165,23 @@ def print_json(content: dict[str, Any]) -> None:
     typer.echo(to_json(content))
 
 
-def kept_in(place: Path) -> str:
+def continuation(place: Path) -> str:
     """Say where what is done is kept, and how to go on from there."""
     return f"what is done is kept in {place}: run again to go on"
 
 
 @contextmanager
-def interruptible(kept: str) -> Iterator[None]:
+def interruptible(remark: str) -> Iterator[None]:
     """End with exit code 130 and a word on what is kept, when interrupted."""
     try:
         yield
     except KeyboardInterrupt:
-        end_interrupted(kept)
+        end_interrupted(remark)
 
 
-def end_interrupted(kept: str) -> NoReturn:
+def end_interrupted(remark: str) -> NoReturn:
     """End with exit code 130 and a word on what is kept."""
-    typer.echo(f"interrupted; {kept}", err=True)
+    typer.echo(f"interrupted; {remark}", err=True)
     raise typer.Exit(130) from None
 
 

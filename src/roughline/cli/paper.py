@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from roughline.cli.options import Json, Scheduler, Workers, interruptible, kept_in, print_json
+from roughline.cli.options import Json, Scheduler, Workers, continuation, interruptible, print_json
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 
@@ -25,15 +25,15 @@ _RANGE = re.compile(r"\s*(\S+)\s+to\s+(\S+)\s*,\s*(\d+)\s+per\s+decade\s*")
 
 _NEEDED: dict[str, tuple[Callable[[Any], bool], str]] = {
     "fractal_dimensions": (
-        lambda given: all(2 <= each <= 3 for each in given) and len({*given}) == len(given),
+        lambda value: all(2 <= each <= 3 for each in value) and len({*value}) == len(value),
         "numbers from 2 to 3, each once, are",
     ),
-    "points": (lambda given: 3 <= given <= 2**15, f"3 to {2**15} points are"),
-    "line_points": (lambda given: 3 <= given <= 2**28, f"3 to {2**28} points are"),
-    "realisations": (lambda given: given >= 1, "at least one is"),
-    "lines": (lambda given: given >= 1, "at least one is"),
+    "points": (lambda value: 3 <= value <= 2**15, f"3 to {2**15} points are"),
+    "line_points": (lambda value: 3 <= value <= 2**28, f"3 to {2**28} points are"),
+    "realisations": (lambda value: value >= 1, "at least one is"),
+    "lines": (lambda value: value >= 1, "at least one is"),
     "force_bars": (
-        lambda given: given[0] > 0 and given[-1] < math.inf and all(map(lt, given, given[1:])),
+        lambda value: value[0] > 0 and value[-1] < math.inf and all(map(lt, value, value[1:])),
         "positive, finite and rising loads F / (E* h L) are",
     ),
 }
@@ -117,8 +117,8 @@ def paper(
         "force-bars": force_bars,
     }
     windows = {"window": window, "line-window": line_window}
-    study = study_of(of_paper, windows, plan, store, out)
-    with interruptible(kept_in(study.store)), campaign_progress() as progress:
+    study = described_study(of_paper, windows, plan, store, out)
+    with interruptible(continuation(study.store)), campaign_progress() as progress:
         page = recompute(
             study, out, workers=workers, scheduler=scheduler, progress=progress, announce=announce
         )
@@ -128,7 +128,7 @@ def paper(
         typer.echo(f"report: {page}")
 
 
-def study_of(
+def described_study(
     of_paper: Mapping[str, Any],
     windows: Mapping[str, str | None],
     plan: Path | None,
@@ -150,29 +150,29 @@ def study_of(
     from roughline.paper.plan import paper_plan, with_settings
     from roughline.paper.study import Study
 
-    given = {name: value for name, value in of_paper.items() if value is not None}
+    options = {name: value for name, value in of_paper.items() if value is not None}
     files = {"plan": plan, "store": store}
-    all_given = {**given, **files, **windows}
-    told = [f"--{name}={value}" for name, value in all_given.items() if value is not None]
-    command = shlex.join(["roughline", "paper", *told])
+    all_options = {**options, **files, **windows}
+    arguments = [f"--{name}={value}" for name, value in all_options.items() if value is not None]
+    command = shlex.join(["roughline", "paper", *arguments])
     fitted = _windows(windows)
     if plan is None and store is None:
-        settings = _settings(given)
-        plan_of_paper = paper_plan(given.get("scale", "quick"), given.get("seed", 2012))
+        settings = _settings(options)
+        plan_of_paper = paper_plan(options.get("scale", "quick"), options.get("seed", 2012))
         own = with_settings(plan_of_paper, **settings)
         changed = ", with settings of its own" if settings else ""
         return Study(
             own,
             out / "results.zarr",
-            f"at the {given.get('scale', 'quick')} scale{changed}",
+            f"at the {options.get('scale', 'quick')} scale{changed}",
             command,
             fitted,
             Gallery.of(own, settings.get("fractal_dimensions")),
         )
-    if given:
+    if options:
         raise InputError(
-            f"--{next(iter(given))} is given beside --{'store' if plan is None else 'plan'}, which "
-            "says what is computed: leave one of the two out"
+            f"--{next(iter(options))} is given beside --{'store' if plan is None else 'plan'}, "
+            "which says what is computed: leave one of the two out"
         )
     if plan is not None:
         if not os.path.isfile(plan):  # noqa: PTH113 - of a name that no file can have, Path raises
@@ -183,11 +183,11 @@ def study_of(
     return Study(None, store, f"from the results in {store.name}", command, fitted)
 
 
-def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
+def _settings(options: Mapping[str, Any]) -> dict[str, Any]:
     """Arguments of the paper's plan, from options."""
     settings = {
         name.replace("-", "_"): value
-        for name, value in given.items()
+        for name, value in options.items()
         if name not in ("scale", "seed")
     }
     for name, read in (("fractal_dimensions", _numbers), ("force_bars", _forces)):
@@ -197,16 +197,16 @@ def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
         holds, needed = _NEEDED[name]
         if not holds(value):
             option = name.replace("_", "-")
-            refuse(f"--{option}", given[option], f"{needed} needed")
+            refuse(f"--{option}", options[option], f"{needed} needed")
     return settings
 
 
-def _windows(given: Mapping[str, str | None]) -> Windows:
+def _windows(options: Mapping[str, str | None]) -> Windows:
     from roughline.paper.windows import Windows
 
     names = {"window": "full", "line-window": "reduced"}
     return Windows(
-        **{names[each]: _window(text, f"--{each}") for each, text in given.items() if text}
+        **{names[each]: _window(text, f"--{each}") for each, text in options.items() if text}
     )
 
 

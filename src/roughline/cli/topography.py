@@ -23,7 +23,7 @@ def info(
             "it wrote."
         ),
     ],
-    told: options.Told,
+    values: options.FieldValues,
     out: Annotated[
         Path | None, typer.Option(help="Folder for a figure and the prepared topography.")
     ] = None,
@@ -72,7 +72,7 @@ def info(
             raise InputError("--iso is of topographies, and this file is a curve; leave it out")
         return print_json(as_json(curve)) if json else print_curve_file(curve)
     with writable(out, None if prepared is None else checked_name(prepared).parent):
-        result = describe(file, build_reading(told), build_preparation(told))
+        result = describe(file, build_reading(values), build_preparation(values))
         if iso:
             lengths = {
                 name: None if text is None else in_si(text, "m", name)
@@ -124,7 +124,9 @@ def generate(
     from roughline.report.terminal import print_generated
     from roughline.topography.files.write import write
 
-    spectrum = options.spectrum_of(hurst, fractal_dimension, length, rms_height, roll_off, cutoff)
+    spectrum = options.described_spectrum(
+        hurst, fractal_dimension, length, rms_height, roll_off, cutoff
+    )
     make = spectrum.line if line else spectrum.surface
     body = replace(make(n, seed, "gaussian" if gaussian else "fixed"), unit="m")
     write(body, out)

@@ -110,7 +110,7 @@ def in_one_line(mistake: Any) -> str:
         takes_none = "not take" in mistake.message
         return f"{option} {'takes no value: leave it out' if takes_none else 'needs a value'}"
     if parameter is not None:
-        return _of_parameter(parameter, mistake, _options(command))
+        return _parameter_sentence(parameter, mistake, _options(command))
     path = getattr(context, "command_path", "").rpartition("roughline")[2]
     see = f"see roughline{path} --help"
     if extra := re.search(r"unexpected extra argument[()s]* \((.*)\)", mistake.message, re.DOTALL):
@@ -144,15 +144,15 @@ def _options(command: Any) -> list[str]:
     return [name for each in getattr(command, "params", ()) for name in each.opts]
 
 
-def _meant(given: str, names: list[str], called: str) -> str:
+def _meant(typed: str, names: list[str], called: str) -> str:
     """Name what is near, or where the list is."""
-    near = difflib.get_close_matches(given, names, 2, cutoff=0.75)
+    near = difflib.get_close_matches(typed, names, 2, cutoff=0.75)
     if near:
         return f"did you mean {' or '.join(near)}?"
     return f"--help lists the {called}"
 
 
-def _of_parameter(parameter: Any, mistake: Any, options: list[str]) -> str:
+def _parameter_sentence(parameter: Any, mistake: Any, options: list[str]) -> str:
     """Say what an option or an argument needs, and which option of the command may be meant."""
     name = max(parameter.opts, key=len)
     name = name if name.startswith("-") else name.upper()

@@ -140,8 +140,8 @@ def _departures(results: PaperResults) -> list[str]:
     if not others:
         return []
     return [
-        f"Other than in the paper, and as said above, {'; '.join(others)}: the claims are judged on "
-        "these bodies."
+        f"Other than in the paper, and as said above, {'; '.join(others)}: the claims are judged "
+        "on these bodies."
     ]
 
 
