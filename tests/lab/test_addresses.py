@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
-from roughline.lab.explore.reading import state_of as explore_state
+from roughline.lab.explore.reading import read_state as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, question_of, said_of
 from roughline.lab.published import controls as published
-from roughline.lab.published.state import state_of as published_state
+from roughline.lab.published.state import read_state as published_state
 from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 

@@ -21,7 +21,7 @@ from roughline.assessment.loading import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, physics, pictures
 from roughline.lab.explore.panels import BACK
-from roughline.lab.explore.reading import state_of
+from roughline.lab.explore.reading import read_state
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.maps import height_map
@@ -191,7 +191,7 @@ def test_an_rms_slope_is_that_of_the_surface():
     ],
 )
 def test_numbers_may_have_units(said, name, value):
-    state = state_of(said, 1024)
+    state = read_state(said, 1024)
     found = {key: value for each in state.added for key, value in each.numbers.items()}
     assert (found | vars(state)).get(name) == pytest.approx(value)
 
@@ -199,10 +199,10 @@ def test_numbers_may_have_units(said, name, value):
 def test_an_address_gives_its_state_again():
     said = {"D_f": "2.35", "n": "128", "boundary": "periodic", "theories": "persson", "L": "3 um"}
     said["hardness_bar"] = "0.25"
-    state = state_of(said, 1024)
-    assert state_of(state.address(), 1024) == state
-    assert state_of({}, 1024) == ExploreState()
-    assert state_of(ExploreState().address(), 1024) == ExploreState()
+    state = read_state(said, 1024)
+    assert read_state(state.address(), 1024) == state
+    assert read_state({}, 1024) == ExploreState()
+    assert read_state(ExploreState().address(), 1024) == ExploreState()
 
 
 @pytest.mark.parametrize(
@@ -235,7 +235,7 @@ def test_an_address_gives_its_state_again():
 )
 def test_what_cannot_be_used_is_refused_where_it_stands(said, at):
     with pytest.raises(ControlError) as refused:
-        state_of(said, 512)
+        read_state(said, 512)
     assert refused.value.at == at
     assert "\n" not in str(refused.value)
 
@@ -378,7 +378,7 @@ def test_a_saved_table_says_what_it_is_of_and_is_read_by_numpy(tmp_path):
     ):
         assert said in lines
     (link,) = [each.removeprefix("lab_link = ?") for each in lines if each.startswith("lab_link")]
-    assert state_of(dict(parse_qsl(link)), 1024) == state_of(SMALL, 1024)
+    assert read_state(dict(parse_qsl(link)), 1024) == read_state(SMALL, 1024)
     table = np.genfromtxt(file, comments="#", delimiter=",", names=True)
     read = pandas.read_csv(file, comment="#", converters={"x": float})
     np.testing.assert_array_equal(table["x"], read["x"])
@@ -411,7 +411,7 @@ def test_saved_maps_are_those_that_are_shown(tmp_path, surface, curve):
         assert data.flux_x.attrs["units"] == "m^2"
 
 
-@pytest.mark.parametrize("shown", [*physics.shown_choice().options, "flux without a fluid"])
+@pytest.mark.parametrize("shown", [*physics.second_map_choice().options, "flux without a fluid"])
 def test_a_saved_picture_is_of_the_map_that_is_shown(shown, tmp_path, monkeypatch):
     drawn = []
     monkeypatch.setattr(downloads, "_draw_map", lambda axes, shown, sizes: drawn.append(shown))

@@ -13,7 +13,7 @@ import roughline as rl
 from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads, saved, saved_is_shown
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import adhesion, code, pictures
-from roughline.lab.explore.reading import state_of, usable_state
+from roughline.lab.explore.reading import read_state, usable_state
 from roughline.lab.explore.state import ExploreState
 
 SCALE = E_STAR * HEIGHT * LENGTH
@@ -26,14 +26,14 @@ LAW = rl.Dugdale(work_of_adhesion=E_STAR * HEIGHT**2 / LENGTH, range=0.5 * HEIGH
 def pressed():
     """Return the contact there, beyond, back, and off."""
     forces = 0.08 * SCALE * np.array([1, 2, 1, 0])
-    surface = state_of(STICKS, 64).surface(64)
+    surface = read_state(STICKS, 64).surface(64)
     return rl.press(surface, E_star=E_STAR, law=LAW, forces=forces, fields=[0, 2])
 
 
 @pytest.fixture(scope="module")
 def pull_off(pressed, cycle):
     """Return depth and force of the largest pull on the way back, in small steps about it."""
-    surface = state_of(STICKS, 64).surface(64)
+    surface = read_state(STICKS, 64).surface(64)
     (about,) = of_cycle(cycle[0])["pull-off"]["x"]
     steps = [np.arange(about + 0.2, about - 0.2, -0.02), np.arange(about - 0.2, -1.5, -0.1)]
     first = np.arange(pressed.depth[1] / HEIGHT, about + 0.2, -0.1)
@@ -68,7 +68,7 @@ def said(header):
 def refused(**changed):
     """Return the sentences of texts that are not used after the first state."""
     session = {"max_points": 1024}
-    before = state_of(STICKS, 1024).texts()
+    before = read_state(STICKS, 1024).texts()
     asked = {"state": {**before, **changed}, "before": before, "session": session}
     state, sentences = usable_state(asked)
     return state, sentences
@@ -144,7 +144,7 @@ def test_without_a_pull_off_it_says_that_the_grid_does_not_resolve_it():
 def test_what_cannot_be_used_is_said_there_and_the_one_before_counts(key, text, why):
     state, sentences = refused(**{key: text})
     assert why in sentences[key]
-    assert state == state_of(STICKS, 1024)
+    assert state == read_state(STICKS, 1024)
     assert list(sentences) == [key]
 
 
@@ -156,9 +156,9 @@ def test_works_and_ranges_may_have_units():
 
 
 def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
-    state = state_of(POORLY, 1024)
+    state = read_state(POORLY, 1024)
     assert {key: state.address()[key] for key in ("w", "h0")} == {"w": "1", "h0": "0.35"}
-    assert state_of(state.address(), 1024) == state
+    assert read_state(state.address(), 1024) == state
     assert ExploreState().law is None
     with pytest.raises(ControlError) as error:
         answer(pictures.further, {**STICKS, "w": ""}, of="w")
@@ -166,10 +166,10 @@ def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
 
 
 def test_grids_of_pictures_resolve_the_pull_where_that_of_the_state_does():
-    state = state_of({**STICKS, "n": "1024", "h0": "0.25"}, 1024)
+    state = read_state({**STICKS, "n": "1024", "h0": "0.25"}, 1024)
     assert state.points(64) == 256
     assert state.added[0].zone(state, 256) >= 4 > state.added[0].zone(state, 128)
-    assert state_of({**STICKS, "n": "1024", "w": ""}, 1024).points(128) == 128
+    assert read_state({**STICKS, "n": "1024", "w": ""}, 1024).points(128) == 128
 
 
 def test_a_fluid_flows_between_bodies_that_stick(pressed):

@@ -10,7 +10,7 @@ from lab.looks import texts_stand_out
 from lab.test_explore_adhesion import LAW, STICKS
 from lab.test_explore_fluid_page import source
 from roughline import press
-from roughline.lab.explore.reading import state_of
+from roughline.lab.explore.reading import read_state
 
 WITHOUT = "?" + urlencode({"view": "explore", "v": "1", **STICKS, "w": ""})
 WITH = WITHOUT.replace("w=&", "w=1&")
@@ -50,7 +50,7 @@ def both_ways_are_shown(page, elastic):
     assert address(page)["w"] == "1"
     page.select_option('#explore [data-key="shown"]', "retreat")
     wider = np.count_nonzero(np.array(image(page, "contact")) == 1)
-    surface = state_of(STICKS, 64).surface(64)
+    surface = read_state(STICKS, 64).surface(64)
     there = press(surface, E_star=110e9, law=LAW, forces=[0.08 * 110], fields=True)
     assert wider > there.fields[0].contact.sum()
 

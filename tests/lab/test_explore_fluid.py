@@ -23,7 +23,7 @@ from lab.unpacked import unpacked
 from roughline.assessment.loading import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
-from roughline.lab.explore.reading import state_of
+from roughline.lab.explore.reading import read_state
 from roughline.plot import style
 
 SCALE = E_STAR * HEIGHT * LENGTH
@@ -34,7 +34,7 @@ APERTURE = rl.hydraulic_aperture("x")
 
 @pytest.fixture(scope="module")
 def surface():
-    return state_of(SMALL, 64).surface(64)
+    return read_state(SMALL, 64).surface(64)
 
 
 @pytest.fixture(scope="module")
@@ -179,12 +179,12 @@ def test_a_load_that_is_not_solved_has_no_flow(monkeypatch):
 
 
 def test_an_address_carries_the_tick_and_refuses_another_word():
-    state = state_of(FLOWS, 1024)
+    state = read_state(FLOWS, 1024)
     assert state.address()["fluid"] == "x"
-    assert state_of(state.address(), 1024) == state
-    assert "fluid" not in state_of(SMALL, 1024).address()
+    assert read_state(state.address(), 1024) == state
+    assert "fluid" not in read_state(SMALL, 1024).address()
     with pytest.raises(ControlError) as refused:
-        state_of({"fluid": "z"}, 1024)
+        read_state({"fluid": "z"}, 1024)
     assert refused.value.at == "fluid"
 
 

@@ -11,7 +11,7 @@ from lab.test_explore import E_STAR, HEIGHT, LENGTH, SMALL, answer, loads
 from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
-from roughline.lab.explore.reading import state_of, usable_state
+from roughline.lab.explore.reading import read_state, usable_state
 
 COATED = {**SMALL, "t": "0.05", "E_l": "0.2", "nu_l": "0.45"}
 SCALE = E_STAR * HEIGHT * LENGTH
@@ -26,7 +26,7 @@ def pressed():
         base_young=E_STAR * (1 - 0.3**2),
         base_poisson=0.3,
     )
-    surface = state_of(SMALL, 64).surface(64)
+    surface = read_state(SMALL, 64).surface(64)
     return rl.press(
         surface, half_space=half_space, forces=[0.2 * SCALE], fields=True, grid_error=True
     )
@@ -79,7 +79,7 @@ def test_theories_of_one_material_are_not_drawn_and_say_why():
 )
 def test_what_cannot_be_used_is_refused_where_it_stands(said, at):
     with pytest.raises(ControlError) as refused:
-        state_of(COATED | said, 512)
+        read_state(COATED | said, 512)
     assert refused.value.at == at
 
 
@@ -93,12 +93,12 @@ def test_a_layer_that_a_coarser_grid_does_not_resolve_is_refused_at_what_was_cha
 
 
 def test_an_address_carries_it_with_units():
-    state = state_of(SMALL | {"t": "50 um", "E_l": "22 GPa"}, 1024)
+    state = read_state(SMALL | {"t": "50 um", "E_l": "22 GPa"}, 1024)
     assert state.added[0].numbers == pytest.approx(
         {"t": 0.05, "E_l": 0.2, "nu_l": 0.3, "nu_b": 0.3}
     )
-    assert state_of(state.address(), 1024) == state
-    assert "t" not in state_of(SMALL | {"E_l": "2"}, 1024).address()
+    assert read_state(state.address(), 1024) == state
+    assert "t" not in read_state(SMALL | {"E_l": "2"}, 1024).address()
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from matplotlib import pyplot
 import roughline as rl
 from lab.explore_driven import SMALL, image, settled, typed
 from lab.test_measured_page import CONNECTED
-from roughline.lab.explore.reading import state_of
+from roughline.lab.explore.reading import read_state
 from seen import is_upright, lay_of_45_degrees
 
 FRAME = """(name) => {
@@ -197,5 +197,5 @@ def test_a_map_is_upright_on_the_screen_and_a_box_keeps_what_it_shows(pages, tmp
 
 def test_a_lit_surface_and_its_contact_are_upright(small):
     page = showing(small, "area", "0.2")
-    surface = state_of(dict(parse_qsl(SMALL[1:])), 64).surface(64)
+    surface = read_state(dict(parse_qsl(SMALL[1:])), 64).surface(64)
     assert is_upright(of_screen(page, "explore-topography"), surface.heights)

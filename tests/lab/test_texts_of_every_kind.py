@@ -7,12 +7,12 @@ from lab.unpacked import unpacked
 from roughline.lab.controls import usable
 from roughline.lab.explore import controls as explore
 from roughline.lab.explore.physics import PHYSICS
-from roughline.lab.explore.reading import state_of as explore_state
+from roughline.lab.explore.reading import read_state as explore_state
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.measured import controls as measured
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import PublishedState
-from roughline.lab.published.state import state_of as published_state
+from roughline.lab.published.state import read_state as published_state
 from roughline.lab.server.tasks import outcome_of
 from roughline.lab.site import TASKS
 

@@ -18,12 +18,12 @@ VERSION = "1"
 STRANGE = "this question is not one of the lab: reload the page"
 """What is said of a question that no page of this lab asks."""
 
-_MOST_CHARACTERS = 1000  # of the text of a control
+_LONGEST_TEXT = 1000  # of the text of a control
 
-_OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of a view's state
+_PAGE_PARAMETERS = ("view", "theme")  # parameters of an address that are no part of a view's state
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*", re.IGNORECASE | re.ASCII)
-_FEWEST_DIGITS = 4  # with which pages have written the ends of their sliders
-_DIGITS = 12  # of a number that is computed from a text with a unit
+_SLIDER_DIGITS = 4  # with which pages have written the ends of their sliders
+_COMPUTED_DIGITS = 12  # of a number that is computed from a text with a unit
 
 Texts = Mapping[str, str]
 _Read = TypeVar("_Read")
@@ -66,7 +66,9 @@ class Control:
     def checked(self, value: float) -> float:
         """Return a number in range; an end that is written with fewer digits is the end."""
         for end in (self.low, self.high):
-            if any(value == float(f"{end:.{n}g}") for n in range(_FEWEST_DIGITS, _DIGITS + 1)):
+            if any(
+                value == float(f"{end:.{n}g}") for n in range(_SLIDER_DIGITS, _COMPUTED_DIGITS + 1)
+            ):
                 return end
         if not self.low <= value <= self.high:
             raise ControlError(f"{self.name} is {value:.6g}; give a number {self.range}", self.key)
@@ -119,7 +121,7 @@ def has_unit(text: str) -> bool:
 
 def rounded(value: float) -> float:
     """A number that was computed from a text with a unit, without the rounding of that."""
-    return float(f"{value:.{_DIGITS}g}")
+    return float(f"{value:.{_COMPUTED_DIGITS}g}")
 
 
 def as_code(value: float) -> str:
@@ -132,21 +134,21 @@ def as_text(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-def texts_of(arguments: Mapping[str, Any], name: str = "state") -> Texts:
+def sent_texts(arguments: Mapping[str, Any], name: str = "state") -> Texts:
     """Return the texts of the controls by their keys, as a page sends them in an argument."""
-    said = arguments.get(name)
-    if not isinstance(said, Mapping):
+    texts = arguments.get(name)
+    if not isinstance(texts, Mapping):
         raise ControlError(STRANGE)
-    for key, text in said.items():
+    for key, text in texts.items():
         if not isinstance(text, str):
             raise ControlError(STRANGE, key)
-    return said
+    return texts
 
 
 def usable(
     arguments: Mapping[str, Any],
     read: Callable[[Texts], _Read],
-    told: Callable[[_Read], Texts],
+    as_texts: Callable[[_Read], Texts],
     needed: Texts | None = None,
 ) -> tuple[_Read, dict[str, str]]:
     """Read the texts of the controls; for one that cannot be used, the one before it counts.
@@ -160,13 +162,13 @@ def usable(
     controls do not go together, the one that was changed counts as before, not the others. What is
     wrong with the whole address, or with no text of a control, is raised.
     """
-    said, needed = texts_of(arguments), needed or {}
-    before = texts_of(arguments, "before") if "before" in arguments else {}
-    texts, refused = dict(said), {}
-    changed = _changed(said, before, arguments.get("red"))
+    sent, needed = sent_texts(arguments), needed or {}
+    before = sent_texts(arguments, "before") if "before" in arguments else {}
+    texts, refused = dict(sent), {}
+    changed = _changed(sent, before, arguments.get("red"))
     for key in changed:
-        if len(said[key]) > _MOST_CHARACTERS:
-            refused[key] = f"this text has {len(said[key])} characters; give a shorter one"
+        if len(sent[key]) > _LONGEST_TEXT:
+            refused[key] = f"this text has {len(sent[key])} characters; give a shorter one"
             _replace(texts, key, before, needed)
     while True:
         try:
@@ -179,17 +181,17 @@ def usable(
             _replace(texts, wrong[0], {} if wrong[0] in refused else before, needed)
             refused.setdefault(wrong[0], str(error))
             continue
-        used = {**told(found), **texts}
+        used = {**as_texts(found), **texts}
         return found, {
             key: f"{sentence}; {used.get(key) or 'none'} is used meanwhile"
             for key, sentence in refused.items()
         }
 
 
-def _changed(said: Texts, before: Texts, red: Any) -> list[str]:
+def _changed(sent: Texts, before: Texts, red: Any) -> list[str]:
     """Keys of changed controls: those that are red already, then what was changed last."""
     red = red if isinstance(red, list) else []
-    changed = [key for key in said if said[key] != before.get(key)]
+    changed = [key for key in sent if sent[key] != before.get(key)]
     return sorted(changed, key=lambda key: key in red)[::-1]
 
 
@@ -200,10 +202,10 @@ def _replace(texts: dict[str, str], key: str, *others: Texts) -> None:
         texts[key] = found[0]
 
 
-def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:
+def refuse_strange(sent: Mapping[str, str], known: Collection[str]) -> None:
     """Refuse an address of another version, and parameters that are no keys of a view."""
-    wrong, version = "", said.get("v", VERSION)
-    strange = [name[:40] for name in said if name not in (*known, "v", *_OF_THE_PAGE)]
+    wrong, version = "", sent.get("v", VERSION)
+    strange = [name[:40] for name in sent if name not in (*known, "v", *_PAGE_PARAMETERS)]
     if version != VERSION:
         wrong = f'this link is of version "{version[:20]}" of the lab\'s addresses, and this lab '
         wrong += f"reads version {VERSION}"

@@ -25,9 +25,9 @@ def frame(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None =
     """
     chunks, places, offset = [], {}, 0
     for name, values in (arrays or {}).items():
-        shown = values if values.dtype in (np.uint8, np.uint32) else values.astype(np.float32)
-        content = np.ascontiguousarray(shown).tobytes()
-        places[name] = {"dtype": str(shown.dtype), "shape": shown.shape, "offset": offset}
+        stored = values if values.dtype in (np.uint8, np.uint32) else values.astype(np.float32)
+        content = np.ascontiguousarray(stored).tobytes()
+        places[name] = {"dtype": str(stored.dtype), "shape": stored.shape, "offset": offset}
         padding = -len(content) % _ALIGNMENT
         chunks.append(content + bytes(padding))
         offset += len(content) + padding
@@ -44,9 +44,9 @@ def drawn(
 ) -> bytes:
     """Put what panels and maps show into a message with a header, and further arrays."""
     arrays = {**(arrays or {}), **{name: each.values for name, each in maps.items()}}
-    shown = {
+    looks = {
         "panels": {key: vars(each) for key, each in panels.items()},
         "maps": {name: each.look for name, each in maps.items()},
     }
     # rows of an image run along x
-    return frame({**header, **shown}, {name: values.T for name, values in arrays.items()})
+    return frame({**header, **looks}, {name: values.T for name, values in arrays.items()})

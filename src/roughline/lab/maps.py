@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 import roughline as rl
 
-_WEAKEST = -2.0  # decimal logarithm of the flux over its mean that has the palest colour
-_NONE = -9.0  # the same, for no flow
-_PRESSED = 1e-6  # of the largest pressure: where less presses, the paper shows
+_PALEST_FLUX = -2.0  # decimal logarithm of it over its mean
+_NO_FLOW = -9.0  # stands for the logarithm where nothing flows
+_PRESSED_SHARE = 1e-6  # of the largest pressure: where less presses, the paper shows
 _MEANINGS = {  # of colours of the theme
     "ink": "in contact",
     "plastic": "of this at the hardness",
@@ -79,7 +79,7 @@ def contact_maps(
             scale=pressure,
             palette="Viridis256",
             title="pressure",
-            low=_PRESSED,
+            low=_PRESSED_SHARE,
             caption="blank where nothing touches",
         ),
         "gap": _scaled(
@@ -101,12 +101,12 @@ def contact_maps(
 
 
 def _scaled(
-    values: NDArray[Any], scale: Scale, palette: str, title: str, low: float = 0.0, **said: Any
+    values: NDArray[Any], scale: Scale, palette: str, title: str, low: float = 0.0, **others: Any
 ) -> Map:
     """A map from a share of its largest number, or zero, to that."""
-    shown = values * scale[0]
-    high = float(np.nanmax(shown, initial=0.0))
-    return Map(shown, palette, low * high, high or 1.0, title, scale[1], **said)
+    scaled = values * scale[0]
+    high = float(np.nanmax(scaled, initial=0.0))
+    return Map(scaled, palette, low * high, high or 1.0, title, scale[1], **others)
 
 
 def flux_map(flow: rl.Flow) -> Map:
@@ -118,15 +118,15 @@ def flux_map(flow: rl.Flow) -> Map:
         caption = "sealed: no way through"
         return Map(marks, ("paper", "ink", "reach"), 0, 2, caption=caption)
     flux = np.hypot(*flow.flux) * _width(flow) / flow.inflow
-    logarithm = np.full(flux.shape, _NONE)
+    logarithm = np.full(flux.shape, _NO_FLOW)
     np.log10(flux, out=logarithm, where=flux > 0)
-    logarithm[flux > 0] = np.maximum(logarithm[flux > 0], _WEAKEST)
+    logarithm[flux > 0] = np.maximum(logarithm[flux > 0], _PALEST_FLUX)
     logarithm[~is_open] = np.nan
     high = max(float(np.log10(flux.max())), 0.0)
     return Map(
         values=logarithm,
         palette="flux",
-        low=_WEAKEST,
+        low=_PALEST_FLUX,
         high=high,
         title="flux",
         unit="of its mean",

@@ -11,8 +11,8 @@ import numpy as np
 FORCE = "force F / (E* h L)"
 """Label of an axis."""
 
-_ROOM = 1.2  # factor about what is drawn on logarithmic axes
-_ROOM_ABOUT = 0.06  # share about what is drawn on linear ones
+_LOG_MARGIN = 1.2  # factor about what is drawn on logarithmic axes
+_LINEAR_MARGIN = 0.06  # share about what is drawn on linear ones
 _DASHES = ("dashed", "dotted", "dashdot")  # of theories, which black and white tell apart
 
 Range = tuple[float, float]
@@ -120,7 +120,9 @@ def span(values: Any, *at_least: float) -> Range | None:
     """A range on a logarithmic axis about all that is positive."""
     known = np.array([*np.ravel(values), *at_least], dtype=float)
     known = known[np.isfinite(known) & (known > 0)]
-    return (float(known.min() / _ROOM), float(known.max() * _ROOM)) if known.size else None
+    return (
+        (float(known.min() / _LOG_MARGIN), float(known.max() * _LOG_MARGIN)) if known.size else None
+    )
 
 
 def linear_span(values: Any) -> Range | None:
@@ -129,5 +131,5 @@ def linear_span(values: Any) -> Range | None:
     known = known[np.isfinite(known)]
     if not known.size:
         return None
-    room = _ROOM_ABOUT * float(np.ptp(known)) or 1.0
+    room = _LINEAR_MARGIN * float(np.ptp(known)) or 1.0
     return float(known.min()) - room, float(known.max()) + room

@@ -15,7 +15,7 @@ def warm_up() -> None:
     up()
 
 
-def of_explore_pictures(name: str) -> Task:
+def load_explore_pictures(name: str) -> Task:
     """The pictures of what Explore presses."""
     from roughline.lab.explore import pictures
 
@@ -23,7 +23,7 @@ def of_explore_pictures(name: str) -> Task:
     return task
 
 
-def of_explore_code(name: str) -> Task:
+def load_explore_code(name: str) -> Task:
     """The code of what Explore shows."""
     from roughline.lab.explore import code
 
@@ -31,7 +31,7 @@ def of_explore_code(name: str) -> Task:
     return task
 
 
-def of_explore_downloads(name: str) -> Task:
+def load_explore_downloads(name: str) -> Task:
     """The files that Explore gives away."""
     from roughline.lab.explore import downloads
 
@@ -39,7 +39,7 @@ def of_explore_downloads(name: str) -> Task:
     return task
 
 
-def of_measured_file(name: str) -> Task:
+def load_measured_file(name: str) -> Task:
     """A file as it is read."""
     from roughline.lab.measured import file
 
@@ -47,7 +47,7 @@ def of_measured_file(name: str) -> Task:
     return task
 
 
-def of_measured_part(name: str) -> Task:
+def load_measured_part(name: str) -> Task:
     """The maps of a part."""
     from roughline.lab.measured import part
 
@@ -55,7 +55,7 @@ def of_measured_part(name: str) -> Task:
     return task
 
 
-def of_measured_bodies(name: str) -> Task:
+def load_measured_bodies(name: str) -> Task:
     """The bodies that may be pressed."""
     from roughline.lab.measured import bodies
 
@@ -63,7 +63,7 @@ def of_measured_bodies(name: str) -> Task:
     return task
 
 
-def of_measured_answers(name: str) -> Task:
+def load_measured_answers(name: str) -> Task:
     """The answers to a question."""
     from roughline.lab.measured import answers
 
@@ -71,7 +71,7 @@ def of_measured_answers(name: str) -> Task:
     return task
 
 
-def of_measured_documents(name: str) -> Task:
+def load_measured_documents(name: str) -> Task:
     """Reports and code of answers."""
     from roughline.lab.measured import documents
 
@@ -79,7 +79,7 @@ def of_measured_documents(name: str) -> Task:
     return task
 
 
-def of_published_fits(name: str) -> Task:
+def load_published_fits(name: str) -> Task:
     """The power laws of the paper's data."""
     from roughline.lab.published import fits
 
@@ -87,7 +87,7 @@ def of_published_fits(name: str) -> Task:
     return task
 
 
-def of_published_trust(name: str) -> Task:
+def load_published_trust(name: str) -> Task:
     """Where the reduced model is trusted."""
     from roughline.lab.published import trust
 

@@ -11,22 +11,22 @@ import numpy as np
 import roughline as rl
 from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM
 from roughline.lab.controls import ControlError, as_code
-from roughline.lab.explore.controls import Quantity
-from roughline.lab.explore.panels import BACK, kept
+from roughline.lab.explore.controls import ScaledControl
+from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import pressed_under
-from roughline.lab.explore.state import OF_THE_SURFACE, Answer, ExploreState, Item, Physics
+from roughline.lab.explore.state import SURFACE_KEYS, Answer, ExploreState, Item, Physics
 from roughline.lab.explore.words import item, number_rows
 from roughline.lab.maps import Map
 from roughline.lab.panels import FORCE, Filled, Panel, Series, linear_span
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
 
-_COARSE, _FINER = 128, 256  # points along a side of the surface that is followed, at first and then
-_HISTORY = 1.0, 2.0, 1.0, 0.0  # over the present load: beyond it, back to it, to none
-_BACK = 2  # number of the load of the history that comes back to the present one
-_THERE, _AWAY = 25, 35  # depths on both ways
-_BEYOND = 1.5  # times the largest pull of the depths: more than is borne
-_LOADS = 69  # of all, a few of which the forces add
+_COARSE_POINTS, _FINER_POINTS = 128, 256  # along a side of the surface, at first and then
+_LOAD_HISTORY = 1.0, 2.0, 1.0, 0.0  # over the present load: beyond it, back to it, to none
+_LOAD_BACK = 2  # number of the load of the history that comes back to the present one
+_DEPTHS_IN, _DEPTHS_OUT = 25, 35
+_PULL_FACTOR = 1.5  # times the largest pull of the depths: more than is borne
+_ALL_LOADS = 69  # a few of which the forces add
 
 
 def _way(name: str, colour: str, marker: str) -> Series:
@@ -41,7 +41,7 @@ def _mark(name: str, legend: str, colour: str, marker: str, edge: str) -> Series
 
 
 @dataclass(frozen=True)
-class Adhesion(Physics):
+class AdhesionPhysics(Physics):
     """Bodies that pull each other across small gaps."""
 
     w: float
@@ -54,7 +54,7 @@ class Adhesion(Physics):
         "way back, and come off under a pull. Without a hardness alone."
     )
     controls = (
-        Quantity(
+        ScaledControl(
             key="w",
             symbol="w L/(E*h²)",
             name="work of adhesion",
@@ -64,10 +64,10 @@ class Adhesion(Physics):
             meaning="Work to separate a unit of area, over E* h² / L, or with a unit, such as 50 "
             "mJ/m^2. About 1 is what it takes to flatten the longest waves.",
             unit="J/m**2",
-            scale_of=lambda state: float(state.E_star * state.rms_height**2 / state.length),
+            state_scale=lambda state: float(state.E_star * state.rms_height**2 / state.length),
             over="E* h² / L",
         ),
-        Quantity(
+        ScaledControl(
             key="h0",
             symbol="h_0/h",
             name="range of the pull",
@@ -77,7 +77,7 @@ class Adhesion(Physics):
             meaning="Largest gap across which the bodies pull each other, evenly with w / h_0, "
             "over the rms height, or with a unit, such as 5 nm. A shorter one takes a finer grid.",
             unit="m",
-            scale_of=lambda state: float(state.rms_height),
+            state_scale=lambda state: float(state.rms_height),
             over="h",
         ),
     )
@@ -127,7 +127,7 @@ class Adhesion(Physics):
         try:
             self.law(state).refuse_grid(state.half_space, (cell, cell))
         except rl.InputError as error:
-            raise ControlError(str(error), "h0", "w", "n", *OF_THE_SURFACE) from None
+            raise ControlError(str(error), "h0", "w", "n", *SURFACE_KEYS) from None
 
     def zone(self, state: ExploreState, n: int) -> float:
         """Cells across the zone that pulls about a contact, with so many along a side. [1]"""
@@ -162,21 +162,21 @@ class Adhesion(Physics):
             ),
         ]
 
-    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
+    def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Where bodies touch, and where they pull each other."""
         return {"area": _area_map(fields)}
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
         """Follow both ways: beyond the load, back to it, and off."""
-        n = state.points(_FINER if refines else _COARSE)
+        n = state.points(_FINER_POINTS if refines else _COARSE_POINTS)
         found = _cycle(state, self, n, progress)
-        fields = found.by_forces.fields[_BACK]
-        told = {
+        fields = found.by_forces.fields[_LOAD_BACK]
+        content = {
             "panels": _panels(found, state, n),
             "strip": _words(found, state, n),
-            "is_coarse": n < state.points(_FINER),
+            "is_coarse": n < state.points(_FINER_POINTS),
         }
-        return told, {} if fields is None else {"retreat": _area_map(fields)}
+        return content, {} if fields is None else {"retreat": _area_map(fields)}
 
     def in_python(self, state: ExploreState) -> tuple[str, str, str]:
         """The law, both ways, and what pulls the bodies apart."""
@@ -221,7 +221,7 @@ class _Cycle:
 
 def _cycle(
     state: ExploreState,
-    pull: Adhesion,
+    pull: AdhesionPhysics,
     n: int,
     progress: Progress,
     measures: tuple[rl.Measure, ...] = (),
@@ -231,10 +231,10 @@ def _cycle(
     done_before = 0
 
     def step(done: int, total: int) -> None:
-        progress(done_before + done, _LOADS)
+        progress(done_before + done, _ALL_LOADS)
 
-    forces = state.F * np.array(_HISTORY)
-    by_forces = pressed_under(state, surface, forces, step, fields=[0, _BACK])
+    forces = state.F * np.array(_LOAD_HISTORY)
+    by_forces = pressed_under(state, surface, forces, step, fields=[0, _LOAD_BACK])
     depth = by_forces.depth
     if not np.isfinite(depth).all():
         raise ControlError("a load was not solved, so that no way back is known", "F")
@@ -243,15 +243,15 @@ def _cycle(
     softest = min(state.half_space.E_star / state.E_star, 1.0)  # of a layer and its base
     # a disc as wide as the surface
     drawn = height * math.sqrt(2 * math.sqrt(math.pi) * pull.w / softest)
-    there = np.union1d(np.linspace(-reach, deepest, _THERE), depth[0])
-    back = np.union1d(np.linspace(deepest, -reach - drawn, _AWAY + 1)[1:], depth[_BACK:])
+    there = np.union1d(np.linspace(-reach, deepest, _DEPTHS_IN), depth[0])
+    back = np.union1d(np.linspace(deepest, -reach - drawn, _DEPTHS_OUT + 1)[1:], depth[_LOAD_BACK:])
     done_before = depth.size
     depths = np.append(there, back[::-1])
     by_depths = pressed_under(state, surface, None, step, depths=depths, measures=measures)
     found = by_depths.pull_off_depth, by_depths.pull_off_force
     if math.isfinite(found[1]):  # to the tolerance, by a pull that is not much more
         done_before += by_depths.depth.size
-        pulls = np.array([_HISTORY[1] * state.F, _BEYOND * found[1] / state.force(1.0)])
+        pulls = np.array([_LOAD_HISTORY[1] * state.F, _PULL_FACTOR * found[1] / state.force(1.0)])
         off = pressed_under(state, surface, pulls, step)
         ends = found, (off.pull_off_depth, off.pull_off_force)
         found = min(ends, key=lambda each: math.inf if math.isnan(each[1]) else each[1])
@@ -268,22 +268,24 @@ def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
     by_forces, by_depths, (depth, pull) = found.by_forces, found.by_depths, found.pull_off
     height, there = by_forces.rms_height, by_depths.on_approach
     depths, forces = by_depths.depth / height, state.force_bars(by_depths)
-    here, is_known = [0, _BACK], math.isfinite(pull)
+    here, is_known = [0, _LOAD_BACK], math.isfinite(pull)
     series: dict[str, Any] = {
-        "there": kept(depths, forces, there & by_depths.converged),
-        "back": kept(depths, forces, ~there & by_depths.converged),
+        "there": selected_points(depths, forces, there & by_depths.converged),
+        "back": selected_points(depths, forces, ~there & by_depths.converged),
         "here": {"x": by_forces.depth[here] / height, "y": state.force_bars(by_forces)[here]},
         "pull-off": {"x": [depth / height] * is_known, "y": [pull / state.force(1.0)] * is_known},
     }
     columns = number_rows(
         depths, forces, by_depths.area_fraction, state.stiffness_bars(by_depths.stiffness)
     )
-    is_borne = (forces != 0) & by_depths.converged
-    turned = slice(1, _BACK + 1)
+    is_loaded = (forces != 0) & by_depths.converged
+    turned = slice(1, _LOAD_BACK + 1)
     of_turn = {
-        panel: Filled({"back": kept(state.force_bars(by_forces)[turned], values[turned])})
+        panel: Filled(
+            {"back": selected_points(state.force_bars(by_forces)[turned], values[turned])}
+        )
         for panel, values in state.over_force(by_forces).items()
-        if panel in Adhesion.series
+        if panel in AdhesionPhysics.series
     }
     return of_turn | {
         "cycle": Filled(
@@ -294,8 +296,8 @@ def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
             ],
             f"by depths to twice this load and back, on {n}² points; under a force bodies jump "
             "where it falls",
-            x=linear_span(depths[is_borne]),
-            y=linear_span(forces[is_borne]),
+            x=linear_span(depths[is_loaded]),
+            y=linear_span(forces[is_loaded]),
             legends={"pull-off": f"pull-off, {_pull_off(found, state)}"},
         )
     }
@@ -309,7 +311,7 @@ def _pull_off(found: _Cycle, state: ExploreState) -> str:
 def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
     """The contact on the way back, and the pull-off."""
     by_forces, pull = found.by_forces, found.pull_off[1]
-    area = float(by_forces.area_fraction_corrected[_BACK])
+    area = float(by_forces.area_fraction_corrected[_LOAD_BACK])
     pressure = up_to_three_digits(pull / by_forces.length**2, None, "Pa")
     return [
         item(

@@ -14,11 +14,11 @@ from roughline.units import engineering, in_si
 
 
 @dataclass(frozen=True)
-class Quantity(Control):
+class ScaledControl(Control):
     """A number that may be given with its unit, and is then divided by a scale."""
 
     unit: str = "1"
-    scale_of: Callable[[Any], float] = float  # gives the scale of a state, in the unit
+    state_scale: Callable[[Any], float] = float  # gives the scale of a state, in the unit
     over: str = ""  # what the scale is called
 
     def read_over(self, text: str, state: Any) -> float:
@@ -35,7 +35,7 @@ class Quantity(Control):
             value = in_si(text, self.unit, self.name)
         except rl.UnitError as error:
             raise ControlError(str(error), self.key) from None
-        scale = self.scale_of(state)
+        scale = self.state_scale(state)
         try:
             return self.checked(rounded(value / scale))
         except ControlError:
@@ -49,7 +49,7 @@ class Quantity(Control):
 
 
 _length = partial(
-    Quantity, unit="m", scale_of=lambda state: float(state.length), over="sides"
+    ScaledControl, unit="m", state_scale=lambda state: float(state.length), over="sides"
 )  # over the side of the surface
 
 

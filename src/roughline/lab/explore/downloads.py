@@ -37,12 +37,12 @@ from roughline.lab.server.tasks import Arguments, Progress
 from roughline.plot.pixels import draw_map, drawn_sides
 from roughline.plot.style import PAGE, new_figure, styled
 
-_ROW = 3.4  # height of a row of two plots [inch]
-_SMALL = 7  # font size [pt]
-_LEGEND = 36  # of a line [characters]
-_PER_PIXEL = 0.6  # of sizes on the page, for those on paper [pt]
-_RING = ((5, "paper"), (2, "here"))  # its widths on the page, and the colours of the theme
-_FOOT = 0.04  # of a logarithmic axis: how far above its end zeros stand
+_ROW_HEIGHT = 3.4  # height of a row of two plots [inch]
+_FONT_SIZE = 7  # [pt]
+_LEGEND_WIDTH = 36  # [characters]
+_POINTS_PER_PIXEL = 0.6  # of sizes on the page, for those on paper [pt]
+_RING_STROKES = ((5, "paper"), (2, "here"))  # its widths on the page, and the colours of the theme
+_ZERO_MARK_HEIGHT = 0.04  # of a logarithmic axis: how far above its end zeros stand
 _LIGHT = Path(str(files("roughline.lab").joinpath("static/lab.css"))).read_text(encoding="utf-8")
 _COLOURS = dict(re.findall(r"--([\w-]+): (#\w+)", _LIGHT.partition("}")[0]))
 """Those of the page on paper, by their names in its style."""
@@ -68,7 +68,7 @@ def download(arguments: Arguments, progress: Progress) -> bytes:
     return frame({"file": name})
 
 
-def panels_shown(state: ExploreState, points: int, progress: Progress) -> dict[str, Filled]:
+def all_panels(state: ExploreState, points: int, progress: Progress) -> dict[str, Filled]:
     """All that the panels show of a state, by their keys."""
     followed = [each for each in state.added if each.follows]
     steps = _steps(progress, 2 + len(followed))
@@ -88,7 +88,7 @@ def panels_shown(state: ExploreState, points: int, progress: Progress) -> dict[s
     return found
 
 
-def maps_shown(state: ExploreState, points: int, progress: Progress) -> dict[str, Map]:
+def all_maps(state: ExploreState, points: int, progress: Progress) -> dict[str, Map]:
     """All maps that the page can show of a state, by the words that choose them."""
     wanted = [each for each in state.added if state.shown in each.maps and each.follows]
     steps = _steps(progress, 1 + len(wanted))
@@ -115,7 +115,7 @@ def _write_panels(state: ExploreState, points: int, path: Path, progress: Progre
 
     The names come first, where both NumPy and pandas look for them.
     """
-    found, declared = panels_shown(state, points, progress), physics.panels()
+    found, declared = all_panels(state, points, progress), physics.panels()
     tables, remarks = [], [f"{name} = {value}" for name, value in _settings(state, points).items()]
     for key, filled in found.items():
         panel = declared[key]
@@ -136,7 +136,7 @@ def _write_panels(state: ExploreState, points: int, path: Path, progress: Progre
 def _write_loads(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
     """Write the loads of the full model with all their quantities, in SI units."""
     surface = state.surface(state.points(CURVE_POINTS))
-    forces = pictures.forces_shown(state)
+    forces = pictures.drawn_forces(state)
     pressed = pressed_under(state, surface, forces, progress, measures=state.measures)
     data = pressed.to_dataset().assign_attrs(_settings(state, points))
     write_dataset(data, path)
@@ -150,7 +150,7 @@ def _write_maps(state: ExploreState, points: int, path: Path, progress: Progress
     maps = pressed.to_dataset().isel(force=0).drop_vars("force")
     if (fields := pressed.fields[0]) is not None:
         for each in state.added:
-            for name, (values, unit, meaning) in each.fields_of(fields).items():
+            for name, (values, unit, meaning) in each.saved_fields(fields).items():
                 maps[name] = (("x", "y"), values, {"units": unit, "long_name": meaning})
     heights = xarray.load_dataset(path)
     data = heights.merge(maps)
@@ -193,7 +193,7 @@ def _settings(state: ExploreState, points: int) -> dict[str, Any]:
 
 def _draw_panels(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
     """Draw all panels as the page does."""
-    found, declared = panels_shown(state, points, progress), physics.panels()
+    found, declared = all_panels(state, points, progress), physics.panels()
 
     def drawn(key: str) -> Callable[[Axes], None]:
         return lambda axes: _draw_panel(axes, declared[key], found[key])
@@ -207,7 +207,7 @@ def _draw_panel(axes: Axes, panel: Panel, filled: Filled) -> None:
     axes.set(xlabel=panel.x, ylabel=panel.y, xscale=scale, yscale=scale)
     axes.set(xlim=filled.x or panel.ranges[0], ylim=filled.y or panel.ranges[1])
     low, high = axes.get_ylim()
-    foot = low * (high / low) ** _FOOT if panel.is_logarithmic else low
+    foot = low * (high / low) ** _ZERO_MARK_HEIGHT if panel.is_logarithmic else low
     named: dict[str, list[Artist]] = {}
     drawn: Sequence[Artist]
     for series in panel.series:
@@ -216,10 +216,13 @@ def _draw_panel(axes: Axes, panel: Panel, filled: Filled) -> None:
             continue
         x, y = (np.asarray(points[name], dtype=float) for name in "xy")
         y = np.where(y == 0, foot, y) if panel.is_logarithmic else y
-        label = fill(filled.legends.get(series.name, series.legend), _LEGEND)
+        label = fill(filled.legends.get(series.name, series.legend), _LEGEND_WIDTH)
         colour = _COLOURS[series.colour]
         for kind, look in series.glyphs.items():
-            size, width = look.get("size", 6) * _PER_PIXEL, look.get("line_width", 1) * _PER_PIXEL
+            size, width = (
+                look.get("size", 6) * _POINTS_PER_PIXEL,
+                look.get("line_width", 1) * _POINTS_PER_PIXEL,
+            )
             if kind == "varea":
                 bottom, top = (np.asarray(points[end], dtype=float) for end in ("low", "high"))
                 alpha = look["fill_alpha"]
@@ -232,12 +235,12 @@ def _draw_panel(axes: Axes, panel: Panel, filled: Filled) -> None:
                 face = "none" if look.get("fill_alpha") == 0 else colour
                 drawn = axes.plot(x, y, marker, color=colour, markersize=size, markerfacecolor=face)
             named.setdefault(label, []).extend(drawn)
-    axes.legend([tuple(each) for each in named.values()], [*named], fontsize=_SMALL)
+    axes.legend([tuple(each) for each in named.values()], [*named], fontsize=_FONT_SIZE)
 
 
 def _draw_maps(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
     """Draw the topography, and beside it what the map of the contact shows."""
-    maps = maps_shown(state, points, progress)
+    maps = all_maps(state, points, progress)
     chosen = maps[state.shown if state.shown in maps else "area"]
     surface = state.surface(points)
     _write_figure(
@@ -249,37 +252,39 @@ def _draw_maps(state: ExploreState, points: int, path: Path, progress: Progress)
     )
 
 
-def _draw_map(axes: Axes, shown: Map, sizes: tuple[float, float]) -> None:
+def _draw_map(axes: Axes, content: Map, sizes: tuple[float, float]) -> None:
     """Draw a map in the colours of the page, with their scale or their meanings."""
-    norm, values, unit = Normalize(shown.low, shown.high), shown.values, shown.unit
-    if shown.is_logarithmic:
-        norm, values = LogNorm(10**shown.low, 10**shown.high), 10.0**values
+    norm, values, unit = Normalize(content.low, content.high), content.values, content.unit
+    if content.is_logarithmic:
+        norm, values = LogNorm(10**content.low, 10**content.high), 10.0**values
     look: dict[str, Any] = {"norm": norm}
-    if isinstance(shown.palette, tuple):
-        look["cmap"] = ListedColormap([_COLOURS[name] for name in shown.palette])
+    if isinstance(content.palette, tuple):
+        look["cmap"] = ListedColormap([_COLOURS[name] for name in content.palette])
     else:
-        palette = colormaps[_PALETTES[shown.palette]]
-        extremes = {"bad": _COLOURS[shown.blank], "under": _COLOURS["paper"]}
+        palette = colormaps[_PALETTES[content.palette]]
+        extremes = {"bad": _COLOURS[content.blank], "under": _COLOURS["paper"]}
         look["cmap"] = palette.with_extremes(**extremes)
     image = draw_map(axes, np.ma.masked_invalid(values), sizes, "m", **look)
-    if shown.title:
-        label = f"{shown.title} {unit if unit.startswith('/') else f'[{unit}]'}"
+    if content.title:
+        label = f"{content.title} {unit if unit.startswith('/') else f'[{unit}]'}"
         axes.figure.colorbar(image, ax=axes, shrink=0.85, label=label)
     x, y = drawn_sides(image)
-    for place in shown.rings:
-        for width, colour in _RING:
+    for place in content.rings:
+        for width, colour in _RING_STROKES:
             ring = axes.plot(place[0] * x, place[1] * y, "o", markerfacecolor="none")[0]
-            ring.set(markersize=14 * _PER_PIXEL, markeredgewidth=width * _PER_PIXEL)
+            ring.set(markersize=14 * _POINTS_PER_PIXEL, markeredgewidth=width * _POINTS_PER_PIXEL)
             ring.set_markeredgecolor(_COLOURS[colour])
-    marks = [Patch(color=_COLOURS[name], label=said) for name, said in shown.meanings.items()]
+    marks = [
+        Patch(color=_COLOURS[name], label=meaning) for name, meaning in content.meanings.items()
+    ]
     axes.legend(
         handles=marks,
-        title=shown.caption,
+        title=content.caption,
         ncols=2,
         loc="lower left",
         bbox_to_anchor=(0, 1),
-        fontsize=_SMALL,
-        title_fontsize=_SMALL,
+        fontsize=_FONT_SIZE,
+        title_fontsize=_FONT_SIZE,
     )
 
 
@@ -287,7 +292,7 @@ def _write_figure(path: Path, plots: list[Callable[[Axes], Any]]) -> None:
     """Draw plots, two abreast, and write the figure as the ending of its name says."""
     rows = -(-len(plots) // 2)
     with styled():
-        figure = new_figure(PAGE, _ROW * rows)
+        figure = new_figure(PAGE, _ROW_HEIGHT * rows)
         figure.set_layout_engine("compressed")
         axes = figure.subplots(rows, 2, squeeze=False).ravel()
         for draw, each in zip(plots, axes, strict=False):

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.lab.explore.panels import loads, note_of, over_force
-from roughline.lab.explore.pressing import CURVE_POINTS, borne, pressed_under
+from roughline.lab.explore.panels import curve_note, loads, over_force
+from roughline.lab.explore.pressing import CURVE_POINTS, bearable_forces, pressed_under
 from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
 from roughline.lab.explore.words import item, number_rows
 from roughline.lab.maps import Map, flux_map, throttled_at
@@ -26,8 +26,8 @@ _THEORIES = {"critical-junction": "critical junction", "bruggeman": "Bruggeman"}
 # dimensionless; the largest seal most surfaces
 _FORCES, _THEORY_FORCES = np.geomspace(1e-3, 9, 14), np.geomspace(1e-3, 9, 27)
 _SEALED = "sealed"
-_LOWEST = 3  # factor between the smallest aperture and the end of the axis
-_MEANING = (
+_LOWEST_FACTOR = 3  # factor between the smallest aperture and the end of the axis
+_APERTURE_MEANING = (
     "Hydraulic aperture: gap of two flat plates that let as much fluid through, from left to "
     "right; a leak is proportional to its cube. The interval shows how far finer grids may "
     "change it."
@@ -43,7 +43,7 @@ def _cross(name: str, legend: str, colour: str) -> Series:
 
 
 @dataclass(frozen=True)
-class Fluid(Physics):
+class FluidPhysics(Physics):
     """A fluid that flows through the gap, from left to right."""
 
     key = "fluid"
@@ -93,7 +93,7 @@ class Fluid(Physics):
             ends = float(measured.low[0]), float(measured.high[0])
         if flow.is_sealed:
             below = f"at most {engineering(ends[1], 'm', 3)}" if ends and ends[1] > 0 else ""
-            return [item("aperture", "u_h", _SEALED, _MEANING, below)]
+            return [item("aperture", "u_h", _SEALED, _APERTURE_MEANING, below)]
         doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
         value = figure(aperture / pressed.rms_height, supported_digits(aperture, ends, 3))
         x, y = map(figure, throttled_at(flow))
@@ -104,7 +104,7 @@ class Fluid(Physics):
                 key="aperture",
                 symbol="u_h",
                 value=f"{value} h" + (" *" if doubt else ""),
-                meaning=_MEANING + (f" But {doubt}." if doubt else ""),
+                meaning=_APERTURE_MEANING + (f" But {doubt}." if doubt else ""),
                 below=up_to_three_digits(aperture, ends, "m"),
             ),
             item(
@@ -118,11 +118,11 @@ class Fluid(Physics):
             ),
         ]
 
-    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
+    def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Where the fluid goes."""
         return {"flux": flux_map(_flow(fields))}
 
-    def fields_of(self, fields: rl.Fields) -> dict[str, tuple[NDArray[Any], str, str]]:
+    def saved_fields(self, fields: rl.Fields) -> dict[str, tuple[NDArray[Any], str, str]]:
         """Both components of the flux."""
         meaning = "flow per width along {}, times 12 viscosity / pressure difference"
         flux = zip("xy", _flow(fields).flux, strict=True)
@@ -131,7 +131,7 @@ class Fluid(Physics):
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
         """What flows through the gap over force, and what theories of the flow say."""
         surface = state.surface(state.points(CURVE_POINTS))
-        forces = borne(state, _FORCES)
+        forces = bearable_forces(state, _FORCES)
         pressed = pressed_under(state, surface, forces, progress, measures=self.measures())
         apertures = self.over_force(pressed)["aperture"]
         of_theories = _theories(state, surface)
@@ -144,10 +144,10 @@ class Fluid(Physics):
             sealed += _THEORY_FORCES[found == 0][:1].tolist()  # the first such load alone
             rows += _rows(_THEORY_FORCES, found, _THEORIES[name])
         drawn["theory sealed"] = {"x": sealed, "y": [0] * len(sealed)}
-        least = apertures[apertures > 0].min(initial=np.inf) / _LOWEST
+        least = apertures[apertures > 0].min(initial=np.inf) / _LOWEST_FACTOR
         known = [*apertures, *(found[0] for _, found in of_theories.values()), least]
         remarks = [f"{_THEORIES[name]}: {each.validity}" for name, (each, _) in of_theories.items()]
-        caption = f"{_where_sealed(forces, apertures)}; {note_of(pressed, len(surface.heights))}"
+        caption = f"{_where_sealed(forces, apertures)}; {curve_note(pressed, len(surface.heights))}"
         filled = Filled(drawn, rows, caption, f"{'. '.join(remarks)}.", y=span(known))
         return {"panels": {"aperture": filled}}, {}
 

@@ -7,16 +7,16 @@ from typing import ClassVar
 
 import roughline as rl
 from roughline.lab.controls import Control, ControlError, as_code
-from roughline.lab.explore.controls import Quantity
+from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.state import ExploreState, Item, Physics
 from roughline.lab.explore.words import item
 from roughline.report.values import figure, up_to_three_digits
 
-_THINNEST = 0.5  # of a cell, below which the library refuses a layer
+_THINNEST_LAYER = 0.5  # of a cell, below which the library refuses a layer
 
 
 @dataclass(frozen=True)
-class Layer(Physics):
+class LayerPhysics(Physics):
     """A layer that is bonded to the body; the rough surface is rigid."""
 
     t: float
@@ -31,7 +31,7 @@ class Layer(Physics):
         "the base: F̄, k̄, p_c, the hardness and the work of adhesion are over it."
     )
     controls = (
-        Quantity(
+        ScaledControl(
             key="t",
             symbol="t/L",
             name="thickness of the layer",
@@ -41,10 +41,10 @@ class Layer(Physics):
             meaning="Thickness of the layer. Relative to the side of the surface, or with a unit: "
             "2 um. It has to be half a cell of the grid at least.",
             unit="m",
-            scale_of=lambda state: float(state.length),
+            state_scale=lambda state: float(state.length),
             over="sides",
         ),
-        Quantity(
+        ScaledControl(
             key="E_l",
             symbol="E*_l/E*",
             name="modulus of the layer",
@@ -54,7 +54,7 @@ class Layer(Physics):
             meaning="Contact modulus E/(1-ν²) of the layer over E*, which is that of the base; or "
             "with a unit: 110 GPa.",
             unit="Pa",
-            scale_of=lambda state: float(state.E_star),
+            state_scale=lambda state: float(state.E_star),
             over="E*",
         ),
         Control(
@@ -99,7 +99,7 @@ class Layer(Physics):
     def check(self, state: ExploreState) -> None:
         """Refuse a layer that the grid does not resolve."""
         if not self.is_resolved(state, state.n):
-            least = _THINNEST / state.n
+            least = _THINNEST_LAYER / state.n
             raise ControlError(
                 f"a layer of {self.t:.3g} sides is less than half a cell of {state.n} points, "
                 f"where its base alone is felt: give {least:.3g} or more, or take more points",
@@ -109,7 +109,7 @@ class Layer(Physics):
 
     def is_resolved(self, state: ExploreState, n: int) -> bool:
         """Whether it is half a cell thick."""
-        return self.t * n >= _THINNEST
+        return self.t * n >= _THINNEST_LAYER
 
     def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Its thickness on the grid, and its modulus."""
@@ -130,12 +130,12 @@ class Layer(Physics):
     def in_python(self, state: ExploreState) -> tuple[str, str, str]:
         """The layer on its base."""
         names = ("young", "poisson", "thickness", "base_young", "base_poisson")
-        given = [
+        arguments = [
             f"{name}={as_code(value)}"
             for name, value in zip(names, self._constants(state), strict=True)
         ]
-        given += ["periodic=True"] * state.periodic
-        layered = "\n".join(f"    {each}," for each in given)
+        arguments += ["periodic=True"] * state.periodic
+        layered = "\n".join(f"    {each}," for each in arguments)
         return f"half_space = rl.Layered(\n{layered}\n)\n", "", ""
 
     def materials(self, state: ExploreState) -> tuple[str, str]:

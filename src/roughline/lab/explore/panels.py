@@ -48,7 +48,9 @@ BACK = Series(
 """The way back from the present load."""
 
 
-def kept(x: NDArray[Any], y: NDArray[Any], wanted: NDArray[np.bool_] | None = None) -> Points:
+def selected_points(
+    x: NDArray[Any], y: NDArray[Any], wanted: NDArray[np.bool_] | None = None
+) -> Points:
     """Points that are wanted, at loads and values that are positive unless they say others."""
     wanted = (x > 0) & (y > 0) if wanted is None else wanted
     return {"x": x[wanted], "y": y[wanted]}
@@ -60,12 +62,12 @@ def loads(
     """Loads of a curve, apart from those with too few cells in contact."""
     is_known = pressed.converged & (values > 0)
     return {
-        "curve": kept(force_bar, values, is_known & pressed.resolved),
-        "unsure": kept(force_bar, values, is_known & ~pressed.resolved),
+        "curve": selected_points(force_bar, values, is_known & pressed.resolved),
+        "unsure": selected_points(force_bar, values, is_known & ~pressed.resolved),
     }
 
 
-def note_of(pressed: rl.SurfaceCurve, n: int) -> str:
+def curve_note(pressed: rl.SurfaceCurve, n: int) -> str:
     """Say what the marks of a curve are, and which loads have none."""
     failed = int((~pressed.converged).sum())
     unsure = "" if pressed.resolved.all() else "; * in the table: fewer than ten cells touch"
@@ -74,12 +76,12 @@ def note_of(pressed: rl.SurfaceCurve, n: int) -> str:
 
 
 _REDUCED = band("line", "1D, mean and range of single lines", "light-line", line_width=2.5)
-_OF_SPECTRUM = (
+_SPECTRUM_SERIES = (
     marks("surface", "the surface", "mark", size=4, line_width=1),
     line("law", "the law", "here", 2),
 )
-_FORCES, _AREAS = (1e-4, 10.0), (1e-4, 1.3)
-_OF_CURVE: dict[str, Any] = {
+_FORCE_RANGE, _AREA_RANGE = (1e-4, 10.0), (1e-4, 1.3)
+_CURVE_TASK: dict[str, Any] = {
     "task": "curve",
     "waits": "the surface is being pressed under every load",
 }
@@ -91,9 +93,9 @@ PANELS = (
         y="stiffness k̄",
         lines=(_REDUCED,),
         theories=CHOICES["theories"],
-        ranges=(_FORCES, (1e-3, 1.6)),
+        ranges=(_FORCE_RANGE, (1e-3, 1.6)),
         columns=("F̄", "k̄", "model"),
-        **_OF_CURVE,
+        **_CURVE_TASK,
     ),
     over_force(
         key="area",
@@ -101,9 +103,9 @@ PANELS = (
         y="real contact area A / A₀",
         lines=(),
         theories=CHOICES["theories"],
-        ranges=(_FORCES, _AREAS),
+        ranges=(_FORCE_RANGE, _AREA_RANGE),
         columns=("F̄", "A/A₀", "model"),
-        **_OF_CURVE,
+        **_CURVE_TASK,
     ),
     Panel(
         key="spectrum",
@@ -111,7 +113,7 @@ PANELS = (
         x="waves along the side, q L / 2π",
         y="spectrum C [m⁴]",
         ranges=((0.8, 300.0), (1e-20, 1e-10)),
-        series=_OF_SPECTRUM,
+        series=_SPECTRUM_SERIES,
         columns=("waves along the side", "C [m⁴]", "law [m⁴]"),
         task="contact",
         waits="the spectrum follows with the whole grid",

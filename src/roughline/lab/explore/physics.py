@@ -6,16 +6,16 @@ from dataclasses import asdict
 from typing import Any
 
 from roughline.lab.controls import Choice, Control
-from roughline.lab.explore.adhesion import Adhesion
+from roughline.lab.explore.adhesion import AdhesionPhysics
 from roughline.lab.explore.controls import CHOICES, NUMBERS
-from roughline.lab.explore.fluid import Fluid
-from roughline.lab.explore.layer import Layer
+from roughline.lab.explore.fluid import FluidPhysics
+from roughline.lab.explore.layer import LayerPhysics
 from roughline.lab.explore.panels import PANELS
 from roughline.lab.explore.state import Physics
-from roughline.lab.explore.yielding import Yielding
+from roughline.lab.explore.yielding import YieldingPhysics
 from roughline.lab.panels import Panel
 
-PHYSICS: tuple[type[Physics], ...] = (Layer, Yielding, Adhesion, Fluid)
+PHYSICS: tuple[type[Physics], ...] = (LayerPhysics, YieldingPhysics, AdhesionPhysics, FluidPhysics)
 """All kinds, in the order of their ticks."""
 _STRIP = (*("stiffness_3d", "stiffness_1d", "area", "pressure", "depth", "force", "roughness"),)
 
@@ -25,18 +25,18 @@ def numbers() -> dict[str, Control]:
     return NUMBERS | {control.key: control for kind in PHYSICS for control in kind.controls}
 
 
-def shown_choice() -> Choice:
+def second_map_choice() -> Choice:
     """The choice of the second map, with the maps that kinds add."""
-    shown = CHOICES["shown"]
-    options = dict(shown.options)
+    choice = CHOICES["shown"]
+    options = dict(choice.options)
     for kind in PHYSICS:
         options |= kind.maps
     return Choice(
-        key=shown.key,
-        name=shown.name,
+        key=choice.key,
+        name=choice.name,
         options=options,
-        default=shown.default,
-        meaning=shown.meaning,
+        default=choice.default,
+        meaning=choice.meaning,
     )
 
 

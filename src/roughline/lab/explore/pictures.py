@@ -16,15 +16,15 @@ from roughline.assessment.loading import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES
-from roughline.lab.explore.panels import kept, loads, note_of
-from roughline.lab.explore.pressing import CURVE_POINTS, borne, pressed_under
+from roughline.lab.explore.panels import curve_note, loads, selected_points
+from roughline.lab.explore.pressing import CURVE_POINTS, bearable_forces, pressed_under
 from roughline.lab.explore.reading import usable_state
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import (
     contact_words,
     line_words,
+    load_rows,
     number_rows,
-    rows_of,
     status,
     unlike,
 )
@@ -35,17 +35,17 @@ from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 
-_COARSE, _COARSER = 128, 64
+_COARSE_POINTS, _COARSER_POINTS = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
-_LINES, _FEWER_LINES = 20, 5
+_MOST_LINES, _LINES_AT_FIRST = 20, 5
 """Lines whose mean stiffness stands for the reduced model, and when many ask at once."""
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
-_FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
-_LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
+_FIRST_POINTS = 256  # points along a side that come before the full grid when many ask at once
+_LEAST_COARSE_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
 _CURVE_FORCES, _THEORY_FORCES = np.geomspace(1e-3, 3, 13), np.geomspace(1e-3, 3, 31)
-_AT_LEAST = {"stiffness": (1e-3, 1.3), "area": (1e-4, 1.0)}  # that their axes show
+_LEAST_AXIS_RANGES = {"stiffness": (1e-3, 1.3), "area": (1e-4, 1.0)}
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
@@ -55,13 +55,13 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     In a crowd it is that of fewer lines first; the page asks for the others by "refines".
     """
     state, refused = usable_state(arguments)
-    count = _FEWER_LINES if _is_first_step(arguments) else _LINES
+    count = _LINES_AT_FIRST if _is_first_step(arguments) else _MOST_LINES
     return _message(state, refused, line(state, count))
 
 
-def line(state: ExploreState, count: int = _LINES) -> dict[str, Any]:
+def line(state: ExploreState, count: int = _MOST_LINES) -> dict[str, Any]:
     """What the page has of so many lines."""
-    lines = _lines_of(state, count)
+    lines = _state_lines(state, count)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(each, state, forces).stiffness_bar for each in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
@@ -73,15 +73,15 @@ def line(state: ExploreState, count: int = _LINES) -> dict[str, Any]:
         "panels": {"stiffness": filled},
         "stiffness_bar_1d": float(mean[here]),
         "strip": line_words(state, float(mean[here]), count),
-        "is_coarse": count < _LINES,
+        "is_coarse": count < _MOST_LINES,
     }
 
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
     state, refused = usable_state(arguments)
-    crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
-    n = state.points(_COARSER if crowded else _COARSE)
+    crowded = arguments["crowded"] and state.roll_off > _LEAST_COARSE_ROLL_OFF
+    n = state.points(_COARSER_POINTS if crowded else _COARSE_POINTS)
     return _message(state, refused, *contact(state, n, progress, is_coarse=True))
 
 
@@ -91,7 +91,7 @@ def full(arguments: Arguments, progress: Progress) -> bytes:
     In a crowd it is on fewer points first; the page asks for the full grid by "refines".
     """
     state, refused = usable_state(arguments)
-    n = state.points(_FIRST_STEP) if _is_first_step(arguments) else state.n
+    n = state.points(_FIRST_POINTS) if _is_first_step(arguments) else state.n
     return _message(state, refused, *contact(state, n, progress, is_coarse=n < state.n))
 
 
@@ -104,12 +104,12 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
 def over_loads(state: ExploreState, progress: Progress) -> dict[str, Filled]:
     """What panels show of the surface under many loads, and of theories."""
     surface = state.surface(state.points(CURVE_POINTS))
-    pressed = pressed_under(state, surface, borne(state, _CURVE_FORCES), progress)
-    forces, note = state.force_bars(pressed), note_of(pressed, len(surface.heights))
+    pressed = pressed_under(state, surface, bearable_forces(state, _CURVE_FORCES), progress)
+    forces, note = state.force_bars(pressed), curve_note(pressed, len(surface.heights))
     theories, remarks = _theories(state, surface)
     panels = {}
     for panel, values in state.over_force(pressed).items():
-        filled = Filled(loads(forces, values, pressed), rows_of(forces, values, pressed, "3D"))
+        filled = Filled(loads(forces, values, pressed), load_rows(forces, values, pressed, "3D"))
         filled.series |= theories[panel]
         filled.caption = note
         panels[panel] = filled
@@ -118,18 +118,18 @@ def over_loads(state: ExploreState, progress: Progress) -> dict[str, Filled]:
         for panel, more in each.beside_curve(pressed, state).items():
             panels[panel].series |= more.series
             panels[panel].rows = [*(panels[panel].rows or []), *(more.rows or [])]
-    for panel, (low, high) in _AT_LEAST.items():
+    for panel, (low, high) in _LEAST_AXIS_RANGES.items():
         marks = [each["y"] for name, each in panels[panel].series.items() if "theory" not in name]
         panels[panel].y = span(np.concatenate(marks), low, high)
     return panels
 
 
-def forces_shown(state: ExploreState) -> NDArray[np.float64]:
+def drawn_forces(state: ExploreState) -> NDArray[np.float64]:
     """Dimensionless forces of the curve and the present one; if points yield, those back from it.
 
     [1]
     """
-    rising = np.union1d(borne(state, _CURVE_FORCES), state.F)
+    rising = np.union1d(bearable_forces(state, _CURVE_FORCES), state.F)
     if not state.yields:
         return rising
     return np.concatenate([rising[rising <= state.F], state.F * np.array(UNLOADING)])
@@ -142,8 +142,8 @@ def further(arguments: Arguments, progress: Progress) -> bytes:
     if kind is None:
         sentence = "this is not computed without its tick: mark it first"
         raise ControlError(sentence, str(arguments.get("of", "")))
-    told, maps = kind.further(state, arguments.get("refines") is True, progress)
-    return _message(state, refused, told, maps)
+    content, maps = kind.further(state, arguments.get("refines") is True, progress)
+    return _message(state, refused, content, maps)
 
 
 def contact(
@@ -166,20 +166,20 @@ def contact(
     strip = contact_words(pressed, fields, surface, state)
     is_known, force = pressed.converged, state.force_bars(pressed)
     panels = {
-        panel: Filled({"here": kept(force, values, is_known)})
+        panel: Filled({"here": selected_points(force, values, is_known)})
         for panel, values in state.over_force(pressed).items()
     }
     if not is_coarse:
         panels["spectrum"] = _spectrum(surface, state)
     seconds = time.perf_counter() - started
-    told = {
+    content = {
         "points": n,
         "is_coarse": is_coarse,
         "panels": panels,
         "strip": strip,
         "status": status(pressed, n, seconds, is_coarse=is_coarse),
     }
-    return told, maps, {"topography": shaded(surface)}
+    return content, maps, {"topography": shaded(surface)}
 
 
 def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
@@ -196,20 +196,20 @@ def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[s
         ),
     }
     for each in state.added:
-        maps |= each.maps_of(fields, state)
+        maps |= each.added_maps(fields, state)
     return maps
 
 
 def _message(
     state: ExploreState,
     refused: Mapping[str, str],
-    told: dict[str, Any],
+    content: dict[str, Any],
     maps: Mapping[str, Map] | None = None,
     arrays: Mapping[str, NDArray[Any]] | None = None,
 ) -> bytes:
     """An answer, with what the page is told of its controls: what counts, and what does not."""
-    header = {**_settled(state, refused), **told}
-    return drawn(header, told.get("panels", {}), maps or {}, arrays)
+    header = {**_settled(state, refused), **content}
+    return drawn(header, content.get("panels", {}), maps or {}, arrays)
 
 
 def _is_first_step(arguments: Arguments) -> bool:
@@ -241,7 +241,7 @@ def _line_legend(state: ExploreState) -> str:
     return f"1D {without}, mean and range" if without else "1D, mean and range of single lines"
 
 
-def _lines_of(state: ExploreState, count: int) -> tuple[rl.Line, ...]:
+def _state_lines(state: ExploreState, count: int) -> tuple[rl.Line, ...]:
     """Lines of the spectrum of a state, with the waves of its surface. [m]"""
     springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
     return _lines(state.spectrum(state.n), springs, state.seed, count)
@@ -265,9 +265,9 @@ def _spectrum(surface: rl.Surface, state: ExploreState) -> Filled:
     q, power = measured.q[known], measured.C_2d[known]
     law = state.spectrum(state.n).lattice(state.n).C_2d(q)
     waves = q * state.length / (2 * np.pi)
-    shown = slice(None, None, -(-waves.size // _MOST_ROWS))
-    rows = number_rows(waves[shown], power[shown], law[shown])
-    series = {"surface": kept(waves, power), "law": kept(waves, law)}
+    thinned = slice(None, None, -(-waves.size // _MOST_ROWS))
+    rows = number_rows(waves[thinned], power[thinned], law[thinned])
+    series = {"surface": selected_points(waves, power), "law": selected_points(waves, law)}
     return Filled(series, rows, x=span(waves), y=span(power))
 
 

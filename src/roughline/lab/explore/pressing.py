@@ -13,12 +13,12 @@ from roughline.lab.server.tasks import Progress
 
 CURVE_POINTS = 256
 """Points along a side of the surface whose whole curve is computed."""
-_MOST_OF_LARGEST = 0.9  # of the force that all of the area bears, where curves end
+_LARGEST_FORCE_SHARE = 0.9  # of the force that all of the area bears, where curves end
 
 
-def borne(state: ExploreState, force_bar: NDArray[np.float64]) -> NDArray[np.float64]:
+def bearable_forces(state: ExploreState, force_bar: NDArray[np.float64]) -> NDArray[np.float64]:
     """Those of dimensionless forces that the surface bears. [1]"""
-    return force_bar[force_bar < _MOST_OF_LARGEST * state.most_force_bar]
+    return force_bar[force_bar < _LARGEST_FORCE_SHARE * state.most_force_bar]
 
 
 def pressed_under(

@@ -15,32 +15,32 @@ from roughline.lab.controls import (
     is_number,
     refuse_strange,
     rounded,
-    texts_of,
+    sent_texts,
     usable,
 )
 from roughline.lab.explore import physics
-from roughline.lab.explore.controls import CHOICES, NUMBERS, Quantity
-from roughline.lab.explore.state import OF_THE_SURFACE, ExploreState
+from roughline.lab.explore.controls import CHOICES, NUMBERS, ScaledControl
+from roughline.lab.explore.state import SURFACE_KEYS, ExploreState
 from roughline.lab.server.tasks import Arguments
 from roughline.units import engineering, in_si, load_in_newtons
 
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
-_SIDES, _MODULI = (1e-12, 1e3), (1.0, 1e14)  # that are allowed [m], [Pa]
+_SIDE_RANGE, _MODULUS_RANGE = (1e-12, 1e3), (1.0, 1e14)  # that are allowed [m], [Pa]
 
 
 def usable_state(arguments: Arguments) -> tuple[ExploreState, dict[str, str]]:
     """The state that a page asks about, and what of its texts is not used, by control."""
     most_points = arguments["session"]["max_points"]
-    return usable(arguments, lambda texts: state_of(texts, most_points), ExploreState.texts)
+    return usable(arguments, lambda texts: read_state(texts, most_points), ExploreState.texts)
 
 
 def state_in(arguments: Arguments) -> ExploreState:
     """The state that a page asks about, all of whose texts can be used."""
-    texts = texts_of(arguments)
-    return replace(state_of(texts, arguments["session"]["max_points"]), said=texts)
+    texts = sent_texts(arguments)
+    return replace(read_state(texts, arguments["session"]["max_points"]), typed_texts=texts)
 
 
-def state_of(said: Texts, most_points: int) -> ExploreState:
+def read_state(texts: Texts, most_points: int) -> ExploreState:
     """Read the parameters of an address, or the texts of the controls.
 
     Those that are missing have their defaults; so many points along a side are allowed here.
@@ -50,30 +50,32 @@ def state_of(said: Texts, most_points: int) -> ExploreState:
     ControlError
         If the version is another, or a text cannot be used; it says at which control.
     """
-    known = {each.name for each in fields(ExploreState)} - {"added", "said"}
-    refuse_strange(said, {*known, *(each.key for each in physics.PHYSICS), *physics.numbers(), "H"})
+    known = {each.name for each in fields(ExploreState)} - {"added", "typed_texts"}
+    refuse_strange(
+        texts, {*known, *(each.key for each in physics.PHYSICS), *physics.numbers(), "H"}
+    )
     state = ExploreState(
-        D_f=_dimension(said.get("D_f"), said.get("H")),
-        rms=CHOICES["rms"].read_in(said),
-        slope=NUMBERS["slope"].read_in(said),
-        seed=int(NUMBERS["seed"].read_in(said)),
-        n=_points(said.get("n"), most_points),
-        boundary=CHOICES["boundary"].read_in(said),
-        shown=physics.shown_choice().read_in(said),
-        L=_quantity(said.get("L", ExploreState.L), "m", "L", "side of the surface", _SIDES),
-        E=_quantity(said.get("E", ExploreState.E), "Pa", "E", "contact modulus", _MODULI),
-        theories=_theories(said.get("theories", "")),
+        D_f=_dimension(texts.get("D_f"), texts.get("H")),
+        rms=CHOICES["rms"].read_in(texts),
+        slope=NUMBERS["slope"].read_in(texts),
+        seed=int(NUMBERS["seed"].read_in(texts)),
+        n=_points(texts.get("n"), most_points),
+        boundary=CHOICES["boundary"].read_in(texts),
+        shown=physics.second_map_choice().read_in(texts),
+        L=_quantity(texts.get("L", ExploreState.L), "m", "L", "side of the surface", _SIDE_RANGE),
+        E=_quantity(texts.get("E", ExploreState.E), "Pa", "E", "contact modulus", _MODULUS_RANGE),
+        theories=_theories(texts.get("theories", "")),
     )
     lengths: dict[str, Any] = {
-        control.key: control.read_over(said.get(control.key, str(control.default)), state)
+        control.key: control.read_over(texts.get(control.key, str(control.default)), state)
         for control in NUMBERS.values()
-        if isinstance(control, Quantity)
+        if isinstance(control, ScaledControl)
     }
     state = replace(state, **lengths)
     _refuse_waves(state)
-    added = (each for kind in physics.PHYSICS if (each := kind.read(said, state)))
+    added = (each for kind in physics.PHYSICS if (each := kind.read(texts, state)))
     state = replace(state, added=tuple(added))
-    state = replace(state, F=_force_bar(said.get("F", str(ExploreState.F)), state))
+    state = replace(state, F=_force_bar(texts.get("F", str(ExploreState.F)), state))
     _refuse_together(state)
     return state
 
@@ -111,7 +113,7 @@ def _refuse_together(state: ExploreState) -> None:
             "load, or a larger hardness",
             "F",
             *(key for each in state.added for key in each.numbers),
-            *OF_THE_SURFACE,
+            *SURFACE_KEYS,
         )
 
 

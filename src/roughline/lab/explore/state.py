@@ -16,13 +16,13 @@ from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.errors.checks import shown
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_code, as_text, has_unit
-from roughline.lab.explore.controls import CHOICES, NUMBERS, Quantity
+from roughline.lab.explore.controls import CHOICES, NUMBERS, ScaledControl
 from roughline.lab.maps import Map
 from roughline.lab.panels import Filled, Panel, Series
 from roughline.lab.server.tasks import Progress
 from roughline.units import in_si
 
-OF_THE_SURFACE = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
+SURFACE_KEYS = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
 """Keys of the controls that make the surface."""
 
 Item = dict[str, str]
@@ -69,7 +69,7 @@ class Physics:
             text = texts.get(control.key, as_text(control.default))
             numbers[control.key] = (
                 control.read_over(text, state)
-                if isinstance(control, Quantity)
+                if isinstance(control, ScaledControl)
                 else control.read(text)
             )
         return cls(**numbers)
@@ -111,11 +111,11 @@ class Physics:
         """Its numbers of the answer strip at the load."""
         return []
 
-    def maps_of(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
+    def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Its maps, also those in the place of others."""
         return {}
 
-    def fields_of(self, fields: rl.Fields) -> dict[str, tuple[NDArray[Any], str, str]]:
+    def saved_fields(self, fields: rl.Fields) -> dict[str, tuple[NDArray[Any], str, str]]:
         """Fields of its own that are saved: values, unit and meaning, by their names."""
         return {}
 
@@ -154,7 +154,7 @@ class ExploreState:
     E: str = "110 GPa"  # contact modulus
     theories: tuple[str, ...] = ()  # drawn beside the curve
     added: tuple[Physics, ...] = ()
-    said: Mapping[str, str] = field(default_factory=dict, compare=False)  # texts, as typed
+    typed_texts: Mapping[str, str] = field(default_factory=dict, compare=False)  # texts of controls
 
     @property
     def length(self) -> float:
@@ -231,7 +231,7 @@ class ExploreState:
 
     def typed(self, key: str) -> str:
         """A text with a unit as it was typed, if it counts; else none."""
-        text = self.said.get(key, "").strip()
+        text = self.typed_texts.get(key, "").strip()
         counts = {"h": self.rms == "height", "cutoff": self.cutoff == self.cutoff_used}
         return text if has_unit(text) and counts.get(key, True) else ""
 
@@ -290,7 +290,7 @@ class ExploreState:
 
     def texts(self) -> dict[str, str]:
         """All that is set, as texts by the keys of the controls."""
-        names = [each.name for each in fields(self) if each.name not in ("added", "said")]
+        names = [each.name for each in fields(self) if each.name not in ("added", "typed_texts")]
         texts = {name: _in_address(getattr(self, name)) for name in names}
         for each in self.added:
             texts |= {each.key: each.word} | {k: as_text(v) for k, v in each.numbers.items()}
@@ -305,12 +305,12 @@ class ExploreState:
             for control in each.controls
             if control.key != each.key
         }
-        said = {
+        texts = {
             key: text
             for key, text in self.texts().items()
             if text != default.get(key) or key in ("D_f", "F", "n", "seed")
         }
-        return {"v": VERSION, **said}
+        return {"v": VERSION, **texts}
 
     def _spectrum(self, n: int, height: float) -> rl.SelfAffine:
         q_low = 2 * math.pi / self.length

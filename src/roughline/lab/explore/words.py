@@ -142,7 +142,7 @@ def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
     return [[figure(float(value)) for value in row] for row in zip(*columns, strict=True)]
 
 
-def rows_of(
+def load_rows(
     forces: NDArray[np.float64], values: NDArray[np.float64], pressed: rl.SurfaceCurve, name: str
 ) -> list[list[str]]:
     """Rows of loads and a quantity; a star marks those with too few cells in contact."""

@@ -11,11 +11,11 @@ import roughline as rl
 from roughline.assessment.loading import UNLOADING
 from roughline.assessment.uncertainty import estimate_intervals
 from roughline.lab.controls import as_code
-from roughline.lab.explore.controls import Quantity
-from roughline.lab.explore.panels import BACK, kept
+from roughline.lab.explore.controls import ScaledControl
+from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
-from roughline.lab.explore.words import first, item, rows_of
+from roughline.lab.explore.words import first, item, load_rows
 from roughline.lab.panels import Filled, marks
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
@@ -28,7 +28,7 @@ print("largest indentation over rms height", curve.indentation[0] / surface.rms_
 
 
 @dataclass(frozen=True)
-class Yielding(Physics):
+class YieldingPhysics(Physics):
     """Points that bear no more than the hardness."""
 
     hardness_bar: float
@@ -40,7 +40,7 @@ class Yielding(Physics):
         "indented; without a hardness both bodies are elastic."
     )
     controls = (
-        Quantity(
+        ScaledControl(
             key="hardness_bar",
             symbol="H/(E*∇h)",
             name="hardness",
@@ -51,7 +51,7 @@ class Yielding(Physics):
             "or with a unit, such as 2 GPa. Where it is reached, the surface is permanently "
             "indented.",
             unit="Pa",
-            scale_of=lambda state: float(state.E_star * state.rms_slope),
+            state_scale=lambda state: float(state.E_star * state.rms_slope),
             over="E* ∇h",
         ),
     )
@@ -81,8 +81,8 @@ class Yielding(Physics):
             state.force_bars(pressed),
             state.stiffness_bars(pressed.unloading_stiffness),
         )
-        rows = rows_of(forces, values, pressed, "3D, on unloading")
-        return {"stiffness": Filled({"unloading": kept(forces, values)}, rows)}
+        rows = load_rows(forces, values, pressed, "3D, on unloading")
+        return {"stiffness": Filled({"unloading": selected_points(forces, values)}, rows)}
 
     def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
@@ -125,7 +125,10 @@ class Yielding(Physics):
         values = state.over_force(pressed)
         values["stiffness"] = state.stiffness_bars(pressed.unloading_stiffness)
         panels = {
-            panel: Filled({"back": kept(forces, each)}, rows_of(forces, each, pressed, BACK.legend))
+            panel: Filled(
+                {"back": selected_points(forces, each)},
+                load_rows(forces, each, pressed, BACK.legend),
+            )
             for panel, each in values.items()
         }
         return {"panels": panels}, {}

@@ -17,7 +17,7 @@ from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.materials import material
 from roughline.errors.words import Words
-from roughline.lab.controls import ControlError, refuse_strange, texts_of, usable
+from roughline.lab.controls import ControlError, refuse_strange, sent_texts, usable
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import EXAMPLES, path_of
 from roughline.lab.server.tasks import Arguments
@@ -67,7 +67,7 @@ def said_of(arguments: Arguments) -> Said:
 
     One that has no place here is refused, and a link of another version.
     """
-    said = texts_of(arguments)
+    said = sent_texts(arguments)
     refuse_strange(said, _KNOWN)
     return {key: text.strip() for key, text in said.items() if text.strip()}
 
@@ -77,7 +77,7 @@ def used_in(arguments: Arguments, read: Callable[[Said], _Read]) -> tuple[_Read,
 
     What is wrong with the whole link, or not with the text of a control, is refused.
     """
-    settings = {key: text for key, text in texts_of(arguments).items() if key not in _FILES}
+    settings = {key: text for key, text in sent_texts(arguments).items() if key not in _FILES}
     return usable(
         {**arguments, "state": settings},
         lambda texts: read(said_of({"state": texts})),
