@@ -11,7 +11,7 @@ from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
 from roughline.lab.explore.reading import read_state as explore_state
 from roughline.lab.measured import controls as measured
-from roughline.lab.measured.state import Source, question_of, said_of
+from roughline.lab.measured.state import Source, control_texts, page_question
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import read_state as published_state
 from roughline.lab.server.settings import LEAST_POINTS
@@ -128,7 +128,9 @@ def test_an_address_of_my_surface_asks_the_same_again(said):
     state = {"first": "steel", "second": "copper", "E": "1 GPa", "v": VERSION} | said
     again = dict(parse_qsl(urlencode(sorted(state.items())), keep_blank_values=True))
     source = Source(Path("a.nc"), "a.nc", "key")
-    first, second = (question_of(said_of({"state": each}), source) for each in (state, again))
+    first, second = (
+        page_question(control_texts({"state": each}), source) for each in (state, again)
+    )
     assert first == second
 
 
@@ -136,8 +138,8 @@ def test_an_address_of_my_surface_asks_the_same_again(said):
     "link", ["view=measured", "view=measured&v=1&bodies=modulus&E=110+GPa&example=film&loads=5+N"]
 )
 def test_a_link_of_my_surface_of_an_older_lab_is_read(link):
-    said = said_of({"state": {"first": "steel", "second": "copper"} | dict(parse_qsl(link))})
-    assert question_of(said, Source(Path("a.nc"), "a.nc", "key")).loading.headings == (
+    said = control_texts({"state": {"first": "steel", "second": "copper"} | dict(parse_qsl(link))})
+    assert page_question(said, Source(Path("a.nc"), "a.nc", "key")).loading.headings == (
         ["5 N"] if "loads" in link else []
     )
 
@@ -166,8 +168,8 @@ def test_links_of_version_0_2_0_are_read():
         assert again[key] == said[key]
     published = published_state(dict(parse_qsl(OF_0_2_0["published"]))).address()
     assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&view")[0])).items()
-    said = said_of({"state": dict(parse_qsl(OF_0_2_0["measured"]))})
-    question = question_of(said, Source(Path("a.nc"), "a.nc", "key"))
+    said = control_texts({"state": dict(parse_qsl(OF_0_2_0["measured"]))})
+    question = page_question(said, Source(Path("a.nc"), "a.nc", "key"))
     assert question.loading.headings == ["2 MPa"]
     assert question.friction == 0.3
     assert question.reading.channel == "0"

@@ -27,7 +27,7 @@ from roughline.lab.measured import documents
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.controls import BY_CONTROL
 from roughline.lab.measured.examples import EXAMPLES, path_of
-from roughline.lab.measured.state import CONTROLS, question_of, said_of, source_of
+from roughline.lab.measured.state import CONTROLS, control_texts, first_source, page_question
 from roughline.lab.server.tasks import outcome_of
 from roughline.lab.site import TASKS
 from roughline.report.answers import answer_table
@@ -188,8 +188,8 @@ def test_the_film_example_follows_its_law(page):
 @pytest.mark.parametrize("key", EXAMPLES)
 def test_answers_are_those_of_the_library(page, key):
     said = {"example": key, **PAIR, **SMALL, "friction": "0.3", "frequency": "5 MHz"}
-    source = source_of(said, page.session)
-    question = question_of(said, source)
+    source = first_source(said, page.session)
+    question = page_question(said, source)
     with speaking(CONTROLS):
         expected = rl.assess(question)
     header, arrays = page.ask("answer", said)
@@ -235,7 +235,7 @@ def test_what_leaks_is_answered_for_and_its_flux_is_that_of_the_library(page, ro
     answers = {row[0]: row[1] for row in header["tables"]["measured-answers"][1]}
     assert "mbar l/s" in answers["leak rate q_pV"]
     assert any(figure["name"].startswith("leak rate") for figure in header["figures"]["answers"])
-    question = question_of({**said, **LEAKS}, source_of({**said, **LEAKS}, page.session))
+    question = page_question({**said, **LEAKS}, first_source({**said, **LEAKS}, page.session))
     fields = rl.assess_body(question).fields_of_gap
     path = question.sealing.free_path  # the gas slips
     flow = max(
@@ -275,7 +275,7 @@ def test_an_assessment_is_solved_once(page, cells, only_drawn, monkeypatch):
 def test_both_models_are_compared_as_by_the_command(page, rough, body):
     said = {"example": "film"} if body == "film" else page.bring(rough)
     page.ask("look", said)
-    source = source_of(said, page.session)
+    source = first_source(said, page.session)
     expected = compare_models(source.path)
     header, _ = page.ask("compare", said)
     assert table_of(header, "models") == comparison_table(expected)
@@ -843,7 +843,7 @@ def test_a_name_may_be_given_to_a_file(rough):
 
 
 def test_state_is_text_alone():
-    assert said_of({"state": {"first": " steel ", "second": ""}}) == {"first": "steel"}
+    assert control_texts({"state": {"first": " steel ", "second": ""}}) == {"first": "steel"}
 
 
 def test_the_page_says_at_which_pressure_what_yields(page):
@@ -861,7 +861,7 @@ def test_the_page_says_at_which_pressure_what_yields(page):
 def test_a_joint_is_answered_for_with_its_area(page, cells):
     said = {"example": "film", **PAIR, **cells, "loads": "1 kN", "joint_area": "1 cm^2"}
     page.ask("look", said)
-    expected = rl.assess(question_of(said, source_of(said, page.session)))
+    expected = rl.assess(page_question(said, first_source(said, page.session)))
     assert expected.question.joint == pytest.approx(1e-4)
     header, _ = page.ask("answer", said)
     assert header["tables"]["measured-answers"][:2] == list(in_answers(expected))

@@ -19,17 +19,17 @@ from roughline.assessment.question import Question
 from roughline.errors.remark import DATA, INTERVALS, LIMITS, Remark
 from roughline.errors.words import speaking
 from roughline.lab.frames import drawn
-from roughline.lab.measured.kept import kept
+from roughline.lab.measured.cache import cached
 from roughline.lab.measured.part import part_in_words
-from roughline.lab.measured.pictures import of_contact, of_curve, of_models
+from roughline.lab.measured.pictures import contact_pictures, curve_panels, model_panels
 from roughline.lab.measured.state import (
     CONTROLS,
     at,
-    question_of,
-    reading_of,
-    said_of,
-    source_of,
-    sources_of,
+    control_texts,
+    first_source,
+    page_question,
+    page_reading,
+    page_sources,
 )
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
 from roughline.report.answers import (
@@ -57,19 +57,19 @@ def answer(arguments: Arguments, progress: Progress) -> bytes:
     Of several maps, `map` says by its number which of them is shown alone.
     """
     result = assessed(arguments, progress)
-    told = [_remarks(result, arguments)]
+    parts = [_remarks(result, arguments)]
     if isinstance(result, PartAssessment):
         wanted = arguments.get("map")
         is_there = isinstance(wanted, int) and 0 <= wanted < len(result.assessments)
-        shown = int(wanted or 0) if is_there else 0
-        told += [_in_words(result, "part"), part_in_words(result, shown)]
-        result = result.assessments[shown]
-    told += [_in_words(result, "answers"), _of_body(result)]
+        chosen = int(wanted or 0) if is_there else 0
+        parts += [_in_words(result, "part"), part_in_words(result, chosen)]
+        result = result.assessments[chosen]
+    parts += [_in_words(result, "answers"), _body_header(result)]
     header: dict[str, Any] = {}
-    for each in told:
+    for each in parts:
         for key, value in each.items():
             header[key] = {**header.get(key, {}), **value} if isinstance(value, dict) else value
-    return drawn(header, of_curve(result), of_contact(result))
+    return drawn(header, curve_panels(result), contact_pictures(result))
 
 
 def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]:
@@ -96,12 +96,12 @@ def _remarks(result: Assessment | PartAssessment, arguments: Arguments) -> dict[
     theories = [Remark(f"{each.name}: {each.validity}") for each in bodies[0].theories]
     groups: dict[str, list[str]] = {"": [], DATA: [], INTERVALS: [], LIMITS: []}
     for each in map(Remark, (*result.remarks, *theories)):
-        told = sentence(without_paths(each, arguments))
-        groups["" if each.is_grave else each.about].append(told)
+        text = sentence(without_paths(each, arguments))
+        groups["" if each.is_grave else each.about].append(text)
     return {"lists": {"grave": groups.pop("")}, "remarks": groups}
 
 
-def _of_body(result: Assessment) -> dict[str, Any]:
+def _body_header(result: Assessment) -> dict[str, Any]:
     """What is told of one body alone: its modulus, formulas and partial slip."""
     nothing = (["no answers follow from a contact modulus alone"], list[list[str]]())
     tables = {"measured-formulas": formula_table(result) if result.answers else nothing}
@@ -122,17 +122,17 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
 
     Of several maps each is kept as soon as it is done.
     """
-    said, session = said_of(arguments), arguments["session"]
-    sources = sources_of(said, session)
-    questions = [question_of(said, each) for each in sources]
+    texts, session = control_texts(arguments), arguments["session"]
+    sources = page_sources(texts, session)
+    questions = [page_question(texts, each) for each in sources]
     keys = {each.path: each.key for each in sources}
     steps = _Steps(progress)
 
     def solve(question: Question) -> Assessment:
         assert isinstance(question.body, Path)
-        asked = sorted({**said, "file": keys[question.body]}.items())
+        asked = sorted({**texts, "file": keys[question.body]}.items())
         made = partial(assess_body, question, progress=steps)
-        return kept(session, "assessment", asked, made, most=len(sources))
+        return cached(session, "assessment", asked, made, most=len(sources))
 
     with at("answers"):
         if len(sources) == 1:
@@ -140,7 +140,7 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
         # what cannot be asked of a part is refused here
         evolve(questions[0], body=list(keys), reading=replace(questions[0].reading, name=None))
         names = [each.name for each in sources]
-        return assess_part(questions, names=names, map_progress=steps.of_map, answer=solve)
+        return assess_part(questions, names=names, map_progress=steps.begin_map, answer=solve)
 
 
 class _Steps:
@@ -153,7 +153,7 @@ class _Steps:
         """Tell of the loads of one map."""
         self._progress(self._map * total + done, self._maps * total)
 
-    def of_map(self, done: int, total: int) -> None:
+    def begin_map(self, done: int, total: int) -> None:
         """Begin the next of several maps."""
         self._map, self._maps = done, total
 
@@ -161,11 +161,11 @@ class _Steps:
 @speaking(CONTROLS)
 def compare(arguments: Arguments, progress: Progress) -> bytes:
     """Compare the models on the surface as the file has it, without its tilt."""
-    said = said_of(arguments)
-    source = source_of(said, arguments["session"])
-    reading = reading_of(said, source.name)
+    texts = control_texts(arguments)
+    source = first_source(texts, arguments["session"])
+    reading = page_reading(texts, source.name)
     with at("compare"):
-        found = kept(
+        found = cached(
             arguments["session"],
             "comparison",
             (source.key, reading),
@@ -175,4 +175,4 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
     star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"
     words = {"what": found.what, "verdict": sentence(verdict_in_words(found)), "compare-star": star}
     lists = {"compare-notes": result.warnings}
-    return drawn({"words": words, "lists": lists}, of_models(found), {})
+    return drawn({"words": words, "lists": lists}, model_panels(found), {})

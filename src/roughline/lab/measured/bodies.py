@@ -23,7 +23,7 @@ from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.explore.controls import CHOICES as EXPLORED
 from roughline.lab.frames import frame
 from roughline.lab.measured import controls as c
-from roughline.lab.measured.state import CONTROLS, Said, Source, at, question_of, used_in
+from roughline.lab.measured.state import CONTROLS, ControlTexts, Source, at, page_question, used_in
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.contact_tables import solid_in_words
 from roughline.report.values import up_to_three_digits
@@ -38,15 +38,15 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     """
     body = _flat(arguments.get("sides"))
 
-    def read(said: Said) -> tuple[Question, Said]:
-        question = question_of(said, Source(Path("no file yet"), "", ""))
-        with at("joint_area" if "joint_area" in said else ""):
+    def read(texts: ControlTexts) -> tuple[Question, ControlTexts]:
+        question = page_question(texts, Source(Path("no file yet"), "", ""))
+        with at("joint_area" if "joint_area" in texts else ""):
             if body is not None:
                 asked = [each for each in question.ask if not isinstance(each, Theories)]
                 question = evolve(question, body=body, reading=Reading(), ask=asked)
-        return question, said
+        return question, texts
 
-    (question, said), refused = used_in(arguments, read)
+    (question, texts), refused = used_in(arguments, read)
     of = ", of what lies at the surfaces" if question.coated else ""
     rows = [["contact modulus E*", up_to_three_digits(question.modulus, None, "Pa") + of]]
     pair, notes = question.pair, ["a contact modulus alone gives the curve, and no answers"]
@@ -66,43 +66,43 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         "tables": {"measured-bodies": [["", ""], rows]},
         "lists": {"loads": meanings, "bodies-notes": notes},
         "words": {
-            "line-preparation": _line_of_preparation(said),
-            "line-bodies": _line_of_bodies(question, said),
+            "line-preparation": _preparation_line(texts),
+            "line-bodies": _bodies_line(question, texts),
         },
     }
     return frame(header)
 
 
-def _line_of_preparation(said: Said) -> str:
+def _preparation_line(texts: ControlTexts) -> str:
     """What is done to the topography, in one line."""
-    trend = said.get("trend", "default")
+    trend = texts.get("trend", "default")
     removed = {"default": "tilt", "none": "no trend"}.get(trend, trend)
-    others = _others(said, "preparation", "trend")
+    others = _others(texts, "preparation", "trend")
     return ", ".join([f"{removed} removed", "missing points filled", *others])
 
 
-def _line_of_bodies(question: Question, said: Said) -> str:
+def _bodies_line(question: Question, texts: ControlTexts) -> str:
     """What is pressed under which loads, in one line."""
     pair = question.pair
     pressed = f"E* = {up_to_three_digits(question.modulus, None, 'Pa')}"
     if pair is not None:
         pressed = f"{pair.first.name} {'against' if pair.coated else 'on'} {pair.second.name}"
     loads = ", ".join(question.loading.headings) or f"{DEFAULT_LOADS} loads"
-    return ", ".join([pressed, loads, *_others(said, "bodies", "loads")])
+    return ", ".join([pressed, loads, *_others(texts, "bodies", "loads")])
 
 
-def _others(said: Said, step: str, told: str) -> list[str]:
+def _others(texts: ControlTexts, step: str, stated: str) -> list[str]:
     """What else is set in a step, less a control that is told."""
     found = []
     for key in chain(*c.STEPS[step].values()):
-        usual = key in c.CHOICES and said.get(key) == c.CHOICES[key].default
-        if key in said and key != told and not usual:
-            field, text = c.BY_CONTROL[key], said[key]
-            shown = field.choices[text][1] if field.choices else text
+        usual = key in c.CHOICES and texts.get(key) == c.CHOICES[key].default
+        if key in texts and key != stated and not usual:
+            field, text = c.BY_CONTROL[key], texts[key]
+            words = field.choices[text][1] if field.choices else text
             if key == "theories":
                 names = EXPLORED[key].options
-                shown = " and ".join(names.get(each, each) for each in re.split(r"\s*,\s*", text))
-            found.append(f"{field.label or key.replace('_', ' ')} {shown}")
+                words = " and ".join(names.get(each, each) for each in re.split(r"\s*,\s*", text))
+            found.append(f"{field.label or key.replace('_', ' ')} {words}")
     return found
 
 

@@ -17,7 +17,7 @@ BODIES = {key: (field, text) for field in FIELDS for key, text in field.texts.it
 """Fields that say what is pressed, which have several texts or exclude each other, and their texts,
 by the keys of these."""
 
-_GIVEN_BY = Choice(
+_BODIES_BY = Choice(
     key="bodies",
     name="bodies given by",
     options={"materials": "two materials", "modulus": "contact modulus"},
@@ -28,14 +28,14 @@ CHOICES = {
     key: Choice(
         key=key,
         name=field.label or key,
-        options={word: shown for word, (_, shown) in field.choices.items()},
+        options={word: word_on_page for word, (_, word_on_page) in field.choices.items()},
         default=next(iter(field.choices)),
         meaning=field.help,
     )
     for key, field in BY_CONTROL.items()
     if field.choices
 }
-CHOICES["bodies"] = _GIVEN_BY
+CHOICES["bodies"] = _BODIES_BY
 """Controls of which one of several words is chosen."""
 
 BEGINS = {key: text.begins for key, (_, text) in BODIES.items()}

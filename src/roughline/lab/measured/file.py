@@ -11,17 +11,17 @@ from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
 from roughline.errors.words import speaking
 from roughline.lab.frames import drawn
-from roughline.lab.measured.kept import kept
-from roughline.lab.measured.pictures import of_file, of_preparation
+from roughline.lab.measured.cache import cached
+from roughline.lab.measured.pictures import file_pictures, preparation_pictures
 from roughline.lab.measured.state import (
     CONTROLS,
-    Said,
+    ControlTexts,
     Source,
     at,
-    preparation_of,
-    reading_of,
-    said_of,
-    source_of,
+    control_texts,
+    first_source,
+    page_preparation,
+    page_reading,
     used_in,
 )
 from roughline.lab.server.tasks import Arguments, Progress
@@ -40,7 +40,7 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
     found, refused, _ = _described(arguments, "file")
     content = found.measurement
     header = {
-        "name": source_of(said_of(arguments), arguments["session"]).name,
+        "name": first_source(control_texts(arguments), arguments["session"]).name,
         "refused": refused,
         "asks": {
             "unit": content.unit is None,
@@ -52,7 +52,7 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
         "tables": {"measured-roughness": [["", ""], description_table(found, up_to_three_digits)]},
         "lists": {"obstacles": found.obstacles, "remarks": _remarks(found)},
     }
-    return drawn(header, *of_file(found))
+    return drawn(header, *file_pictures(found))
 
 
 @speaking(CONTROLS)
@@ -71,15 +71,15 @@ def prepare(arguments: Arguments, progress: Progress) -> bytes:
         "lists": obstacles | {"prepared-remarks": _remarks(found)},
         "tables": {"measured-prepared": [["", "before", "after"], rows]},
     }
-    whole = before.body or body
+    uncropped = before.body or body
     corner = (crop or (0.0, 0.0, 0.0, 0.0))[::2]
     if cutoff := body.provenance.low_pass:
-        inner = inner_points(replace(whole, is_cut_out=body.is_cut_out), cutoff)
+        inner = points_kept(replace(uncropped, is_cut_out=body.is_cut_out), cutoff)
         corner = [
             start + each.start * step
-            for start, each, step in zip(corner, inner, point_spacings(whole), strict=False)
+            for start, each, step in zip(corner, inner, point_spacings(uncropped), strict=False)
         ]
-    return drawn(header, *of_preparation(whole, body, corner))
+    return drawn(header, *preparation_pictures(uncropped, body, corner))
 
 
 def _described(
@@ -87,43 +87,43 @@ def _described(
 ) -> tuple[Description, dict[str, str], Sequence[float] | None]:
     """The file of a page, prepared or as read; which texts are not used and why; the crop. [m]"""
     session = arguments["session"]
-    source = source_of(said_of(arguments), session)
+    source = first_source(control_texts(arguments), session)
 
-    def read(said: Said) -> tuple[Description, Preparation | None]:
+    def read(texts: ControlTexts) -> tuple[Description, Preparation | None]:
         with at(key):
             is_prepared = key == "preparation"
-            found = described(said, source, session, is_prepared=is_prepared)
-            return found, preparation_of(said) if is_prepared else None
+            found = described(texts, source, session, is_prepared=is_prepared)
+            return found, page_preparation(texts) if is_prepared else None
 
     (found, preparation), refused = used_in(arguments, read)
     return found, refused, None if preparation is None else preparation.crop
 
 
 def described(
-    said: Said, source: Source, session: Mapping[str, Any], *, is_prepared: bool = False
+    texts: ControlTexts, source: Source, session: Mapping[str, Any], *, is_prepared: bool = False
 ) -> Description:
     """Describe a file, prepared or as it is read."""
-    reading = reading_of(said, source.name)
-    preparation = preparation_of(said) if is_prepared else None
-    content = kept(
+    reading = page_reading(texts, source.name)
+    preparation = page_preparation(texts) if is_prepared else None
+    content = cached(
         session,
         "measurement",
         (source.key, reading.channel),
         lambda: measurement(source.path, reading.channel, source.name),
     )
 
-    def body_of(piece: Measurement, reading: Reading, rest: Preparation | None) -> Body:
+    def read_body(piece: Measurement, reading: Reading, rest: Preparation | None) -> Body:
         """The body as it is read; kept, because filling missing points loads slowly."""
         crop = preparation.crop if preparation else None
         keeps_trend = rest is not None and rest.trend is not None
-        return kept(
+        return cached(
             session,
             "body",
             (source.key, reading, crop, keeps_trend),
             lambda: measured_body(piece, reading, rest),
         )
 
-    return describe_measurement(source.path, content, reading, preparation, body_of=body_of)
+    return describe_measurement(source.path, content, reading, preparation, body_of=read_body)
 
 
 def _remarks(found: Description) -> list[str]:

@@ -16,10 +16,10 @@ from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import (
     CONTROLS,
-    preparation_of,
-    reading_of,
-    said_of,
-    sources_of,
+    control_texts,
+    page_preparation,
+    page_reading,
+    page_sources,
     used_in,
 )
 from roughline.lab.panels import Filled, Points
@@ -28,15 +28,15 @@ from roughline.report.answers import leading_keys, written_unit
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
 from roughline.report.values import figure, up_to_three_digits, written_scale
 
-_SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
+_GIVEN_WITHIN = 1e-9  # relative range up to which an answer was given and did not come out
 
 
 @speaking(CONTROLS)
 def maps(arguments: Arguments, progress: Progress) -> bytes:
     """Each map of a part as it is read and prepared, or why it is refused."""
-    sources = sources_of(said_of(arguments), arguments["session"])
+    sources = page_sources(control_texts(arguments), arguments["session"])
     (reading_of_all, preparation), refused = used_in(
-        arguments, lambda said: (reading_of(said, None), preparation_of(said))
+        arguments, lambda texts: (page_reading(texts, None), page_preparation(texts))
     )
     rows = []
     for i, source in enumerate(sources):
@@ -51,7 +51,7 @@ def maps(arguments: Arguments, progress: Progress) -> bytes:
     return frame({"maps": rows, "refused": refused})
 
 
-def part_in_words(part: PartAssessment, shown: int) -> dict[str, Any]:
+def part_in_words(part: PartAssessment, chosen: int) -> dict[str, Any]:
     """Names and tables of the maps of a part, of which one is shown alone, and its drawings."""
     tables = {
         "measured-part-leading": leading_table(part, up_to_three_digits),
@@ -63,9 +63,9 @@ def part_in_words(part: PartAssessment, shown: int) -> dict[str, Any]:
     for answer in map(part.answers.get, (*leading, *others)):
         assert answer is not None
         values = np.array([each.values[part.largest] for each in answer.of_maps])
-        if np.ptp(values) > _SAME * np.max(values):  # those that differ between the maps
+        if np.ptp(values) > _GIVEN_WITHIN * np.max(values):  # those that differ between the maps
             drawn[f"{answer.name} {answer.symbol}"] = vars(_panel(part, answer, values))
-    maps = {"names": part.names, "shown": shown}
+    maps = {"names": part.names, "shown": chosen}
     return {"part": maps, "tables": tables, "choices": {"part": drawn}}
 
 
@@ -75,13 +75,13 @@ def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]
     factor, unit = written_scale(float(np.nanmax(values)), written_unit(answer))
     unit, (low, high) = unit.strip(), (end * factor for end in answer.ends_of_maps(load))
     values, mean = values * factor, float(answer.mean[load]) * factor
-    whole = [float(end[load]) * factor for end in (answer.low, answer.high)]
-    cells = zip([*values, mean], [*low, whole[0]], [*high, whole[1]], strict=True)
+    interval = [float(end[load]) * factor for end in (answer.low, answer.high)]
+    cells = zip([*values, mean], [*low, interval[0]], [*high, interval[1]], strict=True)
     rows = [[f"{figure(each)} {unit}".strip() for each in row] for row in cells]
     ends = (0.5, count + 0.5)
     series: dict[str, Points] = {
         "maps": {"x": np.arange(1, count + 1), "y": values, "low": low, "high": high},
-        "mean": {"x": ends, "y": 2 * [mean], "low": 2 * whole[:1], "high": 2 * whole[1:]},
+        "mean": {"x": ends, "y": 2 * [mean], "low": 2 * interval[:1], "high": 2 * interval[1:]},
     }
     return Filled.fitted(
         series,

@@ -30,24 +30,24 @@ Panels = dict[str, Filled]
 Maps = dict[str, Map]
 """Maps by the words that choose them; the first of those beside each other is `height`."""
 
-_MOST_MARKED = 2000  # spikes, and missing points of a line
+_MOST_MARKED_POINTS = 2000  # spikes, and missing points of a line
 _MOST_SPOTS = 100  # points in contact that are marked
 _MOST_LINE_POINTS = 8000  # that are drawn
-_MOST = (0.1, 99.9)  # of heights, without spikes [%]
-_SHARES = {"lowest": 0, "lowest tenth below": 10, "median": 50, "highest tenth above": 90}
+_HEIGHT_PERCENTILES = (0.1, 99.9)  # without spikes
+_PERCENTILES = {"lowest": 0, "lowest tenth below": 10, "median": 50, "highest tenth above": 90}
 
 
-def of_file(found: Description) -> tuple[Panels, Maps]:
+def file_pictures(found: Description) -> tuple[Panels, Maps]:
     """Heights as the file has them, its spikes marked where there is a body, and its spectrum."""
     content, body = found.measurement, found.body
     metres = metres_per(content.unit) if content.unit else None
     heights = np.array(np.ma.getdata(content.heights), dtype=np.float64)
     heights[content.unknown] = np.nan
     spikes = np.zeros(heights.shape, bool)
-    told = "spikes are looked for once unit and size are known"
+    remark = "spikes are looked for once unit and size are known"
     if body is not None and body.heights.shape == heights.shape:
         spikes = outliers(body)
-        told = f"{np.count_nonzero(spikes)} spikes"
+        remark = f"{np.count_nonzero(spikes)} spikes"
     sides = content.sizes or tuple(map(float, heights.shape))
     otherwise = "unit not stated" if content.sizes else "points"
     aside = metres_per(content.unit_of_sides) if content.unit_of_sides else metres
@@ -55,23 +55,23 @@ def of_file(found: Description) -> tuple[Panels, Maps]:
     up = _scale(_largest(np.abs(heights)), metres, "unit not stated")
     panels = _spectrum(found)
     if heights.ndim == 2:
-        caption = f"orange: missing points; rings: spikes; {told}"
-        rings = _shares(spikes, _MOST_MARKED)
+        caption = f"orange: missing points; rings: spikes; {remark}"
+        rings = _shares(spikes, _MOST_MARKED_POINTS)
         return panels, {"height": _map(heights, sides, along, up, caption=caption, rings=rings)}
     heights *= up[0]
     x = _places(heights.size, sides[0] * along[0])
-    missing = x[np.isnan(heights)][:_MOST_MARKED]
+    missing = x[np.isnan(heights)][:_MOST_MARKED_POINTS]
     foot = np.full(missing.size, np.nanmin(heights, initial=np.inf))
     series = {
         "heights": _line(x, heights),
-        "spikes": _xy(x[spikes][:_MOST_MARKED], heights[spikes][:_MOST_MARKED]),
+        "spikes": _xy(x[spikes][:_MOST_MARKED_POINTS], heights[spikes][:_MOST_MARKED_POINTS]),
         "missing": _xy(missing, foot),
     }
-    panels["file-line"] = _along(series, along, up, rows=_rows(heights, up[1]), caption=told)
+    panels["file-line"] = _along(series, along, up, rows=_rows(heights, up[1]), caption=remark)
     return panels, {}
 
 
-def of_preparation(before: Body, after: Body, corner: Sequence[float]) -> tuple[Panels, Maps]:
+def preparation_pictures(before: Body, after: Body, corner: Sequence[float]) -> tuple[Panels, Maps]:
     """Heights before, and after from a corner of these [m], with the same units and colours."""
     heights, sides = [_about_mean(each) for each in (before, after)], side_lengths(before)
     along, up = _scale(max(sides), 1.0), _scale(_largest(np.abs(heights[0])), 1.0)
@@ -93,13 +93,15 @@ def of_preparation(before: Body, after: Body, corner: Sequence[float]) -> tuple[
         _map(each, side_lengths(body), along, up, caption=caption)
         for each, body, caption in zip(heights, (before, after), captions, strict=True)
     )
-    lows, highs = np.transpose([np.percentile(each * up[0], _MOST) for each in heights])
+    lows, highs = np.transpose(
+        [np.percentile(each * up[0], _HEIGHT_PERCENTILES) for each in heights]
+    )
     low, high = float(lows.min()), float(highs.max())
     second = replace(second, low=low, high=high, corner=corner)
     return {}, {"height": replace(first, low=low, high=high), "after": second}
 
 
-def of_contact(result: Assessment) -> Maps:
+def contact_pictures(result: Assessment) -> Maps:
     """The topography, and the contact at the load by what it shows."""
     surface = result.body
     if not isinstance(surface, Surface):
@@ -107,14 +109,14 @@ def of_contact(result: Assessment) -> Maps:
     along, heights = _scale(max(surface.sizes), 1.0), _about_mean(surface)
     up = _scale(_largest(np.abs(heights)), 1.0)
     topography = _map(heights, surface.sizes, along, up, caption="heights about their mean")
-    kept = loads_with_fields(result.curve)
-    if not kept:
+    pressed = loads_with_fields(result.curve)
+    if not pressed:
         return {"height": topography}
-    shown, fields = kept[0]
+    load_number, fields = pressed[0]
     force = up_to_three_digits(
-        float(result.curve_over_loads.force[shown]) * result.scale, None, "N"
+        float(result.curve_over_loads.force[load_number]) * result.scale, None, "N"
     )
-    load = f"corrected area {area_in_words(result, shown, up_to_three_digits)} at {force}"
+    load = f"corrected area {area_in_words(result, load_number, up_to_three_digits)} at {force}"
     maps = contact_maps(
         fields,
         pressure=prefix(_largest(fields.pressure), "Pa"),
@@ -137,12 +139,12 @@ def of_contact(result: Assessment) -> Maps:
     spots = _shares(fields.contact, _MOST_SPOTS + 1)
     spots = spots if len(spots) <= _MOST_SPOTS else []
     for name, each in maps.items():
-        rings, told = each.rings or spots, [each.caption, load]
-        told += ["rings: the few points that touch"] if spots and rings is spots else []
+        rings, captions = each.rings or spots, [each.caption, load]
+        captions += ["rings: the few points that touch"] if spots and rings is spots else []
         maps[name] = replace(
             each,
             values=thinned(each.values) if each.title else any_marked(each.values),
-            caption="; ".join(filter(None, told)),
+            caption="; ".join(filter(None, captions)),
             rings=rings,
             table=(["quantity", "value"], rows),
             **_frame(surface.sizes, along),
@@ -150,16 +152,16 @@ def of_contact(result: Assessment) -> Maps:
     return {"height": topography, **maps}
 
 
-def of_curve(result: Assessment) -> Panels:
+def curve_panels(result: Assessment) -> Panels:
     """Stiffness and area over force with their intervals, and theories beside them."""
     curve, solved, scale = result.curve_over_loads, result.curve.converged, result.scale
     per_newton, force_unit = prefix(scale * _largest(curve.force[solved]), "N")
     per_stiffness, unit = prefix(scale * _largest(curve.stiffness[solved]), "N/m")
     labels = {"stiffness": f"stiffness k [{unit}]", "area": "real contact area A / A₀"}
     factors = {"stiffness": scale * per_stiffness, "area": 1.0}
-    drawn = {"stiffness": _of_loads(result, curve.stiffness, result.stiffness_interval)}
+    drawn = {"stiffness": _load_points(result, curve.stiffness, result.stiffness_interval)}
     if isinstance(curve, SurfaceCurve):
-        drawn["area"] = _of_loads(result, curve.area_fraction_corrected, result.area_interval)
+        drawn["area"] = _load_points(result, curve.area_fraction_corrected, result.area_interval)
     if isinstance(curve, SurfaceCurve) and curve.hardness is not None:
         unloading = _xy(curve.force[solved], curve.unloading_stiffness[solved])
         drawn["stiffness"]["unloading"] = unloading
@@ -173,32 +175,32 @@ def of_curve(result: Assessment) -> Panels:
     panels = {}
     for key, series in drawn.items():
         by = {"x": scale * per_newton}
-        shown = {
+        scaled = {
             name: {axis: values * by.get(axis, factors[key]) for axis, values in points.items()}
             for name, points in series.items()
         }
         axes = (f"force F{on} [{force_unit}]", labels[key])
-        panels[key] = Filled.fitted(shown, axes=axes, columns=columns, rows=rows)
+        panels[key] = Filled.fitted(scaled, axes=axes, columns=columns, rows=rows)
     return panels
 
 
-def _of_loads(result: Assessment, values: _Real, ends: Ends | None) -> dict[str, Points]:
+def _load_points(result: Assessment, values: _Real, ends: Ends | None) -> dict[str, Points]:
     """A quantity over the loads that were solved, with its interval. [N, SI]"""
     curve = result.curve_over_loads
     asked = np.isin(np.arange(curve.force.size), result.asked)
     kinds = {"loads": curve.resolved, "unsure": ~curve.resolved, "asked": asked}
     masks = {kind: curve.converged & some for kind, some in kinds.items()}
     masks["line"] = curve.converged
-    series = {kind: _xy(curve.force[kept], values[kept]) for kind, kept in masks.items()}
+    series = {kind: _xy(curve.force[mask], values[mask]) for kind, mask in masks.items()}
     if ends is not None:
         low, high = ends
-        kept = curve.converged & (low > 0) & np.isfinite(high)
+        mask = curve.converged & (low > 0) & np.isfinite(high)
         inside = _xy(curve.force, values) | {"low": low, "high": high}
-        series["interval"] = {axis: each[kept] for axis, each in inside.items()}
+        series["interval"] = {axis: each[mask] for axis, each in inside.items()}
     return series
 
 
-def of_models(found: ModelComparison) -> Panels:
+def model_panels(found: ModelComparison) -> Panels:
     """Stiffness of both models over force, with the intervals of their means."""
     result, columns, rows = found.comparison, *comparison_table(found)
     full, reduced = result.full.mean, result.reduced
@@ -212,10 +214,10 @@ def of_models(found: ModelComparison) -> Panels:
 
 def _map(heights: _Real, sides: Sequence[float], along: Scale, up: Scale, **others: Any) -> Map:
     """A map of heights; a missing point shows in each pixel that has one."""
-    unknown, shown = any_marked(~np.isfinite(heights)), thinned(heights) * up[0]
-    shown[unknown[: shown.shape[0], : shown.shape[1]]] = np.nan
+    unknown, pixels = any_marked(~np.isfinite(heights)), thinned(heights) * up[0]
+    pixels[unknown[: pixels.shape[0], : pixels.shape[1]]] = np.nan
     others |= {"table": (["heights", ""], _rows(heights * up[0], up[1])), **_frame(sides, along)}
-    return height_map(shown, up[1], blank="here", **others)
+    return height_map(pixels, up[1], blank="here", **others)
 
 
 def _frame(sides: Sequence[float], along: Scale) -> dict[str, Any]:
@@ -267,7 +269,7 @@ def _rows(heights: _Real, unit: str) -> list[list[str]]:
     unit = "" if unit == "unit not stated" else unit
     return [
         [name, f"{figure(float(np.percentile(known, share)))} {unit}"]
-        for name, share in (_SHARES | {"highest": 100}).items()
+        for name, share in (_PERCENTILES | {"highest": 100}).items()
     ]
 
 

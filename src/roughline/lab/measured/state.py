@@ -25,18 +25,18 @@ from roughline.topography.preparation import Preparation
 
 _FILES = ("file", "example")
 _KNOWN = (*_FILES, *c.KEYS)
-_OF_ARGUMENTS = {each.name: (key,) for key, each in c.BY_CONTROL.items()} | {
+_CONTROL_KEYS = {each.name: (key,) for key, each in c.BY_CONTROL.items()} | {
     field.name: tuple(field.texts) for field, _ in c.BODIES.values()
 }
 """Keys of controls by the names of arguments."""
 
-_SHOWN = dict(pair for field in c.BY_CONTROL.values() for pair in field.choices.values())
+_CHOICE_WORDS = dict(pair for field in c.BY_CONTROL.values() for pair in field.choices.values())
 """What the page calls the values of choices."""
 
 CONTROLS = Words(
     names_by(lambda field: field.word or field.label or field.control.replace("_", " "))
     | {"forces": "loads"},
-    lambda text: f'"{_SHOWN.get(text, text)}"',
+    lambda text: f'"{_CHOICE_WORDS.get(text, text)}"',
 )
 """What the page calls arguments of the library: its controls."""
 
@@ -46,11 +46,11 @@ _DEFAULTS = {key: each.default for key, each in c.CHOICES.items()} | {
 """Of controls that mean something without a text."""
 _NEEDED = {key: c.BEGINS[key] for key in c.BODIES}
 """Of controls without whose text there is no answer: what is used while there is none."""
-_MOST = {"points": c.MOST_POINTS, "loads": 20}
+_MOST_VALUES = {"points": c.MOST_POINTS, "loads": 20}
 """Largest numbers, or most texts, that this lab takes, by the names of fields."""
 
 _Read = TypeVar("_Read")
-Said = Mapping[str, str]
+ControlTexts = Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -62,17 +62,19 @@ class Source:
     key: str  # by which the page knows it
 
 
-def said_of(arguments: Arguments) -> Said:
+def control_texts(arguments: Arguments) -> ControlTexts:
     """The texts of the controls by their keys; empty ones are as if they were not there.
 
     One that has no place here is refused, and a link of another version.
     """
-    said = sent_texts(arguments)
-    refuse_strange(said, _KNOWN)
-    return {key: text.strip() for key, text in said.items() if text.strip()}
+    texts = sent_texts(arguments)
+    refuse_strange(texts, _KNOWN)
+    return {key: text.strip() for key, text in texts.items() if text.strip()}
 
 
-def used_in(arguments: Arguments, read: Callable[[Said], _Read]) -> tuple[_Read, dict[str, str]]:
+def used_in(
+    arguments: Arguments, read: Callable[[ControlTexts], _Read]
+) -> tuple[_Read, dict[str, str]]:
     """What is read of the texts that can be used, and why others are not, by control.
 
     What is wrong with the whole link, or not with the text of a control, is refused.
@@ -80,27 +82,27 @@ def used_in(arguments: Arguments, read: Callable[[Said], _Read]) -> tuple[_Read,
     settings = {key: text for key, text in sent_texts(arguments).items() if key not in _FILES}
     return usable(
         {**arguments, "state": settings},
-        lambda texts: read(said_of({"state": texts})),
+        lambda texts: read(control_texts({"state": texts})),
         lambda found: _DEFAULTS,
         _NEEDED,
     )
 
 
-def source_of(said: Said, session: Mapping[str, Any]) -> Source:
+def first_source(texts: ControlTexts, session: Mapping[str, Any]) -> Source:
     """The file that a page means, or the first of them."""
-    return sources_of(said, session)[0]
+    return page_sources(texts, session)[0]
 
 
-def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
+def page_sources(texts: ControlTexts, session: Mapping[str, Any]) -> list[Source]:
     """The files that a page means, unless one is gone: several are maps of one part."""
-    if key := said.get("example"):
+    if key := texts.get("example"):
         if key not in EXAMPLES:
             raise ControlError(
                 f'there is no example "{key[:40]}"; there are {", ".join(EXAMPLES)}', "file"
             )
         path = path_of(key, Path(session["folder"]) / "results")
         return [Source(path, EXAMPLES[key].file, key)]
-    keys = said.get("file", "").split(",")
+    keys = texts.get("file", "").split(",")
     paths = [session["files"].get(key) for key in keys]
     if None in paths:
         which = "the file is" if len(paths) == 1 else "one of the files is"
@@ -112,27 +114,27 @@ def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
     ]
 
 
-def told_in(said: Said, *groups: str) -> dict[str, Any]:
+def field_values(texts: ControlTexts, *groups: str) -> dict[str, Any]:
     """What the controls of the fields in some groups tell, by the names of the fields."""
-    given = {}
+    values = {}
     for key, field in c.BY_CONTROL.items():
-        text = said.get(key)
+        text = texts.get(key)
         if groups and field.group not in groups:
             continue
         if field.choices:
-            given[field.name] = field.choices[c.CHOICES[key].read(text or _DEFAULTS[key])][0]
+            values[field.name] = field.choices[c.CHOICES[key].read(text or _DEFAULTS[key])][0]
         elif text is not None:
             with at(key):
-                given[field.name] = value = field.value(_split(text, field.separator))
+                values[field.name] = value = field.value(_split(text, field.separator))
                 refuse_alone(field, value)
                 count = len(value) if isinstance(value, list) else value
-                if field.name in _MOST and count > _MOST[field.name]:
-                    most = _MOST[field.name]
+                if field.name in _MOST_VALUES and count > _MOST_VALUES[field.name]:
+                    most = _MOST_VALUES[field.name]
                     raise ControlError(
                         f"{field.label or key}: {count} are too many; this lab takes up to {most}",
                         key,
                     )
-    return given
+    return values
 
 
 def _split(text: str, separator: str) -> str | list[str]:
@@ -142,42 +144,42 @@ def _split(text: str, separator: str) -> str | list[str]:
     return [part.strip() for part in re.split(rf"{separator}|,\s", text) if part.strip()]
 
 
-def reading_of(said: Said, name: str | None) -> Reading:
+def page_reading(texts: ControlTexts, name: str | None) -> Reading:
     """How the file is read."""
-    return from_fields.build_reading(told_in(said, FILE), name)
+    return from_fields.build_reading(field_values(texts, FILE), name)
 
 
-def preparation_of(said: Said) -> Preparation | None:
+def page_preparation(texts: ControlTexts) -> Preparation | None:
     """What is done to the topography; None where nothing is set, as on the command line."""
-    return from_fields.build_preparation(told_in(said, PREPARATION))
+    return from_fields.build_preparation(field_values(texts, PREPARATION))
 
 
-def question_of(said: Said, source: Source) -> Question:
+def page_question(texts: ControlTexts, source: Source) -> Question:
     """The question that the page asks of one of its files."""
-    given = bodies_of(said) | told_in(said) | {"whole_curve": bool(loads_of(said))}
+    values = body_values(texts) | field_values(texts) | {"whole_curve": bool(typed_loads(texts))}
     with at(""):
-        return from_fields.build_question(source.path, given, source.name)
+        return from_fields.build_question(source.path, values, source.name)
 
 
-def bodies_of(said: Said) -> dict[str, Any]:
+def body_values(texts: ControlTexts) -> dict[str, Any]:
     """Two materials, or a contact modulus, as a question takes them."""
-    by_modulus = c.CHOICES["bodies"].read_in(said) == "modulus"
-    name, given = "E_star" if by_modulus else "materials", []
+    by_modulus = c.CHOICES["bodies"].read_in(texts) == "modulus"
+    name, values = "E_star" if by_modulus else "materials", []
     for key, (field, text) in c.BODIES.items():
         if field.name != name:
             continue
         with at(key):
-            if key not in said:
+            if key not in texts:
                 raise ControlError(f'give the {text.label}, such as "{text.begins}"', key)
             if by_modulus:
-                refuse_alone(field, said[key])
-            given.append(said[key] if by_modulus else material(said[key]))
-    return {name: given[0] if by_modulus else tuple(given)}
+                refuse_alone(field, texts[key])
+            values.append(texts[key] if by_modulus else material(texts[key]))
+    return {name: values[0] if by_modulus else tuple(values)}
 
 
-def loads_of(said: Said) -> list[str]:
+def typed_loads(texts: ControlTexts) -> list[str]:
     """The loads, as they were typed."""
-    return list(told_in(said, LOADS).get("loads", ()))
+    return list(field_values(texts, LOADS).get("loads", ()))
 
 
 @contextmanager
@@ -187,6 +189,6 @@ def at(key: str) -> Iterator[None]:
         yield
     except rl.RoughlineError as error:
         about = [getattr(error, "argument", None), *getattr(error, "others", ())]
-        keys = [each for name in about for each in _OF_ARGUMENTS.get(name or "", (name,))]
+        keys = [each for name in about for each in _CONTROL_KEYS.get(name or "", (name,))]
         among = getattr(error, "among", [key for key in keys if key in c.KEYS] or [key])
         raise ControlError(str(error), *among) from None

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from roughline.lab.measured.kept import kept
+from roughline.lab.measured.cache import cached
 
 
 @pytest.fixture
@@ -18,17 +18,17 @@ def never():
 
 
 def test_a_question_that_was_asked_before_is_not_computed_again(session):
-    assert kept(session, "body", ("file", 1), lambda: "made") == "made"
-    assert kept(session, "body", ("file", 1), never) == "made"
-    assert kept(session, "body", ("file", 2), lambda: "other") == "other"
+    assert cached(session, "body", ("file", 1), lambda: "made") == "made"
+    assert cached(session, "body", ("file", 1), never) == "made"
+    assert cached(session, "body", ("file", 2), lambda: "other") == "other"
 
 
 def test_the_oldest_goes(session, tmp_path):
     for number in range(5):
-        kept(session, "body", number, lambda: "made")
+        cached(session, "body", number, lambda: "made")
         time.sleep(0.02)
     assert len(list(tmp_path.iterdir())) == 3
-    assert kept(session, "body", 0, lambda: "anew") == "anew"
+    assert cached(session, "body", 0, lambda: "anew") == "anew"
 
 
 @pytest.mark.parametrize("refused", ["replace", "unlink"])
@@ -37,7 +37,7 @@ def test_files_that_another_process_reads_hinder_nothing_on_windows(
 ):
     """There a file that is open can be neither replaced nor deleted."""
     for number in range(3):
-        kept(session, "body", number, lambda: "made")
+        cached(session, "body", number, lambda: "made")
     done = getattr(Path, refused)
 
     def refuses(path, *arguments, **options):
@@ -46,8 +46,8 @@ def test_files_that_another_process_reads_hinder_nothing_on_windows(
         return done(path, *arguments, **options)
 
     monkeypatch.setattr(Path, refused, refuses)
-    assert kept(session, "body", 7, lambda: "made") == "made"
+    assert cached(session, "body", 7, lambda: "made") == "made"
     monkeypatch.undo()
     assert all(path.suffix == ".pickle" for path in tmp_path.iterdir())
-    assert kept(session, "body", 8, lambda: "made") == "made"
+    assert cached(session, "body", 8, lambda: "made") == "made"
     assert len(list(tmp_path.iterdir())) == 3

@@ -12,11 +12,11 @@ from typing import Any, TypeVar
 
 Value = TypeVar("Value")
 
-_MOST = {"assessment": 1, "body": 3, "comparison": 1, "measurement": 3}
+_MOST_CACHED = {"assessment": 1, "body": 3, "comparison": 1, "measurement": 3}
 """How many are kept of each kind."""
 
 
-def kept(
+def cached(
     session: Mapping[str, Any],
     kind: str,
     asked: object,
@@ -44,7 +44,7 @@ def kept(
             begun.unlink()
         return made
     by_age = sorted(folder.glob(f"{kind}-*.pickle"), key=lambda each: each.stat().st_mtime)
-    for older in by_age[: -(most or _MOST[kind])]:
+    for older in by_age[: -(most or _MOST_CACHED[kind])]:
         with suppress(PermissionError):  # of Windows, while it is read; it goes with a later one
             older.unlink(missing_ok=True)
     return made
