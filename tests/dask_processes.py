@@ -63,8 +63,8 @@ def unhurried():
     """
     forked = dask.config.set({"distributed.worker.multiprocessing-method": "forkserver"})
     with pytest.MonkeyPatch.context() as patch, forked:
-        for name in ("_TO_ANSWER", "_PATIENCE"):
+        for name in ("_ANSWER_WITHIN", "_READY_WITHIN"):
             patch.setattr(cluster, name, patience())
         runs = importlib.import_module("roughline.campaign.run")
-        patch.setattr(runs, "_LONGEST_WITHOUT_WORKERS", patience())
+        patch.setattr(runs, "_LONGEST_WAIT_FOR_WORKERS", patience())
         yield

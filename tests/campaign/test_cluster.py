@@ -77,7 +77,7 @@ def test_an_address_that_makes_no_sense(plan, tmp_path, address):
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "tls://127.0.0.1:1", "127.0.0.1:1"])
 def test_a_scheduler_that_does_not_answer(plan, tmp_path, address, monkeypatch):
-    monkeypatch.setattr(cluster, "_TO_ANSWER", 0.3)
+    monkeypatch.setattr(cluster, "_ANSWER_WITHIN", 0.3)
     with pytest.raises(rl.ClusterError, match="no Dask scheduler answers at") as caught:
         campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
     assert "\n" not in str(caught.value)
@@ -95,7 +95,7 @@ def test_a_server_that_says_what_dask_takes_for_the_size_of_a_message(plan, tmp_
 
 
 def assert_is_no_scheduler(plan, tmp_path, monkeypatch, says):
-    monkeypatch.setattr(cluster, "_TO_ANSWER", 0.5)
+    monkeypatch.setattr(cluster, "_ANSWER_WITHIN", 0.5)
     ended = threading.Event()
 
     def serve():

@@ -47,8 +47,8 @@ def depths(request):
     """Let both ways have few depths, or all."""
     with pytest.MonkeyPatch.context() as patch:
         if request.param == "few depths":
-            patch.setattr(adhesion, "_THERE", 5)
-            patch.setattr(adhesion, "_AWAY", 10)
+            patch.setattr(adhesion, "_DEPTHS_IN", 5)
+            patch.setattr(adhesion, "_DEPTHS_OUT", 10)
         yield request.param
 
 
@@ -202,8 +202,8 @@ def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
 
 
 def test_a_saved_table_has_both_ways(tmp_path, monkeypatch):
-    monkeypatch.setattr(adhesion, "_THERE", 5)  # of many depths, each as long as the others
-    monkeypatch.setattr(adhesion, "_AWAY", 12)
+    monkeypatch.setattr(adhesion, "_DEPTHS_IN", 5)  # of many depths, each as long as the others
+    monkeypatch.setattr(adhesion, "_DEPTHS_OUT", 12)
     monkeypatch.setattr(pictures, "_CURVE_FORCES", np.geomspace(1e-3, 3, 3))
     rows = saved_is_shown(STICKS, tmp_path, "w")
     assert {name for panel, name in rows if panel == "cycle"} >= {"there", "back", "pull-off"}

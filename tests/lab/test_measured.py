@@ -28,7 +28,7 @@ from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.controls import BY_CONTROL
 from roughline.lab.measured.examples import EXAMPLES, path_of
 from roughline.lab.measured.state import CONTROLS, control_texts, first_source, page_question
-from roughline.lab.server.tasks import outcome_of
+from roughline.lab.server.tasks import run_task
 from roughline.lab.site import TASKS
 from roughline.report.answers import answer_table
 from roughline.report.comparison import comparison_table, verdict_in_words
@@ -99,7 +99,7 @@ class Page:
         if (key := state.get("example")) in EXAMPLES:
             self.example(key, self.folder / "results")
         arguments = {"state": state, "session": self.session, "crowded": False, **others}
-        return outcome_of(
+        return run_task(
             TASKS[f"measured.{task}"],
             arguments,
             lambda done, total: self.steps.append((done, total)),

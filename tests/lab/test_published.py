@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from roughline.lab.published import controls, state
-from roughline.lab.server.tasks import outcome_of
+from roughline.lab.server.tasks import run_task
 from roughline.lab.site import TASKS, page
 from roughline.paper.claims import judge_claims
 from roughline.paper.laws import exponent_estimate
@@ -21,7 +21,7 @@ SESSION = {"names": {}, "files": {}, "max_points": 64}
 
 def outcome(task, said=None, **more):
     arguments = {"state": said or {}, "session": SESSION, "crowded": False, **more}
-    return outcome_of(TASKS[f"published.{task}"], arguments, lambda done, total: None)
+    return run_task(TASKS[f"published.{task}"], arguments, lambda done, total: None)
 
 
 def ask(task, said=None, **more):
@@ -45,7 +45,7 @@ def test_the_controls_are_those_of_the_study(published_results):
     dimensions = paper_plan("full").ensemble(ENSEMBLE_FULL).fractal_dimensions
     assert dimensions == controls.DIMENSIONS
     assert tuple(published_results.full.fractal_dimension.values) == dimensions
-    default = state.state_of({})
+    default = state.read_state({})
     assert default.window("1D") == Windows().reduced
     assert default.window("3D") == Windows().full
 
@@ -202,11 +202,11 @@ def test_the_address_holds_all_that_is_chosen():
         **{"low_1D": "0.001", "high_1D": "0.1", "low_3D": "0.01", "high_3D": "0.5"},
         **{"tolerance": "0.05", "roll_off": "8", "map_D_f": "2.5", "map_F": "1"},
     }
-    chosen = state.state_of(said)
+    chosen = state.read_state(said)
     assert chosen.address() == said
-    assert state.state_of(chosen.address()) == chosen
-    default = state.state_of({})
-    assert state.state_of(default.address()) == default
+    assert state.read_state(chosen.address()) == chosen
+    default = state.read_state({})
+    assert state.read_state(default.address()) == default
 
 
 @pytest.mark.parametrize(("said", "words"), [({"v": "2"}, "version 1"), ({"seed": "3"}, '"seed"')])

@@ -8,7 +8,7 @@ import pytest
 
 from mutated_questions import SLOW, STATES, mutated
 from random_cases import cases
-from roughline.lab.server.tasks import Outcome, Place, outcome_of
+from roughline.lab.server.tasks import Outcome, Place, run_task
 from roughline.lab.site import TASKS
 
 MUTATIONS = cases(100, share=2)  # of each task
@@ -36,7 +36,7 @@ def test_every_question_is_answered_or_refused_in_one_line(task, session, capfd)
     for _ in range(MUTATIONS):
         asked = mutated(chance, STATES[task.partition(".")[0]])
         told = {**asked, "session": session, "crowded": chance.random() < 0.5}
-        outcome = outcome_of(TASKS[task], told, lambda done, total: None)
+        outcome = run_task(TASKS[task], told, lambda done, total: None)
         assert (outcome.answer is None) == bool(outcome.error), asked
         assert capfd.readouterr() == ("", ""), asked
         assert len(outcome.error) <= LONGEST, asked
@@ -50,7 +50,7 @@ def test_what_is_no_text_is_refused_at_its_control(task, session):
     state = STATES[task.partition(".")[0]]
     for key in state:
         told = {"state": state | {key: 3}, "session": session, "crowded": False}
-        outcome = outcome_of(TASKS[task], told, lambda done, total: None)
+        outcome = run_task(TASKS[task], told, lambda done, total: None)
         assert outcome == Outcome(
             error="this question is not one of the lab: reload the page", at=key
         )
@@ -58,7 +58,7 @@ def test_what_is_no_text_is_refused_at_its_control(task, session):
 
 def test_sides_beyond_all_floats_are_refused(session, capfd):
     told = {"state": STATES["measured"], "sides": [10**400, 1], "session": session}
-    outcome = outcome_of(TASKS["measured.bodies"], told, lambda done, total: None)
+    outcome = run_task(TASKS["measured.bodies"], told, lambda done, total: None)
     assert "give two positive, finite numbers" in outcome.error
     assert capfd.readouterr() == ("", "")
 
@@ -69,7 +69,7 @@ def mistaken(arguments, progress):
 
 
 def test_a_mistake_in_the_program_leaves_a_trace(session, capfd):
-    outcome = outcome_of(
+    outcome = run_task(
         Place(lambda name: mistaken, "mistaken"), {"session": session}, lambda *steps: None
     )
     assert "the terminal in which the lab was started shows more" in outcome.error

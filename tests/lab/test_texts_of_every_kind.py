@@ -13,7 +13,7 @@ from roughline.lab.measured import controls as measured
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import PublishedState
 from roughline.lab.published.state import read_state as published_state
-from roughline.lab.server.tasks import outcome_of
+from roughline.lab.server.tasks import run_task
 from roughline.lab.site import TASKS
 
 TEXTS = (
@@ -72,7 +72,7 @@ def ask(tmp_path_factory):
 
     def asked(task, state, **others):
         told = {"state": state, "session": session, **others}
-        outcome = outcome_of(TASKS[f"measured.{task}"], told, lambda done, total: None)
+        outcome = run_task(TASKS[f"measured.{task}"], told, lambda done, total: None)
         assert not outcome.error, (state, outcome.error)
         return unpacked(outcome.answer)[0]
 

@@ -61,7 +61,7 @@ def lab(
     from contextlib import ExitStack
 
     from roughline.lab.server.bounded_log import bounded_log
-    from roughline.lab.server.budget import memory_for_tasks, memory_of_one
+    from roughline.lab.server.budget import largest_task_memory, memory_for_tasks
     from roughline.lab.server.opening import open_page
     from roughline.lab.server.process import noted_interrupts, start_forking
     from roughline.lab.server.settings import ServerSettings, networks_in, password_in
@@ -72,7 +72,7 @@ def lab(
         if megabytes is not None:
             positive(name, megabytes, "a positive, finite number of MB is needed")
     memory = memory_for_tasks()
-    of_one = memory_of_one(memory, max_memory * _MB)
+    of_one = largest_task_memory(memory, max_memory * _MB)
     settings = ServerSettings(
         host=host,
         port=port,

@@ -10,7 +10,7 @@ import pytest
 import roughline as rl
 from lab.server.serving import lab_here, run, running_lab, upload
 from roughline.lab.server import budget
-from roughline.lab.server.budget import limits_within, memory_of_one
+from roughline.lab.server.budget import largest_task_memory, limits_within
 from roughline.lab.server.files import Disk, Files
 from roughline.lab.server.settings import ServerSettings
 
@@ -33,7 +33,7 @@ def test_tasks_that_run_at_once_never_have_more_memory_than_there_is(
         2 * cores + 2,
         max(20, cores + 1),
     )
-    assert slow.memory == memory_of_one(memory * GB, wished * GB) <= wished * GB
+    assert slow.memory == largest_task_memory(memory * GB, wished * GB) <= wished * GB
     assert slow.memory == wished * GB or slow.memory > 0.55 * memory * GB
     for each in (quick, slow):
         assert 1 <= each.count <= min(cores, each.most)
@@ -42,7 +42,7 @@ def test_tasks_that_run_at_once_never_have_more_memory_than_there_is(
 
 def test_a_machine_without_memory_for_one_task_is_told_so():
     with pytest.raises(rl.InputError, match=r"needs 1.6 GB of free memory, and there are 0.67 GB"):
-        memory_of_one(0.1 * GB, 4 * GB)
+        largest_task_memory(0.1 * GB, 4 * GB)
 
 
 def test_a_small_machine_starts_with_less_for_one_task(monkeypatch, capsys):

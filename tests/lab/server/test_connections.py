@@ -27,7 +27,7 @@ linux = pytest.mark.skipif(sys.platform != "linux", reason="addresses and limits
 HALF = b"GET / HTTP/1.1\r\nHo"
 PATIENT = (  # nobody has a place because others have waited too long
     "from roughline.lab.server import connections",
-    "connections._PATIENCE = 1e9",
+    "connections._REQUEST_WITHIN = 1e9",
 )
 FAILING = (
     "import json",
@@ -238,7 +238,11 @@ def clock(monkeypatch):
     """The clock of a server in this process, which has little patience."""
     found = Clock()
     monkeypatch.setattr(connections, "time", found)
-    for name, value in (("_PATIENCE", WAITS), ("_STALL", WAITS), ("_SPEED", LEAST / WAITS)):
+    for name, value in (
+        ("_REQUEST_WITHIN", WAITS),
+        ("_MOVED_INTERVAL", WAITS),
+        ("_LEAST_SPEED", LEAST / WAITS),
+    ):
         monkeypatch.setattr(connections, name, value)
     return found
 

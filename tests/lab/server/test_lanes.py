@@ -226,7 +226,7 @@ def test_a_stopped_task_frees_its_core(tmp_path):
 
 
 def test_long_tasks_let_others_start_beside_them(tmp_path, monkeypatch):
-    monkeypatch.setattr("roughline.lab.server.lanes._PATIENCE", 0.1)
+    monkeypatch.setattr("roughline.lab.server.lanes._LETS_PASS_AFTER", 0.1)
 
     async def scenario(lane, asker):
         marks = [tmp_path / f"{number}" for number in range(2)]
@@ -236,7 +236,7 @@ def test_long_tasks_let_others_start_beside_them(tmp_path, monkeypatch):
         asker.ask("echo", session="short", say="short")
         assert (await asker.of("slot")).answer.startswith(b"short")
         found = [psutil.Process(int(mark.read_text())) for mark in marks]
-        await becomes(lambda: [each.nice() for each in found] == [processes.LOWEST] * 2)
+        await becomes(lambda: [each.nice() for each in found] == [processes.LOWEST_PRIORITY] * 2)
 
     run(scenario, lasting=False)
 
@@ -293,7 +293,7 @@ def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
 
 
 def test_many_that_wait_are_told_to_the_task(monkeypatch):
-    monkeypatch.setattr(lanes, "_SOON", 1e9)  # who has waited long is told as well
+    monkeypatch.setattr(lanes, "_UNCROWDED_WAIT", 1e9)  # who has waited long is told as well
 
     async def scenario(lane, asker):
         for number in range(12):

@@ -63,7 +63,7 @@ async def opened(folder, **settings):
 @pytest.fixture(autouse=True)
 def _sweeps(monkeypatch):
     """Look often for what is over."""
-    monkeypatch.setattr(sessions, "_SWEEPS", 0.02)
+    monkeypatch.setattr(sessions, "_SWEEP_INTERVAL", 0.02)
 
 
 class Sweeps:
@@ -139,7 +139,7 @@ def test_answers_that_nobody_heard_are_kept_up_to_a_size(tmp_path):
 
 
 def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, monkeypatch):
-    monkeypatch.setattr(sessions, "_WAITS", 0.2)
+    monkeypatch.setattr(sessions, "_PAGE_WITHIN", 0.2)
 
     async def scenario(lab, server):
         async with lab.page() as page, lab.page() as bare:
@@ -168,7 +168,7 @@ def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(tmp_p
             await becomes(lambda: server.slow.requests)
         async with lab.page(before=page.token) as again:
             assert again.said["resumed"] is True
-            monkeypatch.setattr(sessions, "_RELOADS", 0.0)
+            monkeypatch.setattr(sessions, "_RELOAD_WITHIN", 0.0)
             before = sweeps.count
             await becomes(lambda: sweeps.count > before)
             assert server.slow.withdrawn == []

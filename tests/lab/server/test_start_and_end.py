@@ -179,9 +179,9 @@ def test_ctrl_c_while_modules_are_loaded_is_not_lost():
 @pytest.mark.parametrize("waits", [False, True], ids=["given up at once", "waited for"])
 def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch, waits):
     """Tornado waits some seconds for its answer when it is told that it is closed."""
-    monkeypatch.setattr("roughline.lab.server.handlers._PING", 0.3)
-    monkeypatch.setattr("roughline.lab.server.sessions._WAITS", 0.3)
-    monkeypatch.setattr("roughline.lab.server.sessions._SWEEPS", 0.02)
+    monkeypatch.setattr("roughline.lab.server.handlers._PONG_WITHIN", 0.3)
+    monkeypatch.setattr("roughline.lab.server.sessions._PAGE_WITHIN", 0.3)
+    monkeypatch.setattr("roughline.lab.server.sessions._SWEEP_INTERVAL", 0.02)
 
     async def scenario():
         lab = Server(site(), ServerSettings(), tmp_path)

@@ -13,7 +13,7 @@ import roughline as rl
 from roughline.contact import scaling
 from roughline.lab.controls import ControlError, Texts, usable
 from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
-from roughline.lab.published.state import PublishedState, Window, state_of
+from roughline.lab.published.state import ForceWindow, PublishedState, read_state
 from roughline.lab.server.tasks import Arguments
 from roughline.paper.laws import converged_stiffness
 from roughline.paper.mean_curve import MeanCurve, mean_curve
@@ -24,16 +24,16 @@ if TYPE_CHECKING:
     import xarray
 
 _PUNCHES = {"paper": scaling.PAPER_PUNCH, "exact": scaling.EXACT_PUNCH, "raw": 1.0}
-_SAME = 6e-3  # relative difference below which an edge that was typed is that of a load
+_ON_LOAD_WITHIN = 6e-3  # relative difference below which an edge that was typed is that of a load
 
 
 def usable_state(arguments: Arguments) -> tuple[PublishedState, dict[str, Any]]:
     """The state that a page asks about, and what its controls are told of it."""
 
     def read(texts: Texts) -> PublishedState:
-        state = state_of(texts)
+        state = read_state(texts)
         for model in MODELS:
-            window_of(state, model)
+            fitted_window(state, model)
         return state
 
     state, refused = usable(arguments, read, PublishedState.address)
@@ -46,7 +46,7 @@ def ensemble(model: ModelLabel, fractal_dimension: float) -> xarray.Dataset:
     return data.sel(fractal_dimension=fractal_dimension)
 
 
-def window_of(state: PublishedState, model: ModelLabel) -> Window:
+def fitted_window(state: PublishedState, model: ModelLabel) -> ForceWindow:
     """The window of a model, its edges on loads; one with too few loads is refused."""
     force = ensemble(model, 2.0).force_bar.values
     low, high = (_on_load(force, edge) for edge in state.window(model))
@@ -58,14 +58,14 @@ def window_of(state: PublishedState, model: ModelLabel) -> Window:
 
 
 @lru_cache(maxsize=64)
-def curve_of(model: ModelLabel, dimension: float, averaging: Any) -> MeanCurve:
+def stiffness_curve(model: ModelLabel, dimension: float, averaging: Any) -> MeanCurve:
     """The mean raw stiffness of one fractal dimension over force."""
     return mean_curve(ensemble(model, dimension), 1.0, averaging)
 
 
-def law_of(state: PublishedState, model: ModelLabel, dimension: float) -> PowerLaw:
+def normalised_law(state: PublishedState, model: ModelLabel, dimension: float) -> PowerLaw:
     """The power law of one fractal dimension in the window of its model, as it is normalised."""
-    law = _law(model, dimension, window_of(state, model), state.words["mean"])
+    law = _law(model, dimension, fitted_window(state, model), state.words["mean"])
     punch = _PUNCHES[state.words["punch"]] if model == "3D" else 1.0
     first, last = law.prefactor_interval
     return replace(
@@ -74,7 +74,7 @@ def law_of(state: PublishedState, model: ModelLabel, dimension: float) -> PowerL
 
 
 @lru_cache(maxsize=1024)
-def _law(model: ModelLabel, dimension: float, window: Window, averaging: Any) -> PowerLaw:
+def _law(model: ModelLabel, dimension: float, window: ForceWindow, averaging: Any) -> PowerLaw:
     one = ensemble(model, dimension)
     stiffness = converged_stiffness(one, window)
     return fit_power_law(one.force_bar.values, stiffness, window, averaging=averaging)
@@ -83,4 +83,4 @@ def _law(model: ModelLabel, dimension: float, window: Window, averaging: Any) ->
 def _on_load(force: NDArray[np.float64], edge: float) -> float:
     """An edge of a window; one that was rounded to three digits is that of its load again."""
     nearest = float(force[np.argmin(np.abs(np.log(force / edge)))])
-    return nearest if abs(nearest / edge - 1) < _SAME else edge
+    return nearest if abs(nearest / edge - 1) < _ON_LOAD_WITHIN else edge

@@ -10,8 +10,8 @@ import numpy as np
 from roughline.lab.frames import drawn
 from roughline.lab.panels import Filled
 from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
-from roughline.lab.published.ensembles import curve_of, law_of, usable_state
-from roughline.lab.published.state import PublishedState, Window
+from roughline.lab.published.ensembles import normalised_law, stiffness_curve, usable_state
+from roughline.lab.published.state import ForceWindow, PublishedState
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.paper.claim import at
 from roughline.paper.contact_area import SATURATED
@@ -24,7 +24,7 @@ from roughline.statistics.verdict import Case, Verdict, in_words, joint_verdict
 from roughline.statistics.window import inside_window
 
 _FORMULAS = {"1D": "1 / (4 - D_f)", "3D": "0.2567 D_f"}  # of the paper, that lead
-_OTHER = {"1D": "0.5 to 0.75 (§6)", "3D": _FORMULAS["3D"]}  # that the paper states, too
+_OTHER_MODEL = {"1D": "0.5 to 0.75 (§6)", "3D": _FORMULAS["3D"]}  # that the paper states, too
 _BODIES = {"1D": ("lines", "springs"), "3D": ("surfaces", "cells")}  # and what they carry loads by
 
 
@@ -40,8 +40,8 @@ class _Fit:
     @classmethod
     def of(cls, state: PublishedState, model: ModelLabel, dimension: float) -> _Fit:
         law, curve = (
-            law_of(state, model, dimension),
-            curve_of(model, dimension, state.words["mean"]),
+            normalised_law(state, model, dimension),
+            stiffness_curve(model, dimension, state.words["mean"]),
         )
         inside = inside_window(curve.force_bar, law.window)
         is_saturated = curve.mean[inside].max() >= SATURATED * curve.mean.max()
@@ -78,7 +78,7 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
         }
         answer["windows"][model] = window = state.window(model)
         answer["tables"][f"fit-{model}"] = {
-            "header": ["D_f", "α", "ζ", "paper: 1 / (4 - D_f)", f"paper: {_OTHER[model]}"],
+            "header": ["D_f", "α", "ζ", "paper: 1 / (4 - D_f)", f"paper: {_OTHER_MODEL[model]}"],
             "rows": [_row(model, each) for each in found],
         }
         answer["words"][f"error-{model}"] = next(refused, "")
@@ -123,7 +123,7 @@ def _doubt(found: list[_Fit]) -> str:
     )
 
 
-def _note(mean: str, window: Window, model: ModelLabel, found: list[_Fit]) -> str:
+def _note(mean: str, window: ForceWindow, model: ModelLabel, found: list[_Fit]) -> str:
     low, high = map(three_digits, window)
     law, (bodies, carriers) = found[0].law, _BODIES[model]
     star = f" *: at some of these loads fewer than ten {carriers} touch, so the grid decides."
@@ -143,19 +143,19 @@ def _strip(model: ModelLabel, found: list[_Fit]) -> list[dict[str, str]]:
     stated = [stated_exponents(model, each.dimension)[model == "3D"] for each in found]
     verdicts = [each.verdict(one) for each, one in zip(found, stated, strict=True)]
     words = in_words([Case(at(x.dimension), v) for x, v in zip(found, verdicts, strict=True)])
-    judged = [each for each in verdicts if each]
+    decided = [each for each in verdicts if each]
     within = " or ".join(f"{x:g}" for x in sorted({each.tolerance for each in stated}))
     alpha, place = estimate_cell(first.alpha, " to "), f"D_f = {first.dimension:.1f}"
     if last is not first:
         alpha = f"{first.alpha.value:.3f} to {last.alpha.value:.3f}"
         place += f" to {last.dimension:.1f}"
     below = f"within ± {within}: {'at every D_f' if words in set(Verdict) else words}"
-    whole = str(joint_verdict(judged)) if judged else "not judged"
-    said = f"Exponent of the stiffness over force in the window, of {_BODIES[model][0]}."
+    together = str(joint_verdict(decided)) if decided else "not judged"
+    meaning = f"Exponent of the stiffness over force in the window, of {_BODIES[model][0]}."
     other = "What the paper states; one refuted fractal dimension refutes it."
     items = (
-        (f"exponent_{model}", f"α ({model})", alpha, place, said),
-        (f"stated_{model}", f"paper: {_FORMULAS[model]}", whole, below, other),
+        (f"exponent_{model}", f"α ({model})", alpha, place, meaning),
+        (f"stated_{model}", f"paper: {_FORMULAS[model]}", together, below, other),
     )
     names = ("key", "symbol", "value", "below", "meaning")
     return [dict(zip(names, item, strict=True)) for item in items]

@@ -9,7 +9,7 @@ from roughline.errors.checks import shown
 from roughline.lab.controls import VERSION, ControlError, Texts, as_text, refuse_strange
 from roughline.lab.published.controls import CHOICES, DIMENSIONS, NUMBERS, WINDOWS, ModelLabel
 
-Window = tuple[float, float]
+ForceWindow = tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -23,22 +23,22 @@ class PublishedState:
     def address(self) -> dict[str, str]:
         """What the address says of this state: the version, and all that is chosen."""
         numbers = {key: as_text(value) for key, value in self.numbers.items()}
-        shown = ",".join(f"{each:g}" for each in self.dimensions)
-        return {"v": VERSION, "D_f": shown, **self.words, **numbers}
+        dimensions = ",".join(f"{each:g}" for each in self.dimensions)
+        return {"v": VERSION, "D_f": dimensions, **self.words, **numbers}
 
-    def window(self, model: ModelLabel) -> Window:
+    def window(self, model: ModelLabel) -> ForceWindow:
         """Return the smallest and the largest F̄ of the fit of a model."""
         low, high = (self.numbers[edge.key] for edge in WINDOWS[model])
         return low, high
 
 
-def state_of(said: Texts) -> PublishedState:
+def read_state(texts: Texts) -> PublishedState:
     """Read the parameters of an address, or the texts of the controls, or their defaults."""
-    refuse_strange(said, {*NUMBERS, *CHOICES, "D_f"})
+    refuse_strange(texts, {*NUMBERS, *CHOICES, "D_f"})
     state = PublishedState(
-        _dimensions(said.get("D_f")),
-        {key: each.read_in(said) for key, each in CHOICES.items()},
-        {key: each.read_in(said) for key, each in NUMBERS.items()},
+        _dimensions(texts.get("D_f")),
+        {key: each.read_in(texts) for key, each in CHOICES.items()},
+        {key: each.read_in(texts) for key, each in NUMBERS.items()},
     )
     for model, edges in WINDOWS.items():
         low, high = (state.numbers[edge.key] for edge in edges)
@@ -58,6 +58,6 @@ def _dimensions(text: str | None) -> tuple[float, ...]:
     chosen = [word for word in text.split(",") if word]
     strange = [word for word in chosen if word not in known]
     if strange or not chosen:
-        said = f"D_f is {shown(strange[0])}" if strange else "no fractal dimension is chosen"
-        raise ControlError(f"{said}; choose one or more of {', '.join(known)}", "D_f")
+        why = f"D_f is {shown(strange[0])}" if strange else "no fractal dimension is chosen"
+        raise ControlError(f"{why}; choose one or more of {', '.join(known)}", "D_f")
     return tuple(sorted({known[word] for word in chosen}))

@@ -19,7 +19,7 @@ from roughline.lab.server.settings import ServerSettings
 DAYS = 7  # how long a login lasts
 MOST_REMEMBERED = 10_000  # logins, and addresses
 _WITH_PORT = re.compile(r"\[(.*)\](?::\d*)?|([0-9.]+):\d*")
-_OWN_NAMES = ("localhost", "127.0.0.1", "::1")
+_LOCAL_NAMES = ("localhost", "127.0.0.1", "::1")
 _TOKEN = re.compile(r"token=([^&\s]*)")
 
 
@@ -32,7 +32,7 @@ def host_is_ours(host: str, settings: ServerSettings) -> bool:
     name = _split(f"//{host}").hostname
     if name is None:
         return False
-    return settings.lets_others_in or name in (*_OWN_NAMES, settings.host)
+    return settings.lets_others_in or name in (*_LOCAL_NAMES, settings.host)
 
 
 def origin_is_ours(origin: str | None, host: str) -> bool:
@@ -81,8 +81,8 @@ def is_encrypted(request: HTTPServerRequest, settings: ServerSettings) -> bool:
     """Whether the way from the browser is encrypted, as our proxy says."""
     if not is_proxy(request.remote_ip or "", settings):
         return request.protocol == "https"
-    said = request.headers.get("X-Forwarded-Proto", "")
-    return said.rpartition(",")[2].strip().lower() == "https"
+    protocols = request.headers.get("X-Forwarded-Proto", "")
+    return protocols.rpartition(",")[2].strip().lower() == "https"
 
 
 def neighbourhood(address: str) -> str:
@@ -95,9 +95,9 @@ def neighbourhood(address: str) -> str:
 
 def _address(text: str) -> IPv4Address | IPv6Address | None:
     """An address, which may have a port; None if it is none."""
-    bare = _WITH_PORT.fullmatch(text.strip())
+    without_port = _WITH_PORT.fullmatch(text.strip())
     try:
-        number = ip_address((bare[1] or bare[2]) if bare else text.strip())
+        number = ip_address((without_port[1] or without_port[2]) if without_port else text.strip())
     except ValueError:
         return None
     return getattr(number, "ipv4_mapped", None) or number
@@ -137,12 +137,12 @@ class Key:
         self.is_token = password is None
         self.secret = password or secrets.token_hex(16)
 
-    def opens(self, given: str) -> bool:
+    def opens(self, attempt: str) -> bool:
         """Whether it is what was given; a token may come in the address that carries it."""
         if self.is_token:
-            found = _TOKEN.search(given)
-            given = found[1] if found else given.strip()
-        return hmac.compare_digest(given.encode(), self.secret.encode())
+            found = _TOKEN.search(attempt)
+            attempt = found[1] if found else attempt.strip()
+        return hmac.compare_digest(attempt.encode(), self.secret.encode())
 
 
 class Logins:

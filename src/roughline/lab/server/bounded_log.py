@@ -12,9 +12,9 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 
-_MOST_ALIKE, _MINUTE = 5, 60.0  # messages of a kind within so many seconds
+_MOST_OF_KIND, _MINUTE = 5, 60.0  # messages of a kind within so many seconds
 _MOST_BYTES, _HOUR = 200_000, 3600.0  # of all messages within so many seconds
-_LONGEST = 10_000  # message [bytes]
+_LONGEST_MESSAGE = 10_000  # [bytes]
 _MOST_KINDS = 1000  # that are told apart
 _VARIES = re.compile(r"0x[0-9A-Fa-f]+|\d+(?:\.\d+)?(?:e[+-]?\d+)?|'[^']*'|\"[^\"]*\"")
 _END = b"\0"
@@ -58,15 +58,15 @@ def _messages(source: int, ending: threading.Event) -> Iterator[str]:
         piece = os.read(source, 2**16)
         is_last = ending.is_set() and _END in piece
         *lines, rest = (rest + piece.replace(_END, b"")).split(b"\n")
-        if len(rest) > _LONGEST or (is_last and rest):
+        if len(rest) > _LONGEST_MESSAGE or (is_last and rest):
             lines, rest = [*lines, rest], b""
-        for line in (each[:_LONGEST].decode(errors="replace") + "\n" for each in lines):
+        for line in (each[:_LONGEST_MESSAGE].decode(errors="replace") + "\n" for each in lines):
             is_inside = traceback != ""
             if is_inside or line.startswith("Traceback (most recent call last)"):
                 traceback += line
             if not traceback:
                 yield line
-            elif (is_inside and not line.startswith(" ")) or len(traceback) > _LONGEST:
+            elif (is_inside and not line.startswith(" ")) or len(traceback) > _LONGEST_MESSAGE:
                 yield traceback
                 traceback = ""
     yield traceback
@@ -99,14 +99,14 @@ class _Limiter:
         if kind not in self._counts and len(self._counts) >= _MOST_KINDS:
             kind = "others"
         self._counts[kind] += 1
-        if self._counts[kind] <= _MOST_ALIKE:
+        if self._counts[kind] <= _MOST_OF_KIND:
             self._write(message)
 
     def _tell(self) -> None:
         """Say how much was left out, and begin anew."""
         for kind, count in self._counts.items():
-            if count > _MOST_ALIKE and kind:
-                self._write(f"… and {count - _MOST_ALIKE} more like this: {kind[-100:]}\n")
+            if count > _MOST_OF_KIND and kind:
+                self._write(f"… and {count - _MOST_OF_KIND} more like this: {kind[-100:]}\n")
         self._counts.clear()
 
     def _write(self, message: str) -> None:

@@ -22,17 +22,17 @@ from roughline.lab.server.access import neighbourhood
 
 _log = logging.getLogger(__name__)
 # that the other side has to complete a request, from the connection or from the answer before [s]
-_PATIENCE = 20.0
-_STALL = 60.0  # after which it is asked how much of a file, or of an answer, has moved [s]
-_SPEED = 1000.0  # at which it has to move on average over that time [bytes / s]
-_PAUSE = 1.0  # when no connection can be taken [s]
+_REQUEST_WITHIN = 20.0
+_MOVED_INTERVAL = 60.0  # after which it is asked how much of a file, or of an answer, has moved [s]
+_LEAST_SPEED = 1000.0  # at which it has to move on average over that time [bytes / s]
+_PAUSE_WHEN_FULL = 1.0  # when no connection can be taken [s]
 _MOST_BODY, _MOST_HEADERS = 2**16, 2**14  # of a request that brings no file [bytes]
 _SEND_BUFFER = 2**17  # so that it is seen within a minute whether somebody reads [bytes]
-_MOST, _MOST_OF_ONE = 2000, 200  # connections in all, and of one address
+_MOST_CONNECTIONS, _MOST_PER_ADDRESS = 2000, 200  # connections in all, and of one address
 _PROXY = "proxy"  # what stands for the address of any proxy: it has no limit of its own
-_FEWEST = 10
+_FEWEST_CONNECTIONS = 10
 _MOST_FILES = 4096  # that the process asks the system for
-_OTHER_FILES, _FILES_OF_PROCESS = 64, 3  # that are no connections
+_OTHER_FILES, _FILES_PER_PROCESS = 64, 3  # that are no connections
 
 
 class Stage(IntEnum):
@@ -79,12 +79,12 @@ class Connection(IOStream):
         """Whether the other side has kept the server waiting for too long."""
         now, moved = time.monotonic(), self._moved
         if self.stage is Stage.WAITS:
-            return now - self.since > _PATIENCE
+            return now - self.since > _REQUEST_WITHIN
         has_to_move = self.writing() or self.stage is Stage.BRINGS
-        is_time = now - self._counted >= _STALL
+        is_time = now - self._counted >= _MOVED_INTERVAL
         if is_time or not has_to_move:
             self._moved, self._counted = 0, now
-        return has_to_move and is_time and moved < _SPEED * _STALL
+        return has_to_move and is_time and moved < _LEAST_SPEED * _MOVED_INTERVAL
 
 
 class Connections(HTTPServer):
@@ -99,10 +99,10 @@ class Connections(HTTPServer):
     ) -> None:
         """Begin without connections."""
         super().initialize(application, max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS)
-        self._most, self._most_of_one = most, max(1, min(_MOST_OF_ONE, most // 2))
+        self._most, self._most_per_address = most, max(1, min(_MOST_PER_ADDRESS, most // 2))
         self._proxies = proxies
         self._held: set[Connection] = set()
-        self._sweep = PeriodicCallback(self._drop_overdue, 250 * min(4.0, _PATIENCE))
+        self._sweep = PeriodicCallback(self._drop_overdue, 250 * min(4.0, _REQUEST_WITHIN))
 
     def add_sockets(self, sockets: Iterable[socket.socket]) -> None:
         """Listen."""
@@ -137,7 +137,7 @@ class Connections(HTTPServer):
                     continue
                 except Exception as error:  # such as no free descriptor, or no memory
                     _log.warning("no connection can be taken for a moment: %s", error)
-                    await asyncio.sleep(_PAUSE)
+                    await asyncio.sleep(_PAUSE_WHEN_FULL)
 
     def _take(self, taken: socket.socket, name: tuple[Any, ...]) -> None:
         """Begin with a connection if there is a place for it."""
@@ -153,7 +153,7 @@ class Connections(HTTPServer):
         """Whether an address may have one more connection; another one may have to go for it."""
         numbers = Counter(each.address for each in self._held if each.address != _PROXY)
         own = numbers[address]
-        if own >= self._most_of_one:
+        if own >= self._most_per_address:
             return self._drop(address, Stage.WAITS)
         if len(self._held) < self._most:
             return True
@@ -190,5 +190,5 @@ def most_connections(processes: int) -> int:
             with suppress(ValueError, OSError):  # the system has a limit of its own
                 resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, limits[1]))
                 files = wanted
-    others = _OTHER_FILES + _FILES_OF_PROCESS * processes
-    return max(_FEWEST, min(_MOST, (files - others) // 2))
+    others = _OTHER_FILES + _FILES_PER_PROCESS * processes
+    return max(_FEWEST_CONNECTIONS, min(_MOST_CONNECTIONS, (files - others) // 2))

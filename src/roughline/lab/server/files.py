@@ -23,7 +23,7 @@ _NOT_IN_NAMES = re.compile(r"[<>/\\\0-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u20
 
 _SUFFIX = re.compile(r"\.[A-Za-z0-9]{1,8}")
 _MOST_DISK = 20_000_000_000  # [bytes]
-_LOOKS = 1.0  # after which files are counted again [s]
+_LOOK_AGAIN_AFTER = 1.0  # after which files are counted again [s]
 
 
 @dataclass
@@ -49,8 +49,8 @@ class Files:
 
         The oldest go if they are too many or too large.
         """
-        shown = _NOT_IN_NAMES.sub("_", name)[-100:] or "file"
-        suffix = _SUFFIX.fullmatch(Path(shown).suffix)
+        usable = _NOT_IN_NAMES.sub("_", name)[-100:] or "file"
+        suffix = _SUFFIX.fullmatch(Path(usable).suffix)
         self.folder.mkdir(mode=0o700, exist_ok=True)
         while self.uploads and (
             len(self.uploads) >= _MOST_FILES
@@ -61,7 +61,7 @@ class Files:
         path = self.folder / (secrets.token_hex(8) + (suffix[0].lower() if suffix else ""))
         path.touch()
         os.truncate(path, size)
-        upload = Upload(secrets.token_urlsafe(12), path, shown, size)
+        upload = Upload(secrets.token_urlsafe(12), path, usable, size)
         self.uploads[upload.key] = upload
         return upload
 
@@ -105,11 +105,11 @@ class Disk:
             stored = (512 * getattr(each, "st_blocks", each.st_size) for each in found)
             self._to_come += max(0, self._sizes[folder] - sum(stored))
 
-    def room(self, kept: Iterable[Path]) -> float:
+    def room(self, live_folders: Iterable[Path]) -> float:
         """Size that further files may have; folders that are not kept are being deleted. [bytes]"""
-        if time.monotonic() - self._looked >= _LOOKS:
+        if time.monotonic() - self._looked >= _LOOK_AGAIN_AFTER:
             self.look()
-        size = sum(self._sizes.get(folder, 0) for folder in kept)
+        size = sum(self._sizes.get(folder, 0) for folder in live_folders)
         to_go = sum(self._sizes.values()) - size
         return min(self.most - size, shutil.disk_usage(self._root).free - self._to_come + to_go)
 

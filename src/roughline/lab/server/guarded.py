@@ -70,7 +70,7 @@ class Guarded(RequestHandler):
         self.set_header("Content-Type", "text/plain; charset=utf-8")
         self.finish(f"{status_code}: {self._reason}\n")
 
-    def session_of(self, token: str) -> Session:
+    def known_session(self, token: str) -> Session:
         """Return the session with a token."""
         session = self.server.sessions.get(token)
         if session is None or session.login != self.login:

@@ -20,10 +20,10 @@ from roughline.lab.server.guarded import Guarded
 from roughline.lab.server.link import MOST_BYTES, Link
 from roughline.lab.server.sessions import Server
 
-_PING = 20  # a page that does not answer within this time is gone [s]
+_PONG_WITHIN = 20  # a page that does not answer within this time is gone [s]
 _MOST_DIGITS = 15  # of the size of a file that is to come
-_DIGEST = 12  # letters of the digest by which a page knows a file again
-_LATER = 3600  # that a browser keeps the parts of the page [s]
+_DIGEST_LETTERS = 12  # letters of the digest by which a page knows a file again
+_CACHED_FOR = 3600  # that a browser keeps the parts of the page [s]
 _NO_ROOM = "The lab has no room for this file now: close other pages of it, or come back later"
 _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
 _PAGE = re.compile(r"/(\?[!-~]*)?")  # with what is set in it
@@ -49,7 +49,7 @@ def application(server: Server) -> Application:
         default_handler_class=_Nothing,
         server=server,
         websocket_max_message_size=MOST_BYTES,
-        websocket_ping_interval=_PING,
+        websocket_ping_interval=_PONG_WITHIN,
         log_function=lambda handler: None,
     )
 
@@ -67,11 +67,11 @@ class _Door(Guarded):
 
     open_to_all = True
 
-    def enter(self, given: str, leads_to: str) -> None:
+    def enter(self, attempt: str, leads_to: str) -> None:
         """Let in who has given the password or token, and go on; ask again otherwise."""
         key, tries, host = self.server.key, self.server.tries(self.address), self.request.host
         # nobody guesses a token, so a stranger's tries need not keep out who has it
-        if key.opens(given) and (key.is_token or not tries.is_empty):
+        if key.opens(attempt) and (key.is_token or not tries.is_empty):
             self.set_cookie(
                 cookie_name(host),
                 self.server.logins.begin(host.lower()),
@@ -124,9 +124,9 @@ class _Login(_Door):
             self.redirect(leads_to)
 
     def post(self) -> None:
-        given = "token" if self.server.key.is_token else "password"
+        argument = "token" if self.server.key.is_token else "password"
         leads_to = _own_page(self.get_body_argument("next", "/"))
-        self.enter(self.get_body_argument(given, "", strip=False), leads_to)
+        self.enter(self.get_body_argument(argument, "", strip=False), leads_to)
 
 
 class _Logout(Guarded):
@@ -155,7 +155,7 @@ class _Parts(Guarded, StaticFileHandler):
     def set_extra_headers(self, path: str) -> None:
         """Let a browser keep Bokeh's, which change with its version only."""
         is_bokehs = self.request.path.startswith("/bokeh/")
-        self.set_header("Cache-Control", f"max-age={_LATER}" if is_bokehs else "no-cache")
+        self.set_header("Cache-Control", f"max-age={_CACHED_FOR}" if is_bokehs else "no-cache")
 
 
 @stream_request_body
@@ -170,7 +170,7 @@ class _Uploads(Guarded):
     def prepare(self) -> None:
         """Refuse a file that is too large before it comes, or that there is no room for."""
         super().prepare()
-        session = self.session_of(self.get_query_argument("session", ""))
+        session = self.known_session(self.get_query_argument("session", ""))
         name, most = self.get_query_argument("name", "file"), self.server.settings.max_upload
         self.request.connection.set_max_body_size(int(most))  # type: ignore[union-attr]
         if not session.allowance.take():
@@ -216,7 +216,7 @@ class _Uploads(Guarded):
         if self._upload is None:
             raise HTTPError(410, reason="The page of this file is closed, or sent too many files")
         upload, self._upload = self._upload, None  # the file is whole, and stays
-        upload.digest = self._digest.hexdigest()[:_DIGEST]
+        upload.digest = self._digest.hexdigest()[:_DIGEST_LETTERS]
         self.finish({"file": upload.key, "name": upload.name, "digest": upload.digest})
 
     def on_finish(self) -> None:
@@ -244,7 +244,7 @@ class _Results(Guarded):
 
     async def get(self, token: str, name: str) -> None:
         """Send one, piece by piece."""
-        folder = (self.session_of(token).files.folder / "results").resolve()
+        folder = (self.known_session(token).files.folder / "results").resolve()
         path = (folder / name).resolve()
         if path.parent != folder or not path.is_file():
             raise HTTPError(404, reason="This file no longer exists: make it again")

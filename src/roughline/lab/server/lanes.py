@@ -12,13 +12,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from roughline.lab.server.budget import Limits
-from roughline.lab.server.process import LOST, LOWEST, NOT_BEGUN, Process
+from roughline.lab.server.process import LOST, LOWEST_PRIORITY, NOT_BEGUN, Process
 from roughline.lab.server.tasks import Outcome, Place
 
 _log = logging.getLogger(__name__)
-_PATIENCE = 1.5  # after which a task lets shorter ones pass [s]
-_SOON = 0.05  # that a request may wait without a crowd [s]
-_CROWD = 2  # requests that wait for each process, from which on answers are coarser
+_LETS_PASS_AFTER = 1.5  # after which a task lets shorter ones pass [s]
+_UNCROWDED_WAIT = 0.05  # that a request may wait without a crowd [s]
+_CROWD_PER_PROCESS = 2  # requests that wait for each process, from which on answers are coarser
 MOST_PARTS = 16  # of a page that may wait for something at once
 TOO_MANY = Outcome(error="too many requests of this page wait: let some end first")
 _MOST_TRIES = 5  # of processes that may be gone before they have their task
@@ -131,8 +131,8 @@ class Lane:
         """Serve who is next, as far as there are processes."""
         while (request := self._next()) is not None:
             del self._waiting[request.key]
-            many = len(self._waiting) >= _CROWD * self.limits.count
-            crowded = many or time.monotonic() - request.since > _SOON
+            many = len(self._waiting) >= _CROWD_PER_PROCESS * self.limits.count
+            crowded = many or time.monotonic() - request.since > _UNCROWDED_WAIT
             self._served[request] = asyncio.create_task(self._serve(request, crowded))
 
     def _next(self) -> Request | None:
@@ -187,7 +187,7 @@ class Lane:
 
         arguments = {**request.arguments, "crowded": crowded}
         asked = loop.run_in_executor(self._threads, process.ask, request.place, arguments, progress)
-        later = loop.call_later(_PATIENCE, self._let_pass, request, process)
+        later = loop.call_later(_LETS_PASS_AFTER, self._let_pass, request, process)
         done, _ = await asyncio.wait([asked], timeout=seconds)
         later.cancel()
         if done:
@@ -203,7 +203,7 @@ class Lane:
         """Let others start beside a task that takes long, and go before it."""
         request.is_long = True
         if not self._lasting:
-            process.lower_priority(LOWEST)
+            process.lower_priority(LOWEST_PRIORITY)
         self._start()
 
     def _fill(self) -> None:

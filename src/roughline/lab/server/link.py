@@ -18,7 +18,7 @@ from roughline.lab.server.lanes import MOST_PARTS, TOO_MANY
 from roughline.lab.server.sessions import Session
 
 MOST_BYTES = 2**16  # longest message of a page; files come another way
-_SLOT_LENGTH, _TEXT_LENGTH, _MOST_DEPTH = 40, 2000, 6
+_LONGEST_SLOT, _LONGEST_TEXT, _MOST_DEPTH = 40, 2000, 6
 _MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
 _LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
 
@@ -53,32 +53,32 @@ class Link(Guarded, WebSocketHandler):
             return
         self._begun, uploads = session, session.files.uploads.items()
         files = {key: {"name": it.name, "digest": it.digest} for key, it in uploads if it.digest}
-        said = {"session": session.token, "resumed": session.token == self._before, "files": files}
-        self.send({**said, "version": __version__})
+        opened = {"session": session.token, "resumed": session.token == self._before}
+        self.send({**opened, "files": files, "version": __version__})
 
     def on_message(self, message: str | bytes) -> None:
         """Take a question, or the wish to stop one."""
         if session := self.session:
-            said = None
+            content = None
             with suppress(ValueError, RecursionError):
-                said = json.loads(message)
-            self._take(session, said if isinstance(said, dict) else {})
+                content = json.loads(message)
+            self._take(session, content if isinstance(content, dict) else {})
             self._ask()
 
-    def _take(self, session: Session, said: dict[str, Any]) -> None:
-        number, slot, task = said.get("id"), said.get("slot"), said.get("task")
+    def _take(self, session: Session, content: dict[str, Any]) -> None:
+        number, slot, task = content.get("id"), content.get("slot"), content.get("task")
         number = number if isinstance(number, int) and 0 <= number < 2**53 else 0
-        arguments, why = said.get("arguments"), ""
+        arguments, why = content.get("arguments"), ""
         if not (session.allowance.take() and self.server.questions(self.address).take()):
             why = "too many questions at once: wait a moment, then go on"
             if not self._refusals.take():
                 return self.close(1008, "this page asked too much: reload it")
-        elif not isinstance(slot, str) or not 0 < len(slot) <= _SLOT_LENGTH:
+        elif not isinstance(slot, str) or not 0 < len(slot) <= _LONGEST_SLOT:
             why = "this message is not one of the lab: reload the page"
-        elif said.get("stop") is True:
+        elif content.get("stop") is True:
             self._held.pop(slot, None)
             session.withdraw(slot)
-        elif said.get("forget") is True:
+        elif content.get("forget") is True:
             session.forget_files()
         elif not isinstance(task, str) or task not in self.server.site.tasks:
             why = "the lab has no such task: reload the page"
@@ -119,7 +119,7 @@ class Link(Guarded, WebSocketHandler):
 def _is_plain(content: Any, depth: int = _MOST_DEPTH) -> bool:
     """Whether texts in what a page said are short, and lists and tables in it are not deep."""
     if isinstance(content, str):
-        return len(content) <= _TEXT_LENGTH
+        return len(content) <= _LONGEST_TEXT
     if isinstance(content, dict | list):
         parts = [*content, *content.values()] if isinstance(content, dict) else content
         return depth > 0 and all(_is_plain(part, depth - 1) for part in parts)

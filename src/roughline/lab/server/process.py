@@ -17,13 +17,13 @@ from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
-from roughline.lab.server.tasks import Outcome, Place, outcome_of
+from roughline.lab.server.tasks import Outcome, Place, run_task
 
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
 _warms_up: Callable[[], None] | None = None
 _LARGEST_FILE = 2_000_000_000  # that a task may ever write [bytes]
-_LOW, LOWEST = 3, 15
+_LOW_PRIORITY, LOWEST_PRIORITY = 3, 15
 """Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
 
 LOST = Outcome(
@@ -51,13 +51,13 @@ class Process:
     def _begin(self, memory: float, gives_way: bool) -> None:
         self._connection, theirs = _CONTEXT.Pipe()
         with _without_interrupts():
-            given = theirs, memory, _warms_up
-            process = _CONTEXT.Process(target=_serve, args=given, daemon=True)
+            arguments = theirs, memory, _warms_up
+            process = _CONTEXT.Process(target=_serve, args=arguments, daemon=True)
             process.start()
         theirs.close()
         self._process = process
         if gives_way:
-            self.lower_priority(_LOW)
+            self.lower_priority(_LOW_PRIORITY)
 
     @property
     def is_alive(self) -> bool:
@@ -78,14 +78,14 @@ class Process:
         outcome = NOT_BEGUN
         try:
             self._connection.send((place, arguments))
-            while not isinstance(said := self._connection.recv(), Outcome):
-                if said is None:  # it has the task
+            while not isinstance(received := self._connection.recv(), Outcome):
+                if received is None:  # it has the task
                     outcome = LOST
                 else:
-                    progress(*said)
+                    progress(*received)
         except (EOFError, OSError):  # it was stopped, or died
             return outcome
-        return said
+        return received
 
     def lower_priority(self, nice: int) -> None:
         """Let other processes of this machine go first."""
@@ -170,7 +170,7 @@ def _serve(connection: Connection, memory: float, warm_up: Callable[[], None] | 
             place, arguments = connection.recv()
             connection.send(None)
             _limit_files(arguments.get("session", {}).get("room", _LARGEST_FILE))
-            outcome = outcome_of(place, arguments, lambda *steps: connection.send(steps))
+            outcome = run_task(place, arguments, lambda *steps: connection.send(steps))
             connection.send(outcome)
 
 

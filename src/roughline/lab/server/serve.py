@@ -25,7 +25,7 @@ from roughline.lab.server.sessions import Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import Site
 
-_READY = 1.5  # that the first page waits for what it will need first [s]
+_WARM_WITHIN = 1.5  # that the first page waits for what it will need first [s]
 _MOST_KNOCKING = 1024  # connections that wait to be taken
 
 
@@ -57,7 +57,7 @@ def serve(
         try:
             listening.add_sockets(sockets)
             site.page()
-            await asyncio.wait([preparing], timeout=_READY)
+            await asyncio.wait([preparing], timeout=_WARM_WITHIN)
             if not interrupted() and not stopped.is_set():
                 ready(_address(server, sockets[0]))
                 await stopped.wait()

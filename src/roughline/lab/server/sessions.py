@@ -21,10 +21,10 @@ from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import Outcome, Site
 
-_WAITS = 600.0  # that a session waits for its page [s]
-_RELOADS = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]
+_PAGE_WITHIN = 600.0  # that a session waits for its page [s]
+_RELOAD_WITHIN = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]
 _MOST_WAITING = 20  # sessions of one address that wait for their pages
-_SWEEPS = 1.0  # after which it is looked again for what is over [s]
+_SWEEP_INTERVAL = 1.0  # after which it is looked again for what is over [s]
 _MOST_PROGRESS = 10.0  # messages on progress [1 / s]
 _MOST_HELD = 16  # outcomes that wait for a page to come back
 _MOST_HELD_BYTES = 10_000_000  # of their answers
@@ -99,9 +99,9 @@ class Session:
             "max_points": self.server.settings.max_points,
             "room": self.server.room_of_task(),
         }
-        told, answer = {**arguments, "session": context}, partial(self._tell, slot, asked)
+        in_session, answer = {**arguments, "session": context}, partial(self._tell, slot, asked)
         lane = self.server.quick if place.is_quick else self.server.slow
-        lane.submit(Request(self.address, self.token, slot, place, told, answer, progress))
+        lane.submit(Request(self.address, self.token, slot, place, in_session, answer, progress))
 
     def withdraw(self, slot: str | None = None) -> list[asyncio.Task[None]]:
         """Stop what was asked for a part of the page, or for all; returns the work that ends."""
@@ -161,7 +161,7 @@ class Server:
         quick, slow = limits_within(settings.memory, settings.max_memory, settings.max_seconds)
         self.quick, self.slow = Lane(quick, lasting=True), Lane(slow, lasting=False)
         self._disk, self.processes = Disk(root, settings.max_disk), quick.most + slow.most
-        self._sweeping = PeriodicCallback(self.sweep, 1000 * _SWEEPS)
+        self._sweeping = PeriodicCallback(self.sweep, 1000 * _SWEEP_INTERVAL)
         self._sweeping.start()
 
     def session_for(self, line: Line, address: str, login: str, token: str) -> Session | None:
@@ -177,11 +177,11 @@ class Server:
                 older.close(_ELSEWHERE, "another page goes on with this one's file")
             return before
         most = self.settings.max_sessions
-        most_of_one = max(1, most // 2) if self.settings.lets_others_in else most
+        most_per_address = max(1, most // 2) if self.settings.lets_others_in else most
         while True:
             is_full = len(self.sessions) >= most
             own = sum(session.address == address for session in self.sessions.values())
-            if not is_full and own < most_of_one:
+            if not is_full and own < most_per_address:
                 break
             if not (self.end_waiting(address) or (is_full and self.end_waiting())):
                 return None
@@ -221,9 +221,9 @@ class Server:
         now = time.monotonic()
         for session in list(self.sessions.values()):
             waits = session.line is None
-            if waits and session.is_left and now - session.since > _RELOADS:
+            if waits and session.is_left and now - session.since > _RELOAD_WITHIN:
                 session.withdraw()
-            is_over = waits and (now - session.since > _WAITS or not session.has_something)
+            is_over = waits and (now - session.since > _PAGE_WITHIN or not session.has_something)
             if is_over or not self.logins.lasts(session.login):
                 if session.line is not None:
                     reason = "this browser is no longer logged in: reload the page to log in"

@@ -58,8 +58,8 @@ class ServerSettings:
             raise InputError("the password has fewer than 8 characters; take a longer one")
         between("port", self.port, 0, 65535, "0 (any free one) to 65535 is allowed")
         for name in ("upload", "points", "seconds", "memory", "sessions", "disk"):
-            if (given := getattr(self, f"max_{name}")) is not None:
-                positive(f"max_{name}", given)
+            if (limit := getattr(self, f"max_{name}")) is not None:
+                positive(f"max_{name}", limit)
         if self.max_points < LEAST_POINTS:
             refuse("max_points", self.max_points, f"at least {LEAST_POINTS} points are needed")
         if self.max_memory < LEAST_MEMORY:
@@ -104,7 +104,7 @@ def password_in(file: Path) -> str:
     """Read a password: the first line of a file that only its owner may read."""
     password = wrong = ""
     try:
-        wrong, start = _start_of(file)
+        wrong, start = _checked_start(file)
         first = (start.splitlines() or [b""])[0].strip()
         if len(first) > _LONGEST_PASSWORD:
             wrong = f"at most {_LONGEST_PASSWORD} bytes are a password"
@@ -118,7 +118,7 @@ def password_in(file: Path) -> str:
     return password
 
 
-def _start_of(file: Path) -> tuple[str, bytes]:
+def _checked_start(file: Path) -> tuple[str, bytes]:
     """What is wrong with a file, and else its start.
 
     It is no file, which is not waited for, or others may read or change it; Windows does not say

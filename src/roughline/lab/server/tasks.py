@@ -68,7 +68,7 @@ class Site:
     tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
 
 
-def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
+def run_task(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
     """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
         task = place.load(place.name)
@@ -100,6 +100,6 @@ def without_paths(text: str, arguments: Mapping[str, Any]) -> str:
     root = ntpath.dirname(own)
     for folder in (own, root, ntpath.dirname(root), *_PROGRAM):
         if len(folder) > 1:
-            whole = rf"""(?<![\w/.-]){re.escape(folder)}[^\s'":;,()]*"""  # no part of another path
-            text = re.sub(whole, "a file of the lab", text)
+            path = rf"""(?<![\w/.-]){re.escape(folder)}[^\s'":;,()]*"""  # no part of another path
+            text = re.sub(path, "a file of the lab", text)
     return text.replace(ntpath.basename(own), "a page") if own else text
