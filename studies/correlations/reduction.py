@@ -60,7 +60,7 @@ def heights_of(ensemble: campaign.Ensemble) -> dict[str, Real]:
     levels = [-NormalDist().inv_cdf(share) for share in BEARING]
     for i, dimension in enumerate(ensemble.fractal_dimensions):
         for j in range(ensemble.realisations):
-            surface = ensemble.spectrum(dimension).surface(ensemble.n, ensemble.seed_of(j))
+            surface = ensemble.spectrum(dimension).surface(ensemble.n, ensemble.body_seed(j))
             heights = (surface.heights - surface.heights.mean()) / surface.rms_height
             found["skewness"][i, j] = np.mean(heights**3)
             found["excess_kurtosis"][i, j] = np.mean(heights**4) - 3

@@ -31,7 +31,7 @@ def planned(**changes):
 def test_a_case_is_what_a_press_gives():
     ensemble = planned().ensembles[0]
     case = batches.evaluate_case(ensemble, 2.2, 1)
-    body = ensemble.spectrum(2.2).surface(32, ensemble.seed_of(1))
+    body = ensemble.spectrum(2.2).surface(32, ensemble.body_seed(1))
     law = rl.Dugdale(work_of_adhesion=0.2, range=0.4)
     curve = rl.press(
         body, E_star=1.0, periodic=True, law=law, forces=[0.05, 0.5, -1.0], throw=False

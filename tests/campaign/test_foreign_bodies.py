@@ -39,7 +39,7 @@ def plan_file(tmp_path):
 def test_a_case_is_what_a_press_gives_on_moduli_over_those_of_the_half_space(plan_file):
     ensemble = campaign.read_plan(plan_file).ensembles[0]
     assert (ensemble.law, ensemble.half_space) == (LinearPull(0.4, 0.6), Foundation(2.0, 4.0))
-    body = ensemble.spectrum(2.2).surface(16, ensemble.seed_of(1))
+    body = ensemble.spectrum(2.2).surface(16, ensemble.body_seed(1))
     curve = rl.press(
         body,
         half_space=Foundation(1.0, 2.0),

@@ -113,7 +113,7 @@ def test_what_cannot_be_is_said_in_one_line(changes, message):
 def test_a_load_beyond_the_hardness_is_refused_before_anything_is_computed():
     """At the refused load and a little less: differences on the grid know less slope than waves."""
     ensemble = plan_of(hardness_bar=0.3, force_bars=0.1).ensembles[0]
-    surface = ensemble.spectrum(2.2).surface(32, ensemble.seed_of(0))
+    surface = ensemble.spectrum(2.2).surface(32, ensemble.body_seed(0))
     bears = 0.3 * surface.rms_slope
     with pytest.raises(rl.InputError, match="bear less than H A_0"):
         replace(ensemble, force_bars=(1.1 * bears,))
@@ -123,7 +123,7 @@ def test_a_load_beyond_the_hardness_is_refused_before_anything_is_computed():
 def test_a_body_that_bears_less_fails_with_its_reason(tmp_path):
     """Where only the body itself tells, its case fails, and the loads that it bears are asked."""
     ensemble = plan_of(hardness_bar=0.3, force_bars=0.1).ensembles[0]
-    surface = ensemble.spectrum(2.2).surface(32, ensemble.seed_of(0))
+    surface = ensemble.spectrum(2.2).surface(32, ensemble.body_seed(0))
     plan = campaign.Plan("n", (replace(ensemble, force_bars=(0.3001 * surface.rms_slope,)),))
     compute(plan, tmp_path / "store")
     failures = campaign.Store(tmp_path / "store").failures("metal")
@@ -133,7 +133,7 @@ def test_a_body_that_bears_less_fails_with_its_reason(tmp_path):
 def test_a_case_is_what_the_library_gives(plan, store):
     data = campaign.Store(store).dataset("metal-hardness0.3").sel(fractal_dimension=2.2)
     ensemble = plan.ensemble("metal-hardness0.3")
-    surface = ensemble.spectrum(2.2).surface(32, ensemble.seed_of(1))
+    surface = ensemble.spectrum(2.2).surface(32, ensemble.body_seed(1))
     curve = rl.press(
         surface,
         E_star=1.0,

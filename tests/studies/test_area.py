@@ -90,7 +90,7 @@ def test_no_load_is_left_out():
 def test_a_surface_of_the_data_is_what_the_library_gives():
     """The cheapest spectrum: 128 x 128 points, to single precision."""
     ensemble = REDUCED.plan.ensemble("main-4-2.5")
-    surface = ensemble.spectrum(2.5).surface(ensemble.n, ensemble.seed_of(7))
+    surface = ensemble.spectrum(2.5).surface(ensemble.n, ensemble.body_seed(7))
     curve = rl.press(surface, E_star=1.0, forces=ensemble.force_bars, periodic=True)
     one = sample("main", 4, 0.5)
     # certified to 1e-6 on every machine: single cells may be in contact or not
@@ -102,7 +102,7 @@ def test_nayak_and_slope_are_those_of_the_surfaces():
     """Moments of the spectrum on its lattice, against the waves of a generated surface."""
     for band, hurst in ((4, 0.2), (16, 0.8)):
         ensemble = REDUCED.plan.ensemble(f"main-{band}-{3 - hurst:g}")
-        surface = ensemble.spectrum(3 - hurst).surface(ensemble.n, ensemble.seed_of(0))
+        surface = ensemble.spectrum(3 - hurst).surface(ensemble.n, ensemble.body_seed(0))
         n = ensemble.n
         power = np.abs(np.fft.fft2(surface.heights - surface.heights.mean()) / n**2) ** 2
         q = 2 * math.pi * np.fft.fftfreq(n, 1 / n)

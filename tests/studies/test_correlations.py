@@ -69,7 +69,7 @@ def test_a_body_of_the_data_is_what_the_library_gives():
     import roughline as rl
 
     ensemble = plan().ensemble("band2-hardness0.01")
-    surface = ensemble.spectrum(2.5).surface(ensemble.n, ensemble.seed_of(7))
+    surface = ensemble.spectrum(2.5).surface(ensemble.n, ensemble.body_seed(7))
     curve = rl.press(
         surface,
         E_star=1.0,

@@ -126,7 +126,7 @@ def test_half_of_the_surfaces_of_the_data_widen_intervals_by_the_square_root_of_
 def test_a_body_of_the_data_is_what_the_library_gives(name, body):
     """To single precision; surfaces are certified to 1e-6."""
     ensemble, hurst = REDUCED.plan.ensemble(name), 0.5
-    spectrum, seed = ensemble.spectrum(3 - hurst), ensemble.seed_of(body)
+    spectrum, seed = ensemble.spectrum(3 - hurst), ensemble.body_seed(body)
     kept = (
         REDUCED.data[name].sel(fractal_dimension=3 - hurst).isel(realisation=body).stiffness.values
     )

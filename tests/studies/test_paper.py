@@ -100,7 +100,7 @@ def test_a_body_of_the_data_is_what_the_library_gives(file_name):
     """Surfaces to what they are certified to, lines exactly."""
     ensemble = campaign.read_plan(PLAN).ensemble(ENSEMBLES[file_name])
     realisation = min(3, ensemble.realisations - 1)
-    spectrum, seed = ensemble.spectrum(2.4), ensemble.seed_of(realisation)
+    spectrum, seed = ensemble.spectrum(2.4), ensemble.body_seed(realisation)
     body = getattr(spectrum, "line" if ensemble.model == "reduced" else "surface")(ensemble.n, seed)
     curve = rl.press(body, E_star=1.0, forces=ensemble.force_bars[::4])
     one = published_dataset(file_name).sel(fractal_dimension=2.4).isel(realisation=realisation)

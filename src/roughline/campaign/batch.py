@@ -90,10 +90,10 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
 def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int) -> _Results:
     """Generate and press one body; return every variable of it, over the loads or as one value."""
     spectrum = ensemble.spectrum(fractal_dimension)
-    seed = ensemble.seed_of(realisation)
+    seed = ensemble.body_seed(realisation)
     make = spectrum.line if ensemble.model == "reduced" else spectrum.surface
     body = make(ensemble.n, seed)
-    forces, law = np.array(ensemble.force_bars), ensemble.law_of(body.rms_slope)
+    forces, law = np.array(ensemble.force_bars), ensemble.contact_law(body.rms_slope)
     if not law.only_pushes:
         forces = np.append(forces, unbearable_pull(law, 1.0))
     curve = press(

@@ -79,7 +79,7 @@ def _worker_memory(ensemble: Ensemble) -> int:
     if ensemble.model == "reduced":
         return _WORKER_BYTES + _LINE_BYTES * ensemble.n
     shape = (ensemble.n, ensemble.n)
-    law, half_space, spacing = ensemble.law_of(1.0), ensemble.pressed_into, 1 / ensemble.n
+    law, half_space, spacing = ensemble.contact_law(1.0), ensemble.pressed_into, 1 / ensemble.n
     pressing = estimates.memory_for(
         shape,
         half_space.periodic,

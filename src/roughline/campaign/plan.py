@@ -209,7 +209,7 @@ class Ensemble:
                 "longer range, or more points"
             )
 
-    def law_of(self, rms_slope: float) -> ContactLaw:
+    def contact_law(self, rms_slope: float) -> ContactLaw:
         """Return what pressures and gaps of a body obey that has such a rms slope."""
         if self.law is not None:
             return self.law
@@ -225,7 +225,7 @@ class Ensemble:
     @property
     def memory(self) -> Literal["none", "dents", "path"]:
         """What loads leave in the bodies, as their contact law says."""
-        return self.law_of(1.0).memory
+        return self.contact_law(1.0).memory
 
     def spectrum(self, fractal_dimension: float) -> SelfAffine:
         """Return the spectrum of the bodies of one fractal dimension."""
@@ -237,7 +237,7 @@ class Ensemble:
             q_high=None if self.cutoff_ratio is None else self.cutoff_ratio * q_low,
         )
 
-    def seed_of(self, realisation: int) -> np.random.SeedSequence:
+    def body_seed(self, realisation: int) -> np.random.SeedSequence:
         """Return the seed of one body; it does not depend on the number of bodies."""
         return np.random.SeedSequence(self.seed, spawn_key=(realisation,))
 

@@ -16,7 +16,7 @@ from roughline.spectra.roughness import Roughness, roughness
 from roughline.statistics.power_law import PowerLaw
 from roughline.topography.body import Body
 
-_MOST_ROUNDING = 1e4  # how far above that of rounding a spectrum is still rounding
+_ROUNDING_FACTOR = 1e4  # how far above that of rounding a spectrum is still rounding
 
 
 @public
@@ -115,7 +115,7 @@ def draw_spectrum(axes: Axes, found: Roughness, unit: str | None) -> None:
     if found.spectrum is None or power is None:
         say(axes, "no spectrum")
         return
-    known = power > _MOST_ROUNDING * _rounding(found.spectrum, found.rms_height)
+    known = power > _ROUNDING_FACTOR * _rounding(found.spectrum, found.rms_height)
     axes.loglog(found.spectrum.q[known], power[known], ".", color="0.4", markersize=2)
     if found.law is not None:
         axes.loglog(*found.law, color="tab:red")

@@ -121,7 +121,7 @@ def _print_answers(
     elif len(loads) > abreast:
         print_table(console, *load_table(result, keys))
     else:
-        table = (_folded_table if unfolded_by else _whole_table)(result, loads)
+        table = (_folded_table if unfolded_by else _unfolded_table)(result, loads)
         print_table(console, *table)
     if elastic := elastic_in_words(result):
         where = " (at the largest load)" if len(headings) > 1 else ""
@@ -156,7 +156,7 @@ def _folded_table(
     ]
 
 
-def _whole_table(
+def _unfolded_table(
     result: Assessment | PartAssessment, loads: Sequence[int]
 ) -> tuple[list[str], list[list[str]]]:
     """All answers, each group but the first below a row with its name."""
