@@ -74,17 +74,15 @@ def hydraulic_aperture(
     >>> theory = rl.theory("critical-junction", surface, 1.0, loads[:3])
     >>> axes = rl.plot.hydraulic_aperture(curve, theories=[theory])
     """
-    curve_list = _checked(curves, measure, theories, labels)
-    pressures = [curve.force / curve.length**2 for curve in curve_list]
-    apertures = [curve.measured[measure].values for curve in curve_list]
-    x_label, x = _axis_of_pressure(curve_list[0], np.concatenate(pressures))
-    y_label, y = in_unit(_APERTURE_LABEL, np.concatenate(apertures), curve_list[0].unit)
-    looks = _looks(labels or range(len(curve_list)))
+    every = _checked(curves, measure, theories, labels)
+    pressures = [curve.force / curve.length**2 for curve in every]
+    apertures = [curve.measured[measure].values for curve in every]
+    x_label, x = _axis_of_pressure(every[0], np.concatenate(pressures))
+    y_label, y = in_unit(_APERTURE_LABEL, np.concatenate(apertures), every[0].unit)
+    looks = _looks(labels or range(len(every)))
     lines = [
         _Line(pressure * x, aperture * y, rising(curve), look)
-        for curve, pressure, aperture, look in zip(
-            curve_list, pressures, apertures, looks, strict=True
-        )
+        for curve, pressure, aperture, look in zip(every, pressures, apertures, looks, strict=True)
     ]
     with drawing_on(axes, height=4.4) as drawn:
         drawn.set(xscale="log", yscale="log", xlabel=x_label, ylabel=y_label)
@@ -199,14 +197,14 @@ def _add_leak(axes: Axes, of_length: str) -> None:
 
 def _checked(curves: Any, measure: str, theories: Any, labels: Any) -> list[SurfaceCurve]:
     """Curves that have a measure; theories of something else and other labels are refused."""
-    curve_list = [curves] if isinstance(curves, SurfaceCurve) else several(curves)
-    if not curve_list or not all(isinstance(curve, SurfaceCurve) for curve in curve_list):
+    every = [curves] if isinstance(curves, SurfaceCurve) else several(curves)
+    if not every or not all(isinstance(curve, SurfaceCurve) for curve in every):
         refuse("curves", curves, "one or several curves, as rl.press returns them, are needed")
-    if any(measure not in curve.measured for curve in curve_list):
+    if any(measure not in curve.measured for curve in every):
         raise InputError(
             f'a curve has no measure "{measure}": press with measures=[rl.hydraulic_aperture("x")]'
         )
-    if len({curve.unit for curve in curve_list}) > 1:
+    if len({curve.unit for curve in every}) > 1:
         raise InputError("curves are in different units: press bodies in the same unit")
     if not isinstance(theories, list | tuple) or any(
         getattr(each, "hydraulic_aperture", None) is None for each in theories
@@ -214,6 +212,6 @@ def _checked(curves: Any, measure: str, theories: Any, labels: Any) -> list[Surf
         known = '"critical-junction" and "bruggeman"'
         refuse("theories", theories, f"a list of what rl.theory gives for {known} is needed")
     texts = isinstance(labels, list | tuple) and all(isinstance(label, str) for label in labels)
-    if not texts or len(labels) not in (0, len(curve_list)):
-        refuse("labels", labels, f"a list of {len(curve_list)} texts is needed, one for each curve")
-    return curve_list
+    if not texts or len(labels) not in (0, len(every)):
+        refuse("labels", labels, f"a list of {len(every)} texts is needed, one for each curve")
+    return every
