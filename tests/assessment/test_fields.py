@@ -28,11 +28,11 @@ TEMPERATURE = Field(
 
 def test_an_entry_of_the_table_is_an_option_with_its_help(monkeypatch):
     monkeypatch.setattr("roughline.cli.options.FIELDS", (*FIELDS, TEMPERATURE))
-    told_of = []
+    received = []
 
     @with_fields(LOADS)
-    def command(file: str, told: dict):
-        told_of.append(told)
+    def command(file: str, values: dict):
+        received.append(values)
 
     app = typer.Typer()
     app.command()(command)
@@ -40,7 +40,7 @@ def test_an_entry_of_the_table_is_an_option_with_its_help(monkeypatch):
     assert "--temperature" in page
     assert "Temperature of both bodies" in page
     assert CliRunner().invoke(app, ["a.nc", "--temperature", "300 K"]).exit_code == 0
-    assert told_of[0]["temperature"] == "300 K"
+    assert received[0]["temperature"] == "300 K"
 
 
 def test_an_entry_of_the_table_has_a_name_in_messages(monkeypatch):
@@ -68,12 +68,12 @@ fields.FIELDS += (
 )
 from roughline.cli.flags import FLAGS
 from roughline.lab.measured.documents import as_command, as_python
-from roughline.lab.measured.state import said_of
+from roughline.lab.measured.state import control_texts
 from roughline.lab.measured.state import CONTROLS
 from roughline.lab.site import page
 
 said = {"first": "steel", "second": "copper", "temperature": "300 K"}
-assert said_of({"state": said}) == said
+assert control_texts({"state": said}) == said
 assert 'data-text="temperature"' in page()
 assert "Temperature of both bodies." in page()
 assert "--temperature '300 K'" in as_command(said, ["a.nc"])

@@ -12,7 +12,7 @@ from roughline.assessment import cost
 from roughline.fluid import measures
 from roughline.fluid.rarefied import Rarefied
 from roughline.report.contact_tables import symbol_table
-from roughline.report.fields_of_load import _of_flow
+from roughline.report.fields_of_load import _flow_caption
 from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 from roughline.report.typeset import formula_in_symbols
@@ -427,7 +427,7 @@ def test_the_aperture_with_slip_is_that_of_the_pictures_of_a_gas(surface):
     apertures = [flow.hydraulic_aperture for flow in result.flows]
     assert result.answers["aperture_with_slip"].values == pytest.approx(max(apertures), rel=1e-9)
     assert "aperture_with_slip" not in asked(surface, WATER, loads="60 MPa").answers
-    text = _of_flow(result, 0)
+    text = _flow_caption(result, 0)
     u_h = result.answers["hydraulic_aperture_x"].values[0]
     assert f"along the seal, it is {engineering(u_h, 'm', 3)} along x and" in text
 
