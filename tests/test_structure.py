@@ -133,11 +133,7 @@ def test_every_way_to_look_a_setting_up_is_seen(line, is_read):
     assert bool(list(_reads_of_settings(ast.parse(line)))) is is_read
 
 
-_ROOMS_WITH_OLD_NAMES = {
-    *("assessment", "campaign", "cli", "engineering", "errors", "lab", "paper", "plot", "report"),
-    *("texture", "topography", "units.py"),
-}
-_NOT_GENITIVES = {"fluid_of", "one_of"}  # public; and a check that a value is one of several
+_NOT_GENITIVES = {"fluid_of"}  # public
 _BARE_WORDS = {
     *("ALIKE", "BEYOND", "CLOSE", "FAR", "FARTHEST", "FEW", "FEWEST", "FINE", "FURTHER", "KEPT"),
     *("LARGE", "LARGEST", "LEAST", "LONGER", "LONGEST", "MANY", "MORE", "MOST", "MUCH", "NEAR"),
@@ -163,9 +159,8 @@ def _riddles(tree):
 
 def test_names_say_what_a_function_gives_and_what_a_constant_bounds():
     found = [
-        f"{name}: {riddle}"
+        f"{path.relative_to(SOURCE).as_posix()}: {riddle}"
         for path in sorted(SOURCE.rglob("*.py"))
-        if (name := path.relative_to(SOURCE).as_posix()).split("/")[0] not in _ROOMS_WITH_OLD_NAMES
         for riddle in _riddles(ast.parse(path.read_text("utf-8")))
     ]
     assert found == []
@@ -177,7 +172,7 @@ def test_names_say_what_a_function_gives_and_what_a_constant_bounds():
         ("def of_places(): ...", True),
         ("def _of_yield(): ...", True),
         ("def steepening_of(): ...", True),
-        ("def one_of(): ...", False),
+        ("def fluid_of(): ...", False),
         ("def work_of_adhesion(): ...", False),
         ("_LEAST = 8", True),
         ("_LEAST, _MOST = 1e-40, 1e40", True),

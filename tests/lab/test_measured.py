@@ -26,7 +26,7 @@ from roughline.errors.words import speaking
 from roughline.lab.measured import documents
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.controls import BY_CONTROL
-from roughline.lab.measured.examples import EXAMPLES, path_of
+from roughline.lab.measured.examples import EXAMPLES, write_example
 from roughline.lab.measured.state import CONTROLS, control_texts, first_source, page_question
 from roughline.lab.server.tasks import run_task
 from roughline.lab.site import TASKS
@@ -83,7 +83,7 @@ class Page:
     def example(self, key, folder):
         """Put the file of an example into a folder; it is written once, which takes a while."""
         folder.mkdir(exist_ok=True)
-        shutil.copyfile(path_of(key, self._examples), folder / EXAMPLES[key].file)
+        shutil.copyfile(write_example(key, self._examples), folder / EXAMPLES[key].file)
 
     @property
     def session(self):
@@ -158,8 +158,8 @@ def test_examples_say_all_that_is_needed_and_are_always_the_same(page, tmp_path,
     header, arrays = page.ask("look", {"example": key})
     assert header["asks"] == {"unit": False, "size": False, "channels": []}
     assert header["lists"]["obstacles"] == []
-    first = rl.read(path_of(key, tmp_path / "one"))
-    again = rl.read(path_of(key, tmp_path / "two"))
+    first = rl.read(write_example(key, tmp_path / "one"))
+    again = rl.read(write_example(key, tmp_path / "two"))
     np.testing.assert_array_equal(first.heights, again.heights)
     assert (
         heights_of(header, arrays).size == np.prod(header["body"]["points"]) == first.heights.size

@@ -24,7 +24,7 @@ PREPARATION = "Preparation"
 _MOST_DIGITS = 20  # of a whole number
 
 _FLUID = "a fluid in the gap: what leaks"
-_MORE = "more"
+_FOLDED_AWAY = "more"
 
 
 @dataclass(frozen=True)
@@ -295,7 +295,7 @@ FIELDS: tuple[Field, ...] = (
         help="Repeat the surface periodically: it has no borders, and the stiffness is that of "
         "the interface. Otherwise the half-space continues, unloaded, around the surface.",
         choices={"free": (False, "free"), "periodic": (True, "periodic")},
-        fold=_MORE,
+        fold=_FOLDED_AWAY,
     ),
     _of_bodies(
         name="periodic_along",
@@ -309,7 +309,7 @@ FIELDS: tuple[Field, ...] = (
         name="friction",
         of="Friction",
         argument="coefficient",
-        fold=_MORE,
+        fold=_FOLDED_AWAY,
         help="Coefficient of friction, above 0 and up to 5, such as 0.3: adds partial slip at the "
         "largest load, its curve in the report and in JSON.",
         otherwise="none",
@@ -319,7 +319,7 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="frequency",
         of="Ultrasound",
-        fold=_MORE,
+        fold=_FOLDED_AWAY,
         label="ultrasound",
         word="frequency",
         help='Frequency of ultrasound, such as "5 MHz": adds its reflection by the interface.',
@@ -386,14 +386,14 @@ FIELDS: tuple[Field, ...] = (
     _of_answers(
         name="theories",
         of="Theories",
-        fold=_MORE,
+        fold=_FOLDED_AWAY,
         flag="--theory",
         help="Theory to compare with, of the same waves and of periodic surfaces: {theories}.",
         separator=",",
     ),
     _of_answers(
         name="grid_error",
-        fold=_MORE,
+        fold=_FOLDED_AWAY,
         label="grid error",
         word='grid error "estimate"',
         help="Estimate discretisation errors from coarser grids, without which there are no "

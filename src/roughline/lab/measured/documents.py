@@ -93,9 +93,9 @@ def code(arguments: Arguments, progress: Progress) -> bytes:
 
 _EXAMPLE_IN_PYTHON = """from pathlib import Path
 
-from roughline.lab.measured.examples import path_of
+from roughline.lab.measured.examples import write_example
 
-path_of("{}", Path())  # writes the file of the example
+write_example("{}", Path())  # writes the file of the example
 
 """
 _EXAMPLE_IN_COMMAND = "python -m roughline.lab.measured.examples {}\n"
@@ -140,7 +140,7 @@ def as_python(texts: ControlTexts, names: Sequence[str]) -> str:
     """Lines that answer the same question."""
     is_part = len(names) > 1
     typed = _typed_values(texts) | {"whole_curve": bool(typed_loads(texts))}
-    written = {each.name: typed[each.name] for each in FIELDS if each.says(typed.get(each.name))}
+    written = {each.name: typed[each.name] for each in FIELDS if each.is_set(typed.get(each.name))}
     question = [f"[{', '.join(map(repr, names))}]" if is_part else repr(names[0])]
     question += [f"{name}={value!r}" for name, value in arguments_for("Question", written).items()]
     if asked := [_in_python(*each) for each in asked_in(written)]:

@@ -16,7 +16,7 @@ import numpy as np
 import roughline as rl
 
 
-def path_of(key: str, folder: Path) -> Path:
+def write_example(key: str, folder: Path) -> Path:
     """Where an example lies in a folder; it is written there if it is not there yet."""
     example = EXAMPLES[key]
     path = folder / example.file
@@ -127,4 +127,4 @@ EXAMPLES = {
 """By their keys in the address."""
 
 if __name__ == "__main__":
-    path_of(sys.argv[1], Path())
+    write_example(sys.argv[1], Path())

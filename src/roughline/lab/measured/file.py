@@ -74,7 +74,7 @@ def prepare(arguments: Arguments, progress: Progress) -> bytes:
     uncropped = before.body or body
     corner = (crop or (0.0, 0.0, 0.0, 0.0))[::2]
     if cutoff := body.provenance.low_pass:
-        inner = points_kept(replace(uncropped, is_cut_out=body.is_cut_out), cutoff)
+        inner = inner_points(replace(uncropped, is_cut_out=body.is_cut_out), cutoff)
         corner = [
             start + each.start * step
             for start, each, step in zip(corner, inner, point_spacings(uncropped), strict=False)

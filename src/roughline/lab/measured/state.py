@@ -19,7 +19,7 @@ from roughline.engineering.materials import material
 from roughline.errors.words import Words
 from roughline.lab.controls import ControlError, refuse_strange, sent_texts, usable
 from roughline.lab.measured import controls as c
-from roughline.lab.measured.examples import EXAMPLES, path_of
+from roughline.lab.measured.examples import EXAMPLES, write_example
 from roughline.lab.server.tasks import Arguments
 from roughline.topography.preparation import Preparation
 
@@ -100,7 +100,7 @@ def page_sources(texts: ControlTexts, session: Mapping[str, Any]) -> list[Source
             raise ControlError(
                 f'there is no example "{key[:40]}"; there are {", ".join(EXAMPLES)}', "file"
             )
-        path = path_of(key, Path(session["folder"]) / "results")
+        path = write_example(key, Path(session["folder"]) / "results")
         return [Source(path, EXAMPLES[key].file, key)]
     keys = texts.get("file", "").split(",")
     paths = [session["files"].get(key) for key in keys]
