@@ -26,7 +26,7 @@ def over_force(
             *lines,
             *(theory_lines(theories.options) if theories else ()),
             marks("curve", "3D", "dark-line", size=7, marker="circle"),
-            marks("unsure", FEW, "dark-line", size=7, marker="circle", fill_alpha=0),
+            marks("unsure", UNRESOLVED_3D, "dark-line", size=7, marker="circle", fill_alpha=0),
             marks("here", "3D, this load", "here", size=13, marker="circle"),
         ),
         cursor="height",
@@ -34,7 +34,7 @@ def over_force(
     )
 
 
-FEW = "3D, fewer than ten cells touch"
+UNRESOLVED_3D = "3D, fewer than ten cells touch"
 """Name of loads whose contact the grid decides."""
 BACK = Series(
     name="back",
