@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
@@ -42,9 +42,16 @@ TENFOLD = 10.0
 COMPARED = 0.5
 """Load, over the largest, under which the leaks on unloading and on loading are compared."""
 
-_SEARCHED = {ELASTIC: (0.1, 0.8), WEAK: (0.1, 0.8), MOSTLY: (0.06, 0.28), FULL: (0.02, 0.095)}
-_SEARCHES = 10  # loads from and to these, between two of which the last channel closes
-_ROUNDS, _PARTS = 3, 4  # so often what lies between these two is cut into so many parts
+_ABOUT = {ELASTIC: 0.22, WEAK: 0.22, MOSTLY: 0.13, FULL: 0.05}
+"""Loads about which bodies seal."""
+_FIRST, _PARTS = 8, 4
+"""Loads that are tried first, and parts into which what lies between two of them is cut."""
+_NEAR = 1.004
+"""Ratio of the loads between which the last channel closes, at most."""
+_FURTHER = 1.3  # step to a lighter or a heavier load where the first ones do not do
+_MOST = 0.95  # of the hardness, which all of the contact bears at last
+_RTOL, _RTOL_OF_CHANNELS = 1e-6, 1e-4
+"""Tolerances of the residuals where the flow is computed, and where channels are looked for."""
 
 DIRECTIONS: tuple[Along, ...] = ("x", "y")
 Measured = dict[str, float | list[float]]
@@ -68,6 +75,13 @@ class Case:
     def loads(self) -> tuple[float, ...]:
         """Loads under which the flow is computed."""
         return tuple(load for load in LOADS if load < self.hardness)
+
+    @property
+    def searched(self) -> tuple[float, ...]:
+        """Loads that are tried first; sealing loads scatter less on larger bodies."""
+        about, factor = _ABOUT[self.hardness], 1 + 3 / self.waves**0.75
+        high = min(about * factor, _MOST * self.hardness)
+        return tuple(np.geomspace(about / factor, high, _FIRST).tolist())
 
     @cached_property
     def spectrum(self) -> rl.SelfAffine:
@@ -104,8 +118,10 @@ class _Pressed:
     curve: SurfaceCurve
 
     @classmethod
-    def of(cls, case: Case, surface: rl.Surface, loads: Iterable[float]) -> _Pressed:
-        """Press a surface."""
+    def of(
+        cls, case: Case, surface: rl.Surface, loads: Iterable[float], fields: bool = True
+    ) -> _Pressed:
+        """Press a surface; without fields only channels and areas are seen, less accurately."""
         loads = tuple(loads)
         curve = rl.press(
             surface,
@@ -113,21 +129,22 @@ class _Pressed:
             forces=[load * case.slope for load in loads],
             hardness=case.hardness * case.slope,
             periodic=True,
-            fields=True,
+            fields=fields,
             measures=[OPEN[along] for along in DIRECTIONS],
+            rtol=_RTOL if fields else _RTOL_OF_CHANNELS,
         )
         return cls(loads, curve)
 
     def has_channel(self, i: int, along: Along) -> bool:
-        """Whether any channel is open under a load."""
+        """Whether a part of the gap winds along a direction under a load."""
         return bool(self.curve.measured[OPEN[along].name].values[i])
 
-    def permeance(self, i: int, along: Along) -> float:
-        """Permeance under a load, in rms heights³."""
-        flow = rl.flow(self.curve.fields[i], along=along)
-        if not flow.converged:
+    def permeances(self, i: int) -> tuple[float, float]:
+        """Permeances along x and along y under a load, in rms heights³."""
+        x, y = rl.flow(self.curve.fields[i], along="both")
+        if not (x.converged and y.converged):
             raise ConvergenceError("the flow did not converge", self.curve)
-        return flow.permeance
+        return x.permeance, y.permeance
 
     def of_medium(self, i: int, threshold: float) -> float:
         """Permeance of the effective medium of the gaps under a load, in rms heights³."""
@@ -153,29 +170,22 @@ class _Pressed:
         }
 
 
-def measured(case: Case, number: int) -> Measured:
-    """Measure the body of a number; it depends on nothing else."""
+def measured(case: Case, number: int, leaks: bool = True) -> Measured:
+    """Measure the body of a number: where it seals and, if asked for, what leaks before and after.
+
+    It depends on nothing else.
+    """
     surface = case.surface(number)
-    low, high = _SEARCHED[case.hardness]
-    searched = np.geomspace(low, high, _SEARCHES).tolist()
-    first = _Pressed.of(case, surface, sorted({*case.loads, *searched}))
-    places = list(map(first.loads.index, case.loads))
-    found: Measured = {
-        f"permeance_{along}": [first.permeance(i, along) for i in places] for along in DIRECTIONS
-    }
-    for threshold in MEDIA:
-        found[f"medium_{threshold:g}"] = [first.of_medium(i, threshold) for i in places]
-    seen = first.looks()
-    del first  # its fields are large
-    for _ in range(_ROUNDS):
-        both = [_closing(seen, along) for along in DIRECTIONS]
-        inner = {p for ends in both for p in np.geomspace(*ends, _PARTS + 1)[1:-1].tolist()}
-        seen |= _Pressed.of(case, surface, sorted(inner)).looks()
+    seen = _seen(case, surface)
+    found: Measured = {}
     for along in DIRECTIONS:
         ends = _closing(seen, along)
         found[f"sealing_{along}"] = math.sqrt(math.prod(ends))
         for name in ("area", "cells", "plastic"):
             found[f"{name}_{along}"] = sum(getattr(seen[load], name) for load in ends) / 2
+    if not leaks:
+        return found
+    found |= _leaks(case, surface)
     sealing, _ = _closing(seen, "x")
     for peak in PEAKS:
         found |= {
@@ -185,10 +195,48 @@ def measured(case: Case, number: int) -> Measured:
     return found
 
 
+def _seen(case: Case, surface: rl.Surface) -> dict[float, _Look]:
+    """What is seen under loads so many that the last channels close between two near ones."""
+    seen: dict[float, _Look] = {}
+    loads = list(case.searched)
+    while loads:
+        seen |= _Pressed.of(case, surface, sorted(loads), fields=False).looks()
+        loads = list(_wanted(seen, case.hardness))
+    return seen
+
+
+def _wanted(seen: dict[float, _Look], hardness: float) -> Iterator[float]:
+    """Loads that are to be looked at next; none if the last channels are found."""
+    lightest, heaviest = min(seen), max(seen)
+    if not all(seen[lightest].has_channel.values()):
+        yield lightest / _FURTHER
+        return
+    if any(seen[heaviest].has_channel.values()):
+        heavier = heaviest * _FURTHER
+        yield heavier if heavier < _MOST * hardness else math.sqrt(heaviest * hardness)
+        return
+    for low, high in {_closing(seen, along) for along in DIRECTIONS}:
+        if high > _NEAR * low:
+            yield from np.geomspace(low, high, _PARTS + 1)[1:-1].tolist()
+
+
 def _closing(seen: dict[float, _Look], along: Along) -> tuple[float, float]:
     """Return the last load with a channel, and the next, which has none."""
     loads = sorted(seen)
     return next((low, high) for low, high in pairwise(loads) if not seen[high].has_channel[along])
+
+
+def _leaks(case: Case, surface: rl.Surface) -> Measured:
+    """What leaks under some loads, and what would through effective media of the gaps."""
+    body = _Pressed.of(case, surface, case.loads)
+    places = range(len(case.loads))
+    permeances = [body.permeances(i) for i in places]
+    found: Measured = {
+        f"permeance_{along}": [each[k] for each in permeances] for k, along in enumerate(DIRECTIONS)
+    }
+    for threshold in MEDIA:
+        found[f"medium_{threshold:g}"] = [body.of_medium(i, threshold) for i in places]
+    return found
 
 
 def _unloaded(case: Case, surface: rl.Surface, peak: float) -> Measured:
@@ -198,7 +246,7 @@ def _unloaded(case: Case, surface: rl.Surface, peak: float) -> Measured:
     """
     steps = [1.0, *FRACTIONS, 0.0]
     body = _Pressed.of(case, surface, [peak * step for step in steps[:-1]])
-    permeance = cache(lambda i: body.permeance(i, "x"))
+    permeance = cache(lambda i: body.permeances(i)[0])
     count = len(body.loads)
     if not body.has_channel(0, "x"):
         opens = bisect_left(range(count), True, key=lambda i: body.has_channel(i, "x"))
@@ -210,7 +258,7 @@ def _unloaded(case: Case, surface: rl.Surface, peak: float) -> Measured:
         logs = np.log([permeance(leaks - 1), permeance(leaks)])
         tenfold = math.exp(np.interp(np.log(limit), logs, np.log(steps[leaks - 1 : leaks + 1])))
     again = steps.index(COMPARED)
-    loading = _Pressed.of(case, surface, [peak * COMPARED]).permeance(0, "x")
+    loading = _Pressed.of(case, surface, [peak * COMPARED]).permeances(0)[0]
     return {
         "permeance": permeance(0),
         "tenfold": tenfold,

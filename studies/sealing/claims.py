@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import combinations
 
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Case as Judged
@@ -10,24 +11,32 @@ from roughline.statistics.verdict import Claim, Range, around
 from studies.judged import Found, claim_on, confidence_of_each, spread
 from studies.sealing.body import ELASTIC, FULL, LOADS, MOSTLY, PEAKS, WEAK, Case
 from studies.sealing.measure import (
-    LARGEST,
     OF_GAPS,
-    SMALLEST,
     Data,
     Sample,
-    at_sealing,
     over_theory,
     plastic_factor,
-    size_change,
     taken_off,
     tightening,
     until_open,
 )
-from studies.sealing.run import HARDNESSES, HURSTS
+from studies.sealing.run import HARDNESSES, HURSTS, LEAKING
+from studies.sealing.scaling import (
+    LARGEST,
+    PERCOLATION,
+    SMALLEST,
+    at_sealing,
+    hurst_change,
+    scaling,
+    size_change,
+)
 
 SEALING = 0.42
 """Contact area at sealing of elastic bodies in the literature."""
+EARLIER = 0.40
+"""That of roughline 0.2, of gaps between two ends."""
 AREA_TOLERANCE = 0.01
+EXPONENT_TOLERANCE = 0.2
 FACTOR = 8.0
 """By which plastic flow lowers the leak of a metal seal in the literature."""
 WITHIN = 2.0
@@ -61,8 +70,11 @@ def claims(data: Data) -> list[Claim]:
     """Return all claims with their verdicts."""
     return [
         *(_seals(data, hardness, SEALING) for hardness in (ELASTIC, WEAK)),
+        _seals(data, ELASTIC, EARLIER),
         _seals(data, FULL, 0.5),
+        *(_is_the_same(data, hardness) for hardness in HARDNESSES),
         _size(data),
+        _nears_as_percolation(data),
         *(_leaks_as(data, name) for name in THEORIES),
         *(_plastic_flow_lowers(data, hardness) for hardness in (WEAK, FULL)),
         _elastic_bodies_retrace(data),
@@ -71,18 +83,37 @@ def claims(data: Data) -> list[Claim]:
     ]
 
 
+_SAID_BY = {
+    SEALING: "Dapp and others; Wang and Müser",
+    EARLIER: "roughline 0.2, between two ends",
+    0.5: "as heights cut at a level",
+}
+
+
 def _seals(data: Data, hardness: float, area: float) -> Claim:
-    known = "Dapp and others; Wang and Müser" if area == SEALING else "as heights cut at a level"
     return claim_on(
-        f"{KINDS[hardness].capitalize()} contacts seal at A/A_0 = {area:g} ({known}), to "
+        f"{KINDS[hardness].capitalize()} contacts seal at A/A_0 = {area:g} ({_SAID_BY[area]}), to "
         f"±{AREA_TOLERANCE:g}",
-        "A/A_0 where the last channel closes",
-        {
-            f"at Hurst {hurst:g}": at_sealing(data, LARGEST, hurst, hardness, _OF_HURSTS)
-            for hurst in HURSTS
-        },
+        "A/A_0 where endless contacts seal",
+        {f"at Hurst {hurst:g}": at_sealing(data, hurst, hardness, _OF_HURSTS) for hurst in HURSTS},
         around(area, AREA_TOLERANCE),
         ".3f",
+    )
+
+
+def _is_the_same(data: Data, hardness: float) -> Claim:
+    pairs = list(combinations(HURSTS, 2))
+    level = confidence_of_each(len(pairs))
+    return claim_on(
+        "The area at sealing is the same whatever the Hurst exponent (Dapp and others), to "
+        f"±{AREA_TOLERANCE:g}: {KINDS[hardness]}",
+        "change of A/A_0 where endless contacts seal",
+        {
+            f"from {first:g} to {second:g}": hurst_change(data, (first, second), hardness, level)
+            for first, second in pairs
+        },
+        around(0, AREA_TOLERANCE),
+        "+.3f",
     )
 
 
@@ -90,7 +121,8 @@ def _size(data: Data) -> Claim:
     level = confidence_of_each(len(HURSTS) * len(HARDNESSES))
     count = data.sample(LARGEST, HURSTS[0], ELASTIC).count
     return claim_on(
-        f"The area at sealing does not depend on the size (here), to ±{AREA_TOLERANCE:g}",
+        "The mean area at sealing along a direction does not depend on the size (here), to "
+        f"±{AREA_TOLERANCE:g}",
         f"change of A/A_0 from {SMALLEST} to {LARGEST} roll-off waves along a side",
         {
             f"{KINDS[hardness]} at Hurst {hurst:g}": Found.of(
@@ -105,13 +137,31 @@ def _size(data: Data) -> Claim:
     )
 
 
+def _nears_as_percolation(data: Data) -> Claim:
+    level, found = confidence_of_each(len(HURSTS) * len(HARDNESSES)), {}
+    for hardness in HARDNESSES:
+        for hurst in HURSTS:
+            fit = scaling(data, hurst, hardness, free=True)
+            where = f"{KINDS[hardness]} at Hurst {hurst:g}"
+            found[where] = Found.of(fit.exponent(level), fit.bodies)
+    return claim_on(
+        f"Finite contacts near this area as in two-dimensional percolation, 1/ν = {PERCOLATION:g}, "
+        f"to ±{EXPONENT_TOLERANCE:g}",
+        "exponent 1/ν that fits best",
+        found,
+        around(PERCOLATION, EXPONENT_TOLERANCE),
+        ".2f",
+        each=False,
+    )
+
+
 def _leaks_as(data: Data, name: str) -> Claim:
     return _of_loads(
         f"Elastic contacts leak as {name} says, to a factor of {WITHIN:g}",
         "leak over that of the theory",
         LOADS,
         lambda hurst, load: over_theory(
-            data, THEORIES[name], Case(LARGEST, hurst, ELASTIC), load, _OF_LOADS
+            data, THEORIES[name], Case(LEAKING, hurst, ELASTIC), load, _OF_LOADS
         ),
         (1 / WITHIN, WITHIN),
     )
@@ -122,8 +172,8 @@ def _plastic_flow_lowers(data: Data, hardness: float) -> Claim:
         f"Plastic flow lowers the leak by a factor of {FACTOR:g} (Fischer and others): "
         f"{KINDS[hardness]}, to a factor of {WITHIN:g}",
         "leak of elastic bodies over that under the same pressure",
-        Case(LARGEST, HURSTS[0], hardness).loads,
-        lambda hurst, load: plastic_factor(data, LARGEST, hurst, hardness, load, _OF_LOADS),
+        Case(LEAKING, HURSTS[0], hardness).loads,
+        lambda hurst, load: plastic_factor(data, LEAKING, hurst, hardness, load, _OF_LOADS),
         (FACTOR / WITHIN, FACTOR * WITHIN),
     )
 
@@ -189,7 +239,7 @@ def _of_peaks(
     found = {}
     for peak in BELOW:
         for hurst in HURSTS:
-            one = data.sample(LARGEST, hurst, hardness)
+            one = data.leaks(LEAKING, hurst, hardness)
             where = f"from {peak:g} of the sealing pressure at Hurst {hurst:g}"
             found[where] = Found.of(number(one, peak, _OF_PEAKS), one.count)
     return claim_on(statement, what, found, allowed, form, each=False)
@@ -198,7 +248,7 @@ def _of_peaks(
 def _stays_sealed(data: Data) -> Claim:
     found = {}
     for hurst in HURSTS:
-        one = data.sample(LARGEST, hurst, FULL)
+        one = data.leaks(LEAKING, hurst, FULL)
         found[f"at Hurst {hurst:g}"] = Found.of(until_open(one, _OF_HURSTS), one.count)
     return claim_on(
         f"Loaded to {BEYOND:g} of the sealing pressure, fully plastic contacts stay sealed until "

@@ -12,11 +12,12 @@ from roughline.statistics.averages import average
 from studies.panels import StudyCurve, StudyPanel
 from studies.sealing.body import ELASTIC, Case
 from studies.sealing.claims import KINDS, SEALING, THEORIES
-from studies.sealing.measure import LARGEST, OF_GAPS, Data, mean, theory_of
-from studies.sealing.run import COUNTS, HARDNESSES, HURSTS
+from studies.sealing.measure import OF_GAPS, Data, mean, theory_of
+from studies.sealing.run import COUNTS, HARDNESSES, LEAKING
+from studies.sealing.scaling import PERCOLATION, first_and_last, threshold
 
 SHOWN = 0.8
-"""Hurst exponent of the leaks that are drawn."""
+"""Hurst exponent of what is drawn."""
 _OF_PERSSON = [name for name, (kind, _) in THEORIES.items() if kind != OF_GAPS]
 _DASHES = ("dashed", "dotted", "dashdot")
 _AREA_LABEL, _AREAS = "A / A_0 at sealing", (0.35, 0.6)
@@ -24,7 +25,7 @@ _APERTURES = (0.0, 2.5)  # in rms heights
 
 
 def sealing_figure(data: Data) -> Figure:
-    """Draw the area at sealing over the size, and the hydraulic aperture over the pressure."""
+    """Draw the areas at sealing over the size, and the hydraulic aperture over the pressure."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
     _draw_areas(left, data)
@@ -33,26 +34,30 @@ def sealing_figure(data: Data) -> Figure:
 
 
 def _draw_areas(axes: Axes, data: Data) -> None:
+    waves = np.array(list(COUNTS))
     for hardness, colour in zip(HARDNESSES, colours(len(HARDNESSES)), strict=True):
-        for hurst, marker in zip(HURSTS, MARKERS, strict=False):
-            found = [mean(data.sample(n, hurst, hardness).of_both("area")) for n in COUNTS]
+        endless = threshold(data, SHOWN, hardness).value
+        areas = [first_and_last(data.sample(n, SHOWN, hardness)) for n in waves]
+        for k, marker in zip((0, 1), MARKERS, strict=False):
+            found = [mean(each[:, k]) for each in areas]
             value, low, high = np.array([(one.value, one.low, one.high) for one in found]).T
             axes.errorbar(
-                list(COUNTS),
+                waves**-PERCOLATION,
                 value,
                 (value - low, high - value),
                 color=colour,
                 marker=marker,
                 capsize=2,
                 linewidth=0.8,
-                label=KINDS[hardness] if hurst == SHOWN else None,
+                label=KINDS[hardness] if k else None,
             )
+        axes.plot(0, endless, color=colour, marker="x", clip_on=False)
     for area in (SEALING, 0.5):
         axes.axhline(area, color="0.5", linewidth=0.7, zorder=0)
-    axes.set(xscale="log", xlabel="roll-off waves along a side", ylabel=r"$A/A_0$ at sealing")
-    axes.set(xticks=list(COUNTS), xticklabels=list(map(str, COUNTS)), ylim=_AREAS)
-    axes.minorticks_off()
-    axes.legend(loc="upper right")
+    axes.set(xlabel="roll-off waves along a side", ylabel=r"$A/A_0$ at sealing", ylim=_AREAS)
+    places = [0.0, *(waves**-PERCOLATION).tolist()]
+    axes.set(xticks=places, xticklabels=["∞", *map(str, waves)], xlim=(0, max(places) * 1.05))
+    axes.legend(loc="upper left")
 
 
 def _draw_leaks(axes: Axes, data: Data) -> None:
@@ -68,7 +73,7 @@ def _draw_leaks(axes: Axes, data: Data) -> None:
 
 def apertures(data: Data, hardness: float) -> tuple[Real, Real, Real, Real]:
     """Loads, and the hydraulic aperture of the mean leak with the ends of its interval."""
-    one = data.sample(LARGEST, SHOWN, hardness)
+    one = data.leaks(LEAKING, SHOWN, hardness)
     found = average(one.of_both("permeance"))
     ends = (np.cbrt(np.maximum(each, 0)) for each in (found.mean, found.low, found.high))
     value, low, high = ends
@@ -77,7 +82,7 @@ def apertures(data: Data, hardness: float) -> tuple[Real, Real, Real, Real]:
 
 def theory_apertures(name: str) -> tuple[Real, Real]:
     """Loads, and the hydraulic aperture of a theory."""
-    case = Case(LARGEST, SHOWN, ELASTIC)
+    case = Case(LEAKING, SHOWN, ELASTIC)
     leaks = [theory_of(*THEORIES[name], case, load) for load in case.loads]
     return np.array(case.loads), np.cbrt(leaks)
 
@@ -94,7 +99,7 @@ def _areas(data: Data) -> StudyPanel:
         found = [mean(data.sample(n, SHOWN, hardness).of_both("area")) for n in sizes]
         value, low, high = ([getattr(one, end) for one in found] for end in _ENDS)
         curves.append(StudyCurve(KINDS[hardness], sizes, value, low, high, 2 * i, marks=True))
-    ends = (3.0, 20.0)
+    ends = (3.0, 40.0)
     curves += [
         StudyCurve(f"{area:g}", ends, (area, area), dash=dash)
         for area, dash in ((SEALING, "dashed"), (0.5, "dotted"))

@@ -1,4 +1,4 @@
-"""The study's numbers: areas at sealing, leaks beside theories and beside one another, intervals.
+"""The study's numbers: leaks beside theories and beside one another, and the error of the grid.
 
 A leak is the mean permeance along x and along y, in rms heights³. The leak of an ensemble is the
 mean of its bodies, and is told where no body is sealed in both directions.
@@ -10,7 +10,7 @@ import json
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -21,12 +21,10 @@ from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate, Resampled
 from studies.judged import Found
 from studies.sealing.body import DIRECTIONS, FRACTIONS, PEAKS, Case
-from studies.sealing.run import COUNTS, FINE_CELLS, FINE_WAVES, Body, body_of
+from studies.sealing.run import CELLS, FINE_CELLS, FINE_WAVES, Body, body_of
 
 OF_GAPS = "of gaps"
 """Name of the effective medium of the gaps that a body has, not of those of Persson's theory."""
-LARGEST, SMALLEST = max(COUNTS), min(COUNTS)
-"""Roll-off waves along a side of the bodies that are judged, and of those beside them."""
 _WRITTEN = 1e-4  # of a number, at most: what the digits leave open that are written
 _HALVES = 2.0  # an error that halves with the spacing is twice the difference of two grids
 
@@ -51,6 +49,12 @@ class Sample:
         """Return the mean of what was measured along x and along y of each body."""
         x, y = (self.values(f"{name}_{along}") for along in DIRECTIONS)
         return (x + y) / 2
+
+    @property
+    def leaking(self) -> Sample:
+        """The bodies of which it was measured what leaks."""
+        found = {number: each for number, each in self.bodies.items() if "permeance_x" in each}
+        return Sample(self.case, found)
 
     def leak(self, load: float) -> Real:
         """Return the leak of each body under a load; NaN if it is above the hardness."""
@@ -89,22 +93,35 @@ class Data:
         """Version of roughline that pressed them; "a and b" if they were several."""
         return " and ".join(sorted({each["version"] for each in self.bodies.values()}))
 
-    def sample(self, waves: int, hurst: float, hardness: float, cells: int = 8) -> Sample:
+    def sample(self, waves: int, hurst: float, hardness: float, cells: int = CELLS) -> Sample:
         """Return the bodies of a case."""
         case = Case(waves, hurst, hardness, cells)
-        return Sample(
-            case,
-            {
-                number: each
-                for (of, number), each in self.bodies.items()
-                if of == case and "sealing_x" in each
-            },
-        )
+        return Sample(case, self._solved.get(case, {}))
 
-    def grids(self, hurst: float, hardness: float) -> tuple[Sample, Sample]:
-        """Return the same small bodies on a grid twice as fine, and on that of the study."""
-        fine = self.sample(FINE_WAVES, hurst, hardness, FINE_CELLS)
-        return fine.beside(self.sample(FINE_WAVES, hurst, hardness))
+    @cached_property
+    def _solved(self) -> dict[Case, dict[int, Mapping[str, Any]]]:
+        """The bodies of each case of which all loads were solved."""
+        found: dict[Case, dict[int, Mapping[str, Any]]] = {}
+        for (case, number), each in self.bodies.items():
+            if "sealing_x" in each:
+                found.setdefault(case, {})[number] = each
+        return found
+
+    def grids(
+        self, hurst: float, hardness: float, cells: int = FINE_CELLS
+    ) -> tuple[Sample, Sample]:
+        """Return the same small bodies on a grid, and on one with half as many points a side."""
+        fine = self.sample(FINE_WAVES, hurst, hardness, cells)
+        return fine.beside(self.sample(FINE_WAVES, hurst, hardness, cells // 2))
+
+    def leaks(self, waves: int, hurst: float, hardness: float) -> Sample:
+        """Return the bodies of a case of which it was measured what leaks."""
+        return self.sample(waves, hurst, hardness).leaking
+
+    def leaking_grids(self, hurst: float, hardness: float) -> tuple[Sample, Sample]:
+        """Return the same small leaking bodies on a finer grid, and on that of the study."""
+        fine, coarse = self.grids(hurst, hardness)
+        return fine.leaking.beside(coarse.leaking)
 
 
 def mean(values: Real, confidence: float = 0.95, step: float = 0.0) -> IntervalEstimate:
@@ -122,28 +139,29 @@ def _known_to(found: Resampled, step: float, bodies: int) -> Resampled:
     return replace(found, error=error, errors=errors)
 
 
-def at_sealing(data: Data, waves: int, hurst: float, hardness: float, confidence: float) -> Found:
-    """Return the contact area where the last channel closes, widened by the error of the grid."""
-    one = data.sample(waves, hurst, hardness)
-    area = mean(one.of_both("area"), confidence)
-    shift = _HALVES * area_shift(data, hurst, hardness).value
-    down, up = min(shift, 0), max(shift, 0)
-    return Found(area.low + down, area.value + down, area.value + up, area.high + up, one.count)
+def area_shift(
+    data: Data,
+    hurst: float,
+    hardness: float,
+    name: str = "area",
+    cells: int = FINE_CELLS,
+    confidence: float = 0.95,
+) -> IntervalEstimate:
+    """Return by how much the area at sealing is larger than on a grid half as fine. [1]"""
+    fine, coarse = data.grids(hurst, hardness, cells)
+    return mean(fine.of_both(name) - coarse.of_both(name), confidence)
 
 
-def area_shift(data: Data, hurst: float, hardness: float, name: str = "area") -> IntervalEstimate:
-    """Return by how much the area at sealing is larger on a grid twice as fine. [1]"""
-    fine, coarse = data.grids(hurst, hardness)
-    return mean(fine.of_both(name) - coarse.of_both(name))
-
-
-def size_change(data: Data, hurst: float, hardness: float, confidence: float) -> IntervalEstimate:
-    """Return by how much more is in contact at sealing on the largest than on the smallest."""
-    large, small = (
-        bootstrap.means(data.sample(waves, hurst, hardness).of_both("area"), rng)
-        for rng, waves in enumerate((LARGEST, SMALLEST))
+def widened_by_grid(found: IntervalEstimate, shift: IntervalEstimate, count: int) -> Found:
+    """Widen an area by what finer grids would change, and by how well that is known."""
+    value, low, high = (_HALVES * each for each in (shift.value, shift.low, shift.high))
+    return Found(
+        found.low + min(low, 0),
+        found.value + min(value, 0),
+        found.value + max(value, 0),
+        found.high + max(high, 0),
+        count,
     )
-    return (large - small).interval_estimate(confidence)
 
 
 def ratio(first: Real, second: Real, confidence: float = 0.95) -> IntervalEstimate:
@@ -172,13 +190,13 @@ def over_theory(
     None where a body is sealed, or nothing leaks by the theory.
     """
     name, threshold = theory
-    one = data.sample(case.waves, case.hurst, case.hardness)
+    one = data.leaks(case.waves, case.hurst, case.hardness)
     values = one.leak(load)
     if name == OF_GAPS:
         expected = one.values(f"medium_{threshold:g}")[:, case.loads.index(load)]
     else:
         expected = np.full(one.count, theory_of(name, threshold, case, load))
-    fine, coarse = (each.leak(load) for each in data.grids(case.hurst, case.hardness))
+    fine, coarse = (each.leak(load) for each in data.leaking_grids(case.hurst, case.hardness))
     found, shift = ratio(values, expected, confidence), ratio(fine, coarse).value
     if math.isnan(found.value) or math.isnan(shift):
         return None
@@ -190,11 +208,11 @@ def plastic_factor(
 ) -> Found | None:
     """Return the leak of elastic bodies over that of the same bodies that yield, under a load."""
     hard = math.inf
-    elastic, yielding = data.sample(waves, hurst, hard).beside(data.sample(waves, hurst, hardness))
+    elastic, yielding = data.leaks(waves, hurst, hard).beside(data.leaks(waves, hurst, hardness))
     found = ratio(elastic.leak(load), yielding.leak(load), confidence)
     shift = 1.0
     for of, power in ((hard, 1), (hardness, -1)):
-        fine, coarse = data.grids(hurst, of)
+        fine, coarse = data.leaking_grids(hurst, of)
         shift *= ratio(fine.leak(load), coarse.leak(load)).value ** power
     if math.isnan(found.value) or math.isnan(shift):
         return None

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from roughline.errors import StoreError
 from roughline.report.page import Table
-from roughline.statistics.bootstrap import IntervalEstimate
 from studies.judged import Found, cell, change, spread
 from studies.sealing.body import (
     BAND,
@@ -25,9 +24,7 @@ from studies.sealing.body import (
 from studies.sealing.claims import BELOW, BEYOND, KINDS, THEORIES, claims
 from studies.sealing.figures import SHOWN, panels, sealing_figure
 from studies.sealing.measure import (
-    LARGEST,
     Data,
-    Sample,
     area_shift,
     mean,
     over_theory,
@@ -38,25 +35,40 @@ from studies.sealing.measure import (
     until_open,
 )
 from studies.sealing.run import (
+    CELLS,
     COUNTS,
-    FINE_COUNT,
+    FINE_CELLS,
+    FINE_COUNTS,
+    FINE_LEAKS,
     FINE_WAVES,
+    FINEST_CELLS,
     HARDNESSES,
     HURSTS,
+    LEAKING,
+    LEAKS,
     MIDDLE,
     body_of,
     planned,
 )
+from studies.sealing.scaling import (
+    LARGEST,
+    WINDING,
+    at_sealing,
+    at_share,
+    first_and_last,
+    scaling,
+    threshold,
+)
 from studies.study import Study, claims_table
 
 DATA = Path(__file__).parent / "data.jsonl"
-_OF_EACH = ((ELASTIC, LARGEST), (WEAK, LARGEST), (MOSTLY, MIDDLE), (FULL, LARGEST))
+_OF_EACH = ((ELASTIC, LEAKING), (WEAK, LEAKING), (MOSTLY, MIDDLE), (FULL, LEAKING))
 
 
 @cache
 def data() -> Data:
     """Read the data of the study, all of them; a part is refused."""
-    found = Data.of(DATA.read_text(encoding="utf-8").splitlines())
+    found = Data.of(DATA.read_text(encoding="utf-8").splitlines() if DATA.exists() else ())
     bodies = planned()
     if missing := sum(body not in found.bodies for body in bodies):
         raise StoreError(
@@ -84,20 +96,29 @@ def told(found: Data) -> dict[str, object]:
         "sizes": ", ".join(map(str, COUNTS)),
         "counts": ", ".join(map(str, COUNTS.values())),
         "largest": LARGEST,
+        "leaking": LEAKING,
+        "leak_count": LEAKS,
         "middle": MIDDLE,
+        "cells_of_wave": CELLS,
         "fine_waves": FINE_WAVES,
-        "fine_count": FINE_COUNT,
+        "fine_cells": FINE_CELLS,
+        "finest_cells": FINEST_CELLS,
+        "fine_count": FINE_COUNTS[FINE_CELLS],
+        "finest_count": FINE_COUNTS[FINEST_CELLS],
+        "fine_leaks": FINE_LEAKS,
+        "winding": f"{WINDING:.3f}",
         "hardness": {"weak": WEAK, "mostly": MOSTLY, "full": FULL},
-        "plastic": _by_kind(found, lambda one: mean(one.of_both("plastic")), ".0%"),
-        "area": _by_kind(found, lambda one: mean(one.of_both("area")), ".3f"),
-        "cells": _by_kind(found, lambda one: mean(one.of_both("cells")), ".3f"),
-        "taken_off": _by_kind(found, lambda one: taken_off(one, BELOW[-1]), ".0%"),
+        "plastic": _by_kind(lambda *of: _plastic(found, *of), ".0%"),
+        "area": _by_kind(lambda *of: at_sealing(found, *of).value, ".3f"),
+        "cells": _by_kind(lambda *of: _in_cells(found, *of), ".3f"),
+        "taken_off": _by_kind(lambda *of: _taken_off(found, *of), ".0%"),
         "tenfold": TENFOLD,
         "compared": COMPARED,
         "peaks": " and ".join(f"{peak:g}" for peak in BELOW),
         "nearest": BELOW[-1],
         "beyond": BEYOND,
         "areas": _area_table(found),
+        "limits": _limit_table(found),
         "leaks": _theory_table(found),
         "factors": _factor_table(found),
         "unloading": _unloading_table(found),
@@ -108,29 +129,72 @@ def told(found: Data) -> dict[str, object]:
     }
 
 
-def _by_kind(
-    found: Data, number: Callable[[Sample], IntervalEstimate], form: str
-) -> dict[str, str]:
-    """Return a number of the largest bodies by the first word of their kind, of all spectra."""
+def _by_kind(number: Callable[[float, float], float], form: str) -> dict[str, str]:
+    """Return a number of a Hurst exponent and a hardness, of all spectra, by the kind."""
     return {
-        KINDS[hardness].split()[0]: spread(
-            (number(found.sample(LARGEST, hurst, hardness)).value for hurst in HURSTS), form
-        )
+        KINDS[hardness].split()[0]: spread((number(hurst, hardness) for hurst in HURSTS), form)
         for hardness in HARDNESSES
     }
 
 
+def _plastic(found: Data, hurst: float, hardness: float) -> float:
+    return float(found.sample(LARGEST, hurst, hardness).of_both("plastic").mean())
+
+
+def _in_cells(found: Data, hurst: float, hardness: float) -> float:
+    return float(found.sample(LARGEST, hurst, hardness).of_both("cells").mean())
+
+
+def _taken_off(found: Data, hurst: float, hardness: float) -> float:
+    return taken_off(found.leaks(LEAKING, hurst, hardness), BELOW[-1]).value
+
+
 def _area_table(found: Data) -> Table:
-    header = ("Hurst", "contact", *(f"{waves} waves" for waves in COUNTS), "in cells", "p/(E*∇h)")
+    header = (
+        *("Hurst", "contact", "gap winds along"),
+        *(f"{waves} waves" for waves in COUNTS),
+        *("in cells", "p/(E*∇h)"),
+    )
     rows = []
     for hurst in HURSTS:
         for hardness in HARDNESSES:
             samples = [found.sample(waves, hurst, hardness) for waves in COUNTS]
-            areas = [cell(mean(one.of_both("area")), ".3f", " to ") for one in samples]
             cells = f"{samples[-1].of_both('cells').mean():.3f}"
             load = cell(mean(samples[-1].of_both("sealing")), ".3f", " to ")
-            rows.append((f"{hurst:g}", KINDS[hardness], *areas, cells, load))
-    return Table(header, rows, range(len(header)))
+            kinds = {
+                "both": [first_and_last(one)[:, 0] for one in samples],
+                "a given side": [one.of_both("area") for one in samples],
+                "any": [first_and_last(one)[:, 1] for one in samples],
+            }
+            for name, areas in kinds.items():
+                written = (cell(mean(each), ".3f", " to ") for each in areas)
+                more = (cells, load) if name == "a given side" else ("", "")
+                rows.append((f"{hurst:g}", KINDS[hardness], name, *written, *more))
+    return Table(header, rows, range(3, len(header)))
+
+
+def _limit_table(found: Data) -> Table:
+    header = (
+        *("Hurst", "contact", f"{WINDING:.3f} wind", f"of {LARGEST} waves", "with the grid"),
+        *("means, 1/ν = 3/4", "misfit", "means, best 1/ν", "best 1/ν", "misfit"),
+    )
+    rows = []
+    for hurst in HURSTS:
+        for hardness in HARDNESSES:
+            fixed, free = (scaling(found, hurst, hardness, each) for each in (False, True))
+            whole = at_sealing(found, hurst, hardness)
+            numbers = (
+                cell(threshold(found, hurst, hardness).interval_estimate(), ".3f", " to "),
+                cell(at_share(found.sample(LARGEST, hurst, hardness)), ".3f", " to "),
+                f"{whole.low:.3f} to {whole.high:.3f}",
+                cell(fixed.limit(), ".3f", " to "),
+                f"{fixed.misfit:.1f}",
+                cell(free.limit(), ".3f", " to "),
+                cell(free.exponent(), ".2f", " to "),
+                f"{free.misfit:.1f}",
+            )
+            rows.append((f"{hurst:g}", KINDS[hardness], *numbers))
+    return Table(header, rows, range(2, len(header)))
 
 
 def _theory_table(found: Data) -> Table:
@@ -139,7 +203,7 @@ def _theory_table(found: Data) -> Table:
         (
             f"{hurst:g}",
             name,
-            *(_told(over_theory(found, of, Case(LARGEST, hurst, ELASTIC), load)) for load in LOADS),
+            *(_told(over_theory(found, of, Case(LEAKING, hurst, ELASTIC), load)) for load in LOADS),
         )
         for hurst in HURSTS
         for name, of in THEORIES.items()
@@ -182,7 +246,7 @@ def _unloading_table(found: Data) -> Table:
     rows = []
     for hurst in HURSTS:
         for hardness, waves in _OF_EACH:
-            one = found.sample(waves, hurst, hardness)
+            one = found.leaks(waves, hurst, hardness)
             numbers = (
                 *(cell(taken_off(one, peak), ".3f", " to ") for peak in BELOW),
                 *(cell(tightening(one, peak), ".3g", " to ") for peak in BELOW),
@@ -193,14 +257,17 @@ def _unloading_table(found: Data) -> Table:
 
 
 def _grid_table(found: Data) -> Table:
-    header = ("Hurst", "contact", "A/A_0", "A/A_0 in cells", *(f"{load:g}" for load in LOADS))
+    header = (
+        *("Hurst", "contact", "A/A_0", "A/A_0 in cells", f"A/A_0, {FINEST_CELLS} cells"),
+        *(f"{load:g}" for load in LOADS),
+    )
     rows = []
     for hurst in HURSTS:
         for hardness in HARDNESSES:
-            fine, coarse = found.grids(hurst, hardness)
+            fine, coarse = found.leaking_grids(hurst, hardness)
             shifts = [
-                change(area_shift(found, hurst, hardness, name), "+.4f")
-                for name in ("area", "cells")
+                change(area_shift(found, hurst, hardness, *of), "+.4f")
+                for of in (("area",), ("cells",), ("area", FINEST_CELLS))
             ]
             leaks = [ratio(fine.leak(load), coarse.leak(load)).value - 1 for load in LOADS]
             rows.append((f"{hurst:g}", KINDS[hardness], *shifts, *map(_percent, leaks)))
