@@ -30,6 +30,7 @@ DRAWS = 12
 LOADS = (0.002, 0.01, 0.05, 0.2, 0.5, 0.8)  # contact area fractions of the tiled maps, about
 OPEN = (0.01, 0.1, 0.2, 0.3, 0.36)  # up to near sealing
 MAPS = 3  # of each parent
+OF_CELLS = 2  # edition of rows with flows through gaps that repeat; those before had two ends
 SEALED_FROM = (0.05, 0.15, 0.3, 0.42)  # contact from which loads are taken off, about
 MOST_POINTS = 600  # along a side of a measured map
 
@@ -233,12 +234,13 @@ LEAK = Study(
     leak_rows,
     "What flows through a part, from one map",
     "Maps of 96 x 96 pixels, each with its own tilt, are asked for a joint of 4 x 4 maps and a "
-    "fluid in its gap. The truth is the whole part, periodic, on the grid of its maps: hydraulic "
-    "apertures both ways, zero where it is sealed, and the mean gap. Loads are contact area "
-    "fractions, about.",
+    "fluid in its gap. The truth is the whole part as it repeats, on the grid of its maps: "
+    "hydraulic apertures both ways, zero where it is sealed, and the mean gap. Loads are contact "
+    "area fractions, about.",
     tuple(KINDS),
     ("elastic", "yielding"),
     groups=("load", "kind"),
+    edition=OF_CELLS,
 )
 PART = Study(
     part_rows,
@@ -265,6 +267,7 @@ SEAL = Study(
     tuple(KINDS),
     ("elastic", "yielding"),
     groups=("kind", "option", "load"),
+    edition=OF_CELLS,
 )
 TILED = Study(
     tiled_rows,
