@@ -340,7 +340,7 @@ def test_the_text_and_the_figures_are_those_of_data(as_said):
     table = claims_table({"Verdict": claims(as_said)})
     text = (STUDY.folder / "text.md").read_text("utf-8")
     page = filled(text, {"verdicts": table, **told(as_said)})
-    assert re.search(r"contact closes where 0\.4[12]\d to 0\.4[12]\d of the nominal area", page)
+    assert re.search(r"elastic contact closes where 0\.4[12]\d of the nominal area", page)
     assert "nan" not in page
     figure, panels = study.sealing_figure(as_said), study.panels(as_said)
     assert len(figure.axes) == len(panels) == 2
