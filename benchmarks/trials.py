@@ -47,11 +47,6 @@ class Study:
     seeds: int | dict = 2  # how many, or how many of each kind and option
     groups: tuple = ("kind",)
     columns: tuple = COLUMNS
-    edition: int = 1  # of what its rows mean; those of another one are left alone
-
-    def file(self, name):
-        """The file of its rows."""
-        return f"{name}.csv" if self.edition == 1 else f"{name}-{self.edition}.csv"
 
     def trials(self, name, kinds, first, share):
         """Its trials, those of each kind and option spread evenly over the whole."""

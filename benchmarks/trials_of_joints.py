@@ -30,7 +30,6 @@ DRAWS = 12
 LOADS = (0.002, 0.01, 0.05, 0.2, 0.5, 0.8)  # contact area fractions of the tiled maps, about
 OPEN = (0.01, 0.1, 0.2, 0.3, 0.36)  # up to near sealing
 MAPS = 3  # of each parent
-OF_CELLS = 2  # edition of rows with flows through gaps that repeat; those before had two ends
 SEALED_FROM = (0.05, 0.15, 0.3, 0.42)  # contact from which loads are taken off, about
 MOST_POINTS = 600  # along a side of a measured map
 
@@ -240,7 +239,6 @@ LEAK = Study(
     tuple(KINDS),
     ("elastic", "yielding"),
     groups=("load", "kind"),
-    edition=OF_CELLS,
 )
 PART = Study(
     part_rows,
@@ -267,7 +265,6 @@ SEAL = Study(
     tuple(KINDS),
     ("elastic", "yielding"),
     groups=("kind", "option", "load"),
-    edition=OF_CELLS,
 )
 TILED = Study(
     tiled_rows,
