@@ -3,7 +3,7 @@
     python -m studies.sealing.run FILE [PROCESSES]
 
 goes on where it stopped, by Ctrl-C or else: what the file has is not computed again, and no more is
-lost than the bodies in work. It takes some seven hours of one core, or half of that of two; the
+lost than the bodies in work. It takes some four hours of one core, or half of that of two; the
 file is the same whatever the processes. After each body it says how long the rest will take.
 """
 
@@ -25,17 +25,17 @@ from studies.sealing.body import ELASTIC, FULL, MOSTLY, WEAK, Case, measured
 
 HURSTS = (0.3, 0.5, 0.8)
 HARDNESSES = (ELASTIC, WEAK, FULL)
-COUNTS = {4: 300, 8: 200, 16: 100, 32: 64}
+COUNTS = {4: 160, 8: 100, 16: 56, 32: 32}
 """Surfaces of each case, by the roll-off waves along a side."""
-LEAKING, LEAKS = 16, 30
+LEAKING, LEAKS = 16, 16
 """Waves along a side of the bodies of which the leak is judged, and how many leak of each case."""
-MIDDLE, MIDDLE_COUNT = 8, 40
+MIDDLE, MIDDLE_COUNT = 8, 20
 """Waves of the bodies with one more hardness, MOSTLY, and how many; all of them leak."""
 CELLS, FINE_WAVES = 8, 4
 """Cells for the shortest wave, and waves of the bodies that show the error of the grid."""
-FINE_COUNTS = {16: 150, 32: 24}
+FINE_COUNTS = {16: 80, 32: 12}
 """How many of these, by their cells for the shortest wave."""
-FINE_LEAKS = 12
+FINE_LEAKS = 8
 """How many of those with twice as many cells leak, and of the same on the grid of the study."""
 FINE_CELLS, FINEST_CELLS = FINE_COUNTS
 
