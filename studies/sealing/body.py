@@ -156,8 +156,6 @@ class _Pressed:
     def looks(self) -> dict[float, _Look]:
         """Return what is seen under each load."""
         curve = self.curve
-        assert curve.area_fraction is not None
-        assert curve.area_fraction_corrected is not None
         plastic = curve.plastic_fraction
         return {
             load: _Look(
