@@ -266,7 +266,7 @@ def _grid_table(found: Data) -> Table:
         for hardness in HARDNESSES:
             fine, coarse = found.leaking_grids(hurst, hardness)
             shifts = [
-                change(area_shift(found, hurst, hardness, *of), "+.4f")
+                change(area_shift(found, hurst, hardness, *of).over(1e-3), "+.1f")
                 for of in (("area",), ("cells",), ("area", FINEST_CELLS))
             ]
             leaks = [ratio(fine.leak(load), coarse.leak(load)).value - 1 for load in LOADS]
