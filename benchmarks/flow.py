@@ -50,7 +50,8 @@ def ours(given):
 def equations(given):
     """The equations for the pressures of the open cells, scaled to a diagonal of ones."""
     through = ~np.isnan(rl.flow(given, (1.0, 1.0), sides="y").pressure)
-    along, across = Network(np.where(through, given**3, 0.0), 1.0, 1.0, True).conductances()
+    cells = np.where(through, given**3, 0.0)
+    along, across = Network(cells, 1.0, 1.0, False, True).conductances()
     number = np.cumsum(through.ravel()).reshape(through.shape) - 1
     first = [number[:-1], number]
     second = [number[1:], np.roll(number, -1, axis=1)]
