@@ -162,11 +162,14 @@ def test_the_controls_stay_in_sight(paper):
     assert box["y"] >= 0
     assert box["y"] + box["height"] <= 1100
     paper.set_viewport_size({"width": 1600, "height": 400})
-    button = paper.locator("#published-windows")
-    paper.locator("#published-controls").evaluate(
-        "(each) => { each.scrollTop = each.scrollHeight; }"
+    paper.wait_for_function(  # the page is laid out anew once its window has shrunk
+        """() => {
+            const controls = document.querySelector("#published-controls");
+            controls.scrollTop = controls.scrollHeight;
+            const windows = document.querySelector("#published-windows");
+            return windows.getBoundingClientRect().bottom <= 400;
+        }"""
     )
-    assert button.bounding_box()["y"] + button.bounding_box()["height"] <= 400
     paper.set_viewport_size({"width": 1600, "height": 1100})
 
 
