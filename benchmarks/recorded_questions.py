@@ -70,7 +70,7 @@ def questions(topographies):
         yield f"refused {name}", lambda name=name: rl.read(topographies / name)
     for name in ("al3d-1.al3d", "opd-1.opd", "di-1.di"):
         path = topographies / name
-        read = {"missing": "nearest", "trend": "none"}
+        read = {"missing": rl.Missing("nearest"), "trend": "none"}
         yield f"read untouched {name}", lambda path=path, read=read: rl.read(path, **read)
 
 

@@ -31,7 +31,8 @@ from roughline.units import decimal
 
 SECTIONS = {
     "Bodies": (
-        *("Surface", "Line", "Profile", "read", "write", "Preparation", "prepared", "facing"),
+        *("Surface", "Line", "Profile", "read", "Missing", "write"),
+        *("Preparation", "prepared", "facing"),
     ),
     "Spectra and roughness": (
         *("SelfAffine", "isotropic_spectrum", "profile_spectrum", "fit_self_affine", "roughness"),

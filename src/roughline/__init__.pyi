@@ -95,6 +95,7 @@ from roughline.topography.body import Line as Line
 from roughline.topography.body import Surface as Surface
 from roughline.topography.files.read import read as read
 from roughline.topography.files.write import write as write
+from roughline.topography.missing import Missing as Missing
 from roughline.topography.preparation import Preparation as Preparation
 from roughline.topography.preparation import prepared as prepared
 from roughline.topography.profile import Profile as Profile

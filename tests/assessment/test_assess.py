@@ -31,7 +31,7 @@ FILES = {
     "opd-1.opd": ({}, ()),
     "dektak-1.csv": ({}, ()),
     "mitutoyo_mock.xlsx": ({}, ()),
-    "sur-3.sur": ({"most_missing": 0.9}, ("--max-missing", "0.9")),
+    "sur-3.sur": ({"missing": rl.Missing(most=0.9)}, ("--max-missing", "0.9")),
     "xy-1.txt": ({"unit": "um"}, ("--unit", "um")),
     "di_corrupted.di": ({}, ()),
 }
@@ -114,7 +114,7 @@ def test_a_file_with_missing_points_is_read_once(holed, monkeypatch, asked):
 
 def test_the_other_filling_is_that_of_a_second_reading(holed):
     file, *_ = holed
-    nearest = rl.read(file, "m", sizes="1 mm", missing="nearest")
+    nearest = rl.read(file, "m", sizes="1 mm", missing=rl.Missing("nearest"))
     question = rl.Question(file, E_star=1e9, loads=1, reading=rl.Reading(unit="m", sizes="1 mm"))
     (part,) = rl.assess(question).topographies
     assert (part.filled_by("nearest").heights == nearest.heights).all()

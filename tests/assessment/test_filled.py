@@ -56,7 +56,7 @@ def test_force_on_filled_points_is_said_and_widens_intervals(tmp_path):
 def test_no_interval_holds_where_many_points_are_missing(tmp_path):
     heights = np.array(SPECTRUM.surface(64, 2).heights)
     heights[np.random.default_rng(5).random(heights.shape) < 0.89] = np.nan
-    found = asked_of(heights, tmp_path, most_missing=0.95)
+    found = asked_of(heights, tmp_path, missing=rl.Missing(most=0.95))
     assert found.intervals is None
     first = found.warnings[0]
     assert first.startswith("89% of the points are missing and were filled")

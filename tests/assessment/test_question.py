@@ -2,12 +2,14 @@
 
 import inspect
 import re
+from functools import partial
 
 import attrs
 import numpy as np
 import pytest
 
 import roughline as rl
+from gwyddion_files import field, gwy
 from roughline import campaign
 from roughline.errors.earlier import EARLIER
 
@@ -61,31 +63,57 @@ def test_what_cannot_be_is_refused_where_it_is_asked(ask, message):
         ask()
 
 
+CALLS = {
+    "Question": 'rl.Question("a.nc", "steel,copper", loads="1 N", {})',
+    "Ensemble": 'Ensemble("a", "full", (2.2,), 64, 1, (0.1,), 0, {})',
+    "press": "rl.press(surface, E_star=1.0, forces=[1e-3], {})",
+    "press_creep": "press_creep({})",
+    "sealing_pressure": "sealing_pressure({})",
+    "Reading": "rl.Reading({})",
+    "read": "rl.read(file, {})",
+    "Surface": "rl.Surface(heights, sizes, {})",
+    "Line": "rl.Line(heights[0], length, {})",
+}
+"""How what had other arguments is called, with a place for one."""
+
+
+@pytest.fixture(scope="module")
+def bodies(tmp_path_factory):
+    """What the calls above and the new spellings speak of."""
+    surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(16, rng=1)
+    file = tmp_path_factory.mktemp("files") / "map.gwy"
+    mask = np.eye(16)
+    named = {"0_data": field(surface.heights), "0_mask": field(mask, z="")}
+    file.write_bytes(gwy(**named))
+    names = {"surface": surface, "heights": surface.heights, "sizes": surface.sizes}
+    names |= {"length": 1.0, "file": file, "material": rl.material("steel")}
+    half_space = rl.Homogeneous(1.0, periodic=True)
+    creep = partial(rl.press_creep, surface, rl.Creep(0.3, 1.0), times=[0.0], force=1e-3)
+    seal = partial(rl.sealing_pressure, surface, half_space=half_space, rtol=0.5, interval=False)
+    return names | {"press_creep": creep, "sealing_pressure": seal}
+
+
 @pytest.mark.parametrize("spelling", EARLIER)
-def test_every_earlier_spelling_gets_one_line_with_the_new_one(spelling):
+def test_every_earlier_spelling_gets_one_line_with_the_new_one(spelling, bodies):
     """And the new one is one that is taken."""
     question = rl.Question("a.nc", "steel,copper", loads="1 N", ask=rl.Fluid("water"))
     names = {"rl": rl, "question": question, "Ensemble": campaign.Ensemble}
-    names |= {"material": rl.material("steel"), "law": rl.Dugdale(0.2, 0.4)}
-    ensemble = 'Ensemble("a", "full", (2.2,), 64, 1, (0.1,), 0, '
+    names |= {"law": rl.Dugdale(0.2, 0.4), **bodies}
+    call = CALLS.get(spelling.partition("(")[0], "{}")
     earlier = spelling
     if spelling.startswith("rl."):
         earlier = f'{spelling}("6 bar")'
-    elif spelling.startswith("Question("):
-        name = spelling.removeprefix("Question(").removesuffix("=)")
-        earlier = f'rl.Question("a.nc", "steel,copper", {name}=0.3)'
-    elif spelling.startswith("Ensemble("):
-        earlier = spelling.replace("Ensemble(", ensemble).replace("=)", "=0.3)")
+    elif spelling.endswith("=)"):
+        earlier = call.format(f"{spelling.partition('(')[2][:-1]}0.3")
     with pytest.raises(rl.InputError) as refused:
         eval(earlier, names)
     new = EARLIER[spelling]
     assert str(refused.value).endswith(f" any more; write {new}")
     assert "\n" not in str(refused.value)
-    if new.startswith("law="):
-        new = f"{ensemble}{new})"
-    if new.startswith("ask="):
-        new = f"rl.Question(..., {new})"
+    if re.match("[a-z_]+=", new):
+        new = call.format(new)
     new = new.replace("...", '"a.nc", "steel,copper", loads="1 N"')
+    new = new.replace("rl.Line(heights,", "rl.Line(heights[0],")
     assert eval(new, names) is not None
 
 
@@ -131,7 +159,7 @@ def test_arrays_of_numbers():
 
 def test_reading_is_checked_too():
     with pytest.raises(rl.InputError, match="most_missing is 2"):
-        rl.Reading(most_missing=2)
+        rl.Missing(most=2)
 
 
 def test_a_question_is_a_value():

@@ -126,6 +126,8 @@ def test_a_surface_in_a_file_is_compared(invoke, tmp_path):
     assert code == 0
     assert "64 x 64 points, and lines of its spectrum" in out
     rl.write(rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).line(64, 1), path)
+    code, _, err = invoke("compare", path, "--unit", "m", "--mask", "leave-out")
+    assert (code, "has no mask that selects points" in err) == (2, True)
     code, _, err = invoke("compare", path, "--unit", "m")
     assert (code, "holds a line" in err) == (2, True)
 

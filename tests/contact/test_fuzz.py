@@ -68,7 +68,7 @@ def read_or_refuse(path, missing="harmonic"):
     """Read a damaged file; anything but a body or one line of ours fails the test."""
     assert not logging.root.manager.disable
     try:
-        body = rl.read(path, most_missing=0.95, missing=missing)
+        body = rl.read(path, missing=rl.Missing(missing, most=0.95))
     except RoughlineError as error:
         said = str(error)
     else:

@@ -1,5 +1,6 @@
 """The handbook's pages that are made of the code, and its gallery; `make docs` builds both."""
 
+import inspect
 import json
 import re
 from pathlib import Path
@@ -17,6 +18,7 @@ from roughline.engineering.materials import materials
 from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS
 from roughline.topography.files.formats import FORMATS
 
+NUMBERS = {13: "thirteen", 14: "fourteen", 15: "fifteen", 16: "sixteen"}
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
 
 
@@ -24,6 +26,13 @@ def test_every_public_name_has_a_page():
     page = made.page_of_names()
     for name in {*rl.__all__, *rl.plot.__all__} - made.CONSTANTS - {"__version__"}:
         assert f"   {name}\n" in page
+
+
+def test_every_parameter_of_a_press_has_its_reason():
+    page = (GALLERY.parent / "decisions" / "0027-parameters.md").read_text("utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| (.+) \| (.+) \|$", page, re.MULTILINE)
+    assert [name for name, *_ in rows] == list(inspect.signature(rl.press).parameters)
+    assert f"`rl.press` keeps {NUMBERS[len(rows)]}." in page
 
 
 def test_no_two_pages_differ_in_capitals_alone():
@@ -39,7 +48,7 @@ def test_no_two_pages_differ_in_capitals_alone():
 def test_a_name_without_a_section_is_refused(monkeypatch):
     monkeypatch.delitem(made.SECTIONS, "Bodies")
     with pytest.raises(
-        ValueError, match=r"SECTIONS in made.py lacks Line, Preparation, Profile, Surface"
+        ValueError, match=r"SECTIONS in made.py lacks Line, Missing, Preparation, Profile"
     ):
         made.page_of_names()
 

@@ -22,6 +22,7 @@ from gwyddion_files import field, gwy
 from lab.unpacked import unpacked
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.description import describe
+from roughline.assessment.source import Topography
 from roughline.errors.words import speaking
 from roughline.lab.measured import documents
 from roughline.lab.measured.answers import assessed
@@ -276,7 +277,7 @@ def test_both_models_are_compared_as_by_the_command(page, rough, body):
     said = {"example": "film"} if body == "film" else page.bring(rough)
     page.ask("look", said)
     source = first_source(said, page.session)
-    expected = compare_models(source.path)
+    expected = compare_models(Topography.of(source.path, rl.Reading(), None))
     header, _ = page.ask("compare", said)
     assert table_of(header, "models") == comparison_table(expected)
     assert header["words"]["verdict"] == sentence(verdict_in_words(expected))

@@ -122,9 +122,10 @@ def test_the_trend_that_was_removed_is_known():
         assert body.removed_trend == "none"
         assert body.detrended("curvature").scaled(2.0).removed_trend == "curvature"
         assert replace(body, settings={"detrended": "tilt"}).removed_trend == "none"
-    assert rl.Line(wave()[0], 1.0, removed_trend="mean").removed_trend == "mean"
-    with pytest.raises(rl.InputError, match='removed_trend is "cubic"'):
-        rl.Line(wave()[0], 1.0, removed_trend="cubic")
+    known = Provenance(detrended="mean")
+    assert rl.Line(wave()[0], 1.0, provenance=known).removed_trend == "mean"
+    with pytest.raises(rl.InputError, match='trend is "cubic"'):
+        Provenance(detrended="cubic")
 
 
 def test_what_is_no_map_or_says_things_twice_is_refused():

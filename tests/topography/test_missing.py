@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.topography.missing import Missing, missing_pattern
+from roughline.topography.missing import Filler, Missing, missing_pattern
 
 
 def masked_wave(n=48, share=0.05):
@@ -17,19 +17,19 @@ def masked_wave(n=48, share=0.05):
 
 def test_harmonic_filling_is_exact_for_a_harmonic_surface_and_nearest_is_near():
     heights, masked = masked_wave()
-    assert Missing().filled(masked, "a map") == pytest.approx(heights, abs=1e-12)
-    near = Missing("nearest").filled(masked, "a map")
+    assert Filler().filled(masked, "a map") == pytest.approx(heights, abs=1e-12)
+    near = Filler(Missing("nearest")).filled(masked, "a map")
     assert np.abs(near - heights).max() < 0.2
     assert (near[~masked.mask] == heights[~masked.mask]).all()
     line = np.ma.MaskedArray(np.arange(9.0), np.arange(9) % 4 == 2)
-    assert Missing(most=0.5).filled(line, "a line") == pytest.approx(np.arange(9.0))
+    assert Filler(Missing(most=0.5)).filled(line, "a line") == pytest.approx(np.arange(9.0))
 
 
 def test_a_missing_point_may_hold_any_number_even_one_that_a_processor_signals():
     heights, masked = masked_wave()
     bits = np.where(masked.mask, 0x7FF0000000000001, heights.view("i8"))  # a signalling NaN
     masked = np.ma.MaskedArray(bits.view("f8"), masked.mask)
-    assert Missing().filled(masked, "a map") == pytest.approx(heights, abs=1e-12)
+    assert Filler().filled(masked, "a map") == pytest.approx(heights, abs=1e-12)
 
 
 def with_corner_missing(heights, share=0.28):
@@ -45,13 +45,13 @@ def test_what_is_filled_leans_with_the_rest(axes, method):
     x = np.indices(rough.shape)
     plane = 7.0 + 0.9 * x[0] - 0.4 * x[-1]
     level, leaning = (
-        Missing(method, 0.5).filled(with_corner_missing(each), "a map")
+        Filler(Missing(method, 0.5)).filled(with_corner_missing(each), "a map")
         for each in (rough, rough + plane)
     )
     np.testing.assert_allclose(leaning - plane, level, atol=1e-10)
     bowl = plane + 0.05 * (x[0] - 3) ** 2 + 0.02 * x[0] * x[-1]
     level, bent = (
-        Missing(method, 0.5, "curvature").filled(with_corner_missing(each), "a map")
+        Filler(Missing(method, 0.5), "curvature").filled(with_corner_missing(each), "a map")
         for each in (rough, rough + bowl)
     )
     np.testing.assert_allclose(bent - bowl, level, atol=1e-10)
@@ -60,7 +60,7 @@ def test_what_is_filled_leans_with_the_rest(axes, method):
 def test_one_known_row_tells_no_slope_across_it():
     heights = np.ma.MaskedArray(np.tile(np.arange(5.0), (6, 1)), True)
     heights.mask[2] = False
-    filled = Missing(most=0.9).filled(heights, "a map")
+    filled = Filler(Missing(most=0.9)).filled(heights, "a map")
     np.testing.assert_allclose(filled, heights.data, atol=1e-12)
 
 
@@ -69,10 +69,10 @@ def test_too_many_missing_points_are_refused_with_numbers():
     with pytest.raises(
         rl.InputError, match=r"a map has \d+ missing points of 2304 \(\d\d%\); up to"
     ):
-        Missing().filled(masked, "a map")
+        Filler().filled(masked, "a map")
     everything = np.ma.MaskedArray(np.ones((3, 3)), True)
     with pytest.raises(rl.InputError, match="9 missing points of 9"):
-        Missing(most=0.99).filled(everything, "a map")
+        Filler(Missing(most=0.99)).filled(everything, "a map")
     with pytest.raises(rl.InputError, match='missing is "spline"'):
         Missing("spline")
     with pytest.raises(rl.InputError, match="most_missing is 1"):

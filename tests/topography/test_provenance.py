@@ -11,7 +11,7 @@ import roughline as rl
 from roughline.topography.borders import Borders, decided
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.recorded import as_record, provenance_in, provenance_of_earlier
-from roughline.topography.missing import Filled, Missing
+from roughline.topography.missing import Filled, Filler
 from roughline.topography.provenance import (
     NOTHING_KNOWN,
     Facing,
@@ -44,6 +44,7 @@ EVERYTHING = Provenance(
     low_pass_kept="x 3:61, y 3:61",
     resampled_to="32 x 32",
     left=(Left("detrended", 0.4), Left("low_pass", 0.9, 0.5)),
+    detrended="tilt",
 )
 
 
@@ -53,7 +54,7 @@ def measured(**steps):
     heights[3:6, 40:44], heights[50, 20] = np.nan, 1e-3
     content = Measurement("map", heights, "m", (1e-3, 1e-3), "surface", format="SDF")
     content = content.with_instrument(Instrument("points", blur=3e-6), is_tilt_of_mounting=True)
-    body = content.body(None, None, Missing(), "tilt")
+    body = content.body(None, None, Filler(), "tilt")
     return rl.prepared(body, rl.Preparation(**steps)) if steps else body
 
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
-from roughline.assessment.reading import Reading
-from roughline.assessment.source import measured_body
+from roughline.assessment.source import Topography
 from roughline.contact.comparison.models import Comparison, compare
 from roughline.contact.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
@@ -17,8 +15,6 @@ from roughline.spectra.isotropic import isotropy
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Line, Surface
-from roughline.topography.files.read import measurement
-from roughline.topography.preparation import as_prepared
 
 
 @dataclass(frozen=True)
@@ -37,9 +33,8 @@ class ModelComparison:
 
 
 def compare_models(
-    roughness: SelfAffine | Path,
+    roughness: SelfAffine | Topography,
     *,
-    reading: Reading | None = None,
     n: int = 256,
     surfaces: int = 20,
     force_bars: list[float] | None = None,
@@ -47,7 +42,7 @@ def compare_models(
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> ModelComparison:
-    """Compare the two models for a spectrum or for the surface in a file.
+    """Compare the two models for a spectrum or for a surface that was read.
 
     Models count as agreeing up to a relative difference, the tolerance; progress is told of
     (surfaces done, surfaces in all). The rest is as for :func:`roughline.compare`.
@@ -61,25 +56,15 @@ def compare_models(
             f"q_roll / q_0 = {roughness.q_roll / roughness.q_low:.3g}"
         )
     else:
-        reading = reading or Reading()
-        body = _surface(roughness, reading)
-        what = _what_is_in(reading.name or str(roughness), body)
+        name = roughness.reading.name or str(roughness.file or "the surface")
+        if isinstance(roughness.body, Line):
+            raise InputError(f"{name} holds a line; the models are compared on a surface")
+        body, what = roughness.body, _what_is_in(name, roughness.body)
     result = compare(
         body, n=n, surfaces=surfaces, force_bars=force_bars, rng=seed, progress=progress
     )
     from_map = [_on_map(body, force_bar) for force_bar in result.force_bar]
     return ModelComparison(what, result, tolerance, from_map)
-
-
-def _surface(file: Path, reading: Reading) -> Surface:
-    """The surface in a file."""
-    content = measurement(file, reading.channel, reading.name)
-    body = as_prepared(measured_body(content, reading, None, in_place=True), None)
-    if isinstance(body, Line):
-        raise InputError(
-            f"{reading.name or file} holds a line; the models are compared on a surface"
-        )
-    return body
 
 
 def _what_is_in(name: str, surface: Surface) -> str:

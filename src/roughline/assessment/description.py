@@ -15,7 +15,7 @@ from roughline.texture.iso import IsoParameters, iso
 from roughline.topography.body import Body
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement, suspicions
-from roughline.topography.missing import Missing, MissingPattern, missing_pattern
+from roughline.topography.missing import MissingPattern, missing_pattern
 from roughline.topography.preparation import Preparation, as_prepared
 
 
@@ -78,12 +78,11 @@ def describe_measurement(
 
     Bodies are made by another function for a caller that keeps them.
     """
-    piece = content = content.with_mask(reading.mask)
+    piece = content = content.with_mask(reading.missing.mask)
     obstacles = content.scale_obstacles(reading.unit, reading.sizes)
     if not obstacles:
         piece, reading, preparation = crop_first(content, reading, preparation)
-    filling = Missing(reading.missing, reading.most_missing)
-    obstacles = piece.obstacles(reading.unit, reading.sizes, filling)
+    obstacles = piece.obstacles(reading.unit, reading.sizes, reading.missing)
     missing = missing_pattern(piece.unknown, piece.sizes)
     found = Description(file, reading.unit, content, piece, missing, list(map(str, obstacles)))
     if obstacles:

@@ -41,7 +41,8 @@ class Field:
     """One thing that a question is told."""
 
     name: str  # in messages, and as the argument of what it is of
-    of: str = "Question"  # or "Reading", "Preparation", or the class of what is asked
+    # or "Reading", "Missing" of a reading, "Preparation", or the class of what is asked
+    of: str = "Question"
     group: str
     flag: str = "--{}"
     """On the command line: its name with dashes, or others with commas between; empty for none."""
@@ -72,7 +73,7 @@ class Field:
     @property
     def is_asked(self) -> bool:
         """Whether a value of its own is asked for it."""
-        return self.of not in ("Question", "Reading", "Preparation")
+        return self.of not in ("Question", "Reading", "Missing", "Preparation")
 
     @property
     def first_flag(self) -> str:
@@ -178,6 +179,7 @@ _of_loads = partial(Field, group=LOADS)
 _of_answers = partial(Field, group=ANSWERS)
 _of_fluid = partial(_of_answers, of="Fluid", fold=_FLUID)
 _of_file = partial(Field, of="Reading", group=FILE)
+_of_missing = partial(Field, of="Missing", group=FILE)
 _of_preparation = partial(Field, of="Preparation", group=PREPARATION)
 
 FIELDS: tuple[Field, ...] = (
@@ -432,8 +434,9 @@ FIELDS: tuple[Field, ...] = (
         is_of_file=True,
         read=_sizes,
     ),
-    _of_file(
+    _of_missing(
         name="missing",
+        argument="method",
         flag="--fill",
         control="fill",
         label="filling",
@@ -444,8 +447,9 @@ FIELDS: tuple[Field, ...] = (
             "nearest": ("nearest", "nearest height"),
         },
     ),
-    _of_file(
+    _of_missing(
         name="most_missing",
+        argument="most",
         flag="--max-missing",
         label="most missing",
         help="Largest share of missing points, 0 to below 1, that is filled; a file with more is "
@@ -454,7 +458,7 @@ FIELDS: tuple[Field, ...] = (
         kind=float,
         read=_number("most_missing"),
     ),
-    _of_file(
+    _of_missing(
         name="mask",
         label="masked points",
         help="What becomes of points that a mask in the file selects, such as grains marked in "

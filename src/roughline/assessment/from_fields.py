@@ -14,6 +14,7 @@ from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.errors.words import called
+from roughline.topography.missing import Missing
 from roughline.topography.preparation import Preparation
 
 FieldValues = Mapping[str, Any]
@@ -33,7 +34,10 @@ def arguments_for(kind: str, values: FieldValues) -> dict[str, Any]:
                 other.name,
                 each.name,
             )
-    return {each.argument: values[each.name] for each in fields}
+    given = {each.argument: values[each.name] for each in fields}
+    if kind == "Reading" and (missing := arguments_for("Missing", values)):
+        given["missing"] = Missing(**missing)
+    return given
 
 
 def build_reading(values: FieldValues, name: str | None = None) -> Reading:
@@ -63,8 +67,9 @@ def build_question(
 
 def refuse_alone(field: Field, value: Any) -> None:
     """Refuse a value of a field that could be used with no others, as what it is of does."""
-    if field.of in ("Reading", "Preparation"):
-        {"Reading": Reading, "Preparation": Preparation}[field.of](**{field.name: value})
+    made_of_fields = {"Reading": Reading, "Missing": Missing, "Preparation": Preparation}
+    if field.of in made_of_fields:
+        made_of_fields[field.of](**{field.argument: value})
         return
     kind = KINDS.get(field.of, Question)
     if not attrs.has(kind):

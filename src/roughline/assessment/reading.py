@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public
-from roughline.topography.files.measurement import MaskUse, Sizes
-from roughline.topography.missing import Filling, Missing
+from roughline.topography.files.measurement import Sizes
+from roughline.topography.missing import USUALLY_FILLED, Missing
 from roughline.topography.provenance import MOUNTING, Instrument, Pixels
 from roughline.units import metres_per
 
@@ -20,7 +20,7 @@ class Reading:
 
     Parameters
     ----------
-    unit, channel, sizes, missing, most_missing, mask
+    unit, channel, sizes, missing
         As for :func:`roughline.read`.
     name : str, optional
         What the first file is called in messages and results; default: its own name.
@@ -41,20 +41,16 @@ class Reading:
     unit: str | None = None
     channel: int | str | None = None
     sizes: Sizes | None = None
-    missing: Filling = "harmonic"
-    most_missing: float = 0.1
+    missing: Missing = USUALLY_FILLED
     name: str | None = None
     tilt: Literal["unknown", "mounting"] = "unknown"
     pixels: Pixels | None = None
     blur: float | None = None
     tip_radius: float | None = None
-    mask: MaskUse = "use"
 
     def __post_init__(self) -> None:
         _ = self.instrument  # refuses what cannot be
-        allowed_choice("mask", self.mask, get_args(MaskUse))
         allowed_choice("tilt", self.tilt, ("unknown", MOUNTING))
-        Missing(self.missing, self.most_missing)  # so does this
         if self.unit is not None:
             metres_per(self.unit)
 

@@ -27,7 +27,6 @@ from roughline.contact.selection import first_fields
 from roughline.engineering.intervals import Intervals
 from roughline.engineering.pressed import Sought
 from roughline.topography.body import Body, Line, Surface
-from roughline.topography.missing import Missing
 
 _SMALLEST_CHANGE = 0.001  # changes below this are reported as less than this [%]
 
@@ -178,7 +177,7 @@ def _with_filling(
         loads = case.loads.asked_loads(curve)
         stiffness = _most_changed(curve.stiffness, other.stiffness, loads)
         area = _most_changed(curve.area_fraction_corrected, other.area_fraction_corrected, loads)
-        method = Missing(case.parts[0].reading.missing).other
+        method = case.parts[0].reading.missing.other
         note = (
             f"with missing points filled by {method} instead, stiffness changes by {stiffness}, "
             f"area by {area}"

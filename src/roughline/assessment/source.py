@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+from attrs import evolve
 
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
@@ -17,7 +18,7 @@ from roughline.topography.body import Body, Line, Surface, within
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
 from roughline.topography.low_pass import inner_points
-from roughline.topography.missing import Filling, Missing
+from roughline.topography.missing import Filler, Filling
 from roughline.topography.preparation import Preparation, as_prepared
 from roughline.topography.provenance import MOUNTING
 from roughline.topography.trend import Trend
@@ -45,7 +46,7 @@ class Topography:
         """Take or read a body, and prepare it; refuse files and steps that do not suit."""
         if isinstance(given, Surface | Line):
             return cls(as_prepared(given, preparation), None, None, reading, preparation)
-        content = measurement(given, reading.channel, reading.name).with_mask(reading.mask)
+        content = measurement(given, reading.channel, reading.name).with_mask(reading.missing.mask)
         content, reading, preparation = crop_first(content, reading, preparation)
         unfilled = content if not content.by_roughline and content.unknown.any() else None
         body = measured_body(content, reading, preparation, in_place=unfilled is None)
@@ -61,7 +62,7 @@ class Topography:
         """The body with its missing points filled by a method; itself where they are not known."""
         if self.measurement is None:
             return self.body
-        reading = replace(self.reading, missing=method)
+        reading = replace(self.reading, missing=evolve(self.reading.missing, method=method))
         body = measured_body(self.measurement, reading, self.preparation)
         return as_prepared(body, self.preparation)
 
@@ -75,7 +76,7 @@ class Topography:
         if self.measurement is None or self.measurement.kind != "surface":
             return None
         marked = replace(self.measurement, heights=self.measurement.unknown.astype(np.float64))
-        marks = marked.body(self.reading.unit, self.reading.sizes, Missing(), "none")
+        marks = marked.body(self.reading.unit, self.reading.sizes, Filler(), "none")
         assert isinstance(marks, Surface)
         if self.preparation is not None and self.preparation.low_pass is not None:
             marks = within(marks, inner_points(marks, self.preparation.low_pass))
@@ -106,11 +107,11 @@ def measured_body(
     trend: Trend = "none" if preparation and preparation.trend else "tilt"
     removed = preparation.trend if preparation and preparation.trend else trend
     lines = preparation.lines if preparation else None
-    filling = Missing(reading.missing, reading.most_missing, removed, lines)
+    filler = Filler(reading.missing, removed, lines)
     content = content.with_instrument(
         reading.instrument, is_tilt_of_mounting=reading.tilt == MOUNTING
     )
-    body = content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
+    body = content.body(reading.unit, reading.sizes, filler, trend, in_place=in_place)
     if reading.blur is not None and reading.blur >= body.length:
         length = engineering(body.length, "m")
         refuse("blur", reading.blur, f"the heights span {length}: a shorter one is needed [m]")

@@ -37,7 +37,6 @@ from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.pressed import Sought, yields
 from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
-from roughline.topography.missing import Missing
 
 
 class Way(StrEnum):
@@ -203,7 +202,7 @@ def _filled_otherwise(case: Case, variant: Variant, body: Surface) -> Variant:
         first, curve = variant.needed(curves), curves.get(variant.name)
         if not isinstance(first, LoadCase) or curve is None:
             return None
-        method = Missing(case.parts[0].reading.missing).other
+        method = case.parts[0].reading.missing.other
         other = pressed_body([each.filled_by(method) for each in case.filled])
         if np.array_equal(other.heights, body.heights):
             return None

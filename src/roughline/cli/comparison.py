@@ -8,7 +8,6 @@ from typing import Annotated, Any
 
 import typer
 
-import roughline as rl
 from roughline.assessment.fields import FILE
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable
@@ -53,27 +52,25 @@ def compare_command(
     """
     from roughline.assessment.comparison import compare_models
     from roughline.assessment.from_fields import build_reading
+    from roughline.assessment.source import Topography
     from roughline.report.comparison import print_comparison, write_comparison
     from roughline.report.json_output import comparison_json
     from roughline.report.progress import load_progress
 
-    reading = build_reading(values)
     if file is None:
-        stated, usual = vars(reading), vars(rl.Reading())
-        of_file = {name: value for name, value in stated.items() if value != usual[name]}
-        _refuse(of_file, "it says how a FILE is read, and there is none: leave it out")
+        _refuse(values, "it says how a FILE is read, and there is none: leave it out")
+        spectrum = options.described_spectrum(
+            hurst, fractal_dimension, length, "1 m", roll_off, cutoff
+        )
     else:
         of_spectrum = {"hurst": hurst, "fractal_dimension": fractal_dimension, "length": length}
         of_spectrum |= {"q_roll": roll_off, "q_high": cutoff}
         _refuse(of_spectrum, "it belongs to a spectrum, and a FILE is given: leave one of them out")
-    roughness = file or options.described_spectrum(
-        hurst, fractal_dimension, length, "1 m", roll_off, cutoff
-    )
+        reading = build_reading(values)
     with interruptible("nothing is written"), load_progress() as progress:
         with writable(out):
             result = compare_models(
-                roughness,
-                reading=reading,
+                spectrum if file is None else Topography.of(file, reading, None),
                 n=n,
                 surfaces=surfaces,
                 force_bars=force_bar,

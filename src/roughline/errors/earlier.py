@@ -30,6 +30,12 @@ EARLIER = {
     "Ensemble(work_bar=)": "law=rl.Dugdale(work_of_adhesion=0.2, range=0.4)",
     "Ensemble(range_bar=)": "law=rl.Dugdale(work_of_adhesion=0.2, range=0.4)",
     "Ensemble(attraction=)": "law=rl.Exponential(work_of_adhesion=0.2, range=0.4)",
+    "Surface(removed_trend=)": 'rl.Surface(heights, sizes).detrended("tilt")',
+    "Line(removed_trend=)": 'rl.Line(heights, length).detrended("tilt")',
+    "read(most_missing=)": "missing=rl.Missing(most=0.3)",
+    "read(mask=)": 'missing=rl.Missing(mask="leave-out")',
+    "Reading(most_missing=)": "missing=rl.Missing(most=0.3)",
+    "Reading(mask=)": 'missing=rl.Missing(mask="leave-out")',
 }
 """Names of the package, and parts and keywords of what it offers, with what is to be written."""
 

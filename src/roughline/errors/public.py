@@ -49,6 +49,7 @@ _CLASSES = {
     "Assessment": "an Assessment, as rl.assess returns it of one body,",
     "Reading": "a Reading, as rl.Reading(...),",
     "Preparation": "a Preparation, as rl.Preparation(...),",
+    "Missing": 'a Missing, as rl.Missing("nearest", most=0.3),',
     "Plan": "a Plan, as campaign.read_plan returns it,",
 }
 """Classes that annotations name, and what they are called."""
@@ -94,6 +95,7 @@ _EXPLAINED = {
     "molar_mass": "in kg/mol, on which the leak of a gas depends",
     "forces": "total forces: a mean pressure times the nominal area",
     "is_cut_out": "False for a surface that is repeated periodically",
+    "half_space": "such as rl.Homogeneous(E_star=1.0, periodic=True)",
 }
 """Arguments that differ from what they are mistaken for."""
 

@@ -41,14 +41,17 @@ def speaking(words: Words | None) -> Iterator[None]:
         _IN_FORCE.reset(before)
 
 
-def called(name: str, value: str | bool | None = None) -> str:
-    """Name an argument as it is to be written: loads=, unit="um" or rl.Joint in Python."""
+def called(name: str, value: str | bool | None = None, *, in_python: str = "") -> str:
+    """Name an argument as it is to be written: loads=, unit="um" or rl.Joint in Python.
+
+    What Python has within a value of another argument is written out for it.
+    """
     words = _IN_FORCE.get()
     if words is not None and name in words.names:
         word = words.names[name]
         return f"{word} {words.quoted(value)}" if isinstance(value, str) else word
-    if name.startswith("rl."):  # a class
-        return name
+    if in_python or name.startswith("rl."):  # or a class
+        return in_python or name
     return f"{name}=" + (f'"{value}"' if isinstance(value, str) else f"{value or ''}")
 
 

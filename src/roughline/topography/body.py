@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal, TypeVar, get_args
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
@@ -61,10 +61,8 @@ class Surface:
         Whether the surface is a piece of a larger one, as measured and cropped surfaces are, or
         periodic. Default: the heights decide. They are a piece if opposite borders do not meet, and
         the settings record the step across.
-    removed_trend : {"none", "mean", "tilt", "curvature"}, optional
-        Trend that was removed from the heights; default: none.
     provenance : Provenance, optional
-        How the heights were measured, and what was done to them: the instrument, the tilt that was
+        How the heights were measured, and what was done to them: the instrument, the trend that was
         removed, the points that were filled. Default: nothing is known of that. It goes with a body
         that follows from this one, as ``dataclasses.replace(surface, heights=...)`` does, and not
         with its array.
@@ -93,7 +91,6 @@ class Surface:
     unit: str | None
     settings: Settings
     is_cut_out: bool
-    removed_trend: Trend
     provenance: Provenance
 
     __repr__ = _described
@@ -107,7 +104,6 @@ class Surface:
         settings: Settings = NOTHING_RECORDED,
         *,
         is_cut_out: bool | None = None,
-        removed_trend: Trend = "none",
         provenance: Provenance | None = None,
     ) -> None:
         if hasattr(heights, "physical_sizes"):
@@ -122,13 +118,18 @@ class Surface:
                 "are needed: give more points"
             )
         _set(self, heights=heights, sizes=checked_sides(sizes), settings=read_only(settings))
-        _set_facts(self, unit, is_cut_out, removed_trend, provenance)
+        _set_facts(self, unit, is_cut_out, provenance)
 
     @property
     def shape(self) -> tuple[int, int]:
         """Points of the grid, (nx, ny)."""
         nx, ny = self.heights.shape
         return nx, ny
+
+    @property
+    def removed_trend(self) -> Trend:
+        """Trend that was removed, as by :meth:`detrended`; "none" if none was."""
+        return self.provenance.detrended
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -236,8 +237,6 @@ class Line:
     is_cut_out : bool, optional
         Whether the line is a piece of a longer one, or periodic; default: as for a
         :class:`Surface`.
-    removed_trend : {"none", "mean", "tilt", "curvature"}, optional
-        Trend that was removed from the heights; default: none.
     provenance : Provenance, optional
         How the heights were measured, and what was done to them, as for a :class:`Surface`.
 
@@ -264,7 +263,6 @@ class Line:
     settings: Settings
     kind: Literal["reduced", "profile"]
     is_cut_out: bool
-    removed_trend: Trend
     provenance: Provenance
 
     __repr__ = _described
@@ -279,7 +277,6 @@ class Line:
         kind: Literal["reduced", "profile"] = "reduced",
         *,
         is_cut_out: bool | None = None,
-        removed_trend: Trend = "none",
         provenance: Provenance | None = None,
     ) -> None:
         heights = checked_heights(heights, dimensions=1)
@@ -288,7 +285,12 @@ class Line:
         allowed_choice("kind", kind, ("reduced", "profile"))
         _set(self, heights=heights, length=checked_length(length), kind=kind)
         _set(self, settings=read_only(settings))
-        _set_facts(self, unit, is_cut_out, removed_trend, provenance)
+        _set_facts(self, unit, is_cut_out, provenance)
+
+    @property
+    def removed_trend(self) -> Trend:
+        """Trend that was removed, as by :meth:`detrended`; "none" if none was."""
+        return self.provenance.detrended
 
     @property
     def spacing(self) -> float:
@@ -372,10 +374,9 @@ def _scaled(body: BodyType, factor: float) -> BodyType:
 def _detrended(body: BodyType, trend: Trend) -> BodyType:
     refuse_unknown_trend(trend)
     tilt = body.provenance.tilt.less_plane(body.heights, point_spacings(body), trend)
-    known = with_facts(body, tilt=tilt)
+    known = with_facts(body, tilt=tilt, detrended=trend)
     known["settings"]["detrended"] = trend
-    level = without_trend(body.heights, trend)
-    return replace(body, heights=level, removed_trend=trend, **known)
+    return replace(body, heights=without_trend(body.heights, trend), **known)
 
 
 def _set(body: Body, **fields: Any) -> None:
@@ -388,7 +389,6 @@ def _set_facts(
     body: Body,
     unit: str | None,
     is_cut_out: bool | None,
-    removed_trend: Trend,
     provenance: Provenance | None,
 ) -> None:
     """Set what is known of a body with heights, as given, or as its borders tell."""
@@ -402,8 +402,7 @@ def _set_facts(
         _set(body, provenance=found["provenance"], settings=read_only(found["settings"]))
     else:
         _set(body, provenance=provenance, is_cut_out=flag("is_cut_out", is_cut_out))
-    allowed_choice("removed_trend", removed_trend, get_args(Trend))
-    _set(body, unit=checked_unit(unit), removed_trend=removed_trend)
+    _set(body, unit=checked_unit(unit))
 
 
 def _topography_fields(

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
+from attrs import field, frozen
 
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice, number, refuse
+from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.line_levels import Levelling, line_levels
 from roughline.topography.settings import Settings
 from roughline.topography.trend import Trend, trend_of_known
 
 Filling = Literal["harmonic", "nearest"]
+MaskUse = Literal["use", "leave-out"]
 
 _MOSTLY = 0.9  # share of the missing points that counts as most of them
 _COLUMNS, _ROWS = 48, 16  # of a coarse map, at most
@@ -37,32 +40,93 @@ class Filled:
         return {**counts, "filled": self.method}
 
 
-@dataclass(frozen=True)
-class Missing:
-    """How missing points are filled, and how many are too many.
+def _method(given: Filling) -> Filling:
+    """A method by which missing points are filled."""
+    allowed_choice("missing", given, get_args(Filling))
+    return given
 
-    Departures from the trend of the known points are filled, as neither method goes on with a slope
-    where points are missing at a border.
+
+def _share(given: float) -> float:
+    """A share of points that may be missing. [1]"""
+    needed = "a share from 0 to below 1 is needed"
+    share = number("most_missing", given, needed)
+    if not 0 <= share < 1:
+        refuse("most_missing", given, needed)
+    return share
+
+
+def _mask_use(given: MaskUse) -> MaskUse:
+    """What becomes of masked points."""
+    allowed_choice("mask", given, get_args(MaskUse))
+    return given
+
+
+@public
+@frozen
+class Missing:
+    """What is done about points of a file that are missing.
+
+    Parameters
+    ----------
+    method : {"harmonic", "nearest"}, optional
+        How missing points are filled: by the smoothest surface through their neighbours, or by
+        the nearest known height; both of what the known points depart from their own trend.
+    most : float, optional
+        Share of missing points above which a file is refused. [1]
+    mask : {"use", "leave-out"}, optional
+        What becomes of points that a mask in the file selects, such as grains marked in Gwyddion:
+        their heights are used, or they are left out and filled like missing ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> heights = np.add.outer(np.arange(9.0), np.arange(9.0))
+    >>> heights[2:6, 2:6] = np.nan  # a fifth of the points
+    >>> np.save("map.npy", heights)
+    >>> missing = rl.Missing("nearest", most=0.3)
+    >>> rl.read("map.npy", unit="um", sizes="1 mm", missing=missing).shape
+    (9, 9)
     """
 
-    # the solution of Laplace's equation between the known heights, or the nearest known height
-    method: Filling = "harmonic"
-    most: float = 0.1  # largest share of missing points [1]
-    # the trend that will be removed; points are filled about a plane at least
-    removed: Trend = "tilt"
-    # how lines will be levelled; their departures from their levels are filled then
-    lines: Levelling | None = None
-
-    def __post_init__(self) -> None:
-        allowed_choice("missing", self.method, ("harmonic", "nearest"))
-        share = "a share from 0 to below 1 is needed"
-        if not 0 <= number("most_missing", self.most, share) < 1:
-            refuse("most_missing", self.most, share)
+    method: Filling = field(default="harmonic", converter=_method)
+    most: float = field(default=0.1, converter=_share)
+    mask: MaskUse = field(default="use", converter=_mask_use)
 
     @property
     def other(self) -> Filling:
         """The other method, to compare both."""
         return "nearest" if self.method == "harmonic" else "harmonic"
+
+    def too_many(self, mask: Mask, name: str) -> InputError | None:
+        """Return the error for more missing points than are filled; None if there are fewer."""
+        unknown = int(np.count_nonzero(mask))
+        if unknown <= self.most * mask.size and unknown < mask.size:
+            return None
+        more = called("most_missing", in_python="missing=rl.Missing(most=...)")
+        return InputError(
+            f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
+            f"up to {self.most:.0%} are filled: crop it to where points are known "
+            f"({called('crop')}), or allow more ({more})"
+        )
+
+
+USUALLY_FILLED = Missing()
+
+
+@dataclass(frozen=True)
+class Filler:
+    """How missing points are filled about what is removed from the heights afterwards.
+
+    Departures from the trend of the known points are filled, as neither method goes on with a slope
+    where points are missing at a border.
+    """
+
+    missing: Missing = USUALLY_FILLED
+    # the trend that will be removed; points are filled about a plane at least
+    removed: Trend = "tilt"
+    # how lines will be levelled; their departures from their levels are filled then
+    lines: Levelling | None = None
 
     def completed(self, heights: Any, name: str) -> tuple[Real, Filled | None]:
         """Return the heights with all points known, and what was filled; None if nothing was."""
@@ -72,25 +136,13 @@ class Missing:
         filled = None
         if unknown:
             heights = self.filled(heights, name)
-            filled = Filled(unknown, unknown / heights.size, self.method)
+            filled = Filled(unknown, unknown / heights.size, self.missing.method)
         return np.array(heights, dtype=np.float64, copy=None), filled
-
-    def too_many(self, mask: Mask, name: str) -> InputError | None:
-        """Return the error for more missing points than are filled; None if there are fewer."""
-        unknown = int(np.count_nonzero(mask))
-        if unknown <= self.most * mask.size and unknown < mask.size:
-            return None
-        return InputError(
-            f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
-            f"up to {self.most:.0%} are filled: crop it to where points are known "
-            f"({called('crop')}), or "
-            f"allow more ({called('most_missing')})"
-        )
 
     def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> Real:
         """Return masked heights with all points known, as :meth:`completed` does."""
         mask = np.ma.getmaskarray(heights)
-        too_many = self.too_many(mask, name)
+        too_many = self.missing.too_many(mask, name)
         if too_many is not None:
             raise too_many
         trend = trend_of_known(heights, "curvature" if self.removed == "curvature" else "tilt")
@@ -101,7 +153,8 @@ class Missing:
             points = np.arange(mask.size)
             filled = np.interp(points, points[~mask], np.ma.getdata(rough)[~mask])
         else:
-            filled = _nearest(rough, mask) if self.method == "nearest" else _harmonic(rough)
+            is_nearest = self.missing.method == "nearest"
+            filled = _nearest(rough, mask) if is_nearest else _harmonic(rough)
         return np.where(mask, filled + trend, np.ma.getdata(heights))
 
 

@@ -35,7 +35,7 @@ from roughline.topography.crop import Crop, points_in
 from roughline.topography.effects import effects, with_effect
 from roughline.topography.line_levels import LEVELLINGS, Levelling
 from roughline.topography.low_pass import low_passed, refuse_long
-from roughline.topography.missing import Missing
+from roughline.topography.missing import Filler
 from roughline.topography.scan_lines import filled_lines_note, levelled, without_scars
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 
@@ -286,7 +286,7 @@ def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:
     if not count:
         return after_step(body, body.heights, outliers_removed=0)
     known = np.ma.MaskedArray(body.heights, spikes)
-    filled = Missing().filled(known, "the topography, without its outliers,")
+    filled = Filler().filled(known, "the topography, without its outliers,")
     return with_effect(body, after_step(body, filled, outliers_removed=count), "outliers")
 
 

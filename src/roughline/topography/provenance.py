@@ -19,7 +19,7 @@ from roughline.topography.crop import ranges_in_words
 from roughline.topography.line_levels import Levelling
 from roughline.topography.missing import Filled
 from roughline.topography.settings import Settings
-from roughline.topography.trend import Trend, slopes_of_plane
+from roughline.topography.trend import Trend, refuse_unknown_trend, slopes_of_plane
 
 Pixels = Literal["means", "points"]
 Step = Literal["levelled", "scars", "outliers", "detrended", "low_pass", "resampled"]
@@ -177,7 +177,11 @@ class Provenance:
     low_pass_kept: str = ""  # points that a low pass kept, where it left some out at borders
     resampled_to: str = ""  # points along each side
     left: tuple[Left, ...] = ()  # of the roughness, by the last step of each kind
+    detrended: Trend = "none"  # the trend that was removed last
     facing: Facing | None = None
+
+    def __post_init__(self) -> None:
+        refuse_unknown_trend(self.detrended)
 
     def __repr__(self) -> str:
         known = (

@@ -16,7 +16,7 @@ from roughline.errors.words import called
 from roughline.topography.body import Body, BodyType, Surface, after_step
 from roughline.topography.effects import with_effect
 from roughline.topography.line_levels import Levelling, line_levels
-from roughline.topography.missing import Missing
+from roughline.topography.missing import Filler
 from roughline.units import in_words
 
 _FEWEST_POINTS = 8  # points of a line, and lines, that tell of either
@@ -62,7 +62,7 @@ def without_scars(body: BodyType) -> BodyType:
     if not count:
         return after_step(body, body.heights, scars_removed=0)
     known = np.ma.MaskedArray(body.heights, marks)
-    filled = Missing().filled(known, "the topography, without its scars,")
+    filled = Filler().filled(known, "the topography, without its scars,")
     return with_effect(body, after_step(body, filled, scars_removed=count), "scars")
 
 

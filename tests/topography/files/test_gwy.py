@@ -74,17 +74,19 @@ def test_a_mask_is_a_selection_and_its_heights_are_used_or_left_out(file):
     used = rl.read(path, trend="none")
     assert np.array_equal(used.heights, HEIGHTS)
     assert used.settings["masked_share"] == pytest.approx(0.075)
-    left = rl.read(path, mask="leave-out")
+    leave_out = rl.Missing(mask="leave-out")
+    left = rl.read(path, missing=leave_out)
     assert left.settings["missing_points"] == 36
     (note,) = [each for each in describe(path).notes if "masked" in each]
     assert note.startswith("masked in Gwyddion: 7.5% of the points; their heights are used")
-    (note,) = [each for each in describe(path, Reading(mask="leave-out")).notes if "masked" in each]
+    notes = describe(path, Reading(missing=leave_out)).notes
+    (note,) = [each for each in notes if "masked" in each]
     assert note.endswith("they are left out, and filled like missing points")
     piece = rl.read(path, crop=(0, SIDES[0], 0, SIDES[1] / 2))
     assert piece.settings["masked_share"] == pytest.approx(6 * 5 / 240)
     bare = file(gwy(**{"0_data": field()}))
     with pytest.raises(rl.InputError, match="has no mask that selects points"):
-        rl.read(bare, mask="leave-out")
+        rl.read(bare, missing=leave_out)
 
 
 @pytest.mark.parametrize("value", [0.0, 3e-9])

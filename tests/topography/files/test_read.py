@@ -23,7 +23,7 @@ from roughline.assessment.source import topographies
 from roughline.topography.files.curves import curve_in
 from roughline.topography.files.instrument import _refuse_long_arrays
 from roughline.topography.files.read import measurement, suspicions
-from roughline.topography.missing import Missing
+from roughline.topography.missing import Filler, Missing
 from roughline.topography.preparation import prepared
 from roughline.topography.provenance import Instrument, Provenance
 from roughline.topography.trend import without_trend
@@ -68,7 +68,7 @@ def test_a_piece_is_read_back_as_a_piece(tmp_path, is_cut_out):
         (1e-3, 1e-3),
         "m",
         is_cut_out=is_cut_out,
-        removed_trend="mean" if is_cut_out else "none",
+        provenance=Provenance(detrended="mean" if is_cut_out else "none"),
     )
     rl.write(stated, tmp_path / "stated.nc")
     for name in ("before", "stated"):
@@ -119,8 +119,8 @@ def test_one_measurement_gives_the_body_with_either_filling(tmp_path, missing):
     measured = measurement(path)
     unknown = measured.unknown
     for each in (missing, Missing(missing).other, missing):
-        body = measured.body(**stated, missing=Missing(each), trend="tilt")
-        again = rl.read(path, **stated, missing=each)
+        body = measured.body(**stated, filler=Filler(Missing(each)), trend="tilt")
+        again = rl.read(path, **stated, missing=rl.Missing(each))
         assert body.heights.tobytes() == again.heights.tobytes()
         assert body.settings == again.settings
     assert (measured.unknown == unknown).all()
@@ -131,7 +131,7 @@ def test_one_measurement_gives_the_body_with_either_filling(tmp_path, missing):
 def test_a_measurement_stays_as_it_is(tmp_path, order):
     heights = np.array(SPECTRUM.surface(32, 7).heights, order=order)
     np.save(tmp_path / "map.npy", heights)
-    stated = {"unit": "um", "sizes": 1e-3, "missing": Missing(), "trend": "tilt"}
+    stated = {"unit": "um", "sizes": 1e-3, "filler": Filler(), "trend": "tilt"}
     measured = measurement(tmp_path / "map.npy")
     first, second = (measured.body(**stated).heights for _ in range(2))
     assert (measured.heights == heights).all()
@@ -199,12 +199,12 @@ def test_real_files_that_cannot_be_used_say_why(topographies, name, message):
 
 @pytest.mark.parametrize("missing", ["harmonic", "nearest"])
 def test_missing_points_are_filled_and_counted(topographies, missing):
-    found = rl.read(topographies / "opd-1.opd", missing=missing)
+    found = rl.read(topographies / "opd-1.opd", missing=rl.Missing(missing))
     assert found.settings["missing_points"] == 116
     assert found.settings["missing_share"] == pytest.approx(116 / 307200)
     assert found.settings["filled"] == missing
     with pytest.raises(rl.InputError, match="116 missing points of 307200"):
-        rl.read(topographies / "opd-1.opd", most_missing=0)
+        rl.read(topographies / "opd-1.opd", missing=rl.Missing(most=0))
 
 
 def test_channels(topographies):
@@ -526,8 +526,9 @@ def test_missing_points_outside_a_crop_do_not_count(half_known):
     stated = {"unit": "m", "sizes": 1e-3}
     with pytest.raises(rl.InputError, match=r"half.npy has 2050 .* to where points .* \(crop=\)"):
         rl.read(path, **stated)
+    few = rl.Missing(most=0.01)
     with pytest.raises(rl.InputError, match="the piece of half.npy has 162 missing points of 1440"):
-        rl.read(path, **stated, crop=(0, 36e-3 / 64, 0, 40e-3 / 64), most_missing=0.01)
+        rl.read(path, **stated, crop=(0, 36e-3 / 64, 0, 40e-3 / 64), missing=few)
     crop = (0, 5e-4, 0, 1e-3)
     piece = rl.read(path, **stated, crop=crop)
     np.save(path.with_name("left.npy"), heights[:32])
@@ -577,7 +578,7 @@ def test_a_piece_that_is_read_is_the_piece_of_what_is_read(tmp_path):
 
 
 def test_a_piece_of_a_filled_body_does_not_count_the_points_of_the_whole(half_known):
-    whole = rl.read(half_known[0], unit="m", sizes=1e-3, most_missing=0.9)
+    whole = rl.read(half_known[0], unit="m", sizes=1e-3, missing=rl.Missing(most=0.9))
     piece = prepared(whole, rl.Preparation(crop=(0, 5e-4, 0, 1e-3)))
     assert "missing_points" not in piece.settings
     assert piece.settings["filled_before_crop"] == 2050

@@ -16,6 +16,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.question import Question
+from roughline.assessment.source import Topography
 from roughline.errors.remark import DATA, INTERVALS, LIMITS, Remark
 from roughline.errors.words import speaking
 from roughline.lab.frames import drawn
@@ -169,7 +170,7 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
             arguments["session"],
             "comparison",
             (source.key, reading),
-            lambda: compare_models(source.path, reading=reading, progress=progress),
+            lambda: compare_models(Topography.of(source.path, reading, None), progress=progress),
         )
     result = found.comparison
     star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"

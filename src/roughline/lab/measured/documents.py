@@ -34,6 +34,7 @@ from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import write_contact_report
 from roughline.report.part_report import write_part_report
+from roughline.topography.missing import Missing
 from roughline.topography.preparation import Preparation
 
 _WRITTEN = (
@@ -148,7 +149,12 @@ def as_python(texts: ControlTexts, names: Sequence[str]) -> str:
     for kind in (Reading, Preparation):
         usual = vars(kind())
         of_kind = arguments_for(kind.__name__, written).items()
-        if changed := [f"{name}={value!r}" for name, value in of_kind if value != usual[name]]:
+        changed = [
+            f"{name}={'rl.' if isinstance(value, Missing) else ''}{value!r}"
+            for name, value in of_kind
+            if value != usual[name]
+        ]
+        if changed:
             question.append(f"{kind.__name__.lower()}=rl.{kind.__name__}({', '.join(changed)})")
     values = "answer.mean, answer.scatter" if is_part else "answer.values"
     end = "" if is_part else 'result.curve.write("curve.nc")\n'

@@ -6,20 +6,20 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
 import numpy as np
 
 from roughline._version import __version__
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError, UnitError
-from roughline.errors.checks import allowed_choice, shown
+from roughline.errors.checks import shown
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.crop import Crop, points_between, points_in
 from roughline.topography.effects import effect_of_trend
 from roughline.topography.heights import rms_deviation
-from roughline.topography.missing import Missing
+from roughline.topography.missing import Filler, MaskUse, Missing
 from roughline.topography.provenance import (
     NOTHING_KNOWN,
     Instrument,
@@ -34,9 +34,6 @@ from roughline.units import in_si, metres_per, refuse_decimal_comma
 
 Sizes = float | str | Sequence[float | str]
 """Sides of a file as a caller gives them: one length makes a square; texts have their own units."""
-
-MaskUse = Literal["use", "leave-out"]
-"""What becomes of points that a mask in the file selects: they are used, or left out as missing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +53,6 @@ class Measurement:
     # as of a body, as far as the file states it; what others wrote is a piece if it says nothing
     provenance: Provenance = NOTHING_KNOWN
     is_cut_out: bool | None = None
-    removed_trend: Trend = "none"
     unit_of_sides: str | None = None  # of sizes and positions, where that of heights is not stated
     is_piece: bool = False  # whether it is a piece of what the file holds
     format: str = ""  # its name, one of `formats.FORMATS`
@@ -81,7 +77,6 @@ class Measurement:
 
         Such a mask marks grains or spikes; its points were measured.
         """
-        allowed_choice("mask", use, get_args(MaskUse))
         if use == "use":
             return self
         if self.masked is None:
@@ -146,7 +141,7 @@ class Measurement:
         self,
         unit: str | None,
         sizes: Sizes | None,
-        missing: Missing,
+        filler: Filler,
         trend: Trend,
         *,
         in_place: bool = False,
@@ -156,16 +151,16 @@ class Measurement:
         The measurement is not changed, so that another body with another filling can follow from
         it; `in_place` gives that up.
         """
-        for obstacle in self.obstacles(unit, sizes, missing):
+        for obstacle in self.obstacles(unit, sizes, filler.missing):
             raise obstacle
         scale = _Scale(self, unit, sizes)
         sides = scale.sides
-        heights, filled = missing.completed(self.heights, self.file)
+        heights, filled = filler.completed(self.heights, self.file)
         facts: dict[str, Any] = self._facts_of_file()
         if filled:
             facts["filled"] = filled
-            if missing.lines:
-                facts["filled_over_lines"] = missing.lines
+            if filler.lines:
+                facts["filled_over_lines"] = filler.lines
         record: dict[str, str] = {}
         removed = self._trend_to_remove(trend)
         if not self.by_roughline:
@@ -183,12 +178,11 @@ class Measurement:
             spacings = [side / n for side, n in zip(sides, heights.shape, strict=True)]
             facts["tilt"] = self.provenance.tilt.less_plane(heights, spacings, removed)
             remove_trend(heights, removed)
-            record["detrended"] = removed
+            facts["detrended"] = removed
             if left := effect_of_trend(before, rms_deviation(heights)):
                 facts["left"] = self.provenance.also_left(left)
         known = with_facts(self, **facts)
         known["settings"] |= record
-        known["removed_trend"] = self.removed_trend if self.by_roughline else removed
         is_piece = True if self.is_cut_out is None and not self.by_roughline else self.is_cut_out
         if self.kind == "surface":
             return Surface(heights, (sides[0], sides[1]), "m", is_cut_out=is_piece, **known)
@@ -217,7 +211,7 @@ class Measurement:
         if not self.by_roughline or wanted == "none":
             is_repeated = self.is_cut_out is False and wanted in ("tilt", "curvature")
             return "mean" if is_repeated else wanted
-        return self.removed_trend if self.is_piece else "none"
+        return self.provenance.detrended if self.is_piece else "none"
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, get_args
 
@@ -21,7 +22,7 @@ from roughline.topography.files.recorded import (
     is_piece_in_earlier,
     provenance_in,
     provenance_of_earlier,
-    trend_in_earlier,
+    trend_in,
 )
 from roughline.topography.provenance import Provenance
 from roughline.topography.trend import Trend
@@ -89,8 +90,8 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
     attrs, heights = found
     settings = _settings_in(attrs, name)
     _refuse_damaged(attrs, heights, name)
-    # files of earlier versions state these in their settings alone
-    is_cut_out, trend = is_piece_in_earlier(settings), trend_in_earlier(settings)
+    # files of earlier versions state this in their settings alone
+    is_cut_out = is_piece_in_earlier(settings)
     return Measurement(
         file=name,
         heights=heights,
@@ -101,7 +102,6 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
         settings={**settings, "file": name},
         provenance=_provenance_in(attrs, settings, name),
         is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else is_cut_out,
-        removed_trend=attrs.get("removed_trend", trend),
         format="NetCDF",
     )
 
@@ -168,8 +168,10 @@ def _provenance_in(attrs: dict[str, Any], settings: dict[str, Any], name: str) -
     is_stated = "provenance" in attrs
     try:
         if is_stated:
-            return provenance_in(json.loads(attrs["provenance"]))
-        return provenance_of_earlier(settings)
+            found = provenance_in(json.loads(attrs["provenance"]))
+        else:
+            found = provenance_of_earlier(settings)
+        return replace(found, detrended=attrs.get("removed_trend", trend_in(settings)))
     except (InputError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         wrong = "provenance" if is_stated else "settings"
         raise InputError(

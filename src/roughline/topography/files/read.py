@@ -26,7 +26,7 @@ from roughline.topography.files.gsf import read_gsf
 from roughline.topography.files.gwy import read_gwy
 from roughline.topography.files.heights_in_text import read_text
 from roughline.topography.files.instrument import read_instrument
-from roughline.topography.files.measurement import MaskUse, Measurement, Sizes
+from roughline.topography.files.measurement import Measurement, Sizes
 from roughline.topography.files.netcdf import read_body_file
 from roughline.topography.files.nms import read_nms
 from roughline.topography.files.sdf import read_sdf
@@ -35,7 +35,7 @@ from roughline.topography.files.sur import read_sur
 from roughline.topography.files.tiff import read_tiff
 from roughline.topography.files.tmd import read_tmd
 from roughline.topography.files.x3p import read_x3p
-from roughline.topography.missing import Filling, Missing
+from roughline.topography.missing import USUALLY_FILLED, Filler, Missing
 from roughline.topography.scan_lines import line_jump_warning
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
@@ -70,11 +70,9 @@ def read(
     *,
     channel: int | str | None = None,
     sizes: Sizes | None = None,
-    missing: Filling = "harmonic",
-    most_missing: float = 0.1,
+    missing: Missing = USUALLY_FILLED,
     trend: Trend = "tilt",
     crop: Crop | None = None,
-    mask: MaskUse = "use",
 ) -> Body:
     """Read a surface or a line from a file, in metres.
 
@@ -96,19 +94,14 @@ def read(
         Length of a line, or both sides (Lx, Ly), for a file that states no sizes; one of them
         makes a square of a square array. Numbers are in `unit` if that is given, like everything
         else in the file, and in metres if not; texts have units of their own, "1 mm, 0.5 mm".
-    missing : {"harmonic", "nearest"}, optional
-        How missing points are filled: by the smoothest surface through their neighbours, or by
-        the nearest known height; both of what the known points depart from their own trend.
-    most_missing : float, optional
-        Share of missing points above which the file is refused.
+    missing : Missing, optional
+        How missing points are filled, how many may be, and whether masked ones count as missing;
+        default: up to a tenth is filled by the smoothest surface, and masked ones are used.
     trend : {"tilt", "none", "mean", "curvature"}, optional
         Least-squares polynomial that is removed from what an instrument measured.
     crop : tuple of float, optional
         The piece to read, (x0, x1, y0, y1) of a map or (x0, x1) of a line, from 0 along each side.
         Missing points are counted and filled, and the trend is removed, in the piece alone. [m]
-    mask : {"use", "leave-out"}, optional
-        What becomes of points that a mask in the file selects, such as grains marked in Gwyddion:
-        their heights are used, or they are left out and filled like missing ones.
 
     Returns
     -------
@@ -132,11 +125,10 @@ def read(
     (32, 32)
     """
     refuse_unknown_trend(trend)
-    filling = Missing(missing, most_missing, trend)
-    content = measurement(path, channel).with_mask(mask)
+    content = measurement(path, channel).with_mask(missing.mask)
     if crop is not None:
         content, sizes = content.piece(crop, unit, sizes), None
-    return content.body(unit, sizes, filling, trend, in_place=True)
+    return content.body(unit, sizes, Filler(missing, trend), trend, in_place=True)
 
 
 def measurement(

@@ -97,10 +97,10 @@ def is_piece_in_earlier(settings: _Record) -> bool | None:
     return False if origin.startswith(_WHOLE) else None
 
 
-def trend_in_earlier(settings: _Record) -> Trend:
-    """Return the trend whose removal settings record."""
+def trend_in(record: _Record) -> Trend:
+    """Return the trend whose removal a provenance or settings record."""
     trends: tuple[Trend, ...] = get_args(Trend)
-    return next((each for each in trends if each == settings.get("detrended")), "none")
+    return next((each for each in trends if each == record.get("detrended")), "none")
 
 
 def _provenance(record: _Record, facing: Facing | None) -> Provenance:
@@ -119,6 +119,7 @@ def _provenance(record: _Record, facing: Facing | None) -> Provenance:
         masked=_masked(record),
         filled=_filled(record),
         left=tuple(_left(record)),
+        detrended=trend_in(record),
         facing=facing,
     )
 
