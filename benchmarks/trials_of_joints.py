@@ -157,7 +157,8 @@ def seal_rows(kind, option, seed):
     def found(surface, **more):
         pressed = rl.press(surface, forces=[pressure * surface.area], **given)
         leaks = rl.reopening(pressed, rtol=0.02, **more)
-        return rl.sealing_pressure(surface, **given, rtol=0.02, **more), leaks
+        asked = {"half_space": pressed.half_space, "law": pressed.law, "rtol": 0.02, **more}
+        return rl.sealing_pressure(surface, **asked), leaks
 
     truths = found(parent, interval=False)
     for _ in range(MAPS):

@@ -41,6 +41,7 @@ SECTIONS = {
     "Contact": (
         *(
             "press",
+            "Solver",
             "press_scan",
             "press_creep",
             "Creep",

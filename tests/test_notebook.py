@@ -57,7 +57,7 @@ def test_a_body_is_told_in_a_line():
         ({"forces": [1, 10]}, "<SurfaceCurve: 2 loads, force 1 N to 10 N>"),
         ({"forces": [2]}, "<SurfaceCurve: 1 load, force 2 N to 2 N>"),
         (
-            {"forces": [1, 10], "max_iterations": 2, "throw": False},
+            {"forces": [1, 10], "solver": rl.Solver(max_iterations=2), "throw": False},
             "<SurfaceCurve: 2 loads, none solved>",
         ),
     ],
@@ -102,7 +102,9 @@ def test_a_notebook_shows_the_loads_of_a_curve():
     assert [row[0] for row in rows] == [*map(str, range(12)), "…", *map(str, range(26, 30))]
     assert rows[-1][2] == "10 N"
     assert rows[0][-1] == "the grid decides"
-    unsolved = rl.press(surface, E_star=1e11, forces=[1], max_iterations=2, throw=False)
+    unsolved = rl.press(
+        surface, E_star=1e11, forces=[1], solver=rl.Solver(max_iterations=2), throw=False
+    )
     _, row = cells(unsolved._repr_html_())
     assert row == ["0", "–", "–", "–", "–", "–", "max_iterations reached above the tolerance"]
 
@@ -195,13 +197,17 @@ def test_a_notebook_shows_flows_fields_searches_and_creep():
     surface = spectrum.surface(16, rng=7)
     curve = rl.press(surface, E_star=1.0, forces=[0.01], periodic=True, fields=True)
     creep = rl.press_creep(
-        spectrum.line(64, rng=1), rl.Creep([0.5], [1.0]), times=[0.1, 1.0], force=1e-3, E_star=1.0
+        spectrum.line(64, rng=1),
+        rl.Creep([0.5], [1.0]),
+        times=[0.1, 1.0],
+        force=1e-3,
+        half_space=rl.Homogeneous(1.0),
     )
     flow = rl.flow(curve.fields[0])
     for value, named, number in (
         (flow, "hydraulic aperture u_h", flow.hydraulic_aperture),
         (curve.fields[0], "mean pressure", 0.01),
-        (rl.sealing_pressure(surface, E_star=1.0, interval=False), "found", None),
+        (rl.sealing_pressure(surface, half_space=curve.half_space, interval=False), "found", None),
         (rl.reopening(curve, times=1.5), "found", None),
         (creep, "0.1", creep.depth[0]),
     ):

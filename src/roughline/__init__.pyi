@@ -35,6 +35,7 @@ from roughline.contact.press_creep import CreepCurve as CreepCurve
 from roughline.contact.press_creep import press_creep as press_creep
 from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
 from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
+from roughline.contact.solver import Solver as Solver
 from roughline.contact.status import Status as Status
 from roughline.engineering.coated import Coated as Coated
 from roughline.engineering.fluids import Gas as Gas

@@ -251,7 +251,7 @@ def with_few_steps(monkeypatch, which, steps):
 
     def press(*args, **given):
         few = which in given and len(given[which]) != 11  # what is looked for first is solved
-        return whole(*args, **given, **({"max_iterations": steps} if few else {}))
+        return whole(*args, **given, **({"solver": rl.Solver(steps)} if few else {}))
 
     monkeypatch.setattr(separation, "press", press)
 

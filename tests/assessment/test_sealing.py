@@ -286,7 +286,8 @@ def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface, points,
     assert seals.low[0] < found.low
     assert found.high < seals.high[0]
     curve = result.curve
-    given = {"E_star": curve.E_star, "hardness": curve.hardness, "along": along}
+    repeated = rl.Homogeneous(curve.E_star, periodic=True)
+    given = {"half_space": repeated, "law": rl.Yielding(curve.hardness), "along": along}
     alone = rl.sealing_pressure(surface, rtol=0.02, interval=False, **given)
     assert found.value == pytest.approx(alone.value)
     least, most = result.hardness_scatter["sealing_pressure"]

@@ -228,7 +228,9 @@ def test_a_wrong_call_is_exit_2(arguments):
 
 def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
     original = load_cases.press
-    monkeypatch.setattr(load_cases, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
+    monkeypatch.setattr(
+        load_cases, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=12))
+    )
     code, out, _ = invoke("press", surface_file, "--modulus", "1 GPa", "--loads", 6)
     assert code == 1
     assert "max_iterations reached" in " ".join(out.split())
@@ -272,7 +274,9 @@ def test_a_report_with_loads_that_failed_says_so(
 ):
     only_drawn()
     original = load_cases.press
-    monkeypatch.setattr(load_cases, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
+    monkeypatch.setattr(
+        load_cases, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=1))
+    )
     code, out, err = invoke(
         *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N", "--elastic"),
         *("--load", "0.5 N", "--theory", "persson", "--friction", 0.3, "--report", tmp_path / "r"),
@@ -286,7 +290,14 @@ def test_a_report_with_loads_that_failed_says_so(
 def test_figures_of_a_failed_load_show_the_others(surface_file, only_drawn, tmp_path, drawn):
     only_drawn(*drawn)
     surface = rl.read(surface_file)
-    curve = rl.press(surface, E_star=1e9, n_loads=6, fields=True, max_iterations=12, throw=False)
+    curve = rl.press(
+        surface,
+        E_star=1e9,
+        n_loads=6,
+        fields=True,
+        solver=rl.Solver(max_iterations=12),
+        throw=False,
+    )
     assert not curve.converged.all()
     question = rl.Question(surface_file, E_star=1e9, n_loads=6)
     pressed = Assessment(question, [], surface, curve, np.arange(6))

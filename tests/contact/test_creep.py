@@ -155,7 +155,9 @@ def test_a_history_is_superposed_as_by_quadrature():
 @pytest.mark.parametrize("n", [1.0, 2.0])
 def test_a_ball_and_a_cone_under_a_constant_force(n):
     """Lee and Radok: an elastic contact of the compliance J(t) / E_0."""
-    curve = rl.press_creep(power_law(n), RUBBER, times=TIMES, force=0.01, E_star=3.0)
+    curve = rl.press_creep(
+        power_law(n), RUBBER, times=TIMES, force=0.01, half_space=rl.Homogeneous(3.0)
+    )
     for i, t in enumerate(TIMES):
         exact = indenters.PowerLawIndenter(n, 0.7, 3.0 / float(RUBBER.compliance(t)))
         assert exact.force(curve.depth[i]) == pytest.approx(0.01, rel=ROUNDING)
@@ -172,7 +174,7 @@ def test_a_ball_and_a_cone_under_a_constant_force(n):
 
 
 def test_a_ball_at_a_constant_depth_relaxes():
-    curve = rl.press_creep(ball(), RUBBER, times=TIMES, depth=0.01, E_star=3.0)
+    curve = rl.press_creep(ball(), RUBBER, times=TIMES, depth=0.01, half_space=rl.Homogeneous(3.0))
     wanted = RUBBER.relaxation(TIMES) * 4 / 3 * 3.0 * math.sqrt(R) * 0.01**1.5
     assert curve.force == pytest.approx(wanted, rel=ROUNDING)
     assert (curve.force_error == 0).all()
@@ -181,7 +183,9 @@ def test_a_ball_at_a_constant_depth_relaxes():
 
 def test_a_ball_under_a_force_that_grows_evenly():
     rate, times = 1e-3, np.array([0.0, 0.5, 3.0, 200.0])
-    curve = rl.press_creep(ball(), RUBBER, times=times, force=rate * times, E_star=3.0)
+    curve = rl.press_creep(
+        ball(), RUBBER, times=times, force=rate * times, half_space=rl.Homogeneous(3.0)
+    )
     grown = [quad(lambda s: float(RUBBER.compliance(s)), 0, t)[0] for t in times]
     exact = indenters.paraboloid(R, 3.0)
     assert curve.depth[0] == curve.instantaneous_stiffness[0] == curve.area_fraction[0] == 0
@@ -214,7 +218,9 @@ def test_the_force_of_a_moving_ball_and_its_bounds(depths):
     start = 1 if depths[0] == 0 else 0
     wanted = np.array([force_of_depths(exact, times, depths, t) for t in times[start:]])
     for rtol in (1e-2, 1e-3, 1e-4, 1e-5):
-        curve = rl.press_creep(ball(), RUBBER, times=times, depth=depths, E_star=3.0, rtol=rtol)
+        curve = rl.press_creep(
+            ball(), RUBBER, times=times, depth=depths, half_space=rl.Homogeneous(3.0), rtol=rtol
+        )
         off = np.abs(curve.force[start:] - wanted)
         assert (curve.force_error <= rtol * curve.force).all()
         assert (off <= curve.force_error[start:] + ROUNDING * wanted).all()
@@ -225,7 +231,9 @@ def test_the_force_of_a_moving_ball_and_its_bounds(depths):
 def test_the_force_on_a_line_at_moving_depths_is_that_of_each_spring(line):
     """Each spring is pressed from when the body meets it."""
     times, depths = np.array([0.0, 1.0, 3.0, 10.0]), np.array([0.0, 0.01, 0.01, 0.03])
-    curve = rl.press_creep(line, RUBBER, times=times, depth=depths, E_star=2.0, rtol=1e-5)
+    curve = rl.press_creep(
+        line, RUBBER, times=times, depth=depths, half_space=rl.Homogeneous(2.0), rtol=1e-5
+    )
     separations = line.heights.max() - line.heights
     for t, found in zip(times[1:], curve.force[1:], strict=True):
         total = 0.0
@@ -247,7 +255,7 @@ def test_the_force_on_a_line_at_moving_depths_is_that_of_each_spring(line):
 
 
 def test_a_line_creeps_as_its_springs_do(line):
-    curve = rl.press_creep(line, RUBBER, times=TIMES, force=1e-3, E_star=2.0)
+    curve = rl.press_creep(line, RUBBER, times=TIMES, force=1e-3, half_space=rl.Homogeneous(2.0))
     springs = rl.press(line, E_star=2.0, forces=1e-3 * RUBBER.compliance(TIMES))
     assert curve.depth == pytest.approx(springs.depth, rel=ROUNDING)
     assert curve.area_fraction is None
@@ -280,9 +288,13 @@ def test_units_and_the_start_of_time_do_not_matter(surface):
     times = np.array([0.0, 2.0, 100.0])
     slower = rl.Creep(RUBBER.shares, np.array(RUBBER.times) * 3600)
     for history in ({"force": force}, {"depth": depth}):
-        first = rl.press_creep(surface, RUBBER, times=times, E_star=1.0, **history)
+        first = rl.press_creep(
+            surface, RUBBER, times=times, half_space=rl.Homogeneous(1.0), **history
+        )
         for creep, other in ((RUBBER, times + 7.0), (slower, 3600 * times)):
-            again = rl.press_creep(surface, creep, times=other, E_star=1.0, **history)
+            again = rl.press_creep(
+                surface, creep, times=other, half_space=rl.Homogeneous(1.0), **history
+            )
             assert again.depth == pytest.approx(first.depth, rel=1e-6)
             assert again.force == pytest.approx(first.force, rel=1e-6)
 
@@ -290,9 +302,15 @@ def test_units_and_the_start_of_time_do_not_matter(surface):
 def test_a_number_is_a_history_that_stays(surface):
     times = np.array([0.0, 1.0, 50.0])
     for name, value in (("force", 1e-3), ("depth", 1e-2)):
-        held = rl.press_creep(surface, RUBBER, times=times, E_star=1.0, **{name: value})
-        told = rl.press_creep(surface, RUBBER, times=times, E_star=1.0, **{name: [value] * 3})
-        later = rl.press_creep(surface, RUBBER, times=50.0, E_star=1.0, **{name: value})
+        held = rl.press_creep(
+            surface, RUBBER, times=times, half_space=rl.Homogeneous(1.0), **{name: value}
+        )
+        told = rl.press_creep(
+            surface, RUBBER, times=times, half_space=rl.Homogeneous(1.0), **{name: [value] * 3}
+        )
+        later = rl.press_creep(
+            surface, RUBBER, times=50.0, half_space=rl.Homogeneous(1.0), **{name: value}
+        )
         for key in ("force", "depth", "instantaneous_stiffness", "area_fraction"):
             np.testing.assert_allclose(getattr(told, key), getattr(held, key), rtol=1e-6)
             np.testing.assert_allclose(getattr(later, key), getattr(held, key)[2:], rtol=1e-6)
@@ -302,7 +320,9 @@ def test_a_fast_load_meets_the_instantaneous_stiffness(surface):
     """A depth that grows at once by little, after it was held."""
     held, step, fast = 100.0, 1e-4, 1e-9
     times, depths = [0.0, held, held + fast], [0.01, 0.01, 0.01 + step]
-    curve = rl.press_creep(surface, RUBBER, times=times, depth=depths, E_star=1.0, rtol=1e-5)
+    curve = rl.press_creep(
+        surface, RUBBER, times=times, depth=depths, half_space=rl.Homogeneous(1.0), rtol=1e-5
+    )
     slope = (curve.force[2] - curve.force[1]) / step
     low, high = curve.instantaneous_stiffness[1:]
     assert low * (1 - 1e-3) <= slope <= high * (1 + 1e-3)
@@ -313,7 +333,9 @@ def test_a_flat_punch_at_moving_depths_and_falls_of_rounding():
     flat = rl.Surface(np.zeros((8, 8)), (1.0, 1.0))
     stiffness = rl.press(flat, E_star=1.0, depths=[0.01]).stiffness[0]
     times, depths = [0.0, 1.0, 5.0, 6.0], [0.0, 0.01, 0.02, 0.02 * (1 - 1e-14)]
-    curve = rl.press_creep(flat, RUBBER, times=times, depth=depths, E_star=1.0, rtol=1e-5)
+    curve = rl.press_creep(
+        flat, RUBBER, times=times, depth=depths, half_space=rl.Homogeneous(1.0), rtol=1e-5
+    )
     for t, force in zip(times[1:], curve.force[1:], strict=True):
         parts = [(0.0, 1.0, 0.01), (1.0, 5.0, 0.0025)]
         wanted = sum(
@@ -417,7 +439,7 @@ def test_a_contact_recedes_when_it_is_said_to(steps):
     body = rl.SelfAffine(hurst=0.8, rms_height=0.01).surface(12, rng=4)
     at, values = [0.0, 10.0, 60.0], [4e-3, 6e-3, 4e-3]
     with pytest.raises(rl.InputError, match="contact recedes from time") as refused:
-        rl.press_creep(body, RUBBER, times=at, force=values, E_star=1.5)
+        rl.press_creep(body, RUBBER, times=at, force=values, half_space=rl.Homogeneous(1.5))
     (when,) = map(float, re.findall(r"from time ([\d.]+) on", str(refused.value)))
     assert 10 < when < 60
     fine = np.linspace(0, 60, steps + 1)
@@ -427,8 +449,9 @@ def test_a_contact_recedes_when_it_is_said_to(steps):
     lost = (contacts[:-1] & ~contacts[1:]).any(axis=1)
     assert not lost[fine[1:] < when - 0.2].any()
     assert lost[fine[1:] > when].any()
-    grown = rl.press_creep(body, RUBBER, times=[0.0, 10.0, 0.999 * when], E_star=1.5,
-                           force=np.interp([0.0, 10.0, 0.999 * when], at, values))  # fmt: skip
+    before = [0.0, 10.0, 0.999 * when]
+    force = np.interp(before, at, values)
+    grown = rl.press_creep(body, RUBBER, times=before, force=force, half_space=rl.Homogeneous(1.5))
     assert (np.diff(grown.elastic_force) > 0).all()
 
 
@@ -445,7 +468,7 @@ def test_a_contact_that_recedes_between_the_times_is_found(surface):
         np.append(0.0, dense), np.append(1.0, np.interp(dense, times, force))
     )[1:]
     with pytest.raises(rl.InputError, match="recedes from time") as refused:
-        rl.press_creep(surface, creep, times=times, force=force, E_star=1.0)
+        rl.press_creep(surface, creep, times=times, force=force, half_space=rl.Homogeneous(1.0))
     (when,) = map(float, re.findall(r"from time ([\d.]+) on", str(refused.value)))
     (elastic,) = map(float, re.findall(r"elastic force of ([\d.]+)", str(refused.value)))
     assert when == pytest.approx(dense[passed.argmax()], abs=0.02)
@@ -483,14 +506,14 @@ REFUSED = {
     "hardness": ({"hardness": 1.0}, "no argument hardness="),
     "law": ({"law": rl.Dugdale(1e-3, 1e-2)}, "no argument law="),
     "two bodies": (
-        {"E_star": None, "half_space": rl.Homogeneous(1.0) + rl.Homogeneous(2.0)},
+        {"half_space": rl.Homogeneous(1.0) + rl.Homogeneous(2.0)},
         "creep alike",
     ),
     "elastic base": (
-        {"E_star": None, "half_space": rl.Layered(1.0, 0.3, 0.1, 10.0, 0.3)},
+        {"half_space": rl.Layered(1.0, 0.3, 0.1, 10.0, 0.3)},
         "elastic base",
     ),
-    "no modulus": ({"E_star": None}, "E_star"),
+    "no half-space": ({"half_space": None}, "an rl.HalfSpace is needed"),
     "tolerance": ({"rtol": 1.0}, "tolerance"),
 }
 
@@ -498,7 +521,8 @@ REFUSED = {
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_cannot_be_used_is_refused_in_one_line(surface, case):
     changed, told = REFUSED[case]
-    given = {"creep": RUBBER, "times": [0.0, 1.0, 2.0], "force": 1e-3, "E_star": 1.0, **changed}
+    given = {"creep": RUBBER, "times": [0.0, 1.0, 2.0], "force": 1e-3}
+    given |= {"half_space": rl.Homogeneous(1.0), **changed}
     with pytest.raises(rl.InputError, match=told) as refused:
         rl.press_creep(surface, **given)
     assert "\n" not in str(refused.value)
@@ -525,7 +549,9 @@ def test_times_before_a_step_are_refused():
 
 def test_a_dataset_over_time_has_units(surface, tmp_path):
     metres = rl.Surface(surface.heights * 1e-6, (1e-3, 1e-3), "m")
-    curve = rl.press_creep(metres, RUBBER, times=[0, 1, 10], depth=[0, 1e-8, 2e-8], E_star=1e7)
+    curve = rl.press_creep(
+        metres, RUBBER, times=[0, 1, 10], depth=[0, 1e-8, 2e-8], half_space=rl.Homogeneous(1e7)
+    )
     data = curve.to_dataset()
     assert list(data.sizes.items()) == [("time", 3)]
     assert data.force.attrs["units"] == data.elastic_force.attrs["units"] == "N"
@@ -539,14 +565,16 @@ def test_a_dataset_over_time_has_units(surface, tmp_path):
     curve.write(tmp_path / "creep.csv")
     with pytest.raises(rl.InputError, match="ends in neither"):
         curve.write(tmp_path / "creep.txt")
-    of_line = rl.press_creep(ball(), RUBBER, times=[0, 1], force=1e-3, E_star=1.0).to_dataset()
+    of_line = rl.press_creep(
+        ball(), RUBBER, times=[0, 1], force=1e-3, half_space=rl.Homogeneous(1.0)
+    ).to_dataset()
     assert "area_fraction" in of_line
     assert "3 values" in repr(curve)
     assert curve.warnings == curve.elastic.warnings
 
 
 def test_a_curve_over_time_is_sent_to_where_it_is_drawn():
-    curve = rl.press_creep(ball(), RUBBER, times=TIMES, depth=0.01, E_star=3.0)
+    curve = rl.press_creep(ball(), RUBBER, times=TIMES, depth=0.01, half_space=rl.Homogeneous(3.0))
     with pytest.raises(
         rl.InputError, match=r"is a CreepCurve; .*to_dataset\(\).area_fraction.plot"
     ):

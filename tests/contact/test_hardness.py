@@ -119,7 +119,7 @@ def test_under_a_load_that_fails_smaller_ones_are_not_known_and_larger_ones_are(
     """What it would have left is not known; a larger one would have left the same without it."""
     settings = {"E_star": 1.0, "hardness": 0.2, "forces": [0.02, 0.19, 0.05, 0.195]}
     for most in range(10, 40):
-        curve = rl.press(surface, max_iterations=most, throw=False, **settings)
+        curve = rl.press(surface, solver=rl.Solver(max_iterations=most), throw=False, **settings)
         if curve.converged[[0, 3]].all():
             break
     assert curve.status[1] == rl.Status.MAX_ITERATIONS
@@ -132,7 +132,7 @@ def test_under_a_load_that_fails_smaller_ones_are_not_known_and_larger_ones_are(
     with pytest.raises(
         rl.ConvergenceError, match="the surface as a larger load before them left it"
     ) as caught:
-        rl.press(surface, max_iterations=most, **settings)
+        rl.press(surface, solver=rl.Solver(max_iterations=most), **settings)
     assert "\n" not in str(caught.value)
     with pytest.raises(rl.InputError, match="load 1 was not solved .* is not known"):
         curve.surface_after(1)
@@ -173,11 +173,11 @@ def test_the_bound_on_convolutions_is_that_of_a_load(surface, most):
     hardness = 0.3 * surface.rms_slope
     forces = [0.3 * hardness * surface.area]
     settings = {"E_star": 1.0, "hardness": hardness, "forces": forces, "throw": False}
-    bounded = rl.press(surface, max_iterations=most, **settings)
+    bounded = rl.press(surface, solver=rl.Solver(max_iterations=most), **settings)
     assert bounded.converged[0] or bounded.status[0] == rl.Status.MAX_ITERATIONS
     if not bounded.converged[0]:  # else its stiffness is counted as well
         assert bounded.convolutions[0] <= most + 4
-    assert not rl.press(surface, max_iterations=1, **settings).converged[0]
+    assert not rl.press(surface, solver=rl.Solver(max_iterations=1), **settings).converged[0]
 
 
 @pytest.mark.parametrize("softness", [None, 0.3])

@@ -123,7 +123,7 @@ def test_what_layers_take_in_addition_is_known_before(kind, periodic, n, shares)
             0,
             several=False,
             area_fraction=curves[0].area_fraction[0],
-            of_layers=beside,
+            besides=beside,
         )
         assert 0.4 * told < held < 1.1 * told
         if not periodic and force == most * 1e-3:
@@ -281,9 +281,11 @@ def test_forked_processes_have_threads_of_their_own():
 
 def test_precisions_agree_to_their_tolerance():
     surface, forces = rl.SelfAffine(hurst=0.5, rms_height=1.0).surface(96, 4), [0.01, 0.3, 3.0]
-    double = rl.press(surface, E_star=1.0, forces=forces, precision="float64")
+    double = rl.press(surface, E_star=1.0, forces=forces, solver=rl.Solver(precision="float64"))
     mixed = rl.press(surface, E_star=1.0, forces=forces)
-    single = rl.press(surface, E_star=1.0, forces=forces, precision="float32", rtol=1e-4)
+    single = rl.press(
+        surface, E_star=1.0, forces=forces, solver=rl.Solver(precision="float32"), rtol=1e-4
+    )
     assert mixed.depth == pytest.approx(double.depth, rel=1e-6)
     assert mixed.stiffness == pytest.approx(double.stiffness, rel=1e-5)
     assert single.depth == pytest.approx(double.depth, rel=1e-4)
@@ -303,15 +305,17 @@ def test_mixed_precision_reaches_what_double_does(rtol):
 
 def test_single_precision_refuses_tolerances_beyond_it():
     with pytest.raises(
-        rl.InputError, match='single precision resolves gaps to 3e-06 at best: .*"mixed"'
+        rl.InputError, match='single precision resolves gaps to 3e-06 at best: .*"float32"'
     ):
-        rl.press(FRACTAL, E_star=1.0, forces=[1.0], precision="float32")
+        rl.press(FRACTAL, E_star=1.0, forces=[1.0], solver=rl.Solver(precision="float32"))
     with pytest.raises(
         rl.InputError, match="single precision cannot resolve gaps to rtol = 0.0001"
     ):
-        rl.press(FRACTAL, E_star=1.0, depths=[1e3], precision="float32", rtol=1e-4)
+        rl.press(
+            FRACTAL, E_star=1.0, depths=[1e3], solver=rl.Solver(precision="float32"), rtol=1e-4
+        )
     with pytest.raises(rl.InputError, match='precision is "half"; allowed are'):
-        rl.press(FRACTAL, E_star=1.0, forces=[1.0], precision="half")
+        rl.Solver(precision="half")
 
 
 def edge_warnings(surface: rl.Surface, **options) -> tuple[str, ...]:

@@ -75,7 +75,12 @@ def test_its_dimension_follows_the_unit_of_lengths(surface, length):
 
 def test_a_load_that_was_not_solved_has_none(surface):
     curve = rl.press(
-        surface, E_star=1.0, forces=FORCES, measures=ALL, max_iterations=1, throw=False
+        surface,
+        E_star=1.0,
+        forces=FORCES,
+        measures=ALL,
+        solver=rl.Solver(max_iterations=1),
+        throw=False,
     )
     assert not curve.converged.all()
     for each in curve.measured.values():

@@ -97,8 +97,7 @@ WRONG_ARGUMENTS = {
     "fields": [3, "0", [True], [2], [-1], [0.5], None],
     "grid_error": ["yes", 1],
     "rtol": ["1e-6", 0.0, 1.0, math.nan, None],
-    "max_iterations": [0, -3, 0.5, math.inf, "9"],
-    "precision": ["half", None, ["mixed"], np.ones(2)],
+    "solver": [8, "mixed", None],
     "throw": ["no", 0],
     "progress": [True, "bar"],
 }
@@ -117,6 +116,19 @@ def test_every_argument_is_checked_and_named_in_one_line(surface, name):
         assert len(message) < 250
 
 
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        ("max_iterations", [0, -3, 0.5, math.inf, "9"]),
+        ("precision", ["half", None, ["mixed"], np.ones(2)]),
+    ],
+)
+def test_every_setting_of_the_solver_is_checked_and_named_in_one_line(name, wrong):
+    for given in wrong:
+        with pytest.raises(rl.InputError, match=f"^{name} is .*[^\n]*$"):
+            rl.Solver(**{name: given})
+
+
 def test_whole_numbers_and_flags_may_come_from_numpy(surface):
     curve = rl.press(
         surface,
@@ -124,7 +136,7 @@ def test_whole_numbers_and_flags_may_come_from_numpy(surface):
         n_loads=np.int64(2),
         periodic=np.True_,
         fields=iter([np.int32(1)]),
-        max_iterations=1e3,
+        solver=rl.Solver(max_iterations=1e3),
     )
     assert [fields is not None for fields in curve.fields] == [False, True]
     assert curve.settings["boundary"] == "periodic"
@@ -191,7 +203,7 @@ def test_impossible_settings_are_refused(surface, line):
     with pytest.raises(rl.InputError, match="rtol is 0"):
         rl.press(surface, E_star=1.0, depths=[0.1], rtol=0)
     with pytest.raises(rl.InputError, match="max_iterations is -3"):
-        rl.press(surface, E_star=1.0, depths=[0.1], max_iterations=-3)
+        rl.Solver(max_iterations=-3)
     with pytest.raises(rl.InputError, match="body is a ndarray; a Surface or a Line"):
         rl.press(surface.heights, E_star=1.0, depths=[0.1])
     with pytest.raises(
@@ -234,9 +246,11 @@ def test_a_measured_profile_is_not_pressed_as_a_reduced_line(line):
 
 def test_what_does_not_converge_is_said(surface):
     with pytest.raises(rl.ConvergenceError, match="max_iterations reached") as caught:
-        rl.press(surface, E_star=1.0, forces=[0.01, 0.5], max_iterations=8)
+        rl.press(surface, E_star=1.0, forces=[0.01, 0.5], solver=rl.Solver(max_iterations=8))
     partial = caught.value.curve
-    curve = rl.press(surface, E_star=1.0, forces=[0.01, 0.5], max_iterations=8, throw=False)
+    curve = rl.press(
+        surface, E_star=1.0, forces=[0.01, 0.5], solver=rl.Solver(max_iterations=8), throw=False
+    )
     assert partial.status.tolist() == curve.status.tolist()
     failed = curve.status != rl.Status.CONVERGED
     assert failed[-1]
@@ -277,7 +291,9 @@ def test_loads_beyond_double_precision_are_refused(surface, loads, message):
 
 @pytest.mark.parametrize("loads", [{"depths": [1.0, 2.0]}, {"forces": [0.1, 2.0]}])
 def test_a_single_iteration_is_too_few_and_harmless(surface, loads):
-    curve = rl.press(surface, E_star=1.0, max_iterations=1, throw=False, fields=True, **loads)
+    curve = rl.press(
+        surface, E_star=1.0, solver=rl.Solver(max_iterations=1), throw=False, fields=True, **loads
+    )
     assert (curve.status == rl.Status.MAX_ITERATIONS).all()
     assert np.isnan(curve.stiffness).all()
     assert curve.fields == (None, None)
@@ -295,7 +311,12 @@ def test_a_failed_load_does_not_poison_the_next(surface, periodic):
     forces = np.geomspace(1e-3, 3, 6)
     whole = rl.press(surface, E_star=1.0, forces=forces, periodic=periodic)
     starved = rl.press(
-        surface, E_star=1.0, forces=forces, periodic=periodic, max_iterations=25, throw=False
+        surface,
+        E_star=1.0,
+        forces=forces,
+        periodic=periodic,
+        solver=rl.Solver(max_iterations=25),
+        throw=False,
     )
     solved = starved.converged
     assert starved.stiffness[solved] == pytest.approx(whole.stiffness[solved], rel=1e-6)

@@ -1,5 +1,6 @@
 """The mean pressure at which the last channel closes, and down to which load it stays so."""
 
+import math
 from itertools import product
 
 import numpy as np
@@ -9,6 +10,8 @@ import roughline as rl
 from random_cases import cases
 from roughline.fluid.one_map import can_be_cut, factor_left_open
 from roughline.fluid.sealing_pressure import OPEN
+
+REPEATED = rl.Homogeneous(1.0, periodic=True)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +33,8 @@ def test_the_gap_is_open_at_the_low_end_and_sealed_at_the_high_one(
 ):
     # across its border the last channel along y would stay open longer, which free bodies close
     surface = spectrum.surface(64, rng=5)
-    given = {"E_star": 1.0, "hardness": hardness, "periodic": periodic}
+    law = None if hardness is None else rl.Yielding(hardness)
+    given = {"half_space": rl.Homogeneous(1.0, periodic), "law": law}
     found = rl.sealing_pressure(surface, along=along, interval=False, **given)
     assert found.low < found.high <= 1.01 * found.low
     assert not sealed(surface, found.low, along, **given)
@@ -41,7 +45,7 @@ def test_the_gap_is_open_at_the_low_end_and_sealed_at_the_high_one(
 def test_of_both_directions_it_is_the_larger_one(spectrum):
     surface = spectrum.surface(64, rng=7)
     x, y, both = (
-        rl.sealing_pressure(surface, E_star=1.0, along=along, interval=False).value
+        rl.sealing_pressure(surface, half_space=REPEATED, along=along, interval=False).value
         for along in ("x", "y", "both")
     )
     assert both == pytest.approx(max(x, y), rel=0.01)
@@ -51,8 +55,11 @@ def test_it_scales_with_modulus_and_slope(spectrum):
     surface = spectrum.surface(64, rng=7)
     steeper = rl.Surface(3 * surface.heights, surface.sizes, is_cut_out=False)
     one, six = (
-        rl.sealing_pressure(given, E_star=E_star, rtol=1e-3, interval=False).value
-        for given, E_star in ((surface, 1.0), (steeper, 2.0))
+        rl.sealing_pressure(given, half_space=half_space, rtol=1e-3, interval=False).value
+        for given, half_space in (
+            (surface, REPEATED),
+            (steeper, rl.Homogeneous(2.0, periodic=True)),
+        )
     )
     assert six == pytest.approx(6 * one, rel=2e-3)
 
@@ -62,7 +69,7 @@ def test_grooves_close_where_a_wave_is_in_full_contact(n):
     """Along a wave d cos(2 pi x / L) only full contact seals, under pi E* d / L (Westergaard)."""
     wave = 0.01 * np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)
     surface = rl.Surface(np.repeat(wave[:, np.newaxis], n, axis=1), (1.0, 1.0), is_cut_out=False)
-    found = rl.sealing_pressure(surface, E_star=1.0, along="y", interval=False, rtol=1e-4)
+    found = rl.sealing_pressure(surface, half_space=REPEATED, along="y", interval=False, rtol=1e-4)
     # the cells nearest to the trough are half a cell away from it, and close before
     assert found.value == pytest.approx(np.pi * 0.01, rel=2 / n)
     assert found.value <= np.pi * 0.01 * 1.0001
@@ -82,24 +89,23 @@ def test_its_interval_holds_that_of_grids_four_times_finer(n, surfaces):
         seed, (hurst, q_high, yields) = 5000 + number // len(KINDS), KINDS[number % len(KINDS)]
         spectrum = rl.SelfAffine(hurst=hurst, rms_height=0.01, q_roll=8 * np.pi, q_high=q_high)
         coarse, fine = spectrum.surface(n, seed), spectrum.surface(4 * n, seed)
-        given = {"E_star": 1.0}
-        given |= {"hardness": 0.4 * fine.rms_slope} if yields else {}
-        low, high = rl.sealing_pressure(coarse, **given).interval
-        held.append(is_open(fine, low, **given) and not is_open(fine, high, **given))
+        hardness = 0.4 * fine.rms_slope if yields else math.inf
+        law = rl.Yielding(hardness) if yields else rl.Unilateral()
+        low, high = rl.sealing_pressure(coarse, half_space=REPEATED, law=law).interval
+        held.append(is_open(fine, low, hardness) and not is_open(fine, high, hardness))
     assert np.mean(held) >= 0.9
 
 
-def is_open(surface, pressure, hardness=np.inf, **given):
+def is_open(surface, pressure, hardness):
     """Whether a path leads through in either direction; none does where all bears the hardness."""
     if pressure >= hardness:
         return False
     curve = rl.press(
         surface,
         forces=[pressure * surface.area],
+        half_space=REPEATED,
         hardness=hardness,
-        periodic=True,
         measures=[OPEN["both"]],
-        **given,
     )
     return bool(curve.measured[OPEN["both"].name].values[0])
 
@@ -111,12 +117,12 @@ def is_open(surface, pressure, hardness=np.inf, **given):
         ({"surface": rl.SelfAffine(hurst=0.8, rms_height=1.0).line(64, 1)}, "is no Surface"),
         ({"along": "z"}, "along"),
         ({"rtol": 0}, "rtol"),
-        ({"E_star": -1.0}, "E_star"),
-        ({"hardness": -1.0}, "hardness"),
+        ({"half_space": 1.0}, "an rl.HalfSpace is needed"),
+        ({"law": 0.3}, "a contact law is needed"),
     ],
 )
 def test_what_cannot_be_used_is_refused(spectrum, given, said):
-    told = {"surface": spectrum.surface(32, 1), "E_star": 1.0} | given
+    told = {"surface": spectrum.surface(32, 1), "half_space": REPEATED} | given
     with pytest.raises(rl.InputError, match=said):
         rl.sealing_pressure(**told)
 
@@ -231,11 +237,12 @@ def test_a_piece_without_waves_of_its_roll_off_does_not_tell_how_early_its_whole
 ):
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=q_roll)
     piece = spectrum.surface(128, rng=3).cropped((0, 64), (0, 64))
-    low, high = rl.sealing_pressure(piece, E_star=1.0, along="x", rtol=0.1).interval
+    low, high = rl.sealing_pressure(piece, half_space=REPEATED, along="x", rtol=0.1).interval
     assert (low > 0) == tells
     assert high > low
     whole = rl.Surface(piece.heights, piece.sizes, is_cut_out=False)
-    assert rl.sealing_pressure(whole, E_star=1.0, along="x", rtol=0.1).interval[0] > 0
+    found = rl.sealing_pressure(whole, half_space=REPEATED, along="x", rtol=0.1)
+    assert found.interval[0] > 0
 
 
 def test_what_finer_grids_and_other_places_leave_open_combine_as_independent():

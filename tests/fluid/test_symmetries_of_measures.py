@@ -163,8 +163,9 @@ def test_the_tensor_of_a_map_is_that_of_its_repetitions(fields, times):
 
 def sought(heights, sizes, along, hardness, rtol=0.01):
     surface = rl.Surface(np.ascontiguousarray(heights), sizes, is_cut_out=False)
-    given = {"E_star": 1.0, "periodic": True, "hardness": hardness, "rtol": rtol}
-    found = rl.sealing_pressure(surface, along=along, interval=False, **given)
+    given = {"half_space": rl.Homogeneous(1.0, periodic=True), "along": along, "rtol": rtol}
+    law = None if hardness is None else rl.Yielding(hardness)
+    found = rl.sealing_pressure(surface, law=law, interval=False, **given)
     return found.low, found.high, found.area_fractions
 
 

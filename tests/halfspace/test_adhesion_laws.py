@@ -327,7 +327,7 @@ def test_what_stalls_in_single_precision_is_found_in_double():
     body, sticky = spectrum.surface(16, rng=1), rl.Exponential(work_of_adhesion=0.2, range=0.4)
     depths = [-0.2, 0.1, 0.3, 0.1, -0.1, -0.3]
     mixed, double = (
-        rl.press(body, E_star=1.0, law=sticky, depths=depths, precision=precision)
+        rl.press(body, E_star=1.0, law=sticky, depths=depths, solver=rl.Solver(precision=precision))
         for precision in ("mixed", "float64")
     )
     assert mixed.force == pytest.approx(double.force, abs=FORCE * np.abs(double.force).max())

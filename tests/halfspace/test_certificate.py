@@ -38,7 +38,13 @@ def assert_true_where_certified(curve):
 
 def pressed(**options):
     return rl.press(
-        SURFACE, E_star=1.0, forces=FORCES, fields=True, throw=False, max_iterations=300, **options
+        SURFACE,
+        E_star=1.0,
+        forces=FORCES,
+        fields=True,
+        throw=False,
+        solver=rl.Solver(max_iterations=300),
+        **options,
     )
 
 
@@ -60,7 +66,7 @@ def test_a_kernel_of_the_wrong_sign_is_refused(monkeypatch):
     assert not curve.converged.any()
     assert np.isnan(curve.stiffness).all()
     with pytest.raises(rl.ConvergenceError, match=r"3 of 3 loads .*; worst residual"):
-        rl.press(SURFACE, E_star=1.0, forces=FORCES, max_iterations=300)
+        rl.press(SURFACE, E_star=1.0, forces=FORCES, solver=rl.Solver(max_iterations=300))
 
 
 @pytest.mark.parametrize("skipped", range(12))

@@ -27,7 +27,7 @@ def test_a_periodic_punch_bears_evenly_under_any_load(shape, hardness, precision
         hardness=hardness,
         forces=forces,
         periodic=True,
-        precision=precision,
+        solver=rl.Solver(precision=precision),
         rtol=RTOL[precision],
         fields=True,
     )

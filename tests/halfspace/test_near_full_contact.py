@@ -63,9 +63,8 @@ def test_depths_near_full_contact_are_certified(precision, seeds):
                 E_star=E_star,
                 depths=[depth],
                 periodic=True,
-                precision=precision,
                 rtol=RTOL[precision],
-                max_iterations=MANY,
+                solver=rl.Solver(max_iterations=MANY, precision=precision),
                 fields=small,
                 throw=False,
             )

@@ -137,11 +137,22 @@ def test_a_load_that_stalls_names_the_residual_that_is_above_the_tolerance(monke
 def test_loads_below_one_that_failed_have_no_residual():
     surface = rl.Surface(ROUGH, (1.0, 0.75))
     curve = rl.press(
-        surface, E_star=1.0, hardness=0.3, forces=[0.1, 0.05], max_iterations=3, throw=False
+        surface,
+        E_star=1.0,
+        hardness=0.3,
+        forces=[0.1, 0.05],
+        solver=rl.Solver(max_iterations=3),
+        throw=False,
     )
     assert curve.status.tolist() == [rl.Status.MAX_ITERATIONS, rl.Status.UNKNOWN_SURFACE]
     assert curve.residual[0] > 1e-6
     assert np.isnan(curve.residual[1])
     with pytest.raises(rl.ConvergenceError) as failed:
-        rl.press(surface, E_star=1.0, hardness=0.3, forces=[0.1, 0.05], max_iterations=3)
+        rl.press(
+            surface,
+            E_star=1.0,
+            hardness=0.3,
+            forces=[0.1, 0.05],
+            solver=rl.Solver(max_iterations=3),
+        )
     assert str(failed.value).count("worst residual") == 1

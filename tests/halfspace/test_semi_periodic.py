@@ -589,7 +589,7 @@ def test_a_fluid_meets_the_sides_that_the_strip_has(n):
         assert flow.hydraulic_aperture == wanted.hydraulic_aperture
         name = rl.hydraulic_aperture(flow.along).name
         assert curve.measured[name].values[0] == pytest.approx(flow.hydraulic_aperture, rel=1e-9)
-    sealed = rl.sealing_pressure(body, E_star=1.0, periodic="x", along="y")
+    sealed = rl.sealing_pressure(body, half_space=rl.Homogeneous(1.0, "x"), along="y")
     assert 0 < sealed.low < sealed.high
 
 

@@ -169,7 +169,7 @@ def test_a_load_that_is_not_solved_has_no_flow(monkeypatch):
     solved = rl.press
 
     def unsolved(*given, **named):
-        return solved(*given, **{**named, "max_iterations": 1, "grid_error": False})
+        return solved(*given, **{**named, "solver": rl.Solver(1), "grid_error": False})
 
     monkeypatch.setattr(rl, "press", unsolved)
     header, arrays = answer(pictures.full, FLOWS)

@@ -165,7 +165,12 @@ def test_area_is_the_corrected_one_and_the_band_ends_at_the_cells(curve):
 
 def test_loads_that_were_not_solved_are_told_in_the_picture(surface):
     curve = rl.press(
-        surface, E_star=1e11, forces=[1, 3, 10], max_iterations=2, throw=False, fields=True
+        surface,
+        E_star=1e11,
+        forces=[1, 3, 10],
+        solver=rl.Solver(max_iterations=2),
+        throw=False,
+        fields=True,
     )
     assert not curve.converged.any()
     assert "no load was solved" in texts(rl.plot.curve(curve))

@@ -86,8 +86,8 @@ def _worker_memory(ensemble: Ensemble) -> int:
         0,
         yielding=law.memory == "dents",
         area_fraction=1.0 if max(ensemble.force_bars) > _SATURATING_FORCE else None,
-        of_pull=estimates.bytes_of_pull(law, 1.0),
-        of_layers=estimates.bytes_of_layers(half_space, shape, (spacing, spacing)),
+        besides=estimates.bytes_of_layers(half_space, shape, (spacing, spacing))
+        + estimates.bytes_of_pull(law, 1.0),
     )
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)

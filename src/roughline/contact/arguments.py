@@ -22,6 +22,7 @@ from roughline.topography.body import Line
 from roughline.topography.profile import Profile
 
 LARGEST_NUMBER = 1e150  # beyond it, squares leave the range of double precision
+_MODULUS_NEEDED = "a positive, finite contact modulus from 1e-150 to 1e150 is needed"
 _MOST_COUNT = 10**9  # loads, points along a side, or iterations
 
 
@@ -33,7 +34,6 @@ def given_half_space(
     half_space: HalfSpace | None, E_star: float | None, periodic: Periodic | None
 ) -> HalfSpace:
     """Return the half-space that is given, as it is or by the short forms."""
-    needed = "a positive, finite contact modulus from 1e-150 to 1e150 is needed"
     if half_space is None:
         if E_star is None:
             raise InputError(
@@ -41,7 +41,7 @@ def given_half_space(
                 "rl.contact_modulus(first, second) "
                 "gives of two materials; give it, or half_space="
             )
-        E_star = between("E_star", E_star, 1 / LARGEST_NUMBER, LARGEST_NUMBER, needed)
+        E_star = between("E_star", E_star, 1 / LARGEST_NUMBER, LARGEST_NUMBER, _MODULUS_NEEDED)
         return Homogeneous(E_star, False if periodic is None else periodic)
     if E_star is not None or periodic is not None:
         short = "periodic" if E_star is None else "E_star"
@@ -49,13 +49,19 @@ def given_half_space(
             f"half_space and {short} are given; the half-space has a modulus and a boundary of its "
             f"own: leave {short} out"
         )
+    return checked_half_space(half_space)
+
+
+def checked_half_space(half_space: HalfSpace) -> HalfSpace:
+    """Return a half-space; refuse what is none, or has no modulus."""
     if not isinstance(half_space, HalfSpace):
         refuse(
             "half_space",
             half_space,
             "an rl.HalfSpace is needed, such as rl.Homogeneous(E_star=1.0, periodic=True)",
         )
-    between("half_space.E_star", half_space.E_star, 1 / LARGEST_NUMBER, LARGEST_NUMBER, needed)
+    smallest, largest = 1 / LARGEST_NUMBER, LARGEST_NUMBER
+    between("half_space.E_star", half_space.E_star, smallest, largest, _MODULUS_NEEDED)
     given_periodic("half_space.periodic", half_space.periodic)
     return half_space
 

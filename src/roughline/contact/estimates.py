@@ -144,7 +144,7 @@ def estimate(
         share = "a share of the surface from 0 to 1 is needed"
         area_fraction = between("area_fraction", area_fraction, 0.0, 1.0, share)
     given: dict[str, Any] = {"several": n_loads > 1, "area_fraction": area_fraction}
-    given |= {"yielding": yielding or law.memory == "dents", "of_pull": bytes_of_pull(law, 1.0)}
+    given |= {"yielding": yielding or law.memory == "dents", "besides": bytes_of_pull(law, 1.0)}
     pressing = memory_for(shape, periodic, kept, **given)
     memory = _PROCESS_BYTES + _HEIGHT_BYTES * shape[0] * shape[1] + pressing
     seconds = _SHORTEST_SECONDS + _CONVOLUTIONS * _convolution_seconds(shape, periodic)
@@ -190,15 +190,17 @@ def memory_for(
     yielding: bool = False,
     several: bool = True,
     area_fraction: float | None = None,
-    of_layers: float = 0.0,
-    of_pull: float = 0.0,
+    besides: float = 0.0,
 ) -> int:
-    """Return the memory that pressing a surface takes beside the surface, with a margin. [bytes]"""
+    """Return the memory that pressing a surface takes beside the surface, with a margin. [bytes]
+
+    What layers and a pull take besides is added. [bytes/point]
+    """
     share = area_fraction
     if share is None:
         share = _FULL_CONTACT_FROM if periodic else _SATURATED_FROM
     held = bytes_at_a_point(shape, periodic, share, yielding=yielding, several=several)
-    held += of_layers + of_pull
+    held += besides
     return (
         shape[0] * shape[1] * round(_MEMORY_MARGIN * held + _FIELDS_BYTES[yielding] * kept_fields)
     )

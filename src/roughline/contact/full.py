@@ -16,6 +16,7 @@ from roughline.computing import linear_algebra
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.borders import border_warnings, share_at_border
 from roughline.contact.curve import SurfaceCurve
+from roughline.contact.field_request import FieldRequest
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.loads import Loads, comes_nearer
 from roughline.contact.measures import Measure, all_measured
@@ -42,6 +43,7 @@ from roughline.topography.repetition import border_jump
 from roughline.topography.settings import as_body
 
 _Stored = TypeVar("_Stored")
+_NO_FIELDS = FieldRequest()
 
 
 def press_surface(
@@ -51,18 +53,17 @@ def press_surface(
     *,
     half_space: HalfSpace,
     method: Method,
-    kept: frozenset[int] = frozenset(),
-    measures: Sequence[Measure] = (),
+    wanted: FieldRequest = _NO_FIELDS,
     progress: Callable[[int, int], None] | None = None,
 ) -> SurfaceCurve:
-    """Press a surface as :func:`roughline.press` does; keep fields of loads by their numbers."""
+    """Press a surface as :func:`roughline.press` does."""
     # where the order of loads does not matter, each is solved once, as they rise
     values, places = loads.values, np.arange(loads.values.size)
     if law.memory == "none":
         values, places = np.unique(loads.values, return_inverse=True)
     scaled = ScaledSurface.of(surface, half_space, loads)
-    curve = _unsolved(scaled, half_space, loads, method, law, measures)
-    record = _Record(curve, scaled, kept, measures)
+    curve = _unsolved(scaled, half_space, loads, method, law, wanted.measures)
+    record = _Record(curve, scaled, wanted)
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
@@ -163,14 +164,12 @@ class _Record:
         self,
         curve: SurfaceCurve,
         scaled: ScaledSurface,
-        kept: frozenset[int],
-        measures: Sequence[Measure],
+        wanted: FieldRequest,
     ) -> None:
         count = curve.status.size
         self._curve = curve
         self._scaled = scaled
-        self._kept = kept
-        self._measures = measures
+        self._wanted = wanted
         self._fields: list[Fields | None] = [None] * count
         self._dents: list[Indentation | None] = [None] * count
         self._residual_of = [""] * count
@@ -224,11 +223,11 @@ class _Record:
 
     def _keep_fields(self, at: list[int], contact: Contact, dents: Indentation | None) -> None:
         """Keep the fields of loads that are asked for, and take measures from them."""
-        kept = self._kept.intersection(at)
-        if not kept and not self._measures:
+        kept, measures = self._wanted.loads.intersection(at), self._wanted.measures
+        if not kept and not measures:
             return
         fields = _fields(contact, self._scaled, dents)
-        for each, value in [(each, each.of(fields)) for each in self._measures]:
+        for each, value in [(each, each.of(fields)) for each in measures]:
             self._curve.measured[each.name].values[at] = value
         for load in kept:
             self._fields[load] = fields
@@ -258,7 +257,7 @@ class _Record:
             pull_off_depth=pull_off_depth,
             pull_off_force=pull_off_force,
             residual_of=_where_known(self._residual_of, known, ""),
-            fields=_where_known(self._fields, known, None) if self._kept else (),
+            fields=_where_known(self._fields, known, None) if self._wanted.loads else (),
             dents=_where_known(self._dents, known, None) if curve.law.memory == "dents" else (),
             warnings=(
                 *border_doubts(surface),

@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
+from roughline.contact.field_request import FieldRequest
 from roughline.contact.full_contact import in_full_contact
 from roughline.contact.loads import Loads
 from roughline.contact.measures import Measured
@@ -135,7 +136,7 @@ def with_grid_error(
         if law.only_pushes:
             raise
         return _unknown(curve, error)
-    steepening, without_measures = grids.steepening, partial(press, measures=())
+    steepening, without_measures = grids.steepening, partial(press, wanted=FieldRequest())
     rims_of_k, rims_of_area = _rim_differences(curve, surface, law, without_measures)
     softer = _softer(grids, steepening, coarser[1], laws[1], without_measures)
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact

@@ -113,7 +113,7 @@ def surface_loads(
     if single and rtol < _GAP_ROUNDING_SINGLE:
         raise InputError(
             f"rtol is {rtol:g}; single precision resolves gaps to {_GAP_ROUNDING_SINGLE:g} at "
-            'best: give a larger rtol, or precision="mixed"'
+            'best: give a larger rtol, or leave precision="float32" of rl.Solver out'
         )
     if given.n_loads is None:
         loads = _checked_loads(given)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Literal, TypedDict, TypeVar, Unpack, overload
+from typing import TypedDict, TypeVar, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
 from roughline.contact.arguments import (
-    checked_count,
     given_half_space,
     given_law,
     given_stickiness,
@@ -25,15 +24,17 @@ from roughline.contact.estimates import (
     expected_area_fraction,
     memory_for,
 )
+from roughline.contact.field_request import FieldRequest
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
 from roughline.contact.loads import GivenLoads, Loads, refuse_beyond_precision, surface_loads
 from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
+from roughline.contact.solver import AS_USUAL, Solver
 from roughline.contact.status import Status
 from roughline.contact.strain import warn_of_strain
 from roughline.errors import ConvergenceError, InputError, Interrupted
-from roughline.errors.checks import allowed_choice, between, flag, refuse, shown
+from roughline.errors.checks import between, flag, refuse, shown
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -59,8 +60,7 @@ class _Asked(TypedDict, total=False):
     measures: Sequence[Measure]
     grid_error: bool
     rtol: float
-    max_iterations: int
-    precision: Literal["mixed", "float64", "float32"]
+    solver: Solver
     throw: bool
     progress: Callable[[int, int], None] | None
 
@@ -89,8 +89,7 @@ def press(
     measures: Sequence[Measure] = (),
     grid_error: bool = False,
     rtol: float = 1e-6,
-    max_iterations: int = 5000,
-    precision: Literal["mixed", "float64", "float32"] = "mixed",
+    solver: Solver = AS_USUAL,
     throw: bool = True,
     progress: Callable[[int, int], None] | None = None,
 ) -> SurfaceCurve | LineCurve:
@@ -159,13 +158,9 @@ def press(
         under lighter loads after it, gaps are right to `rtol` times the l of the largest load so
         far, though the residuals on that dented surface are smaller. Give a smaller `rtol` where
         light loads on a dented surface count.
-    max_iterations : int, optional
-        Largest number of convolutions to find the contact under one load. A few more certify it,
-        and its stiffness takes further ones.
-    precision : {"mixed", "float64", "float32"}, optional
-        Precision of the convolutions. "mixed" takes its steps in single precision, computes the
-        residuals in double, and returns what "float64" returns, to the tolerance. "float32" saves
-        memory and refuses tolerances that it cannot reach.
+    solver : Solver, optional
+        How the contact is searched for: the largest number of iterations, and the precision of
+        their steps.
     throw : bool, optional
         Whether a load that is not solved raises an error; if not, it is marked in ``status``.
     progress : callable, optional
@@ -220,11 +215,11 @@ def press(
     """
     half_space = given_half_space(half_space, E_star, periodic)
     rtol = between("rtol", rtol, 1e-12, 0.1, "a tolerance from 1e-12 to 0.1 is needed")
-    max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = flag("grid_error", grid_error)
     measures = checked_measures(measures)
     throw = flag("throw", throw)
-    allowed_choice("precision", precision, ("mixed", "float64", "float32"))
+    if not isinstance(solver, Solver):
+        refuse("solver", solver, "an rl.Solver is needed, as rl.Solver(max_iterations=20000)")
     if progress is not None and not callable(progress):
         refuse("progress", progress, "a function of (loads done, loads in all) is needed")
     given = GivenLoads(depths, forces, n_loads)
@@ -244,10 +239,10 @@ def press(
     law = given_law(law, hardness)
     half_space.refuse(body.spacing)
     law.refuse_grid(half_space, body.spacing)
-    single = precision == "float32"
+    single = solver.precision == "float32"
     loads = surface_loads(body, half_space, given, rtol, single=single, law=law)
-    kept = kept_loads(fields, loads.values.size)
-    _refuse_beyond_memory(body, half_space, loads, law, len(kept), measured=bool(measures))
+    wanted = FieldRequest(kept_loads(fields, loads.values.size), measures)
+    _refuse_beyond_memory(body, half_space, loads, law, wanted)
     if grid_error:
         refuse_few_points(body)
     # imported here because compiled loops load slowly
@@ -255,15 +250,16 @@ def press(
     from roughline.contact.full import press_surface
     from roughline.halfspace.search.problem import Method
 
-    method = Method(rtol, max_iterations, precision)
+    method = Method(rtol, solver.max_iterations, solver.precision)
     if n_loads is not None and not law.only_pushes:
         loads = cycle(body, half_space, law, loads.values.size, method)
         refuse_beyond_precision(body, half_space, loads, rtol, single)
-    pressed = partial(press_surface, half_space=half_space, method=method, measures=measures)
-    curve = pressed(body, loads, law, kept=kept, progress=progress)
+    pressed = partial(press_surface, half_space=half_space, method=method)
+    curve = pressed(body, loads, law, wanted=wanted, progress=progress)
     if grid_error:
         try:
-            curve = with_grid_error(curve, body, loads, pressed)
+            measured = partial(pressed, wanted=FieldRequest(measures=measures))
+            curve = with_grid_error(curve, body, loads, measured)
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
     return _complete(body, curve, throw)
@@ -310,25 +306,26 @@ def _refuse_beyond_memory(
     half_space: HalfSpace,
     loads: Loads,
     law: ContactLaw,
-    kept: int,
-    *,
-    measured: bool,
+    wanted: FieldRequest,
 ) -> None:
     """Refuse loads that memory cannot hold; full contact is supposed where that fits."""
+    kept = len(wanted.loads)
     memory = partial(
         memory_for,
         surface.shape,
         half_space.periodic,
-        max(kept, measured),  # measures are taken from the fields of one load at a time
+        max(
+            kept, bool(wanted.measures)
+        ),  # measures are taken from the fields of one load at a time
         yielding=law.memory == "dents",
         several=loads.values.size > 1,
-        of_layers=bytes_of_layers(half_space, surface.shape, surface.spacing),
     )
-    if fits_into_memory(memory(area_fraction=1.0, of_pull=bytes_of_pull(law, 1.0))):
+    of_layers = bytes_of_layers(half_space, surface.shape, surface.spacing)
+    if fits_into_memory(memory(area_fraction=1.0, besides=of_layers + bytes_of_pull(law, 1.0))):
         return
     share = expected_area_fraction(surface, half_space, loads, law)
     refuse_beyond_memory(
-        memory(area_fraction=share, of_pull=bytes_of_pull(law, share)),
+        memory(area_fraction=share, besides=of_layers + bytes_of_pull(law, share)),
         f"pressing {surface.shape[0]} x {surface.shape[1]} points"
         + (f" and keeping the fields of {kept} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
@@ -355,7 +352,9 @@ def _failure_message(curve: Curve) -> str:
                 residual, of = curve.residual[worst], curve.residual_of[worst]
                 parts[-1] += f"; worst residual {residual:.1e}, that of {of}"
     statuses = set(curve.status[~curve.converged].tolist())
-    advice = "raise max_iterations or rtol" if Status.MAX_ITERATIONS in statuses else "raise rtol"
+    advice = "raise rtol"
+    if Status.MAX_ITERATIONS in statuses:
+        advice = "raise max_iterations (solver=rl.Solver(max_iterations=...)) or rtol"
     if statuses == {Status.PULLED_OFF}:
         advice = "give smaller pulls, or depths"
     return "; ".join(parts) + f": {advice}, or take throw=False to keep the rest"

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
-from roughline.contact.arguments import LARGEST_NUMBER, given_half_space
+from roughline.contact.arguments import LARGEST_NUMBER, checked_half_space
 from roughline.contact.creep import Creep, memory_of_strain, memory_of_stress
 from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.curve_files import checked_name, write_curve
@@ -180,9 +180,7 @@ def press_creep(
     times: ArrayLike,
     force: ArrayLike | None = None,
     depth: ArrayLike | None = None,
-    E_star: float | None = None,
-    half_space: HalfSpace | None = None,
-    periodic: bool | None = None,
+    half_space: HalfSpace,
     rtol: float = 1e-3,
 ) -> CreepCurve:
     """Press a body into one that creeps, under a force or to a depth over time.
@@ -205,14 +203,10 @@ def press_creep(
         One of them. A number is applied at time zero and held. Values at the times are a history:
         the first is applied at the first time, and it is straight from time to time. A force may
         fall as long as the contact does not recede. [force] or [length]
-    E_star : float, optional
-        Contact modulus at once, E_0 / (1 - nu²). [pressure]
-    half_space : HalfSpace, optional
-        What the body is pressed into, with its moduli at once, in place of `E_star` and `periodic`:
-        :class:`~roughline.Homogeneous`, or one on a rigid base such as
-        :class:`~roughline.Layered`, whose layers all creep alike.
-    periodic : bool, optional
-        Repeat the surface periodically; default: no.
+    half_space : HalfSpace
+        What the body is pressed into, with its moduli at once: :class:`~roughline.Homogeneous`,
+        with E_0 / (1 - nu²), or one on a rigid base such as :class:`~roughline.Layered`, whose
+        layers all creep alike.
     rtol : float, optional
         How well the force is known where the depth moves: more depths are pressed between those
         given until bounds of the force are so close, over the force.
@@ -239,19 +233,20 @@ def press_creep(
     >>> import roughline as rl
     >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
     >>> rubber = rl.Creep(shares=[0.3, 0.4], times=[1.0, 100.0])
-    >>> curve = rl.press_creep(surface, rubber, times=[0, 1, 1e4], force=1e-3, E_star=1.0)
+    >>> body = rl.Homogeneous(E_star=1.0)
+    >>> curve = rl.press_creep(surface, rubber, times=[0, 1, 1e4], force=1e-3, half_space=body)
     >>> print(curve.depth.round(4), curve.area_fraction_corrected.round(4))
     [0.0093 0.0101 0.0161] [0.0069 0.0078 0.017 ]
 
     At a constant depth the contact stays, and the force relaxes:
 
-    >>> curve = rl.press_creep(surface, rubber, times=[0, 1, 1e4], depth=0.01, E_star=1.0)
+    >>> curve = rl.press_creep(surface, rubber, times=[0, 1, 1e4], depth=0.01, half_space=body)
     >>> print((curve.force / curve.force[0]).round(3))
     [1.    0.806 0.3  ]
     """
     if not isinstance(creep, Creep):
         refuse("creep", creep, "rl.Creep(shares, times) is needed")
-    half_space = given_half_space(half_space, E_star, periodic)
+    half_space = checked_half_space(half_space)
     _refuse_elastic_parts(half_space)
     rtol = between("rtol", rtol, 1e-6, 0.1, "a tolerance from 1e-6 to 0.1 is needed")
     history = _given_history(times, force, depth)
@@ -351,7 +346,7 @@ def _refuse_elastic_parts(half_space: HalfSpace) -> None:
         refuse(
             "half_space",
             half_space,
-            "all that gives way has to creep alike: give E_star, rl.Homogeneous, or layers on a "
+            "all that gives way has to creep alike: give rl.Homogeneous, or layers on a "
             "rigid base (base_young=math.inf), as one far stiffer than they are nearly is. An "
             "elastic base, or a second body, does not creep as they do",
         )

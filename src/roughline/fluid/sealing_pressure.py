@@ -12,7 +12,7 @@ import numpy as np
 
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
-from roughline.contact.arguments import given_half_space, given_law
+from roughline.contact.arguments import checked_half_space, given_law
 from roughline.contact.fields import Fields
 from roughline.contact.full_contact import in_full_contact
 from roughline.contact.grid_error import grid_steepening
@@ -29,7 +29,7 @@ from roughline.fluid.one_map import (
     quarters,
     tells_of_larger,
 )
-from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
@@ -91,11 +91,8 @@ class SealingPressure:
 def sealing_pressure(
     surface: Surface,
     *,
-    E_star: float | None = None,
-    half_space: HalfSpace | None = None,
-    hardness: float | None = None,
+    half_space: HalfSpace,
     law: ContactLaw | None = None,
-    periodic: Periodic | None = None,
     along: Along | Literal["both"] = "both",
     rtol: float = 0.01,
     interval: bool = True,
@@ -111,16 +108,12 @@ def sealing_pressure(
     ----------
     surface : Surface
         The rough body. [length]
-    E_star : float, optional
-        Contact modulus. [pressure]
-    half_space : HalfSpace, optional
-        What the surface is pressed into, in place of `E_star` and `periodic`.
-    hardness : float, optional
-        Of the softer body, as for :func:`press`. [pressure]
+    half_space : HalfSpace
+        What the surface is pressed into, mostly ``rl.Homogeneous(E_star, periodic=True)``. Where it
+        is not periodic, the borders of the surface are closed sides.
     law : ContactLaw, optional
-        What pressure and gap obey at a point, in place of `hardness`.
-    periodic : bool, "x" or "y", optional
-        Whether the surface is repeated; free, its borders are closed sides. Default: it is.
+        What pressure and gap obey at a point, such as ``rl.Yielding(hardness)``; default: bodies
+        that neither stick nor yield.
     along : {"both", "x", "y"}, optional
         Direction in which the last path closes; of both, when none leads either way.
     rtol : float, optional
@@ -139,7 +132,8 @@ def sealing_pressure(
     --------
     >>> import roughline as rl
     >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0, q_high=100.0)
-    >>> found = rl.sealing_pressure(spectrum.surface(64, rng=7), E_star=1.0, along="x")
+    >>> surface, body = spectrum.surface(64, rng=7), rl.Homogeneous(E_star=1.0, periodic=True)
+    >>> found = rl.sealing_pressure(surface, half_space=body, along="x")
     >>> print(f"{found.low:.3g} to {found.high:.3g}: area {found.area_fractions[1]:.2f}")
     0.0658 to 0.0662: area 0.40
     """
@@ -150,10 +144,7 @@ def sealing_pressure(
         raise InputError("is no Surface; in one dimension any contact stops the flow", "surface")
     if surface.rms_slope == 0:
         raise InputError("is flat: it seals under any load; give a rough one", "surface")
-    if half_space is None and periodic is None:
-        periodic = True
-    half_space = given_half_space(half_space, E_star, periodic)
-    law = given_law(law, hardness)
+    half_space, law = checked_half_space(half_space), given_law(law, None)
     full = in_full_contact(surface, half_space)
     # in round numbers, so that it is sought alike wherever a repeated surface is cut
     share = float(f"{_PERCOLATION_PRESSURE * _slope(full, half_space.repeats):.6g}")
@@ -163,12 +154,23 @@ def sealing_pressure(
     found = SealingPressure(low, high, (open_area, sealed_area), along)
     if not interval or not can_be_cut(surface, half_space):
         return found
+    return _with_interval(found, search, surface, law, grid_steepening(full))
+
+
+def _with_interval(
+    found: SealingPressure,
+    search: _PressureSearch,
+    surface: Surface,
+    law: ContactLaw,
+    steepening: float,
+) -> SealingPressure:
+    """Return what was found with the ends that grid and size leave open."""
     half = search.middle(*on_half(surface, law), found.value)
     of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
     tells = tells_of_larger(surface)
     left_open = partial(factor_left_open, found.value, half, of_quarters, tells=tells)
-    most = min(high * left_open(of_grid=grid_steepening(full)), Bounds.of(law).largest_force(1.0))
-    ends = low / left_open() if tells else 0.0, max(high, most)
+    most = min(found.high * left_open(of_grid=steepening), Bounds.of(law).largest_force(1.0))
+    ends = found.low / left_open() if tells else 0.0, max(found.high, most)
     return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
 
 

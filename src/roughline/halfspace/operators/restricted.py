@@ -117,7 +117,8 @@ class RestrictedOperator:
 
         def add(first: int, last: int) -> None:
             near, far = (self.taps, self.reach), (moved, self.far.weights)
-            parts = grid.values, grid.margins, near, *far, nodes, (first, last), result
+            padded = grid.values, grid.margins
+            parts = padded, near, *far, nodes, (first, last), result
             _add_near_and_far(*parts)
 
         # for fewer near sums, starting a thread does not pay
@@ -213,8 +214,7 @@ def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
 
 @compiled
 def _add_near_and_far(
-    grid: Floats,
-    margins: tuple[int, int],
+    padded: tuple[Floats, tuple[int, int]],
     near: tuple[Floats, Integers],
     coarse: Floats,
     weights: tuple[Floats, Floats],
@@ -224,11 +224,12 @@ def _add_near_and_far(
 ) -> None:
     """Add what near values and what the coarse grid displace, at each node of a block of rows.
 
-    The near part is the kernel by the distance in cells, each row followed by seven zeros, and the
-    columns to which each row of it reaches, to both sides. Weights are those of the coarse rows and
-    columns. Nodes are rows, columns, where the runs of each row begin, and the runs.
+    The padded grid holds the pressures within its margins. The near part is the kernel by the
+    distance in cells, each row followed by seven zeros, and the columns to which each row of it
+    reaches, to both sides. Weights are those of the coarse rows and columns. Nodes are rows,
+    columns, where the runs of each row begin, and the runs.
     """
-    rows, columns, first_run, runs = nodes
+    (grid, margins), (rows, columns, first_run, runs) = padded, nodes
     ratio, radius = weights[1].shape[0], near[0].shape[0] // 2
     far, sums = np.empty_like(coarse[0]), np.empty_like(grid[0])
     flat, width = grid.reshape(-1), grid.shape[1]
