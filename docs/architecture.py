@@ -23,7 +23,15 @@ SOURCE = ROOT / "src" / "roughline"
 PICTURE = ROOT / "docs" / "figures" / "architecture.svg"
 
 LONGEST_FUNCTION = 60
-MOST_PARAMETERS = 8
+MOST_PARAMETERS = 7
+MAY_HAVE_MORE = {
+    "contact/press.py, press": "one for each thing that may be asked of a contact (decision 27)",
+}
+MAY_BE_LONGER = {
+    "contact/press.py, press": "its docstring says what each of its parameters is",
+    "contact/press_creep.py, press_creep": "its docstring says on which principle it rests",
+}
+"""Functions that are over a limit, and why."""
 
 
 @dataclass(frozen=True)
@@ -89,19 +97,17 @@ def circles(graph: grimp.ImportGraph) -> list[list[str]]:
 def large_functions() -> list[str]:
     """Return the functions with more lines or parameters than a function may have.
 
-    The options of a command are the parameters of its function, ``rl.press`` has one parameter for
-    everything that can be asked of a contact, and ``rl.sealing_pressure`` and ``rl.press_creep``
-    are given their bodies in the same way; ``rl.read`` has one for everything that a file may leave
-    open. All of these may be larger.
+    The options of a command are the parameters of its function, which may be larger. Others that
+    may have more are named in :data:`MAY_HAVE_MORE`, with the reason.
     """
     return [
-        f"{path.relative_to(SOURCE)}, {function.name}: "
-        f"{_length(function)} lines, {_parameters(function)} parameters"
+        f"{where}: {_length(function)} lines, {_parameters(function)} parameters"
         for path in _source_files()
         for function in ast.walk(ast.parse(path.read_text("utf-8")))
-        if isinstance(function, ast.FunctionDef)
-        and not _may_be_large(path, function)
-        and (_length(function) > LONGEST_FUNCTION or _parameters(function) > MOST_PARAMETERS)
+        if isinstance(function, ast.FunctionDef) and not _is_command(path, function)
+        for where in [f"{path.relative_to(SOURCE)}, {function.name}"]
+        if (_length(function) > LONGEST_FUNCTION and where not in MAY_BE_LONGER)
+        or (_parameters(function) > MOST_PARAMETERS and where not in MAY_HAVE_MORE)
     ]
 
 
@@ -178,7 +184,5 @@ def _parameters(function: ast.FunctionDef) -> int:
     return len([name for name in names if name not in ("self", "cls")]) + rest
 
 
-def _may_be_large(path: Path, function: ast.FunctionDef) -> bool:
-    is_command = path.parent.name == "cli" and not function.name.startswith("_")
-    is_pressed = function.name == path.stem in ("press", "press_creep", "read", "sealing_pressure")
-    return is_command or is_pressed
+def _is_command(path: Path, function: ast.FunctionDef) -> bool:
+    return path.parent.name == "cli" and not function.name.startswith("_")
