@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Case, Claim, Range, Verdict, places, verdict
+from roughline.statistics.verdict import Claim, ClaimCase, Range, Verdict, places, verdict
 
 
 @dataclass(frozen=True)
@@ -31,12 +31,12 @@ class Found:
         """The number, in the middle of what the grid leaves open."""
         return (self.least + self.most) / 2
 
-    def judged(self, where: str, allowed: Range) -> Case:
+    def judged(self, where: str, allowed: Range) -> ClaimCase:
         """Judge the number by the range that a statement allows."""
         found = verdict(self.low, self.high, *allowed)
         if found is not Verdict.UNDECIDED:
-            return Case(where, found)
-        return Case(where, found, self.count * growth_to_decide(self, allowed)[0])
+            return ClaimCase(where, found)
+        return ClaimCase(where, found, self.count * growth_to_decide(self, allowed)[0])
 
 
 def growth_to_decide(found: Found, allowed: Range) -> tuple[float, bool]:

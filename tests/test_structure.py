@@ -6,6 +6,7 @@ That imports go one way is checked by import-linter, in `make check`.
 import ast
 import re
 import tomllib
+from collections import defaultdict
 from pathlib import Path
 
 import architecture
@@ -200,3 +201,62 @@ def test_names_say_what_a_function_gives_and_what_a_constant_bounds():
 )
 def test_every_kind_of_riddle_is_seen(line, is_riddle):
     assert bool(list(_riddles(ast.parse(line)))) is is_riddle
+
+
+_EACH_ITS_OWN = {"Real"}  # `exact` imports no other room, so that it names this array type again
+
+
+def _names_of_types(tree):
+    """Classes, and types that a module names; a leading underscore makes no other name."""
+    classes = [node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
+    named = [
+        target.id
+        for node in tree.body
+        if isinstance(node, ast.Assign) and not _is_type_variable(node)
+        for target in node.targets
+        if isinstance(target, ast.Name) and re.match("_*[A-Z]+[a-z]", target.id)
+    ]
+    return {name.lstrip("_") for name in classes + named}
+
+
+def _is_type_variable(node):
+    return isinstance(node.value, ast.Call) and ast.unparse(node.value.func) == "TypeVar"
+
+
+def _type_variables(tree):
+    found = (node for node in tree.body if isinstance(node, ast.Assign) and _is_type_variable(node))
+    return {node.targets[0].id.lstrip("_") for node in found}
+
+
+def test_the_name_of_a_class_has_one_meaning():
+    """Type variables stand for any type, and may share a name with each other, not with a class."""
+    trees = {
+        path.relative_to(SOURCE).as_posix(): ast.parse(path.read_text("utf-8"))
+        for path in sorted(SOURCE.rglob("*.py"))
+    }
+    homes = defaultdict(list)
+    for file, tree in trees.items():
+        for name in _names_of_types(tree):
+            homes[name].append(file)
+    variables = {name for tree in trees.values() for name in _type_variables(tree)}
+    twice = {name: files for name, files in homes.items() if len(files) > 1}
+    assert {name: twice[name] for name in twice.keys() - _EACH_ITS_OWN} == {}
+    assert variables & homes.keys() == set()
+
+
+@pytest.mark.parametrize(
+    ("lines", "names"),
+    [
+        ("class Case: ...", {"Case"}),
+        ("class _Case: ...", {"Case"}),
+        ("def judged():\n    class _Case: ...", {"Case"}),
+        ("Case = tuple[float, float]", {"Case"}),
+        ('_Case = Literal["free", "periodic"]', {"Case"}),
+        ('InCase = NewType("InCase", Indices)', {"InCase"}),
+        ('_Case = TypeVar("_Case")', set()),
+        ("_CASES = 8", set()),
+        ("E_star = 1.0", set()),
+    ],
+)
+def test_every_kind_of_named_type_is_seen(lines, names):
+    assert _names_of_types(ast.parse(lines)) == names

@@ -21,7 +21,7 @@ from roughline.paper.windows import ForceWindow
 from roughline.statistics.averages import Averaging
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
-from roughline.statistics.verdict import Case, around
+from roughline.statistics.verdict import ClaimCase, around
 from studies.judged import Found
 from studies.reduced_data import read_one, write_one
 
@@ -87,7 +87,9 @@ def count(bodies: str) -> int:
     return int(json.loads(data().attrs["realisations"])[bodies])
 
 
-def reproductions(bodies: str, window: ForceWindow, choice: Choice, law: str) -> dict[float, Case]:
+def reproductions(
+    bodies: str, window: ForceWindow, choice: Choice, law: str
+) -> dict[float, ClaimCase]:
     """Judge, for each fractal dimension, whether a choice shows a published exponent.
 
     The tolerance is 0.05, as everywhere. Empty where the means do not cover the window.

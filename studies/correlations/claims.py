@@ -9,8 +9,8 @@ import numpy as np
 
 from roughline.statistics.averages import average
 from roughline.statistics.verdict import (
-    Case,
     Claim,
+    ClaimCase,
     Verdict,
     around,
     joint_verdict,
@@ -110,7 +110,7 @@ def _of_ratios(
         means = [average(ratio(one)[:, one.in_window]).mean for one in of_it]
         spreads.append(spread(np.ravel(means)))
         ends.append(spread(end for one in found for each in one for end in (each.low, each.high)))
-        cases.append(Case.together(where, [judge(where, one, tolerance) for one in found]))
+        cases.append(ClaimCase.together(where, [judge(where, one, tolerance) for one in found]))
     return Claim.of(
         statement,
         f"{what}: {', '.join(spreads)} {_EVERYWHERE}",
@@ -131,7 +131,10 @@ def _of_exponents(
         f"{statement}, to ±{EXPONENT_TOLERANCE:g}",
         f"{', '.join(f'{law.exponent:.3f}' for law in laws.values())} {_EVERYWHERE}",
         ", ".join(spread(law.exponent_interval, ".3f") for law in laws.values()),
-        [Case(where, verdict(*law.exponent_interval, *allowed)) for where, law in laws.items()],
+        [
+            ClaimCase(where, verdict(*law.exponent_interval, *allowed))
+            for where, law in laws.items()
+        ],
         f"least squares of logarithms, pressures from {_PRESSURES}; {_counted(samples)}",
     )
     return claim if tolerance == TOLERANCES[0] else replace(claim, cases="-")
@@ -151,7 +154,7 @@ def _of_bands(statement: str, hardness: float, tolerance: float) -> Claim:
         f"{', '.join(f'{each.value:+.0%}' for each in changes.values())} {_EVERYWHERE}",
         ", ".join(spread((each.low, each.high), "+.0%") for each in changes.values()),
         [
-            Case(where, verdict(each.low, each.high, *around(0, tolerance)))
+            ClaimCase(where, verdict(each.low, each.high, *around(0, tolerance)))
             for where, each in changes.items()
         ],
         f"at a pressure of 0.01; {' and '.join(str(one.count) for one in samples)} surfaces",
@@ -177,16 +180,16 @@ def at_all_pressures(one: Sample, ratio: Ratio) -> list[Found]:
     return [Found(low, least, most, high, one.count) for low, least, most, high in ends.T.tolist()]
 
 
-def judge(where: str, found: Sequence[Found], tolerance: float) -> Case:
+def judge(where: str, found: Sequence[Found], tolerance: float) -> ClaimCase:
     """Judge that ratios at several pressures are all 1; one that refutes it is enough."""
     allowed = around(1, tolerance)
     cases = [each.judged(where, allowed) for each in found]
     whole = joint_verdict(each.verdict for each in cases if each.verdict)
     if whole is not Verdict.UNDECIDED:
-        return Case(where, whole)
+        return ClaimCase(where, whole)
     refuting = [
         case.enough
         for case, each in zip(cases, found, strict=True)
         if case.verdict is whole and growth_to_decide(each, allowed)[1]
     ]
-    return Case(where, whole, min(refuting)) if refuting else Case.together(where, cases)
+    return ClaimCase(where, whole, min(refuting)) if refuting else ClaimCase.together(where, cases)

@@ -6,7 +6,7 @@ import math
 
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Case, Claim, Verdict, around, verdict
+from roughline.statistics.verdict import Claim, ClaimCase, Verdict, around, verdict
 from roughline.units import decimal
 from studies.finite_size.crossover import BETWEEN_THEM, scaling_exponent_of
 from studies.finite_size.measure import (
@@ -105,7 +105,7 @@ def _linear_law() -> Claim:
         "and others; Pastewka and others)",
         f"the exponent is 1 within {EXPONENT_TOLERANCE:g} over {found} decades",
         found,
-        [Case(where, verdict(*ends, _DECADE, math.inf)) for where, ends in decades.items()],
+        [ClaimCase(where, verdict(*ends, _DECADE, math.inf)) for where, ends in decades.items()],
     )
 
 
@@ -167,7 +167,7 @@ def _persson() -> Claim:
         f"k over the theory's: {', '.join(told)}",
         spread(ends),
         [
-            Case.together(where, [one.judged(where, around(1, _NEAR)) for one in of_it])
+            ClaimCase.together(where, [one.judged(where, around(1, _NEAR)) for one in of_it])
             for where, of_it in by_load.items()
         ],
     )
@@ -194,16 +194,16 @@ def _reduced() -> Claim:
 
 def _judged_below(
     where: str, first: IntervalEstimate, second: IntervalEstimate, count: int
-) -> Case:
+) -> ClaimCase:
     """Judge that a load is below another."""
     if first.high < second.low:
-        return Case(where, Verdict.CONFIRMED)
+        return ClaimCase(where, Verdict.CONFIRMED)
     if first.low > second.high:
-        return Case(where, Verdict.REFUTED)
+        return ClaimCase(where, Verdict.REFUTED)
     apart = math.log(second.value / first.value)
     widths = math.log(first.high / first.value) + math.log(second.value / second.low)
     enough = count * (widths / apart) ** 2 if apart > 0 else math.nan
-    return Case(where, Verdict.UNDECIDED, enough)
+    return ClaimCase(where, Verdict.UNDECIDED, enough)
 
 
 def _load(load: IntervalEstimate) -> str:

@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Case as Judged
-from roughline.statistics.verdict import Claim, Range, around
+from roughline.statistics.verdict import Claim, ClaimCase, Range, around
 from studies.judged import Found, claim_on, confidence_of_each, spread
 from studies.sealing.body import ELASTIC, FULL, LOADS, MOSTLY, PEAKS, WEAK, Case
 from studies.sealing.measure import (
@@ -191,7 +190,7 @@ def _of_loads(
         known = [one for hurst in HURSTS if (one := found(hurst, load))]
         if len(known) == len(HURSTS):
             where = f"at p/(E*∇h) = {load:g}"
-            cases.append(Judged.together(where, [one.judged(where, allowed) for one in known]))
+            cases.append(ClaimCase.together(where, [one.judged(where, allowed) for one in known]))
             numbers += known
     return Claim.of(
         statement,

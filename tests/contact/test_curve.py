@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.contact.press import _Asked
+from roughline.contact.press import _PressArguments
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, rms_height=0.01)
 SURFACE, LINE = SPECTRUM.surface(16, 7), SPECTRUM.line(64, 7)
@@ -54,7 +54,7 @@ def test_the_contact_of_a_profile_is_a_disc_and_a_line_has_no_area():
 def test_types_of_a_press_are_those_of_its_signature():
     """Its overloads tell the kind of curve, and group the arguments beside the body."""
     arguments = inspect.signature(rl.press).parameters
-    typed = {name: each.__forward_arg__ for name, each in _Asked.__annotations__.items()}
+    typed = {name: each.__forward_arg__ for name, each in _PressArguments.__annotations__.items()}
     assert {"body": arguments["body"].annotation, **typed} == {
         name: each.annotation for name, each in arguments.items()
     }

@@ -8,7 +8,7 @@ import pytest
 from roughline.lab.explore import physics
 from roughline.lab.maps import height_map
 from roughline.lab.measured.panels import PANELS as MEASURED
-from roughline.lab.panels import Filled, linear_span, theory_lines
+from roughline.lab.panels import PanelContent, linear_span, theory_lines
 from roughline.lab.published.panels import PANELS as PUBLISHED
 
 EVERY = {
@@ -38,13 +38,13 @@ def test_axes_fit_all_that_is_drawn_and_known():
         "line": {"x": np.array([1.0, 10.0, math.nan]), "y": np.array([0.0, 2.0, 3.0])},
         "interval": {"x": [1.0], "y": [1.0], "low": [0.5], "high": [8.0]},
     }
-    filled = Filled.fitted(series)
+    filled = PanelContent.fitted(series)
     assert filled.x == pytest.approx((1 / 1.2, 12.0))
     assert filled.y == pytest.approx((0.5 / 1.2, 9.6))
-    low, high = Filled.fitted(series, is_logarithmic=False).y
+    low, high = PanelContent.fitted(series, is_logarithmic=False).y
     assert low < 0
     assert high > 8
-    assert Filled.fitted({"line": {"x": [], "y": []}}).x is None
+    assert PanelContent.fitted({"line": {"x": [], "y": []}}).x is None
 
 
 def test_a_flat_line_has_room_about_it():

@@ -8,7 +8,7 @@ import pytest
 
 from mutated_questions import SLOW, STATES, mutated
 from random_cases import cases
-from roughline.lab.server.tasks import Outcome, Place, run_task
+from roughline.lab.server.tasks import Place, TaskOutcome, run_task
 from roughline.lab.site import TASKS
 
 MUTATIONS = cases(100, share=2)  # of each task
@@ -51,7 +51,7 @@ def test_what_is_no_text_is_refused_at_its_control(task, session):
     for key in state:
         told = {"state": state | {key: 3}, "session": session, "crowded": False}
         outcome = run_task(TASKS[task], told, lambda done, total: None)
-        assert outcome == Outcome(
+        assert outcome == TaskOutcome(
             error="this question is not one of the lab: reload the page", at=key
         )
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughline.statistics.verdict import Case, Claim, Verdict, joint_verdict, places, verdict
+from roughline.statistics.verdict import Claim, ClaimCase, Verdict, joint_verdict, places, verdict
 
 
 @pytest.mark.parametrize(
@@ -32,7 +32,7 @@ YES, NO, OPEN = Verdict.CONFIRMED, Verdict.REFUTED, Verdict.UNDECIDED
 
 
 def claim(*verdicts):
-    cases = [Case(f"at H = 0.{i}", each) for i, each in enumerate(verdicts)]
+    cases = [ClaimCase(f"at H = 0.{i}", each) for i, each in enumerate(verdicts)]
     return Claim.of("a statement", "a number", "an interval", cases)
 
 
@@ -71,8 +71,8 @@ def test_neighbours_that_differ_in_the_last_word_share_the_others():
     ],
 )
 def test_what_would_decide_is_told_of_the_case_that_needs_most(enough, told):
-    cases = [Case("at H = 1", OPEN, 10.0), Case("at H = 2", OPEN, enough)]
+    cases = [ClaimCase("at H = 1", OPEN, 10.0), ClaimCase("at H = 2", OPEN, enough)]
     assert Claim.of("", "", "", cases).cases == f"undecided ({told})"
-    both = Case.together("at H = 1, 2", cases)
+    both = ClaimCase.together("at H = 1, 2", cases)
     assert (both.verdict, both.enough) == (OPEN, enough)
-    assert np.isnan(Case.together("", [*cases, Case("at H = 3", NO)]).enough)
+    assert np.isnan(ClaimCase.together("", [*cases, ClaimCase("at H = 3", NO)]).enough)

@@ -21,7 +21,7 @@ from roughline.contact.selection import at_loads, first_fields
 from roughline.contact.status import Status
 from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pair import MaterialPair
-from roughline.engineering.pressed import Interface, Pressed
+from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
 from roughline.spectra.moments import Moments, moments
@@ -106,7 +106,7 @@ def _pressed(
     pair: MaterialPair,
     body: Body,
     curve: Curve,
-    interface: Interface | None,
+    interface: InterfaceStiffness | None,
     intervals: Intervals | None,
     spectrum: Moments | None,
 ) -> Pressed:

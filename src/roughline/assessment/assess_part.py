@@ -31,7 +31,7 @@ _MapProgress = Callable[[int, int], None]
 
 
 @dataclass
-class _Pressed:
+class _PressedMaps:
     """What became of the maps so far, by their names."""
 
     assessments: dict[str, Assessment] = field(default_factory=dict)
@@ -127,7 +127,7 @@ def assess_part(
     """
     answer = answer or partial(assess_body, announce=announce, progress=progress)
     _refuse_unlike(questions)
-    done = _Pressed()
+    done = _PressedMaps()
     todo = list(zip(names or _map_names(questions), questions, strict=True))
     for i, (name, question) in enumerate(todo):
         if map_progress is not None:
@@ -166,7 +166,7 @@ def _map_names(questions: Sequence[Question]) -> list[str]:
 
 
 def _press(
-    done: _Pressed, name: str, question: Question, answer: Callable[[Question], Assessment]
+    done: _PressedMaps, name: str, question: Question, answer: Callable[[Question], Assessment]
 ) -> bool:
     """Press one map; says whether it came to its end."""
     try:
@@ -188,7 +188,7 @@ def _press(
     return True
 
 
-def _combined(done: _Pressed) -> PartAssessment:
+def _combined(done: _PressedMaps) -> PartAssessment:
     """What the maps that were pressed say together."""
     results = list(done.assessments.values())
     first = results[0].question

@@ -23,6 +23,9 @@ PREPARATION = "Preparation"
 
 _MOST_DIGITS = 20  # of a whole number
 
+FieldValues = Mapping[str, Any]
+"""Values by the names of fields; None where nothing is told."""
+
 _FLUID = "a fluid in the gap: what leaks"
 _FOLDED_AWAY = "more"
 

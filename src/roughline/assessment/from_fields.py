@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import attrs
 
 from roughline.assessment.arguments import several
 from roughline.assessment.asked import KINDS, asked_for
-from roughline.assessment.fields import FIELDS, Field
+from roughline.assessment.fields import FIELDS, Field, FieldValues
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.topography.missing import Missing
 from roughline.topography.preparation import Preparation
-
-FieldValues = Mapping[str, Any]
-"""Values by the names of fields; None where nothing is told."""
 
 
 def arguments_for(kind: str, values: FieldValues) -> dict[str, Any]:

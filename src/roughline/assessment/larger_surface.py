@@ -25,7 +25,7 @@ from roughline.contact.press import press
 from roughline.contact.scaling import PUNCH_GRID_ERROR
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals
-from roughline.engineering.pressed import Interface
+from roughline.engineering.pressed import InterfaceStiffness
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.spectra.fit import SelfAffineFit, fitted
@@ -52,7 +52,7 @@ class Differences:
 class LargerSurface:
     """The surface behind a piece, under the loads of the piece's curve."""
 
-    stiffness: Interface  # of as much of it as the piece is large [N / m]
+    stiffness: InterfaceStiffness  # of as much of it as the piece is large [N / m]
     area: Ends | None = None  # ends of its corrected area fraction [1]
     of_grid: tuple[Ends | None, Ends | None] = (None, None)
     """Ends of the piece's own stiffness [N / m] and area fraction [1], which the grid and filled
@@ -126,7 +126,7 @@ def fitted_roll_offs(fit: SelfAffineFit) -> float | None:
 
 def stiffness_of_the_piece(
     body: Body, curve: Curve, interval: Ends | None = None, *, is_layered: bool = False
-) -> Interface:
+) -> InterfaceStiffness:
     """Interface stiffness of a free body as it is, 1 / k_i = 1 / k - 1 / k_s.
 
     Where the stiffness differs from the punch's by less than the grid's error of the punch, the
@@ -155,7 +155,7 @@ def stiffness_of_the_piece(
     known = interval is not None or bool(close.any())
     ends = interface_stiffness(low, saturated), interface_stiffness(high, saturated)
     formula = "1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch"
-    return Interface(
+    return InterfaceStiffness(
         interface_stiffness(k, saturated), ends if known else None, validity, formula, warned_from
     )
 
@@ -189,11 +189,11 @@ def larger_surface(
     grid = stiffness, area
     if tiles is None:
         return LargerSurface(
-            Interface(k, None, which_surface(extrapolation), formula), of_grid=grid
+            InterfaceStiffness(k, None, which_surface(extrapolation), formula), of_grid=grid
         )
     of_stiffness, of_area = tiles
     ends = widened(k, stiffness, of_stiffness.extrapolated(extrapolation))
-    interface = Interface(k, ends, which_surface(extrapolation), formula)
+    interface = InterfaceStiffness(k, ends, which_surface(extrapolation), formula)
     share = (
         None
         if area is None

@@ -18,7 +18,7 @@ from roughline.contact.loads import unbearable_pull
 from roughline.contact.press import press
 from roughline.errors import RoughlineError
 
-_Results = dict[str, NDArray[Any]]
+_BatchResults = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class BatchResult:
     """Results of a batch."""
 
     # every variable over (case, load) or (case); cases that failed hold fill values
-    results: _Results
+    results: _BatchResults
     failures: dict[int, str]  # why cases failed, by the index of the case in the batch
     core_seconds: float = 0.0  # computing time of the batch, summed over its cores [s]
 
@@ -70,7 +70,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
     start = clock()
     ensemble = batch.ensemble
     loads = len(ensemble.force_bars)
-    results: _Results = {}
+    results: _BatchResults = {}
     for variable in stored_variables(ensemble):
         shape = (len(batch.cells),) if variable.per_body else (len(batch.cells), loads)
         results[variable.name] = np.full(shape, variable.fill, dtype=variable.dtype)
@@ -87,7 +87,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
     return BatchResult(results, failures, clock() - start)
 
 
-def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int) -> _Results:
+def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int) -> _BatchResults:
     """Generate and press one body; return every variable of it, over the loads or as one value."""
     spectrum = ensemble.spectrum(fractal_dimension)
     seed = ensemble.body_seed(realisation)

@@ -20,7 +20,7 @@ from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import resolves_pull_off, zone
 from roughline.spectra.self_affine import SelfAffine
 
-_Model = Literal["full", "reduced"]
+_ModelName = Literal["full", "reduced"]
 
 _FEWEST_POINTS, _MOST_POINTS = 3, {"full": 2**15, "reduced": 2**28}
 BODIES = ("hardness_bar", "law", "half_space")
@@ -77,7 +77,7 @@ class Ensemble:
     """
 
     name: str
-    model: _Model
+    model: _ModelName
     fractal_dimensions: tuple[float, ...]
     n: int
     realisations: int

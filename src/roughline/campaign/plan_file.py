@@ -22,7 +22,7 @@ from roughline.errors.public import public
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 
-_Kind = Callable[[Any], Any]
+_Reader = Callable[[Any], Any]
 _MOST_VALUES = 10_000  # of one range; more values are a typing error
 
 
@@ -114,7 +114,7 @@ def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemb
 
 
 def _values(
-    table: Mapping[str, Any], place: str, kinds: Mapping[str, _Kind], **left_out: Any
+    table: Mapping[str, Any], place: str, kinds: Mapping[str, _Reader], **left_out: Any
 ) -> dict[str, Any]:
     """The values of a table by their keys, each of its kind, and of those that are left out."""
     for key in table:

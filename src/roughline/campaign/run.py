@@ -32,7 +32,7 @@ _BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for 
 _CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
 _LONGEST_WAIT_FOR_WORKERS = 60.0  # [s]
 
-_Progress = Callable[[str, int, int, int], None]
+_CampaignProgress = Callable[[str, int, int, int], None]
 """Called with (ensemble, cases done, cases failed, cases in all)."""
 
 
@@ -77,7 +77,7 @@ def run(
     scheduler: str | None = None,
     workers: int | None = None,
     threads: int | None = None,
-    progress: _Progress | None = None,
+    progress: _CampaignProgress | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Summary:
     """Compute the cases of a plan that a store does not hold yet.
@@ -138,7 +138,7 @@ def _computed(
     scheduler: str | None,
     workers: int | None,
     threads: int | None,
-    report: _Progress,
+    report: _CampaignProgress,
     say: Callable[[str], None],
 ) -> Summary:
     """Compute what a store lacks, as :func:`run` does, once its arguments are checked."""
@@ -219,7 +219,7 @@ def _check(scheduler: str | None, workers: int | None, threads: int | None) -> N
         clusters.refuse_senseless(scheduler)
 
 
-def _report_all(plan: Plan, missing: dict[str, int], report: _Progress) -> None:
+def _report_all(plan: Plan, missing: dict[str, int], report: _CampaignProgress) -> None:
     for ensemble in plan.ensembles:
         report(ensemble.name, ensemble.cases - missing[ensemble.name], 0, ensemble.cases)
 
@@ -262,7 +262,7 @@ class _Dispatch:
         cluster: clusters.Cluster,
         threads: int,
         missing: dict[str, int],
-        report: _Progress,
+        report: _CampaignProgress,
     ) -> None:
         self._writer, self._cluster = writer, cluster
         self._missing, self._report = missing, report

@@ -114,7 +114,7 @@ class Store:
         data = xarray.Dataset(variables, coordinates, attributes)
         return data.sortby("fractal_dimension")
 
-    def _read(self, name: str) -> _Read:
+    def _read(self, name: str) -> _StoredEnsemble:
         """Read an ensemble; marks first, because a campaign that goes on writes them last."""
         group = self._group(name)
         marks, unreadable = read_filled(group[CASE_STATUS.name])
@@ -134,7 +134,7 @@ class Store:
         for key, value in coordinates.items():
             if not _holds(group, key, value):
                 named.append(f"the coordinate {key}")
-        return _Read(values, marks, named)
+        return _StoredEnsemble(values, marks, named)
 
     def _group(self, name: str) -> Any:
         if name not in self._root:
@@ -143,7 +143,7 @@ class Store:
 
 
 @dataclass(frozen=True)
-class _Read:
+class _StoredEnsemble:
     """An ensemble as it is on disk."""
 
     values: dict[str, NDArray[Any]]  # of cases that are done; fill values elsewhere

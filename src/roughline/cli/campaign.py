@@ -23,7 +23,7 @@ app = typer.Typer(
 )
 
 
-class _Format(StrEnum):
+class _ExportFormat(StrEnum):
     """Which files to write."""
 
     netcdf = "netcdf"
@@ -101,7 +101,7 @@ def _export(
     store: _StoreArgument,
     out: Annotated[Path, typer.Option(help="Folder for the files.")],
     formats: Annotated[
-        list[_Format] | None,
+        list[_ExportFormat] | None,
         typer.Option("--format", help="netcdf or csv; may be repeated [default: both]."),
     ] = None,
     json: Json = False,
@@ -119,7 +119,7 @@ def _export(
     lost, unfinished = _lost(results), _unfinished(results)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LostCasesWarning)  # told below
-        files = export(results, out, formats or list(_Format))
+        files = export(results, out, formats or list(_ExportFormat))
     if json:
         print_json({"files": files, "unfinished": unfinished, "lost": lost})
     else:

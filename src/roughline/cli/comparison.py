@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from roughline.assessment.fields import FILE
+from roughline.assessment.fields import FILE, FieldValues
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable
 from roughline.errors.checks import refuse
@@ -20,7 +20,7 @@ def compare_command(
         Path | None, typer.Argument(help="File with a surface, instead of a spectrum.")
     ] = None,
     *,
-    values: options.FieldValues,
+    values: FieldValues,
     hurst: options.Hurst = None,
     fractal_dimension: options.FractalDimension = None,
     length: Annotated[
@@ -31,7 +31,7 @@ def compare_command(
     ] = None,
     roll_off: options.RollOff = None,
     cutoff: options.Cutoff = None,
-    n: options.Points = 256,
+    n: options.PointsOption = 256,
     surfaces: Annotated[int, typer.Option(help="Number of random surfaces of the spectrum.")] = 20,
     force_bar: Annotated[
         list[float] | None,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import roughline as rl
-from roughline.assessment.fields import ANSWERS, BODIES, FILE, LOADS, PREPARATION
+from roughline.assessment.fields import ANSWERS, BODIES, FILE, LOADS, PREPARATION, FieldValues
 from roughline.cli import options
 from roughline.cli.options import end_interrupted, interruptible, print_json, writable
 from roughline.errors import InputError
@@ -30,7 +30,7 @@ def press_command(
             "several maps of one part, each of a different place."
         ),
     ],
-    values: options.FieldValues,
+    values: FieldValues,
     report: Annotated[
         Path | None,
         typer.Option(

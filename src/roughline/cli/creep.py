@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from roughline.assessment.fields import BODIES, FILE, LOADS, PREPARATION
+from roughline.assessment.fields import BODIES, FILE, LOADS, PREPARATION, FieldValues
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable_file
 
@@ -58,7 +58,7 @@ def creep_command(
     ] = None,
     out: options.CurveFile = None,
     *,
-    values: options.FieldValues,
+    values: FieldValues,
     json: options.Json = False,
 ) -> None:
     """Press a topography into a body that creeps, and print the contact over time.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import inspect
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal, NoReturn
@@ -16,9 +16,6 @@ import roughline as rl
 from roughline.assessment.fields import ANSWERS, BODIES, FIELDS, Field
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
-
-FieldValues = Mapping[str, Any]
-"""Values of options by the names of their fields."""
 
 
 def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -106,7 +103,7 @@ CurveFile = Annotated[
         rich_help_panel=ANSWERS,
     ),
 ]
-Points = Annotated[int, typer.Option("-n", "--points", help="Points along a side.")]
+PointsOption = Annotated[int, typer.Option("-n", "--points", help="Points along a side.")]
 SeedOption = Annotated[int, typer.Option(min=0, help="Root of all random seeds.")]
 Workers = Annotated[
     int | None,

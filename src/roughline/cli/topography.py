@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from roughline.assessment.fields import FILE, PREPARATION
+from roughline.assessment.fields import FILE, PREPARATION, FieldValues
 from roughline.cli import options
 from roughline.cli.options import print_json, writable
 from roughline.errors import InputError
@@ -23,7 +23,7 @@ def info(
             "it wrote."
         ),
     ],
-    values: options.FieldValues,
+    values: FieldValues,
     out: Annotated[
         Path | None, typer.Option(help="Folder for a figure and the prepared topography.")
     ] = None,
@@ -103,7 +103,7 @@ def generate(
     rms_height: Annotated[str, typer.Option(help='Rms height, such as "1 um".')],
     hurst: options.Hurst = None,
     fractal_dimension: options.FractalDimension = None,
-    n: options.Points = 512,
+    n: options.PointsOption = 512,
     seed: options.SeedOption = 0,
     line: Annotated[
         bool, typer.Option("--line", help="Generate the reduced line instead of the surface.")

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from roughline.halfspace.laws.jkr import JKR
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
+from roughline.reduction.revolution import LoadControl
 from roughline.topography.body import Surface, with_heights
 from roughline.units import in_words
 
@@ -101,7 +102,7 @@ class Curve:
     pull_off_depth: float = math.nan
     law: ContactLaw | None = field(repr=False)
     on_approach: Mask
-    control: Literal["forces", "depths"] = field(repr=False)
+    control: LoadControl = field(repr=False)
 
     _repr_html_ = in_notebook
 

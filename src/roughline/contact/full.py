@@ -63,7 +63,7 @@ def press_surface(
         values, places = np.unique(loads.values, return_inverse=True)
     scaled = ScaledSurface.of(surface, half_space, loads)
     curve = _unsolved(scaled, half_space, loads, method, law, wanted.measures)
-    record = _Record(curve, scaled, wanted)
+    record = _WrittenCurve(curve, scaled, wanted)
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
@@ -157,7 +157,7 @@ def _unsolved(
     )
 
 
-class _Record:
+class _WrittenCurve:
     """A curve that is written load by load, with what loads leave beside their numbers."""
 
     def __init__(

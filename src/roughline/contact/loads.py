@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,12 +22,11 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import farthest_pulled
-from roughline.reduction.revolution import Revolution
+from roughline.reduction.revolution import LoadControl, Revolution
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.profile import Profile
 
-_Control = Literal["depths", "forces"]  # what is prescribed
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
@@ -46,7 +45,7 @@ _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few 
 class Loads:
     """Checked loads, in the order in which they are applied."""
 
-    control: _Control  # what is prescribed
+    control: LoadControl  # what is prescribed
     values: Real  # [length] or [force]
 
 
@@ -299,7 +298,7 @@ def _checked_loads(given: GivenLoads) -> Loads:
     if (depths is None) == (forces is None):
         count = "no loads" if depths is None else "both depths and forces"
         raise InputError(f"{count} given; give one of depths, forces and n_loads")
-    control: _Control = "forces" if depths is None else "depths"
+    control: LoadControl = "forces" if depths is None else "depths"
     values = checked_numbers(control, forces if depths is None else depths)
     wrong = ~np.isfinite(values)
     if wrong.any():

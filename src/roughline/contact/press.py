@@ -42,10 +42,10 @@ from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.profile import Profile
 
-_Curve = TypeVar("_Curve", bound=Curve)
+_CurveType = TypeVar("_CurveType", bound=Curve)
 
 
-class _Asked(TypedDict, total=False):
+class _PressArguments(TypedDict, total=False):
     """What :func:`press` takes beside the body, which alone decides the kind of curve."""
 
     E_star: float | None
@@ -66,11 +66,11 @@ class _Asked(TypedDict, total=False):
 
 
 @overload
-def press(body: Surface, **asked: Unpack[_Asked]) -> SurfaceCurve: ...
+def press(body: Surface, **asked: Unpack[_PressArguments]) -> SurfaceCurve: ...
 @overload
-def press(body: Line | Profile, **asked: Unpack[_Asked]) -> LineCurve: ...
+def press(body: Line | Profile, **asked: Unpack[_PressArguments]) -> LineCurve: ...
 @overload
-def press(body: Body | Profile, **asked: Unpack[_Asked]) -> SurfaceCurve | LineCurve: ...
+def press(body: Body | Profile, **asked: Unpack[_PressArguments]) -> SurfaceCurve | LineCurve: ...
 
 
 @public_names
@@ -265,7 +265,7 @@ def press(
     return _complete(body, curve, throw)
 
 
-def _complete(body: Body | Profile, curve: _Curve, throw: bool) -> _Curve:
+def _complete(body: Body | Profile, curve: _CurveType, throw: bool) -> _CurveType:
     """Return a curve; with `throw`, refuse one of which a load was not solved."""
     warn_of_strain(body, curve)
     if throw and not curve.converged.all():

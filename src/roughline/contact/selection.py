@@ -15,15 +15,15 @@ from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 
 _Stored = TypeVar("_Stored")
-_Curve = TypeVar("_Curve", bound=Curve)
+_CurveType = TypeVar("_CurveType", bound=Curve)
 
 
-def at_loads(curve: _Curve, loads: Indices) -> _Curve:
+def at_loads(curve: _CurveType, loads: Indices) -> _CurveType:
     """Return a curve at some of its loads, by their numbers; without its fields."""
     return _at_others(curve, lambda _name, values: values[loads])
 
 
-def among_loads(curve: _Curve, solved: Mask, others: Status = Status.INTERRUPTED) -> _Curve:
+def among_loads(curve: _CurveType, solved: Mask, others: Status = Status.INTERRUPTED) -> _CurveType:
     """Extend a curve to all loads, of which only these were solved: NaN at the others."""
 
     def spread(name: str, values: Any) -> Any:
@@ -52,7 +52,7 @@ def loads_with_fields(curve: Curve) -> list[tuple[int, Fields]]:
     return [(load, each) for load, each in enumerate(fields) if each is not None]
 
 
-def without_fields(curve: _Curve) -> _Curve:
+def without_fields(curve: _CurveType) -> _CurveType:
     """Return a curve without the fields of its loads."""
     return replace(curve, fields=()) if isinstance(curve, SurfaceCurve) else curve
 
@@ -67,7 +67,7 @@ def _spread(stored: Sequence[_Stored], solved: Mask, other: _Stored) -> tuple[_S
     return tuple(found)
 
 
-def _at_others(curve: _Curve, taken: Callable[[str, Any], Any]) -> _Curve:
+def _at_others(curve: _CurveType, taken: Callable[[str, Any], Any]) -> _CurveType:
     """A curve at other loads, to which a function takes each quantity by its name and values."""
     quantities = {item.name: getattr(curve, item.name) for item in fields(curve)}
     changed: dict[str, Any] = {

@@ -20,7 +20,7 @@ from roughline.engineering.slip import PartialSlip
 
 
 @dataclass(frozen=True, eq=False)
-class Interface:
+class InterfaceStiffness:
     """Stiffness of the interface alone, without that of the bodies around it."""
 
     values: Real  # (loads,) [N / m]
@@ -36,7 +36,7 @@ class Interface:
         return np.stack([self.values, *(self.ends or ())])
 
     @property
-    def without_interval(self) -> Interface:
+    def without_interval(self) -> InterfaceStiffness:
         """Stiffness without its interval."""
         return replace(self, ends=None)
 
@@ -104,7 +104,7 @@ class Pressed:
     area: float
     pair: MaterialPair
     joint: float | None = None
-    interface: Interface | None = None
+    interface: InterfaceStiffness | None = None
     rms_height: float | None = None
     rms_slope: float | None = None
     frequency: float | None = None

@@ -11,7 +11,7 @@ from roughline.errors import InputError
 
 _LONGEST_VALUE = 80  # characters of a value that a message shows
 _MOST_BITS = 10_000  # of a whole number that Python writes out
-_Choice = TypeVar("_Choice")
+_Allowed = TypeVar("_Allowed")
 
 
 def refuse(argument: str, given: Any, needed: str) -> NoReturn:
@@ -106,7 +106,7 @@ def rising_pair(argument: str, given: Any, needed: str) -> tuple[float, float]:
     return both[0], both[1]
 
 
-def allowed_choice(argument: str, given: Any, allowed: Iterable[_Choice]) -> _Choice:
+def allowed_choice(argument: str, given: Any, allowed: Iterable[_Allowed]) -> _Allowed:
     """Return the one of the allowed texts that is given."""
     choices = list(allowed)
     for each in choices:

@@ -12,7 +12,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import as_number, is_whole, refuse
 from roughline.errors.earlier import EARLIER
 
-_Door = TypeVar("_Door", bound=Callable[..., Any])
+_Public = TypeVar("_Public", bound=Callable[..., Any])
 
 _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "float": (lambda given: as_number(given) is not None, "a number"),
@@ -100,7 +100,7 @@ _EXPLAINED = {
 """Arguments that differ from what they are mistaken for."""
 
 
-def public(door: _Door) -> _Door:
+def public(door: _Public) -> _Public:
     """Return a function or class of which a call that does not fit is refused in one line.
 
     Names of arguments are held to the signature, and values to those of its annotations that are
@@ -121,7 +121,7 @@ def public(door: _Door) -> _Door:
     return door
 
 
-def public_making(door: _Door) -> _Door:
+def public_making(door: _Public) -> _Public:
     """Return a class as :func:`public` does, of which the making alone is held.
 
     Its methods are called within loops.
@@ -130,7 +130,7 @@ def public_making(door: _Door) -> _Door:
     return door
 
 
-def public_names(door: _Door) -> _Door:
+def public_names(door: _Public) -> _Public:
     """Return a function as :func:`public` does, of which the names of arguments alone are held.
 
     It looks at all values itself.

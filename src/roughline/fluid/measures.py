@@ -23,7 +23,7 @@ LIQUID = Rarefied()
 
 
 @dataclass(frozen=True)
-class _Found:
+class _FlowNumbers:
     """What is kept of a flow; NaN where it did not converge."""
 
     permeance: float = math.nan
@@ -34,15 +34,15 @@ class _Found:
     places: Sequence[tuple[float, float]] = ()  # along the seal: their weights and free paths
 
 
-_FOUND: WeakKeyDictionary[Fields, dict[tuple[Along, Rarefied], _Found]] = WeakKeyDictionary()
+_FOUND: WeakKeyDictionary[Fields, dict[tuple[Along, Rarefied], _FlowNumbers]] = WeakKeyDictionary()
 """By the fields of a load, as long as these are there: several measures are of one flow."""
 
-_AT_BORDER: WeakKeyDictionary[Fields, dict[tuple[Along, Rarefied], tuple[_Found, _Found]]] = (
-    WeakKeyDictionary()
-)
+_AT_BORDER: WeakKeyDictionary[
+    Fields, dict[tuple[Along, Rarefied], tuple[_FlowNumbers, _FlowNumbers]]
+] = WeakKeyDictionary()
 
 
-def _found(fields: Fields, along: Along, fluid: Rarefied) -> _Found:
+def _found(fields: Fields, along: Along, fluid: Rarefied) -> _FlowNumbers:
     """Let a fluid through the gap under a load."""
     known = _FOUND.setdefault(fields, {})
     if (along, fluid) not in known:
@@ -71,10 +71,10 @@ def _flows(fields: Fields, along: Along, path: float) -> tuple[Flow, ...]:
     return (flow(fields, along=along, mean_free_path=path),)
 
 
-def _combined(weights: Sequence[float], through: Sequence[Flow], fluid: Rarefied) -> _Found:
+def _combined(weights: Sequence[float], through: Sequence[Flow], fluid: Rarefied) -> _FlowNumbers:
     """What is kept of the flow at places along the seal; of channels, at the last of them."""
     if not all(each.converged for each in through):
-        return _Found()
+        return _FlowNumbers()
     last = through[-1]
     permeance = sum(weight * each.permeance for weight, each in zip(weights, through, strict=True))
     found = _from_permeance(permeance, float(last.gap.mean()), fluid)
@@ -82,14 +82,14 @@ def _combined(weights: Sequence[float], through: Sequence[Flow], fluid: Rarefied
     return replace(found, share=last.largest_share, slope=last.slope, places=places)
 
 
-def _from_permeance(permeance: float, mean_gap: float, fluid: Rarefied) -> _Found:
+def _from_permeance(permeance: float, mean_gap: float, fluid: Rarefied) -> _FlowNumbers:
     """What follows from the permeance alone."""
     aperture = fluid.gap_of_plates(permeance)
     of_liquid = permeance if fluid == LIQUID else aperture**3
-    return _Found(permeance, aperture, of_liquid / mean_gap**3 if mean_gap > 0 else 0.0)
+    return _FlowNumbers(permeance, aperture, of_liquid / mean_gap**3 if mean_gap > 0 else 0.0)
 
 
-def _at_border(fields: Fields, along: Along, fluid: Rarefied) -> tuple[_Found, _Found]:
+def _at_border(fields: Fields, along: Along, fluid: Rarefied) -> tuple[_FlowNumbers, _FlowNumbers]:
     """Let a fluid through with the flow given along the border, then with the pressure even."""
     from roughline.fluid.border import permeances_of_border  # here because it loads slowly
 

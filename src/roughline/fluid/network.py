@@ -154,7 +154,7 @@ class _Block:
 
 
 @dataclass(frozen=True, eq=False)
-class _Step:
+class _Elimination:
     """How the pressures of faces between two blocks follow from those on the border of both."""
 
     inner: Indices
@@ -229,7 +229,7 @@ class _Dissection:
         corners = list(product(pairwise(self.rows), pairwise(self.columns)))
         blocks = list(pool.map(lambda corner: self._condensed(corner, sources), corners))
         shape = self.rows.size - 1, self.columns.size - 1
-        steps: list[_Step] = []
+        steps: list[_Elimination] = []
         while len(blocks) > 1:
             grid = np.empty(len(blocks), object)
             grid[:] = blocks
@@ -251,7 +251,7 @@ class _Dissection:
         list(pool.map(lambda each: self._spread(each, sources, of_faces, pressures), corners))
         return pressures
 
-    def _border(self, corner: _Corner) -> tuple[Indices, list[Indices]]:
+    def _border(self, corner: _Rectangle) -> tuple[Indices, list[Indices]]:
         """Open faces of a rectangle, and where each of its border lies among them, or -1."""
         (i, i_end), (j, j_end) = corner
         faces = (
@@ -265,13 +265,13 @@ class _Dissection:
         ends = np.cumsum([face.size for face in faces])[:-1]
         return numbers[closed:], np.split(places - closed, ends)
 
-    def _condensed(self, corner: _Corner, sources: Real) -> _Block:
+    def _condensed(self, corner: _Rectangle, sources: Real) -> _Block:
         """A rectangle, condensed."""
         numbers, places = self._border(corner)
         found = self._eliminated(corner, sources, places, numbers.size, retained=1)
         return _Block(numbers, *found[:2])
 
-    def _spread(self, corner: _Corner, sources: Real, of_faces: Real, pressures: Real) -> None:
+    def _spread(self, corner: _Rectangle, sources: Real, of_faces: Real, pressures: Real) -> None:
         """Set the pressures of the cells of a rectangle from those of its faces."""
         (i, i_end), (j, j_end) = corner
         numbers, places = self._border(corner)
@@ -281,7 +281,7 @@ class _Dissection:
         pressures[:, i:i_end, j:j_end] = _follow_cells(*found[2:], of_border, rows, columns)
 
     def _eliminated(
-        self, corner: _Corner, sources: Real, places: list[Indices], faces: int, retained: int
+        self, corner: _Rectangle, sources: Real, places: list[Indices], faces: int, retained: int
     ) -> tuple[Real, Real, Real, Real, Indices]:
         """What the elimination of the cells of a rectangle gives."""
         (i, i_end), (j, j_end) = corner
@@ -292,7 +292,7 @@ class _Dissection:
         return _eliminate_cells(cells, into, square, borders, faces, retained)
 
 
-_Corner = tuple[tuple[int, int], tuple[int, int]]
+_Rectangle = tuple[tuple[int, int], tuple[int, int]]
 """Rows and columns of a rectangle, each from its first to one more than its last."""
 
 
@@ -307,7 +307,7 @@ def _cuts(n: int, repeats: bool) -> Indices:
     return np.arange(pieces + 1) * n // pieces
 
 
-def _joined(first: _Block, second: _Block, retained: int) -> tuple[_Block, list[_Step]]:
+def _joined(first: _Block, second: _Block, retained: int) -> tuple[_Block, list[_Elimination]]:
     """Condense two blocks into one."""
     numbers, inner, conductances, sources = _assembled(
         first.faces,
@@ -328,7 +328,7 @@ def _joined(first: _Block, second: _Block, retained: int) -> tuple[_Block, list[
         between_others = upper.T @ upper
         between_others += conductances[n:, n:]
         conductances, sources = between_others, sources[n:] + upper.T @ driven
-        steps.append(_Step(numbers[start:end], numbers[end:], lower, upper, driven))
+        steps.append(_Elimination(numbers[start:end], numbers[end:], lower, upper, driven))
     return _Block(numbers[inner:], conductances, sources), steps
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.lab.maps import Map
-from roughline.lab.panels import Filled
+from roughline.lab.panels import PanelContent
 from roughline.report.json_output import plain
 
 _ALIGNMENT = 8  # typed arrays of a browser begin at multiples of their items
@@ -38,7 +38,7 @@ def frame(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None =
 
 def drawn(
     header: Mapping[str, Any],
-    panels: Mapping[str, Filled],
+    panels: Mapping[str, PanelContent],
     maps: Mapping[str, Map],
     arrays: Mapping[str, NDArray[Any]] | None = None,
 ) -> bytes:

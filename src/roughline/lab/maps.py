@@ -21,7 +21,7 @@ _MEANINGS = {  # of colours of the theme
     "pull": "pulled across a gap",
 }
 
-Scale = tuple[float, str]
+ShownUnit = tuple[float, str]
 """Factor to the numbers that are shown, and their unit."""
 
 
@@ -66,7 +66,7 @@ def height_map(values: NDArray[Any], unit: str, **others: Any) -> Map:
 
 
 def contact_maps(
-    fields: rl.Fields, *, pressure: Scale, gap: Scale, deflection: Scale, yields: bool
+    fields: rl.Fields, *, pressure: ShownUnit, gap: ShownUnit, deflection: ShownUnit, yields: bool
 ) -> dict[str, Map]:
     """The maps of a contact, by the words that choose them."""
     open_gap = np.where(fields.contact, np.nan, np.maximum(fields.gap, 0))
@@ -101,7 +101,12 @@ def contact_maps(
 
 
 def _scaled(
-    values: NDArray[Any], scale: Scale, palette: str, title: str, low: float = 0.0, **others: Any
+    values: NDArray[Any],
+    scale: ShownUnit,
+    palette: str,
+    title: str,
+    low: float = 0.0,
+    **others: Any,
 ) -> Map:
     """A map from a share of its largest number, or zero, to that."""
     scaled = values * scale[0]

@@ -15,7 +15,7 @@ _LOG_MARGIN = 1.2  # factor about what is drawn on logarithmic axes
 _LINEAR_MARGIN = 0.06  # share about what is drawn on linear ones
 _DASHES = ("dashed", "dotted", "dashdot")  # of theories, which black and white tell apart
 
-Range = tuple[float, float]
+AxisRange = tuple[float, float]
 Points = dict[str, Any]
 """Columns of what is drawn: x and y, or low and high too. Zeros stand at the foot of a logarithm,
 and lines have a gap where a number is not known."""
@@ -42,7 +42,7 @@ class Panel:
     y: str
     series: tuple[Series, ...]
     columns: tuple[str, ...] = ()  # heads of the table
-    ranges: tuple[Range, Range] = ((0.1, 1.0), (0.1, 1.0))  # before anything is drawn
+    ranges: tuple[AxisRange, AxisRange] = ((0.1, 1.0), (0.1, 1.0))  # before anything is drawn
     task: str = ""  # whose answer fills it, if it is waited for
     waits: str = ""  # what is said while the first is awaited
     is_logarithmic: bool = True
@@ -57,15 +57,15 @@ class Panel:
 
 
 @dataclass
-class Filled:
+class PanelContent:
     """What an answer has for a panel; what it does not say stays."""
 
     series: dict[str, Points] = field(default_factory=dict)
     rows: list[list[str]] | None = None  # of the table; None if the answer is a part of others
     caption: str | None = None
     remarks: str | None = None  # on its theories, below it
-    x: Range | None = None  # ranges of the axes
-    y: Range | None = None
+    x: AxisRange | None = None  # ranges of the axes
+    y: AxisRange | None = None
     legends: dict[str, str] = field(default_factory=dict)  # other names of series
     axes: tuple[str, str] | None = None  # other labels of x and y
     columns: tuple[str, ...] | list[str] | None = None  # other heads of the table
@@ -74,7 +74,7 @@ class Filled:
     @classmethod
     def fitted(
         cls, series: dict[str, Points], *, is_logarithmic: bool = True, **others: Any
-    ) -> Filled:
+    ) -> PanelContent:
         """Series, with axes about all of their points."""
         of_axis, every = span if is_logarithmic else linear_span, series.values()
         x, y = (
@@ -116,7 +116,7 @@ def theory_lines(theories: Mapping[str, str]) -> tuple[Series, ...]:
     )
 
 
-def span(values: Any, *at_least: float) -> Range | None:
+def span(values: Any, *at_least: float) -> AxisRange | None:
     """A range on a logarithmic axis about all that is positive."""
     known = np.array([*np.ravel(values), *at_least], dtype=float)
     known = known[np.isfinite(known) & (known > 0)]
@@ -125,7 +125,7 @@ def span(values: Any, *at_least: float) -> Range | None:
     )
 
 
-def linear_span(values: Any) -> Range | None:
+def linear_span(values: Any) -> AxisRange | None:
     """A range on a linear axis about values."""
     known = np.ravel(values)
     known = known[np.isfinite(known)]

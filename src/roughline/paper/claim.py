@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from roughline.plot.style import dimension_label
-from roughline.statistics.verdict import Case, Claim, Range, Verdict, places, verdict
+from roughline.statistics.verdict import Claim, ClaimCase, Range, Verdict, places, verdict
 
 if TYPE_CHECKING:
     import xarray
@@ -58,10 +58,10 @@ class Numbers:
             for each in self.known.values()
         )
 
-    def judge(self, allowed: Range) -> list[Case]:
+    def judge(self, allowed: Range) -> list[ClaimCase]:
         """Judge each by the range that a statement allows."""
         return [
-            Case(
+            ClaimCase(
                 where,
                 verdict(each.low, each.high, *allowed) if math.isfinite(each.value) else None,
             )

@@ -46,8 +46,8 @@ _BOTH_MODELS = "lines with the waves and the loads of the surfaces, across this 
 def claims_on_exponents(results: PaperResults) -> list[Claim]:
     """Judge them all."""
     windows = results.windows
-    reduced = _Model("1D", results.reduced, windows.reduced, results.laws)
-    full = _Model("3D", results.full, windows.full, results.laws)
+    reduced = _ModelResults("1D", results.reduced, windows.reduced, results.laws)
+    full = _ModelResults("3D", results.full, windows.full, results.laws)
     both = (reduced, full)
     return [
         _constant(reduced, "over low and medium forces (§6, §8)"),
@@ -65,7 +65,7 @@ def claims_on_exponents(results: PaperResults) -> list[Claim]:
             model.claim(
                 "α between 0.5 and 0.8 for D_f from 2 to 3, in both investigations (§7)",
                 "{}",
-                _Model.exponent,
+                _ModelResults.exponent,
                 _EXPONENT_RANGE,
                 form=".3f",
             )
@@ -92,7 +92,7 @@ def claims_on_exponents(results: PaperResults) -> list[Claim]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Model:
+class _ModelResults:
     """One of the two models: its bodies, its window, and the laws of both."""
 
     label: ModelLabel
@@ -104,7 +104,7 @@ class _Model:
         self,
         words: str,
         found: str,
-        number: Callable[[_Model, DimensionLaws], IntervalEstimate],
+        number: Callable[[_ModelResults, DimensionLaws], IntervalEstimate],
         allowed: Range = _NO_CHANGE,
         *,
         form: str = "+.3f",
@@ -134,7 +134,7 @@ class _Model:
         return self.exponent(laws) - scaling_exponent(laws.fractal_dimension)
 
 
-def _constant(model: _Model, words: str) -> Claim:
+def _constant(model: _ModelResults, words: str) -> Claim:
     """Judge whether the exponent stays the same from the lowest loads to medium ones."""
     lowest = min(model.local(laws).lowest for laws in model.laws)
     carriers = "springs" if model.label == "1D" else "cells"
@@ -151,7 +151,7 @@ def _constant(model: _Model, words: str) -> Claim:
     )
 
 
-def _reduced_ends(model: _Model) -> Claim:
+def _reduced_ends(model: _ModelResults) -> Claim:
     """Judge whether the reduced model has the paper's exponents at D_f = 2 and 3."""
     statement = "1D: α from 0.5 to 0.75 as D_f goes from 2 to 3 (§6)"
     at_ends = [laws for laws in model.laws if laws.fractal_dimension in REDUCED_ENDS]
@@ -169,7 +169,7 @@ def _reduced_ends(model: _Model) -> Claim:
     return Claim.of(statement, found, ends.intervals, off.judge(_NO_CHANGE), model.basis, allowed)
 
 
-def _great_accuracy(model: _Model) -> Claim:
+def _great_accuracy(model: _ModelResults) -> Claim:
     """Judge whether the exponent of the reduced model is the same in another window."""
     widest = max(float(np.ptp(laws.reduced.exponent_interval)) / 2 for laws in model.laws)
     low, high = OTHER_WINDOWS_REDUCED[-1]
@@ -183,23 +183,23 @@ def _great_accuracy(model: _Model) -> Claim:
     )
 
 
-def _scaling_argument(model: _Model) -> Claim:
+def _scaling_argument(model: _ModelResults) -> Claim:
     """Judge whether eq. 14 gives the exponent of smooth surfaces."""
     return model.claim(
         "α = 1 / (4 - D_f) extremely well for D_f ≤ 2.6 (eq. 14, §7)",
         "off by {}",
-        _Model.off_scaling,
+        _ModelResults.off_scaling,
         needed="D_f ≤ 2.6 with loads across this range",
         of=is_smooth,
     )
 
 
-def _small_discrepancy(model: _Model) -> Claim:
+def _small_discrepancy(model: _ModelResults) -> Claim:
     """Judge whether eq. 14 differs little from the exponent of rough surfaces."""
     return model.claim(
         f"a small discrepancy from 1 / (4 - D_f) for D_f > 2.6 (§7; small: {SMALL_DISCREPANCY:g})",
         "off by {}",
-        _Model.off_scaling,
+        _ModelResults.off_scaling,
         around(0, SMALL_DISCREPANCY),
         needed="D_f > 2.6 with loads across this range",
         of=lambda dimension: not is_smooth(dimension),

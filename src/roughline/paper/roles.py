@@ -12,7 +12,7 @@ import numpy as np
 from roughline.errors import InputError
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_REDUCED
 
-_Settings = Mapping[str, Any]
+_EnsembleSettings = Mapping[str, Any]
 """Settings of an ensemble, as a plan and the attributes of its results have them."""
 
 
@@ -33,7 +33,7 @@ class _Roles:
         return tuple(dict.fromkeys(name for name in named if name is not None))
 
 
-def chosen_roles(ensembles: Mapping[str, _Settings]) -> _Roles:
+def chosen_roles(ensembles: Mapping[str, _EnsembleSettings]) -> _Roles:
     """Choose the ensembles of a report by their settings; both surfaces and lines are needed.
 
     Of several that fit, those with the names of the paper's own plan are taken, then elastic
@@ -62,7 +62,7 @@ def chosen_roles(ensembles: Mapping[str, _Settings]) -> _Roles:
     )
 
 
-def departures(settings: _Settings) -> list[str]:
+def departures(settings: _EnsembleSettings) -> list[str]:
     """Say in words where an ensemble is not as the paper's."""
     words = []
     if settings["boundary"] == "periodic":
@@ -76,18 +76,18 @@ def departures(settings: _Settings) -> list[str]:
     return words
 
 
-def _likeness(name: str, paper_name: str, settings: _Settings) -> tuple[bool, int, int]:
+def _likeness(name: str, paper_name: str, settings: _EnsembleSettings) -> tuple[bool, int, int]:
     """How like the paper's an ensemble is; larger is more like it."""
     return name == paper_name, -len(departures(settings)), settings["n"]
 
 
-def _cutoff(settings: _Settings) -> float:
+def _cutoff(settings: _EnsembleSettings) -> float:
     """q_high / q_0 of an ensemble."""
     cutoff = settings["cutoff_ratio"]
     return settings["n"] / 2 if cutoff == "grid" else float(cutoff)
 
 
-def _has_same_waves(line: _Settings, surface: _Settings) -> bool:
+def _has_same_waves(line: _EnsembleSettings, surface: _EnsembleSettings) -> bool:
     """Whether lines have the waves and the loads of surfaces."""
     forces = np.array(line["force_bars"]), np.array(surface["force_bars"])
     return (
@@ -98,7 +98,7 @@ def _has_same_waves(line: _Settings, surface: _Settings) -> bool:
     )
 
 
-def _differs_in_grid(one: _Settings, other: _Settings) -> bool:
+def _differs_in_grid(one: _EnsembleSettings, other: _EnsembleSettings) -> bool:
     """Whether surfaces differ from others in their grid, and perhaps in their loads, alone."""
     same = ("boundary", "roll_off_ratio", "cutoff_ratio", "seed")
     return (

@@ -81,7 +81,7 @@ def hydraulic_aperture(
     y_label, y = in_unit(_APERTURE_LABEL, np.concatenate(apertures), every[0].unit)
     looks = _looks(labels or range(len(every)))
     lines = [
-        _Line(pressure * x, aperture * y, rising(curve), look)
+        _ApertureCurve(pressure * x, aperture * y, rising(curve), look)
         for curve, pressure, aperture, look in zip(every, pressures, apertures, looks, strict=True)
     ]
     with drawing_on(axes, height=4.4) as drawn:
@@ -103,7 +103,7 @@ def _axis_of_pressure(curve: SurfaceCurve, pressures: Real) -> tuple[str, float]
 
 
 @dataclass(frozen=True)
-class _Line:
+class _ApertureCurve:
     """Hydraulic apertures over pressures, in the order of the loads."""
 
     pressure: Real
@@ -137,8 +137,11 @@ def _looks(names: Sequence[Any]) -> list[dict[str, Any]]:
 
 
 def _drawn_theories(
-    axes: Axes, theories: Sequence[Any], factors: tuple[float, float], curves: Sequence[_Line]
-) -> list[_Line]:
+    axes: Axes,
+    theories: Sequence[Any],
+    factors: tuple[float, float],
+    curves: Sequence[_ApertureCurve],
+) -> list[_ApertureCurve]:
     """Draw theories as far down as curves; of what is sealed they have the first pressure alone."""
     least = axes.get_ylim()[0] if any((each.aperture > 0).any() for each in curves) else 0.0
     lines = []
@@ -147,13 +150,15 @@ def _drawn_theories(
         is_drawn = (aperture > least) | ((aperture == 0) & (np.cumsum(aperture == 0) == 1))
         look = {"color": "k", "linestyle": dashes, "label": theory.name}
         lines.append(
-            _Line(pressure[is_drawn], aperture[is_drawn], np.full(is_drawn.sum(), True), look)
+            _ApertureCurve(
+                pressure[is_drawn], aperture[is_drawn], np.full(is_drawn.sum(), True), look
+            )
         )
         lines[-1].draw(axes)
     return lines
 
 
-def _mark_sealed(axes: Axes, lines: Sequence[_Line]) -> None:
+def _mark_sealed(axes: Axes, lines: Sequence[_ApertureCurve]) -> None:
     """Mark sealed loads at the foot of axes, each kind of line in rows of its own."""
     rows: dict[Any, tuple[list[Real], dict[str, Any]]] = {}
     for line, rises in product(lines, (True, False)):
@@ -175,7 +180,7 @@ def _mark_sealed(axes: Axes, lines: Sequence[_Line]) -> None:
         )
 
 
-def _explain(axes: Axes, lines: Sequence[_Line]) -> None:
+def _explain(axes: Axes, lines: Sequence[_ApertureCurve]) -> None:
     """Say below the axes which line is which, and what dashes and marks at the foot mean."""
     if any(not line.rising.all() for line in lines):
         axes.plot([], [], "o--", color="0.4", label="after a larger load", **OPEN)

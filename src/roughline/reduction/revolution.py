@@ -23,7 +23,8 @@ _BLOCK_INTEGRALS = 10**6  # integrals computed at a time
 _PROFILE_ROUNDING = 1e-6  # by which a line that rises may seem to fall, over its largest
 
 _DEPTH, _FORCE = 0, 1  # in the order of loads at rest
-_Control = Literal["depths", "forces"]
+LoadControl = Literal["depths", "forces"]
+"""What is prescribed."""
 
 
 class Moved(NamedTuple):
@@ -132,7 +133,7 @@ class Revolution:
         wrong = np.maximum.accumulate(np.maximum(g, 0.0)) - g > _PROFILE_ROUNDING * np.abs(g).max()
         return float(a[wrong.argmax()]) if wrong.any() else None
 
-    def moved(self, control: _Control, start: float, value: float) -> Moved:
+    def moved(self, control: LoadControl, start: float, value: float) -> Moved:
         """Lead the edge slowly from a radius to a load, jumps included.
 
         Bodies that are apart are first brought to where they touch, at a depth of zero.

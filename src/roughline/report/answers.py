@@ -33,7 +33,7 @@ _GIVEN_SCATTER = 1e-6  # scatter below which a quantity was given, and did not c
 
 
 @dataclass(frozen=True)
-class _Group:
+class _AnswerGroup:
     """Answers about one thing, by their keys, and those that stand for them all.
 
     These are what was asked for, or the first leading one, or else the first.
@@ -49,13 +49,13 @@ class _Group:
         return self.headlines[0]
 
 
-def groups(result: Assessment | PartAssessment) -> list[_Group]:
+def groups(result: Assessment | PartAssessment) -> list[_AnswerGroup]:
     """The groups of its answers, in their order."""
     asked, leading, keys = asked_keys(result), leading_keys(result), dict[str, list[str]]()
     for key, each in result.answers.items():
         keys.setdefault(each.rule.group, []).append(key)
     return [
-        _Group(
+        _AnswerGroup(
             name,
             some,
             [key for key in some if key in asked]
@@ -219,7 +219,7 @@ def counted(
 ) -> list[tuple[str, str, int]]:
     """Name, headline and number of rows of each group, for a page that folds one table."""
 
-    def rows(group: _Group) -> list[list[str]]:
+    def rows(group: _AnswerGroup) -> list[list[str]]:
         return answer_table(result, keys=group.keys, with_elastic=with_elastic)[1]
 
     return [

@@ -16,7 +16,7 @@ _ONE_LINE_WIDTH = 20  # columns of the screen up to which headers and names stay
 
 
 @dataclass(frozen=True)
-class _Block:
+class _ColumnBlock:
     """Lines of the header and of the body of some columns of a table."""
 
     header: Sequence[str]
@@ -47,7 +47,9 @@ class _Column:
         return _Column(self.header, cells)
 
 
-def blocks(header: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> Iterator[_Block]:
+def blocks(
+    header: Sequence[str], rows: Sequence[Sequence[str]], width: int
+) -> Iterator[_ColumnBlock]:
     """Lay out a table of names and values in blocks below each other, each with the names.
 
     Where a table is too wide for so many columns of the screen, intervals stand below their values;
@@ -80,7 +82,7 @@ def paragraph(name: str, text: str, indent: int, width: int) -> str:
     return f"{name:{indent}}" + f"\n{'':{indent}}".join(lines)
 
 
-def _beside(names: _Column, values: Sequence[_Column], most: int) -> _Block:
+def _beside(names: _Column, values: Sequence[_Column], most: int) -> _ColumnBlock:
     """Names, in lines no longer than given, with values to the right of them."""
     wrapped = [_wrapped(name, most) for name in (names.header, *(cell[0] for cell in names.cells))]
     widths = [_longest(line for name in wrapped for line in name)]
@@ -89,17 +91,17 @@ def _beside(names: _Column, values: Sequence[_Column], most: int) -> _Block:
     body = []
     for name, *cells in zip(wrapped[1:], *(each.cells for each in values), strict=True):
         body += _lines([name, *cells], widths)
-    return _Block(_lines([wrapped[0], *heads], widths, at_bottom=True), body)
+    return _ColumnBlock(_lines([wrapped[0], *heads], widths, at_bottom=True), body)
 
 
-def _above(names: _Column, values: Sequence[_Column]) -> _Block:
+def _above(names: _Column, values: Sequence[_Column]) -> _ColumnBlock:
     """Names in lines of their own, with values below them."""
     widths = [0, *(each.width for each in values)]
     heads = [_wrapped(each.header, each.width) for each in values]
     body = []
     for (name,), *cells in zip(names.cells, *(each.cells for each in values), strict=True):
         body += [name, *_lines([[], *cells], widths)]
-    return _Block([names.header, *_lines([[], *heads], widths, at_bottom=True)], body)
+    return _ColumnBlock([names.header, *_lines([[], *heads], widths, at_bottom=True)], body)
 
 
 def _lines(

@@ -161,7 +161,7 @@ class LikelyLaws:
 
 
 @dataclass(frozen=True, eq=False)
-class Ends:
+class LawEnds:
     """Ends of laws, and the means that each leaves unchanged, changes, or ignores."""
 
     at: Real  # wavenumbers; the last is infinite, and no end
@@ -195,7 +195,7 @@ class Observed(ABC):
 
     @property
     @abstractmethod
-    def ends(self) -> Ends:
+    def ends(self) -> LawEnds:
         """Ends to try."""
 
     @abstractmethod

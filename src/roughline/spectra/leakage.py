@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from roughline.computing.arrays import Real
 
 _Modes = NDArray[np.intp]
-_Sides = tuple[float, float]
 
 RING_HALF_WIDTH = 0.25
 """Modes this near to a ring's wavenumber belong to it; wider rings would smear a steep spectrum."""
@@ -115,7 +114,7 @@ def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
     return edges, np.append(0.0, np.cumsum(share)) / share.sum()
 
 
-def _ring_modes(sides: _Sides, rings: int) -> tuple[_Modes, _Modes, _Modes]:
+def _ring_modes(sides: tuple[float, float], rings: int) -> tuple[_Modes, _Modes, _Modes]:
     """Numbers along x and y >= 0, and ring, of the modes that belong to rings."""
     most = [int((rings + 0.5) * side) for side in sides]
     mx, my = np.meshgrid(np.arange(-most[0], most[0] + 1), np.arange(most[1] + 1), indexing="ij")
@@ -147,7 +146,7 @@ def _sinc_slope(distance: Real) -> Real:
     return np.where(distance == 0, 0.0, slope)
 
 
-def _without_plane(q: Real, sides: _Sides) -> tuple[Real, Real]:
+def _without_plane(q: Real, sides: tuple[float, float]) -> tuple[Real, Real]:
     """Power of waves in the longest rings, over (ring, q), and the share of their mean square left.
 
     The mean plane is removed. The mean and the slopes of exp(2 pi i (x + y)) over a unit square
@@ -193,6 +192,6 @@ def _edges(last: float) -> Real:
     )
 
 
-def _sides(aspect: float) -> _Sides:
+def _sides(aspect: float) -> tuple[float, float]:
     """Both sides in units of L, the root of their product."""
     return math.sqrt(aspect), 1 / math.sqrt(aspect)

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.spectra.isotropic import IsotropicSpectrum
-from roughline.spectra.law_search import Corner, Ends, Law, Observed, power_law
+from roughline.spectra.law_search import Corner, Law, LawEnds, Observed, power_law
 from roughline.spectra.leakage import LONGER_WAVES, map_leakage, power_inside
 from roughline.spectra.means import FEWEST_MEANS, Means
 
@@ -58,14 +58,14 @@ class MapRings(Observed):
         return np.concatenate([longer, np.arange(1.0, 4.0, 0.25), np.geomspace(4, last, count)])
 
     @cached_property
-    def ends(self) -> Ends:
+    def ends(self) -> LawEnds:
         """Ends to try: sharp ones at every quarter of a ring, gradual ones at every ring."""
         means, q = self.means, self.means.q
         free = np.array([means.free_deviance(k) for k in range(q.size + 1)])
         least = FEWEST_MEANS // 2
         # a law may stop at a ring without its window's leakage: the spectrum then ends gradually
         stops = np.arange(least, q.size)
-        gradual = Ends(
+        gradual = LawEnds(
             at=np.append((q[stops[:-1]] + q[stops[1:]]) / 2, math.inf),
             margins=np.append(np.diff(q)[stops[:-1]] / 2, 0.0),
             inside=np.arange(q.size) <= stops[:, np.newaxis],
@@ -80,7 +80,7 @@ class MapRings(Observed):
             q > ends - _RINGS_BELOW, np.interp(ends - q, *power_inside(self.aspect)), 1.0
         )
         inside = (q <= ends + _RINGS_ABOVE) & (share > 0) & ~(means.leaked & (q > ends))
-        return Ends(
+        return LawEnds(
             at=np.append(sharp, gradual.at),
             margins=np.append(np.full(sharp.size, _END_STEP), gradual.margins),
             inside=np.concatenate([inside, gradual.inside]),

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.spectra.law_search import IMPOSSIBLE, Corner, Ends, Law, Observed, power_law
+from roughline.spectra.law_search import IMPOSSIBLE, Corner, Law, LawEnds, Observed, power_law
 from roughline.spectra.leakage import LONG_WAVES, LONGER_WAVES, map_leakage, scan_leakage
 from roughline.spectra.map_rings import modes_of_surface
 from roughline.spectra.means import FEWEST_MEANS, Means
@@ -110,12 +110,12 @@ class ScanBins(Observed):
         return self.cuts.q[self.cuts.q < self.edges[-1] / 2]
 
     @cached_property
-    def ends(self) -> Ends:
+    def ends(self) -> LawEnds:
         """Ends to try: those of the bins."""
         bins = self.means.q.size
         last = np.arange(FEWEST_MEANS // 2, bins + 1)
         last[-1] = bins - 1
-        return Ends(
+        return LawEnds(
             at=np.append(self.edges[last[:-1] + 1], math.inf),
             margins=np.append(np.diff(self.edges)[last[:-1]], 0.0),
             inside=np.arange(bins) <= last[:, np.newaxis],

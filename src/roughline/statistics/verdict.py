@@ -57,7 +57,7 @@ def joint_verdict(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 @dataclass(frozen=True)
-class Case:
+class ClaimCase:
     """One of the cases that a claim is about."""
 
     where: str  # which case, with its preposition: "at D_f = 2.0"
@@ -69,7 +69,7 @@ class Case:
     """
 
     @classmethod
-    def together(cls, where: str, parts: Sequence[Case]) -> Case:
+    def together(cls, where: str, parts: Sequence[ClaimCase]) -> ClaimCase:
         """Judge cases as one; what decides all that are open decides."""
         verdict = joint_verdict(each.verdict for each in parts if each.verdict)
         needed = [each.enough for each in parts if each.verdict is Verdict.UNDECIDED]
@@ -94,7 +94,7 @@ class Claim:
         statement: str,
         found: str,
         interval: str,
-        cases: Sequence[Case],
+        cases: Sequence[ClaimCase],
         basis: str = "",
         allowed: str = "-",
     ) -> Claim:
@@ -103,7 +103,7 @@ class Claim:
         return cls(statement, found, interval, basis, verdict, in_words(cases), allowed)
 
 
-def in_words(cases: Sequence[Case]) -> str:
+def in_words(cases: Sequence[ClaimCase]) -> str:
     """Say the verdict, case by case where the cases differ, and what would decide.
 
     Cases of the commonest verdict are not named if they are many.
@@ -130,7 +130,7 @@ def places(wheres: Iterable[str]) -> str:
     return ", ".join(f"{first} {', '.join(last for _, last in of_it)}" for first, of_it in shared)
 
 
-def _what_would_decide(cases: Sequence[Case]) -> str:
+def _what_would_decide(cases: Sequence[ClaimCase]) -> str:
     """Say in brackets how many surfaces would decide, or that finer grids would."""
     needed = [each.enough for each in cases if not math.isnan(each.enough)]
     if not needed:

@@ -77,14 +77,14 @@ def compare_borders(heights: Real) -> Borders:
     return least
 
 
-class _Provenance(Protocol):
+class _StatedBorders(Protocol):
     """What is asked of the provenance of a body."""
 
     @property
     def borders(self) -> Borders | None: ...
 
 
-class _Body(Protocol):
+class _BodyWithBorders(Protocol):
     """What is asked of a Surface or a Line."""
 
     @property
@@ -92,23 +92,23 @@ class _Body(Protocol):
     @property
     def is_cut_out(self) -> bool: ...
     @property
-    def provenance(self) -> _Provenance: ...
+    def provenance(self) -> _StatedBorders: ...
 
 
-def decided(body: _Body) -> Borders | None:
+def decided(body: _BodyWithBorders) -> Borders | None:
     """Return what was seen at the borders of a body; None if its heights did not decide."""
     borders = body.provenance.borders
     # a body of which its owner said otherwise since is as that says
     return borders if borders is not None and borders.jump == body.is_cut_out else None
 
 
-def whole_or_piece(body: _Body) -> str:
+def whole_or_piece(body: _BodyWithBorders) -> str:
     """Say whether a body is periodic or cut out, and why where its heights decided that."""
     name, borders = "cut out of a larger one" if body.is_cut_out else "periodic", decided(body)
     return name if borders is None else f"{name} ({borders.in_words(_borders_name(body))})"
 
 
-def border_doubts(body: _Body) -> tuple[str, ...]:
+def border_doubts(body: _BodyWithBorders) -> tuple[str, ...]:
     """Warn where the heights do not say clearly whether a body is a piece of a larger one."""
     borders = decided(body)
     if borders is None or not borders.are_unclear:
@@ -121,7 +121,7 @@ def border_doubts(body: _Body) -> tuple[str, ...]:
     )
 
 
-def _borders_name(body: _Body) -> str:
+def _borders_name(body: _BodyWithBorders) -> str:
     return "opposite borders" if body.heights.ndim == 2 else "its ends"
 
 

@@ -13,14 +13,14 @@ from lab.server.serving import alive_still, becomes
 from reference import patience
 from roughline.lab.server import lanes
 from roughline.lab.server import process as processes
-from roughline.lab.server.budget import Limits
+from roughline.lab.server.budget import LaneLimits
 from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.tasks import without_paths
 from roughline.lab.tasks import warm_up
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 LONG = 3600.0  # which nothing here takes [s]
-LIMITS = Limits(count=2, most=4, per_session=2, seconds=LONG, memory=1e9)
+LIMITS = LaneLimits(count=2, most=4, per_session=2, seconds=LONG, memory=1e9)
 SESSION = {
     "folder": "/tmp/roughline-lab-1/3F9r-token",
     "names": {"/tmp/roughline-lab-1/3F9r-token/0123.txt": "my file.txt"},
@@ -249,7 +249,7 @@ def test_a_page_cannot_occupy_all_processes():
         await asker.of("modest")
         assert not asker.outcomes.keys() - {"modest"}
 
-    limits = Limits(count=2, most=4, per_session=1, seconds=LONG, memory=1e9)
+    limits = LaneLimits(count=2, most=4, per_session=1, seconds=LONG, memory=1e9)
     run(scenario, lasting=False, limits=limits)
 
 
@@ -275,7 +275,7 @@ def test_addresses_take_turns_and_refinements_come_last():
         await asker.of("finer")
         assert list(asker.outcomes) == ["short", "modest", "1", "2", "3", "finer"]
 
-    limits = Limits(count=2, most=2, per_session=1, seconds=LONG, memory=1e9)
+    limits = LaneLimits(count=2, most=2, per_session=1, seconds=LONG, memory=1e9)
     run(scenario, lasting=False, limits=limits)
 
 
@@ -288,7 +288,7 @@ def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
         await asker.of("last")
         assert list(asker.outcomes) == ["first", "new", "last"]
 
-    limits = Limits(count=1, most=1, per_session=1, seconds=LONG, memory=1e9)
+    limits = LaneLimits(count=1, most=1, per_session=1, seconds=LONG, memory=1e9)
     run(scenario, lasting=lasting, limits=limits)
 
 
@@ -441,7 +441,7 @@ def test_without_forking_processes_are_spawned(monkeypatch):
         asker.ask("echo", say="spawned")
         assert (await asker.of("slot")).answer.startswith(b"spawned")
 
-    limits = Limits(count=1, most=1, per_session=1, seconds=LONG, memory=2e9)
+    limits = LaneLimits(count=1, most=1, per_session=1, seconds=LONG, memory=2e9)
     run(scenario, lasting=True, limits=limits)
 
 

@@ -16,7 +16,7 @@ from roughline.lab.server.files import Upload
 from roughline.lab.server.handlers import application
 from roughline.lab.server.sessions import _MOST_HELD_BYTES, Server
 from roughline.lab.server.settings import ServerSettings
-from roughline.lab.server.tasks import Outcome
+from roughline.lab.server.tasks import TaskOutcome
 from roughline.lab.site import site
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
@@ -103,7 +103,7 @@ def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twic
             await dropped(server, page)
             ended, running, _ = server.slow.requests
             running.progress(1, 2)
-            ended.answer(Outcome(error="answered while nobody heard"))
+            ended.answer(TaskOutcome(error="answered while nobody heard"))
         async with lab.page(before=page.token) as again:
             assert again.said["session"] == page.token
             assert again.said["resumed"] is True
@@ -117,7 +117,7 @@ def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twic
             await becomes(lambda: len(server.slow.requests) == 4)
             running.progress(2, 2)
             assert json.loads(await again.heard())["id"] == number
-            running.answer(Outcome(error="went on"))
+            running.answer(TaskOutcome(error="went on"))
             assert await again.answer() == (number, "went on")
 
     run(scenario, tmp_path)
@@ -131,8 +131,8 @@ def test_answers_that_nobody_heard_are_kept_up_to_a_size(tmp_path):
             await becomes(lambda: len(server.slow.requests) == 2)
             await dropped(server, page)
             small, large = server.slow.requests
-            small.answer(Outcome(b"1"))
-            large.answer(Outcome(bytes(_MOST_HELD_BYTES)))
+            small.answer(TaskOutcome(b"1"))
+            large.answer(TaskOutcome(bytes(_MOST_HELD_BYTES)))
         assert list(server.sessions[page.token].asked) == ["small"]
 
     run(scenario, tmp_path)
@@ -186,7 +186,7 @@ def test_a_page_takes_over_from_another_that_is_told_so(tmp_path):
             assert page.socket.close_code == 4001
             await copied.ask("explore.code")
             await becomes(lambda: server.quick.requests)
-            server.quick.requests[0].answer(Outcome(error="told to the other"))
+            server.quick.requests[0].answer(TaskOutcome(error="told to the other"))
             assert (await copied.answer())[1] == "told to the other"
             assert list(server.sessions) == [copied.token]
 

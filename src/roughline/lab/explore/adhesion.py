@@ -14,10 +14,10 @@ from roughline.lab.controls import ControlError, as_code
 from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import pressed_under
-from roughline.lab.explore.state import SURFACE_KEYS, Answer, ExploreState, Item, Physics
+from roughline.lab.explore.state import SURFACE_KEYS, ExploreState, Item, PageAnswer, Physics
 from roughline.lab.explore.words import item, number_rows
 from roughline.lab.maps import Map
-from roughline.lab.panels import FORCE, Filled, Panel, Series, linear_span
+from roughline.lab.panels import FORCE, Panel, PanelContent, Series, linear_span
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
 
@@ -166,7 +166,7 @@ class AdhesionPhysics(Physics):
         """Where bodies touch, and where they pull each other."""
         return {"area": _area_map(fields)}
 
-    def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
+    def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow both ways: beyond the load, back to it, and off."""
         n = state.points(_FINER_POINTS if refines else _COARSE_POINTS)
         found = _cycle(state, self, n, progress)
@@ -263,7 +263,7 @@ def _area_map(fields: rl.Fields) -> Map:
     return Map(touching_and_pulling, ("paper", "ink", "pull"), 0, 2)
 
 
-def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
+def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, PanelContent]:
     """What the page draws of both ways, on so many points along a side."""
     by_forces, by_depths, (depth, pull) = found.by_forces, found.by_depths, found.pull_off
     height, there = by_forces.rms_height, by_depths.on_approach
@@ -281,14 +281,14 @@ def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, Filled]:
     is_loaded = (forces != 0) & by_depths.converged
     turned = slice(1, _LOAD_BACK + 1)
     of_turn = {
-        panel: Filled(
+        panel: PanelContent(
             {"back": selected_points(state.force_bars(by_forces)[turned], values[turned])}
         )
         for panel, values in state.over_force(by_forces).items()
         if panel in AdhesionPhysics.series
     }
     return of_turn | {
-        "cycle": Filled(
+        "cycle": PanelContent(
             series,
             [
                 [*row, "there" if nearer else "back"]

@@ -32,7 +32,7 @@ from roughline.lab.explore.reading import state_in
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.maps import Map
-from roughline.lab.panels import Filled, Panel
+from roughline.lab.panels import Panel, PanelContent
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.plot.pixels import draw_map, drawn_sides
 from roughline.plot.style import PAGE, new_figure, styled
@@ -68,7 +68,7 @@ def download(arguments: Arguments, progress: Progress) -> bytes:
     return frame({"file": name})
 
 
-def all_panels(state: ExploreState, points: int, progress: Progress) -> dict[str, Filled]:
+def all_panels(state: ExploreState, points: int, progress: Progress) -> dict[str, PanelContent]:
     """All that the panels show of a state, by their keys."""
     followed = [each for each in state.added if each.follows]
     steps = _steps(progress, 2 + len(followed))
@@ -78,10 +78,10 @@ def all_panels(state: ExploreState, points: int, progress: Progress) -> dict[str
         pictures.contact(state, points, next(steps), is_coarse=points < state.n)[0]["panels"],
         *(each.further(state, True, next(steps))[0]["panels"] for each in followed),
     ]
-    found: dict[str, Filled] = {}
+    found: dict[str, PanelContent] = {}
     for answer in answers:
         for key, filled in answer.items():
-            before = found.setdefault(key, Filled())
+            before = found.setdefault(key, PanelContent())
             before.series |= filled.series
             before.legends |= filled.legends
             before.x, before.y = filled.x or before.x, filled.y or before.y
@@ -201,7 +201,7 @@ def _draw_panels(state: ExploreState, points: int, path: Path, progress: Progres
     _write_figure(path, [drawn(key) for key in declared if key in found])
 
 
-def _draw_panel(axes: Axes, panel: Panel, filled: Filled) -> None:
+def _draw_panel(axes: Axes, panel: Panel, filled: PanelContent) -> None:
     """Draw the points of a panel; zeros stand at the foot of a logarithmic axis."""
     scale = "log" if panel.is_logarithmic else "linear"
     axes.set(xlabel=panel.x, ylabel=panel.y, xscale=scale, yscale=scale)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.lab.explore.panels import curve_note, loads, over_force
 from roughline.lab.explore.pressing import CURVE_POINTS, bearable_forces, pressed_under
-from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
+from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
 from roughline.lab.explore.words import item, number_rows
 from roughline.lab.maps import Map, flux_map, throttled_at
-from roughline.lab.panels import Filled, Points, Series, marks, span, theory_lines
+from roughline.lab.panels import PanelContent, Points, Series, marks, span, theory_lines
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
 from roughline.theories.theory_curve import TheoryCurve
@@ -128,7 +128,7 @@ class FluidPhysics(Physics):
         flux = zip("xy", _flow(fields).flux, strict=True)
         return {f"flux_{along}": (each, "m^2", meaning.format(along)) for along, each in flux}
 
-    def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
+    def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """What flows through the gap over force, and what theories of the flow say."""
         surface = state.surface(state.points(CURVE_POINTS))
         forces = bearable_forces(state, _FORCES)
@@ -148,7 +148,7 @@ class FluidPhysics(Physics):
         known = [*apertures, *(found[0] for _, found in of_theories.values()), least]
         remarks = [f"{_THEORIES[name]}: {each.validity}" for name, (each, _) in of_theories.items()]
         caption = f"{_where_sealed(forces, apertures)}; {curve_note(pressed, len(surface.heights))}"
-        filled = Filled(drawn, rows, caption, f"{'. '.join(remarks)}.", y=span(known))
+        filled = PanelContent(drawn, rows, caption, f"{'. '.join(remarks)}.", y=span(known))
         return {"panels": {"aperture": filled}}, {}
 
     def in_python(self, state: ExploreState) -> tuple[str, str, str]:

@@ -30,7 +30,7 @@ from roughline.lab.explore.words import (
 )
 from roughline.lab.frames import drawn
 from roughline.lab.maps import Map, contact_maps, height_map
-from roughline.lab.panels import Filled, Points, span
+from roughline.lab.panels import PanelContent, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.report.shading import shaded
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
@@ -68,7 +68,7 @@ def line(state: ExploreState, count: int = _MOST_LINES) -> dict[str, Any]:
     here = int(np.searchsorted(forces, state.F))
     rows = [[*row, "1D"] for row in number_rows(forces, mean)]
     points = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
-    filled = Filled({"line": points}, rows, legends={"line": _line_legend(state)})
+    filled = PanelContent({"line": points}, rows, legends={"line": _line_legend(state)})
     return {
         "panels": {"stiffness": filled},
         "stiffness_bar_1d": float(mean[here]),
@@ -101,7 +101,7 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     return _message(state, refused, {"panels": over_loads(state, progress)})
 
 
-def over_loads(state: ExploreState, progress: Progress) -> dict[str, Filled]:
+def over_loads(state: ExploreState, progress: Progress) -> dict[str, PanelContent]:
     """What panels show of the surface under many loads, and of theories."""
     surface = state.surface(state.points(CURVE_POINTS))
     pressed = pressed_under(state, surface, bearable_forces(state, _CURVE_FORCES), progress)
@@ -109,7 +109,9 @@ def over_loads(state: ExploreState, progress: Progress) -> dict[str, Filled]:
     theories, remarks = _theories(state, surface)
     panels = {}
     for panel, values in state.over_force(pressed).items():
-        filled = Filled(loads(forces, values, pressed), load_rows(forces, values, pressed, "3D"))
+        filled = PanelContent(
+            loads(forces, values, pressed), load_rows(forces, values, pressed, "3D")
+        )
         filled.series |= theories[panel]
         filled.caption = note
         panels[panel] = filled
@@ -166,7 +168,7 @@ def contact(
     strip = contact_words(pressed, fields, surface, state)
     is_known, force = pressed.converged, state.force_bars(pressed)
     panels = {
-        panel: Filled({"here": selected_points(force, values, is_known)})
+        panel: PanelContent({"here": selected_points(force, values, is_known)})
         for panel, values in state.over_force(pressed).items()
     }
     if not is_coarse:
@@ -258,7 +260,7 @@ def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float6
     return rl.press(line, E_star=state.E_star, forces=force_bars * scale)
 
 
-def _spectrum(surface: rl.Surface, state: ExploreState) -> Filled:
+def _spectrum(surface: rl.Surface, state: ExploreState) -> PanelContent:
     """Spectrum of the surface, and the law that it is drawn from, over waves in the side."""
     measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d > 0
@@ -268,7 +270,7 @@ def _spectrum(surface: rl.Surface, state: ExploreState) -> Filled:
     thinned = slice(None, None, -(-waves.size // _MOST_ROWS))
     rows = number_rows(waves[thinned], power[thinned], law[thinned])
     series = {"surface": selected_points(waves, power), "law": selected_points(waves, law)}
-    return Filled(series, rows, x=span(waves), y=span(power))
+    return PanelContent(series, rows, x=span(waves), y=span(power))
 
 
 def _theories(

@@ -18,7 +18,7 @@ from roughline.halfspace.laws.bounds import Bounds
 from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_code, as_text, has_unit
 from roughline.lab.explore.controls import CHOICES, NUMBERS, ScaledControl
 from roughline.lab.maps import Map
-from roughline.lab.panels import Filled, Panel, Series
+from roughline.lab.panels import Panel, PanelContent, Series
 from roughline.lab.server.tasks import Progress
 from roughline.units import in_si
 
@@ -27,7 +27,7 @@ SURFACE_KEYS = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
 
 Item = dict[str, str]
 """One number of the answer strip: its key, symbol, value, unit and meaning."""
-Answer = tuple[dict[str, Any], Mapping[str, Map]]
+PageAnswer = tuple[dict[str, Any], Mapping[str, Map]]
 """What a task tells the page, and maps."""
 
 
@@ -103,7 +103,9 @@ class Physics:
         """What its panels show of loads, by their keys."""
         return {}
 
-    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> dict[str, Filled]:
+    def beside_curve(
+        self, pressed: rl.SurfaceCurve, state: ExploreState
+    ) -> dict[str, PanelContent]:
         """What it adds to panels of the curve, by their keys."""
         return {}
 
@@ -119,7 +121,7 @@ class Physics:
         """Fields of its own that are saved: values, unit and meaning, by their names."""
         return {}
 
-    def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
+    def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Answer its task: what comes later than the contact."""
         return {}, {}
 

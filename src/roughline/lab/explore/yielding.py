@@ -14,9 +14,9 @@ from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
-from roughline.lab.explore.state import Answer, ExploreState, Item, Physics
+from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
 from roughline.lab.explore.words import first, item, load_rows
-from roughline.lab.panels import Filled, marks
+from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
@@ -75,14 +75,16 @@ class YieldingPhysics(Physics):
         """No more than the hardness."""
         return rl.Yielding(self.hardness(state))
 
-    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> dict[str, Filled]:
+    def beside_curve(
+        self, pressed: rl.SurfaceCurve, state: ExploreState
+    ) -> dict[str, PanelContent]:
         """The stiffness on unloading of every load."""
         forces, values = (
             state.force_bars(pressed),
             state.stiffness_bars(pressed.unloading_stiffness),
         )
         rows = load_rows(forces, values, pressed, "3D, on unloading")
-        return {"stiffness": Filled({"unloading": selected_points(forces, values)}, rows)}
+        return {"stiffness": PanelContent({"unloading": selected_points(forces, values)}, rows)}
 
     def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
@@ -117,7 +119,7 @@ class YieldingPhysics(Physics):
             ),
         ]
 
-    def further(self, state: ExploreState, refines: bool, progress: Progress) -> Answer:
+    def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow the way back from the load to none."""
         forces = state.F * np.array([1.0, *UNLOADING])
         surface = state.surface(state.points(CURVE_POINTS))
@@ -125,7 +127,7 @@ class YieldingPhysics(Physics):
         values = state.over_force(pressed)
         values["stiffness"] = state.stiffness_bars(pressed.unloading_stiffness)
         panels = {
-            panel: Filled(
+            panel: PanelContent(
                 {"back": selected_points(forces, each)},
                 load_rows(forces, each, pressed, BACK.legend),
             )

@@ -22,7 +22,7 @@ from roughline.lab.measured.state import (
     page_sources,
     used_in,
 )
-from roughline.lab.panels import Filled, Points
+from roughline.lab.panels import PanelContent, Points
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
 from roughline.report.answers import leading_keys, written_unit
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
@@ -69,7 +69,7 @@ def part_in_words(part: PartAssessment, chosen: int) -> dict[str, Any]:
     return {"part": maps, "tables": tables, "choices": {"part": drawn}}
 
 
-def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]) -> Filled:
+def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]) -> PanelContent:
     """One answer of each map at the largest load, the mean, and the part's interval."""
     load, count = part.largest, len(part.names)
     factor, unit = written_scale(float(np.nanmax(values)), written_unit(answer))
@@ -83,7 +83,7 @@ def _panel(part: PartAssessment, answer: PartAnswer, values: NDArray[np.float64]
         "maps": {"x": np.arange(1, count + 1), "y": values, "low": low, "high": high},
         "mean": {"x": ends, "y": 2 * [mean], "low": 2 * interval[:1], "high": 2 * interval[1:]},
     }
-    return Filled.fitted(
+    return PanelContent.fitted(
         series,
         x=ends,
         axes=("", f"{answer.name} {answer.symbol}" + (f" [{unit}]" if unit else "")),

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import ModelComparison
 from roughline.assessment.description import Description
+from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.selection import loads_with_fields
 from roughline.engineering.intervals import Ends
-from roughline.lab.maps import Map, Scale, contact_maps, flux_map, height_map
-from roughline.lab.panels import Filled, Points
+from roughline.lab.maps import Map, ShownUnit, contact_maps, flux_map, height_map
+from roughline.lab.panels import PanelContent, Points
 from roughline.plot.pixels import any_marked, thinned
 from roughline.report.comparison import comparison_table
 from roughline.report.contact_tables import area_in_words, curve_table
@@ -25,8 +26,7 @@ from roughline.topography.body import Body, Surface, side_lengths
 from roughline.topography.preparation import outliers
 from roughline.units import metres_per, prefix
 
-_Real = NDArray[np.float64]
-Panels = dict[str, Filled]
+Panels = dict[str, PanelContent]
 Maps = dict[str, Map]
 """Maps by the words that choose them; the first of those beside each other is `height`."""
 
@@ -180,11 +180,11 @@ def curve_panels(result: Assessment) -> Panels:
             for name, points in series.items()
         }
         axes = (f"force F{on} [{force_unit}]", labels[key])
-        panels[key] = Filled.fitted(scaled, axes=axes, columns=columns, rows=rows)
+        panels[key] = PanelContent.fitted(scaled, axes=axes, columns=columns, rows=rows)
     return panels
 
 
-def _load_points(result: Assessment, values: _Real, ends: Ends | None) -> dict[str, Points]:
+def _load_points(result: Assessment, values: Real, ends: Ends | None) -> dict[str, Points]:
     """A quantity over the loads that were solved, with its interval. [N, SI]"""
     curve = result.curve_over_loads
     asked = np.isin(np.arange(curve.force.size), result.asked)
@@ -209,10 +209,12 @@ def model_panels(found: ModelComparison) -> Panels:
         "full": _xy(result.force_bar, full) | {"low": full, "high": full},
         "reduced": _xy(result.force_bar, reduced.mean) | of_lines,
     }
-    return {"models": Filled.fitted(series, columns=columns, rows=rows)}
+    return {"models": PanelContent.fitted(series, columns=columns, rows=rows)}
 
 
-def _map(heights: _Real, sides: Sequence[float], along: Scale, up: Scale, **others: Any) -> Map:
+def _map(
+    heights: Real, sides: Sequence[float], along: ShownUnit, up: ShownUnit, **others: Any
+) -> Map:
     """A map of heights; a missing point shows in each pixel that has one."""
     unknown, pixels = any_marked(~np.isfinite(heights)), thinned(heights) * up[0]
     pixels[unknown[: pixels.shape[0], : pixels.shape[1]]] = np.nan
@@ -220,17 +222,19 @@ def _map(heights: _Real, sides: Sequence[float], along: Scale, up: Scale, **othe
     return height_map(pixels, up[1], blank="here", **others)
 
 
-def _frame(sides: Sequence[float], along: Scale) -> dict[str, Any]:
+def _frame(sides: Sequence[float], along: ShownUnit) -> dict[str, Any]:
     return {"sizes": [side * along[0] for side in sides], "along": along[1]}
 
 
-def _along(series: dict[str, Points], along: Scale, up: Scale, **others: Any) -> Filled:
+def _along(
+    series: dict[str, Points], along: ShownUnit, up: ShownUnit, **others: Any
+) -> PanelContent:
     """Heights along a line."""
     axes = (f"x [{along[1]}]", f"height [{up[1]}]")
-    return Filled.fitted(series, is_logarithmic=False, axes=axes, **others)
+    return PanelContent.fitted(series, is_logarithmic=False, axes=axes, **others)
 
 
-def _line(x: _Real, heights: _Real) -> Points:
+def _line(x: Real, heights: Real) -> Points:
     """Every few points of a line, with the digits that a picture shows."""
     step = max(1, heights.size // _MOST_LINE_POINTS)
     return _xy(*([float(f"{value:.6g}") for value in each[::step]] for each in (x, heights)))
@@ -245,7 +249,7 @@ def _spectrum(found: Description) -> Panels:
     q, power = parameters.spectrum.q[power > 0], power[power > 0]
     label = f"spectrum C [{'m⁴' if isinstance(found.body, Surface) else 'm³'}]"
     some = np.unique(np.geomspace(1, q.size, 40).astype(int)) - 1
-    panel = Filled.fitted(
+    panel = PanelContent.fitted(
         {"spectrum": _xy(q, power), "law": _xy(*((), ()) if law is None else law)},
         axes=("", label),
         caption="" if fit is None else fit.in_words,
@@ -261,7 +265,7 @@ def _shares(marked: NDArray[np.bool_], most: int) -> list[list[float]]:
     return places
 
 
-def _rows(heights: _Real, unit: str) -> list[list[str]]:
+def _rows(heights: Real, unit: str) -> list[list[str]]:
     """Heights in numbers."""
     known = heights[np.isfinite(heights)]
     if not known.size:
@@ -273,11 +277,11 @@ def _rows(heights: _Real, unit: str) -> list[list[str]]:
     ]
 
 
-def _about_mean(body: Body) -> _Real:
+def _about_mean(body: Body) -> Real:
     return np.asarray(body.heights - body.heights.mean())
 
 
-def _places(count: int, length: float) -> _Real:
+def _places(count: int, length: float) -> Real:
     """Where points along a line are."""
     return np.asarray((np.arange(count) + 0.5) * length / count)
 
@@ -286,7 +290,7 @@ def _xy(x: Any, y: Any) -> dict[str, Any]:
     return {"x": x, "y": y}
 
 
-def _scale(largest: float, metres: float | None, otherwise: str = "m") -> Scale:
+def _scale(largest: float, metres: float | None, otherwise: str = "m") -> ShownUnit:
     """The factor to a handy unit, and its sign; without metres the file's own numbers stay."""
     if metres is None:
         return 1.0, otherwise
@@ -294,5 +298,5 @@ def _scale(largest: float, metres: float | None, otherwise: str = "m") -> Scale:
     return metres * factor, prefixed
 
 
-def _largest(values: _Real) -> float:
+def _largest(values: Real) -> float:
     return float(np.nanmax(values, initial=0.0))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import TYPE_CHECKING
 
 from roughline.lab.controls import Choice, Control
 
+if TYPE_CHECKING:
+    from roughline.paper.stated import ModelLabel
+
 DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """Fractal dimensions of the paper's Figures 3 and 4."""
-ModelLabel = Literal["1D", "3D"]
 MODELS: tuple[ModelLabel, ...] = ("1D", "3D")
 
 _EDGE = "Dimensionless force F / (E* h L); the fit takes the loads between the two edges."

@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.contact import scaling
 from roughline.lab.controls import ControlError, Texts, usable
-from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
-from roughline.lab.published.state import ForceWindow, PublishedState, read_state
+from roughline.lab.published.controls import MODELS, WINDOWS
+from roughline.lab.published.state import PublishedState, read_state
 from roughline.lab.server.tasks import Arguments
 from roughline.paper.laws import converged_stiffness
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import published_dataset
+from roughline.paper.stated import ModelLabel
+from roughline.paper.windows import ForceWindow
 from roughline.statistics.power_law import PowerLaw, fit_power_law
 
 if TYPE_CHECKING:

@@ -8,19 +8,20 @@ from typing import Any
 import numpy as np
 
 from roughline.lab.frames import drawn
-from roughline.lab.panels import Filled
-from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
+from roughline.lab.panels import PanelContent
+from roughline.lab.published.controls import MODELS, WINDOWS
 from roughline.lab.published.ensembles import normalised_law, stiffness_curve, usable_state
-from roughline.lab.published.state import ForceWindow, PublishedState
+from roughline.lab.published.state import PublishedState
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.paper.claim import at
 from roughline.paper.contact_area import SATURATED
 from roughline.paper.laws import exponent_estimate, prefactor_estimate
-from roughline.paper.stated import StatedExponent, stated_exponents
+from roughline.paper.stated import ModelLabel, StatedExponent, stated_exponents
 from roughline.paper.tables import estimate_cell, three_digits
+from roughline.paper.windows import ForceWindow
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import PowerLaw, linear_exponent, scaling_exponent
-from roughline.statistics.verdict import Case, Verdict, in_words, joint_verdict
+from roughline.statistics.verdict import ClaimCase, Verdict, in_words, joint_verdict
 from roughline.statistics.window import inside_window
 
 _FORMULAS = {"1D": "1 / (4 - D_f)", "3D": "0.2567 D_f"}  # of the paper, that lead
@@ -60,14 +61,14 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
     """The power laws of both models in their windows, with what the paper states beside them."""
     state, settled = usable_state(arguments)
     every = {m: [_Fit.of(state, m, d) for d in state.dimensions] for m in MODELS}
-    panels = {"exponents": Filled()}
+    panels = {"exponents": PanelContent()}
     answer: dict[str, Any] = {"windows": {}, "tables": {}, "words": {}, "strip": []}
     for model, found in every.items():
         keys = {edge.key for edge in WINDOWS[model]}
         refused = (text for key, text in settled["refused"].items() if key in keys)
         edges = [np.array([*each.law.window, np.nan]) for each in found]  # a gap before the next
         laws = [each.law(x) for each, x in zip(found, edges, strict=True)]
-        panels[f"stiffness-{model}"] = Filled(
+        panels[f"stiffness-{model}"] = PanelContent(
             {"fits": {"x": np.concatenate(edges), "y": np.concatenate(laws)}}
         )
         panels["exponents"].series[model] = {
@@ -142,7 +143,7 @@ def _strip(model: ModelLabel, found: list[_Fit]) -> list[dict[str, str]]:
     first, last = found[0], found[-1]
     stated = [stated_exponents(model, each.dimension)[model == "3D"] for each in found]
     verdicts = [each.verdict(one) for each, one in zip(found, stated, strict=True)]
-    words = in_words([Case(at(x.dimension), v) for x, v in zip(found, verdicts, strict=True)])
+    words = in_words([ClaimCase(at(x.dimension), v) for x, v in zip(found, verdicts, strict=True)])
     decided = [each for each in verdicts if each]
     within = " or ".join(f"{x:g}" for x in sorted({each.tolerance for each in stated}))
     alpha, place = estimate_cell(first.alpha, " to "), f"D_f = {first.dimension:.1f}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roughline.lab.panels import FORCE, Panel, Range, band, estimates, line, marks
+from roughline.lab.panels import FORCE, AxisRange, Panel, band, estimates, line, marks
 from roughline.lab.published.controls import DIMENSIONS
 
 _MARKERS = ("circle", "square", "diamond", "triangle", "inverted_triangle", "plus")
@@ -17,7 +17,7 @@ _CURVES = (
 """Of each fractal dimension, with its standard error; dashed where the grid decides."""
 
 
-def _stiffness(model: str, title: str, ranges: tuple[Range, Range]) -> Panel:
+def _stiffness(model: str, title: str, ranges: tuple[AxisRange, AxisRange]) -> Panel:
     """Figure 3 or 4, with the laws that are fitted in a window."""
     laws = (
         line("saturated", "", "theory", 1, line_dash="dotted"),

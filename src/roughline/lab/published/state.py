@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from roughline.errors.checks import shown
 from roughline.lab.controls import VERSION, ControlError, Texts, as_text, refuse_strange
-from roughline.lab.published.controls import CHOICES, DIMENSIONS, NUMBERS, WINDOWS, ModelLabel
+from roughline.lab.published.controls import CHOICES, DIMENSIONS, NUMBERS, WINDOWS
 
-ForceWindow = tuple[float, float]
+if TYPE_CHECKING:
+    from roughline.paper.stated import ModelLabel
+    from roughline.paper.windows import ForceWindow
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ _MOST_SLOW = 20  # processes for tasks that take long, unless there are more cor
 
 
 @dataclass(frozen=True)
-class Limits:
+class LaneLimits:
     """What a lane and one task in it may take."""
 
     count: int  # processes that work side by side; one that takes long lets others start beside it
@@ -46,7 +46,9 @@ def largest_task_memory(memory: float, wished: float) -> float:
     return min(wished, most)
 
 
-def limits_within(memory: float, max_memory: float, seconds: float) -> tuple[Limits, Limits]:
+def limits_within(
+    memory: float, max_memory: float, seconds: float
+) -> tuple[LaneLimits, LaneLimits]:
     """Processes for quick tasks, and for the others, whose tasks never take more than a budget."""
     cores = available_cores()
     slow_memory = largest_task_memory(memory, max_memory)
@@ -62,6 +64,6 @@ def limits_within(memory: float, max_memory: float, seconds: float) -> tuple[Lim
             left -= needed[name]
     quick, slow = counts["quick"], counts["slow"]
     return (
-        Limits(min(cores, quick), quick, cores, _QUICK_SECONDS, quick_memory),
-        Limits(min(cores, slow), slow, 2, seconds, slow_memory),
+        LaneLimits(min(cores, quick), quick, cores, _QUICK_SECONDS, quick_memory),
+        LaneLimits(min(cores, slow), slow, 2, seconds, slow_memory),
     )

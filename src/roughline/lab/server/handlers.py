@@ -42,7 +42,7 @@ def application(server: Server) -> Application:
             (r"/here", _Here),
             (r"/link", Link),
             (r"/upload", _Uploads),
-            (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", _Results),
+            (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", _ResultFiles),
             (r"/lab/([\w./-]+)", _Parts, {"path": str(server.site.parts)}),
             (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(bokeh)}),
         ],
@@ -239,7 +239,7 @@ class _Uploads(Guarded):
             self._upload = None
 
 
-class _Results(Guarded):
+class _ResultFiles(Guarded):
     """Files that tasks have written for a page: reports, pictures, data."""
 
     async def get(self, token: str, name: str) -> None:

@@ -11,16 +11,16 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
-from roughline.lab.server.budget import Limits
+from roughline.lab.server.budget import LaneLimits
 from roughline.lab.server.process import LOST, LOWEST_PRIORITY, NOT_BEGUN, Process
-from roughline.lab.server.tasks import Outcome, Place
+from roughline.lab.server.tasks import Place, TaskOutcome
 
 _log = logging.getLogger(__name__)
 _LETS_PASS_AFTER = 1.5  # after which a task lets shorter ones pass [s]
 _UNCROWDED_WAIT = 0.05  # that a request may wait without a crowd [s]
 _CROWD_PER_PROCESS = 2  # requests that wait for each process, from which on answers are coarser
 MOST_PARTS = 16  # of a page that may wait for something at once
-TOO_MANY = Outcome(error="too many requests of this page wait: let some end first")
+TOO_MANY = TaskOutcome(error="too many requests of this page wait: let some end first")
 _MOST_TRIES = 5  # of processes that may be gone before they have their task
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
 
@@ -38,7 +38,7 @@ class Request:
     # of the task; with "refines" it refines an existing answer, and lets other requests pass
     arguments: Mapping[str, Any]
     # told the outcome, unless the request was replaced or withdrawn
-    answer: Callable[[Outcome], None]
+    answer: Callable[[TaskOutcome], None]
     progress: Callable[[int, int], None]  # told (steps done, steps in all)
     # when it, or an older one that it replaced, began to wait, on the monotonic clock [s]
     since: float = field(default_factory=time.monotonic)
@@ -63,7 +63,7 @@ class Lane:
     request is withdrawn or replaced.
     """
 
-    def __init__(self, limits: Limits, *, lasting: bool) -> None:
+    def __init__(self, limits: LaneLimits, *, lasting: bool) -> None:
         self.limits, self._lasting = limits, lasting
         self._waiting: dict[tuple[str, str], Request] = {}
         # with those no longer wanted, until their processes are free again or gone
@@ -178,7 +178,7 @@ class Lane:
             self._start()
             self._fill()
 
-    async def _outcome(self, request: Request, process: Process, crowded: bool) -> Outcome:
+    async def _outcome(self, request: Request, process: Process, crowded: bool) -> TaskOutcome:
         """Have a request done by a process."""
         loop, seconds = asyncio.get_running_loop(), self.limits.seconds
 
@@ -194,7 +194,7 @@ class Lane:
             return asked.result()
         process.stop()
         await asked
-        return Outcome(
+        return TaskOutcome(
             error=f"this took longer than the {seconds:g} s that one request may take: take fewer "
             "points or loads"
         )

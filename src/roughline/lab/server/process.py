@@ -17,7 +17,7 @@ from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
-from roughline.lab.server.tasks import Outcome, Place, run_task
+from roughline.lab.server.tasks import Place, TaskOutcome, run_task
 
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
@@ -26,13 +26,13 @@ _LARGEST_FILE = 2_000_000_000  # that a task may ever write [bytes]
 _LOW_PRIORITY, LOWEST_PRIORITY = 3, 15
 """Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
 
-LOST = Outcome(
+LOST = TaskOutcome(
     error="the process that computed this ended unexpectedly, perhaps for lack of memory: ask "
     "again, or take fewer points"
 )
 """The outcome of a task whose process was lost."""
 
-NOT_BEGUN = Outcome(error="no process could begin this: ask again")
+NOT_BEGUN = TaskOutcome(error="no process could begin this: ask again")
 """The outcome of a task whose process was gone before it had it: another may do it."""
 
 
@@ -72,13 +72,13 @@ class Process:
 
     def ask(
         self, place: Place, arguments: Mapping[str, Any], progress: Callable[[int, int], None]
-    ) -> Outcome:
+    ) -> TaskOutcome:
         """Have a task done; waits for it, so it is called from a thread."""
         self.tasks += 1
         outcome = NOT_BEGUN
         try:
             self._connection.send((place, arguments))
-            while not isinstance(received := self._connection.recv(), Outcome):
+            while not isinstance(received := self._connection.recv(), TaskOutcome):
                 if received is None:  # it has the task
                     outcome = LOST
                 else:

@@ -19,7 +19,7 @@ from roughline.lab.server.budget import limits_within
 from roughline.lab.server.files import Disk, Files
 from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.settings import ServerSettings
-from roughline.lab.server.tasks import Outcome, Site
+from roughline.lab.server.tasks import Site, TaskOutcome
 
 _PAGE_WITHIN = 600.0  # that a session waits for its page [s]
 _RELOAD_WITHIN = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]
@@ -31,7 +31,7 @@ _MOST_HELD_BYTES = 10_000_000  # of their answers
 _ELSEWHERE, _REFUSED = 4001, 1008  # with which websockets are closed
 
 
-class Line(Protocol):
+class PageLine(Protocol):
     """The connection to a page, as its session sees it."""
 
     def send(self, message: Mapping[str, Any] | bytes) -> None:
@@ -42,29 +42,30 @@ class Line(Protocol):
 
 
 @dataclass(eq=False)
-class _Asked:
+class _PageRequest:
     """What a page has asked for one of its parts, until it is told the outcome."""
 
     number: int  # by which the page knows the answer
     task: str  # what is to be done
     arguments: Mapping[str, Any]  # of the task
-    line: Line | None  # on which it was asked; another line knows another question by this number
-    outcome: Outcome | None = None  # how it ended while no page could be told
+    # On which it was asked; another line knows another question by this number.
+    line: PageLine | None
+    outcome: TaskOutcome | None = None  # how it ended while no page could be told
 
 
 class Session:
     """What a page has; it goes on over a new line if the old one drops or the page is reloaded."""
 
-    def __init__(self, server: Server, line: Line, address: str, login: str) -> None:
+    def __init__(self, server: Server, line: PageLine, address: str, login: str) -> None:
         self.server, self.address = server, address
         self.login = login  # of the browser; only the same login may go on with the session
         # known to the page alone; a request with it counts as a request of the page
         self.token = secrets.token_urlsafe(16)
-        self.line: Line | None = line  # to its page; None while it waits for one
+        self.line: PageLine | None = line  # to its page; None while it waits for one
         self.since, self.is_left = 0.0, False  # when its line closed, and whether the page did so
         self.files = Files(server.root / self.token, server.settings.max_upload)
         self.allowance = Allowance(rate=200, most=800)
-        self.asked: dict[str, _Asked] = {}
+        self.asked: dict[str, _PageRequest] = {}
 
     @property
     def has_something(self) -> bool:
@@ -83,7 +84,7 @@ class Session:
             if before.outcome is not None:
                 self._tell(slot, before, before.outcome)
             return
-        asked = self.asked[slot] = _Asked(number, task, arguments, self.line)
+        asked = self.asked[slot] = _PageRequest(number, task, arguments, self.line)
         started, pace = time.monotonic(), Allowance(_MOST_PROGRESS, 1)
 
         def progress(done: int, total: int) -> None:
@@ -130,7 +131,7 @@ class Session:
             lambda _: loop.run_in_executor(None, delete)
         )
 
-    def _tell(self, slot: str, asked: _Asked, outcome: Outcome) -> None:
+    def _tell(self, slot: str, asked: _PageRequest, outcome: TaskOutcome) -> None:
         """Tell the page how a task ended, or hold it until the page comes back and asks again."""
         is_latest = self.asked.get(slot) is asked
         if asked.line is not None and asked.line is self.line:
@@ -164,7 +165,7 @@ class Server:
         self._sweeping = PeriodicCallback(self.sweep, 1000 * _SWEEP_INTERVAL)
         self._sweeping.start()
 
-    def session_for(self, line: Line, address: str, login: str, token: str) -> Session | None:
+    def session_for(self, line: PageLine, address: str, login: str, token: str) -> Session | None:
         """The session of a page that opens: the one with its token, or a new one.
 
         There is none where all places are taken by open pages: from afar, an address has half of

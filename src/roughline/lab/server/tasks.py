@@ -48,7 +48,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class TaskOutcome:
     """How a task ended."""
 
     answer: bytes | None = None  # the message for the page; None if there is none
@@ -68,27 +68,27 @@ class Site:
     tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
 
 
-def run_task(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
+def run_task(place: Place, arguments: Mapping[str, Any], progress: Progress) -> TaskOutcome:
     """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
         task = place.load(place.name)
-        return Outcome(task(arguments, progress))
+        return TaskOutcome(task(arguments, progress))
     except MemoryError:
-        return Outcome(error=_NO_MEMORY)
+        return TaskOutcome(error=_NO_MEMORY)
     except Exception as error:
         if is_full(error):
-            return Outcome(error=_NO_ROOM)
+            return TaskOutcome(error=_NO_ROOM)
         if isinstance(error, RoughlineError):
             sentence = " ".join(without_paths(str(error), arguments).split())
-            return Outcome(error=sentence, at=getattr(error, "at", ""))
+            return TaskOutcome(error=sentence, at=getattr(error, "at", ""))
         with suppress(OSError):  # the terminal is a file, and there is no room for more
             traceback.print_exc(file=sys.stderr)
         if isinstance(error, OSError) and error.errno:
             why = os.strerror(error.errno)
-            return Outcome(
+            return TaskOutcome(
                 error=f"a file of the lab could not be read or written ({why}): ask again"
             )
-        return Outcome(error=_UNKNOWN)
+        return TaskOutcome(error=_UNKNOWN)
 
 
 def without_paths(text: str, arguments: Mapping[str, Any]) -> str:

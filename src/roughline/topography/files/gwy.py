@@ -41,7 +41,7 @@ def read_gwy(path: Path, channel: int | str | None, name: str) -> Measurement | 
             return None
     content = _Bytes(path.read_bytes(), name).content()
     fields = {
-        found[1]: _Field(data[_FIELD], str(content.get(f"{key}/title", "")), name)
+        found[1]: _DataField(data[_FIELD], str(content.get(f"{key}/title", "")), name)
         for key, data in content.items()
         if (found := _CHANNEL.fullmatch(key)) and isinstance(data, dict) and _FIELD in data
     }
@@ -50,7 +50,7 @@ def read_gwy(path: Path, channel: int | str | None, name: str) -> Measurement | 
     refuse_points(field.points, path, name, _BYTES_PER_POINT)
     marks, masked = content.get(f"/{number}/mask"), None
     if isinstance(marks, dict) and _FIELD in marks:
-        selection = _Field(marks[_FIELD], "the mask", name)
+        selection = _DataField(marks[_FIELD], "the mask", name)
         if selection.points != field.points:
             selection.refuse("has other points than its channel")
         masked = selection.numbers > _SELECTED
@@ -82,7 +82,7 @@ def _stands_for_missing(heights: Real) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class _Field:
+class _DataField:
     """Numbers on a grid, as Gwyddion keeps them."""
 
     data: Mapping[str, Any]

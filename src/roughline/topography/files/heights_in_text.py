@@ -11,7 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
 from roughline.topography.files.measurement import Measurement
-from roughline.topography.files.text import Table, read_table
+from roughline.topography.files.text import TextTable, read_table
 from roughline.topography.files.text_head import Head, length_unit, ratio, read_head
 from roughline.topography.settings import MEASURED
 
@@ -65,7 +65,7 @@ def read_text(path: Path, _: int | str | None, name: str) -> Measurement | None:
     return _read_matrix(table, head, name)
 
 
-def _read_matrix(table: Table, head: Head, name: str) -> Measurement:
+def _read_matrix(table: TextTable, head: Head, name: str) -> Measurement:
     """A map, or a line scan where the matrix has one column."""
     heights = table.rows[:, ::-1] if head.are_columns else table.rows.T
     if head.factor != 1:
@@ -93,7 +93,7 @@ def _measured(name: str, **others: Any) -> Measurement:
 
 
 def _read_points(
-    table: Table, titles: list[list[str]], named: dict[str, int], name: str
+    table: TextTable, titles: list[list[str]], named: dict[str, int], name: str
 ) -> Measurement:
     """A line scan or a map from a list of points."""
     rows = table.rows
@@ -128,7 +128,7 @@ def _along_a_line(x: Real, y: Real) -> Real | None:
     return (dx * dx[-1] + dy * dy[-1]) / length if aside < 1e-6 * length else None
 
 
-def _titles(table: Table) -> list[list[str]]:
+def _titles(table: TextTable) -> list[list[str]]:
     """The titles of columns in the last line above the rows, or their names and units in two."""
     found: list[list[str]] = []
     for line in reversed(table.head[-2:]):
@@ -156,7 +156,7 @@ def _named(titles: list[list[str]]) -> dict[str, int]:
     return {}
 
 
-def _refuse_unnamed_list(table: Table, titles: list[list[str]], name: str) -> None:
+def _refuse_unnamed_list(table: TextTable, titles: list[list[str]], name: str) -> None:
     """Refuse what is no matrix of heights: columns with titles, points with more than heights."""
     if titles:
         raise InputError(
@@ -175,7 +175,7 @@ def _refuse_unnamed_list(table: Table, titles: list[list[str]], name: str) -> No
 
 
 def _units_of_columns(
-    table: Table, titles: list[list[str]], order: dict[str, int], name: str
+    table: TextTable, titles: list[list[str]], order: dict[str, int], name: str
 ) -> tuple[str | None, str | None, float]:
     """The units of positions and of all lengths, and that of heights over it; None if not stated.
 
@@ -215,7 +215,7 @@ def _unit_in(title: str) -> str | None:
     return length_unit(candidate)
 
 
-def _refuse_fewer_points(table: Table, name: str) -> None:
+def _refuse_fewer_points(table: TextTable, name: str) -> None:
     """Refuse a table that has another number of rows and columns than its head says."""
     rows, columns = table.rows.shape
     for line in table.head:
@@ -228,7 +228,7 @@ def _refuse_fewer_points(table: Table, name: str) -> None:
             )
 
 
-def _refuse_shorter_scan(table: Table, unit: str | None, length: float, name: str) -> None:
+def _refuse_shorter_scan(table: TextTable, unit: str | None, length: float, name: str) -> None:
     """Refuse a line scan that is shorter than its head says."""
     for line in table.head:
         stated = _LENGTH.fullmatch(line)

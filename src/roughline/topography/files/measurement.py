@@ -100,7 +100,7 @@ class Measurement:
 
         What is missing elsewhere does not count, and the heights elsewhere fill nothing in it.
         """
-        scale = _Scale(self, unit, sizes)
+        scale = _UnitAndSides(self, unit, sizes)
         for obstacle in scale.obstacles():
             raise obstacle
         if self.positions is None:
@@ -135,7 +135,7 @@ class Measurement:
 
     def scale_obstacles(self, unit: str | None, sizes: Sizes | None) -> list[InputError]:
         """List what is still needed of the scale; arguments and errors as :meth:`obstacles`."""
-        return _Scale(self, unit, sizes).obstacles()
+        return _UnitAndSides(self, unit, sizes).obstacles()
 
     def body(
         self,
@@ -153,7 +153,7 @@ class Measurement:
         """
         for obstacle in self.obstacles(unit, sizes, filler.missing):
             raise obstacle
-        scale = _Scale(self, unit, sizes)
+        scale = _UnitAndSides(self, unit, sizes)
         sides = scale.sides
         heights, filled = filler.completed(self.heights, self.file)
         facts: dict[str, Any] = self._facts_of_file()
@@ -215,7 +215,7 @@ class Measurement:
 
 
 @dataclass(frozen=True, eq=False)
-class _Scale:
+class _UnitAndSides:
     """Unit and sides of a measurement; each is stated by its file or given by the caller."""
 
     of: Measurement

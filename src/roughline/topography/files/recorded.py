@@ -30,7 +30,7 @@ from roughline.topography.provenance import (
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend
 
-_Record = Mapping[str, Any]
+_RecordedFacts = Mapping[str, Any]
 
 _COUNTS = ("filled_before_crop", "filled_between_levels", "outliers_kept")
 _COUNTS_IF_LOOKED_FOR = ("scars_removed", "outliers_removed")
@@ -58,7 +58,7 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def provenance_in(record: _Record) -> Provenance:
+def provenance_in(record: _RecordedFacts) -> Provenance:
     """Return the provenance that a file holds, as :func:`as_record` gives it.
 
     Raises
@@ -74,7 +74,7 @@ def provenance_in(record: _Record) -> Provenance:
     return _provenance(record, facing)
 
 
-def provenance_of_earlier(settings: _Record) -> Provenance:
+def provenance_of_earlier(settings: _RecordedFacts) -> Provenance:
     """Return the provenance that files of earlier versions hold in their settings alone."""
     first, second = (
         {key.removeprefix(name): value for key, value in settings.items() if key.startswith(name)}
@@ -89,7 +89,7 @@ def provenance_of_earlier(settings: _Record) -> Provenance:
     return _provenance(settings, both)
 
 
-def is_piece_in_earlier(settings: _Record) -> bool | None:
+def is_piece_in_earlier(settings: _RecordedFacts) -> bool | None:
     """Say whether settings record a piece of a larger body; None if they do not tell."""
     origin = str(settings.get("origin"))
     if "cropped" in settings or origin in _PIECES:
@@ -97,13 +97,13 @@ def is_piece_in_earlier(settings: _Record) -> bool | None:
     return False if origin.startswith(_WHOLE) else None
 
 
-def trend_in(record: _Record) -> Trend:
+def trend_in(record: _RecordedFacts) -> Trend:
     """Return the trend whose removal a provenance or settings record."""
     trends: tuple[Trend, ...] = get_args(Trend)
     return next((each for each in trends if each == record.get("detrended")), "none")
 
 
-def _provenance(record: _Record, facing: Facing | None) -> Provenance:
+def _provenance(record: _RecordedFacts, facing: Facing | None) -> Provenance:
     known: dict[str, Any] = {name: int(record.get(name, 0)) for name in _COUNTS}
     known |= {name: int(record[name]) for name in _COUNTS_IF_LOOKED_FOR if name in record}
     known |= {name: float(record[name]) for name in _SHARES_AND_LENGTHS if name in record}
@@ -124,7 +124,7 @@ def _provenance(record: _Record, facing: Facing | None) -> Provenance:
     )
 
 
-def _instrument(record: _Record) -> Instrument:
+def _instrument(record: _RecordedFacts) -> Instrument:
     pixels: tuple[Pixels, ...] = get_args(Pixels)
     blur, radius = (
         float(value) if isinstance(value := record.get(name), float | int) else None
@@ -135,31 +135,31 @@ def _instrument(record: _Record) -> Instrument:
     )
 
 
-def _tilt(record: _Record) -> Tilt:
+def _tilt(record: _RecordedFacts) -> Tilt:
     slopes = (float(record[name]) for name in TILT_REMOVED if name in record)
     return Tilt(tuple(slopes), record.get(TILT) == MOUNTING)
 
 
-def _borders(record: _Record) -> Borders | None:
+def _borders(record: _RecordedFacts) -> Borders | None:
     if "border_chance" not in record:
         return None
     return Borders(float(record["border_step"]), float(record["border_chance"]))
 
 
-def _masked(record: _Record) -> Masked | None:
+def _masked(record: _RecordedFacts) -> Masked | None:
     if not (share := float(record.get("masked_share", 0.0))):
         return None
     return Masked(share, str(record["mask_of"]), record["mask"] == "used")
 
 
-def _filled(record: _Record) -> Filled | None:
+def _filled(record: _RecordedFacts) -> Filled | None:
     if not (points := int(record.get("missing_points", 0))):
         return None
     method: Filling = "nearest" if record["filled"] == "nearest" else "harmonic"
     return Filled(points, float(record["missing_share"]), method)
 
 
-def _left(record: _Record) -> Iterator[Left]:
+def _left(record: _RecordedFacts) -> Iterator[Left]:
     steps: tuple[Step, ...] = get_args(Step)
     for step in steps:
         height, slope = (record.get(f"{step}_left_of_rms_{of}") for of in ("height", "slope"))

@@ -45,7 +45,7 @@ _LARGEST_HEIGHT = {4: 3.4e38, 8: 1.7e308}  # floats that are heights are below i
 
 
 @dataclass(frozen=True)
-class _Head:
+class _SdfHead:
     """What the first record of a file states."""
 
     points: int  # in a profile
@@ -77,7 +77,7 @@ def read_sdf(path: Path, _: int | str | None, name: str) -> Measurement | None:
     return None
 
 
-def _measurement(head: _Head, raw: Real, name: str) -> Measurement:
+def _measurement(head: _SdfHead, raw: Real, name: str) -> Measurement:
     """The heights of a map, or of a line where there is one profile or one point in each."""
     heights = raw.astype(np.float64)
     heights[_is_missing(raw, head)] = np.nan
@@ -97,7 +97,7 @@ def _measurement(head: _Head, raw: Real, name: str) -> Measurement:
     )
 
 
-def _is_missing(raw: Real, head: _Head) -> Mask:
+def _is_missing(raw: Real, head: _SdfHead) -> Mask:
     """Which points are missing: they have the least number of the type; in BCR the largest.
 
     Writers of BCR use both. Unsigned types are BCR's; in them 0 is a height.
@@ -109,7 +109,7 @@ def _is_missing(raw: Real, head: _Head) -> Mask:
     return missing | (raw == ends.min) if ends.min else missing
 
 
-def _read_binary(path: Path, name: str) -> tuple[_Head, Real]:
+def _read_binary(path: Path, name: str) -> tuple[_SdfHead, Real]:
     """The head and the numbers of a binary file."""
     with path.open("rb") as file:
         data = file.read(_START)
@@ -143,7 +143,7 @@ def _read_binary(path: Path, name: str) -> tuple[_Head, Real]:
     return head, np.fromfile(path, head.type, head.count, offset=place)
 
 
-def _read_text(path: Path, name: str) -> tuple[_Head, Real]:
+def _read_text(path: Path, name: str) -> tuple[_SdfHead, Real]:
     """The head and the numbers of a text."""
     needed = _BYTES_PER_CHARACTER * path.stat().st_size
     refuse_beyond_memory(needed, f"reading the text of {name}", "write it as binary SDF, or as X3P")
@@ -167,7 +167,7 @@ def _read_text(path: Path, name: str) -> tuple[_Head, Real]:
     return head, _numbers(_COMMENT.sub("", body) if ";" in body else body, head, name)
 
 
-def _numbers(body: str, head: _Head, name: str) -> Real:
+def _numbers(body: str, head: _SdfHead, name: str) -> Real:
     """The numbers between the head and what follows; NaN for points marked as BAD."""
     words = _MISSING.sub("nan", body).split()
     if len(words) != head.count:
@@ -184,7 +184,7 @@ def _numbers(body: str, head: _Head, name: str) -> Real:
         ) from None
 
 
-def _read_head(fields: dict[str, str], name: str, *, is_bcr: bool) -> _Head:
+def _read_head(fields: dict[str, str], name: str, *, is_bcr: bool) -> _SdfHead:
     """What fields state, their names in small letters."""
     for key, what in (("compression", "compression"), ("checktype", "check sum")):
         kind = fields.get(key, "0").lower()
@@ -206,7 +206,7 @@ def _read_head(fields: dict[str, str], name: str, *, is_bcr: bool) -> _Head:
         for key, n in (("Xscale", points), ("Yscale", profiles))
     )
     z = _scale(fields, "Zscale", name)
-    return _Head(points, profiles, x, y, z, np.dtype(_TYPES[number]), is_bcr)
+    return _SdfHead(points, profiles, x, y, z, np.dtype(_TYPES[number]), is_bcr)
 
 
 def _count(fields: dict[str, str], key: str, name: str) -> int:
@@ -232,7 +232,7 @@ def _no_value(fields: dict[str, str], key: str, name: str, needed: str) -> Input
     return InputError(f"{name} {found}; an SDF file has {needed} there: export it again")
 
 
-def _other_count(name: str, found: str, head: _Head) -> InputError:
+def _other_count(name: str, found: str, head: _SdfHead) -> InputError:
     return InputError(
         f"{name} has {found} heights and states {head.points} x {head.profiles} of them: it was "
         "cut short or changed; export it again"

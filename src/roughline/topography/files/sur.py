@@ -50,11 +50,11 @@ def read_sur(path: Path, channel: int | str | None, name: str) -> Measurement | 
     with path.open("rb") as file:
         if file.read(len(_PLAIN)) not in (_PLAIN, _COMPRESSED):
             return None
-    return _File(path, name, path.read_bytes()).measurement()
+    return _SurFile(path, name, path.read_bytes()).measurement()
 
 
 @dataclass(frozen=True, eq=False)
-class _File:
+class _SurFile:
     """A file of SUR and its bytes."""
 
     path: Path

@@ -54,7 +54,7 @@ _HUGE = 1e30  # no height in any unit; programs write such numbers for missing p
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class TextTable:
     """Rows of numbers in a text."""
 
     head: tuple[str, ...]  # lines above the rows, without blank ones
@@ -66,7 +66,7 @@ class Table:
 _Cells = list[tuple[int, list[str]]]  # the cells of each row, with the number of its line
 
 
-def read_table(path: Path, name: str) -> Table | None:
+def read_table(path: Path, name: str) -> TextTable | None:
     """Read the rows of numbers in a text; None if there are none, or a program's own format."""
     text = _read_text(path, name)
     if text is None or _FOREIGN_HEAD.match(text):
@@ -97,7 +97,7 @@ def read_table(path: Path, name: str) -> Table | None:
     _refuse_row_in_head(lines[:start], separator, rows.shape[1], name)
     above = (line.strip().removesuffix(_OPENS).strip() for line in lines[:start])
     head = tuple(line for line in above if line)
-    return Table(head, rows, separator, decimal)
+    return TextTable(head, rows, separator, decimal)
 
 
 def _read_text(path: Path, name: str) -> str | None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
-from roughline.topography.files.text import Table
+from roughline.topography.files.text import TextTable
 from roughline.units import metres_per
 
 _LABELS = {  # Gwyddion translates its own
@@ -82,7 +82,7 @@ def ratio(unit: str, other: str) -> float:
     return float(f"{metres_per(unit) / metres_per(other):.15g}")
 
 
-def read_head(table: Table, name: str) -> Head:
+def read_head(table: TextTable, name: str) -> Head:
     """Read what the lines above a matrix state; what agrees with no unit or table is refused."""
     lines = [line.replace('"', "") for line in table.head]
     if table.separator != ",":
@@ -197,7 +197,7 @@ def _read_heights(stated: _Stated) -> tuple[str | None, float]:
     return unit, (stated.number("scale") or 1.0) if is_scaled else 1.0
 
 
-def _read_sides(stated: _Stated, table: Table) -> list[tuple[float, str | None]]:
+def _read_sides(stated: _Stated, table: TextTable) -> list[tuple[float, str | None]]:
     """Both sides, each with its own unit if it has one; none if they are not stated."""
     rows, columns = table.rows.shape
     sides = [stated.quantity("width"), stated.quantity("height")]
@@ -218,7 +218,7 @@ def _read_sides(stated: _Stated, table: Table) -> list[tuple[float, str | None]]
     return found
 
 
-def _refuse_other_points(stated: _Stated, lines: list[str], table: Table, name: str) -> None:
+def _refuse_other_points(stated: _Stated, lines: list[str], table: TextTable, name: str) -> None:
     """Refuse a table with other numbers of columns and rows than its head states."""
     rows, columns = table.rows.shape
     counts = [stated.number("columns"), stated.number("rows")]
@@ -233,7 +233,7 @@ def _refuse_other_points(stated: _Stated, lines: list[str], table: Table, name: 
         )
 
 
-def _read_wyko(lines: list[str], table: Table, name: str) -> Head:
+def _read_wyko(lines: list[str], table: TextTable, name: str) -> Head:
     """What the blocks of a Wyko text state; its heights are in nm, or in wavelengths over Mult."""
     flags = _WYKO.fullmatch(lines[0])
     if not flags:

@@ -51,7 +51,7 @@ def read_x3p(path: Path, channel: int | str | None, name: str) -> Measurement | 
                 return None
             refuse_hollow(path, name)
             folder = min(mains, key=len).removesuffix(_MAIN)
-            return _File(path, name, archive, folder).measurement(channel)
+            return _X3pFile(path, name, archive, folder).measurement(channel)
     except (zipfile.BadZipFile, zlib.error, RuntimeError, EOFError, OSError) as error:
         reason = shortened(str(error))
         raise InputError(f"{name} is a damaged archive ({reason}): export it again") from error
@@ -75,7 +75,7 @@ class _Axis:
 
 
 @dataclass(frozen=True, eq=False)
-class _File:
+class _X3pFile:
     """A file of X3P that is open."""
 
     path: Path
