@@ -225,8 +225,13 @@ def luck(page):
         "gap.\n"
     )
     page.table(
-        *("roll-off, waves", "p/(E*∇h)", "contact", "sealed", "factor of the flow"),
-        *("closed sides over periodic", "sealed by them"),
+        "roll-off, waves",
+        "p/(E*∇h)",
+        "contact",
+        "sealed",
+        "factor of the flow",
+        "closed sides over periodic",
+        "sealed by them",
     )
     for roll in ROLL_OFFS:
         found = [

@@ -281,10 +281,7 @@ def page_of_formats() -> str:
         )
         for each in sorted(FORMATS, key=lambda each: each.name.lower())
     ]
-    header = (
-        *("format", "files", "written by", "read", "not read", "reader"),
-        "compared with",
-    )
+    header = ("format", "files", "written by", "read", "not read", "reader", "compared with")
     own = (
         "A file is known by what is in it; its name counts where a format has no mark. `roughline "
         "info` says who read a file, as which format, and what was corrected. Other formats of "

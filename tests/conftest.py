@@ -117,13 +117,25 @@ def holed(tmp_path):
 _command_of = cache(typer.main.get_command)  # which takes most of the time of a short command
 
 
+def _option_words(name, given):
+    """The words of an option in a command."""
+    flag = f"-{name}" if len(name) == 1 else f"--{name.replace('_', '-')}"
+    if given is True:
+        return [flag]
+    return [word for one in (given if isinstance(given, list) else [given]) for word in (flag, one)]
+
+
 @pytest.fixture
 def invoke(monkeypatch, capsys):
-    """Run the command line in this process; returns exit code, output and errors."""
+    """Run the command line in this process; returns exit code, output and errors.
+
+    Options may be given as keywords: a list for one that is given several times, True for a flag.
+    """
     monkeypatch.setattr(typer.main, "get_command", _command_of)
 
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["roughline", *map(str, arguments)])
+    def run(*arguments, **options):
+        words = [*arguments, *(word for each in options.items() for word in _option_words(*each))]
+        monkeypatch.setattr(sys, "argv", ["roughline", *map(str, words)])
         with pytest.raises(SystemExit) as caught:
             cli.main()
         captured = capsys.readouterr()

@@ -203,6 +203,45 @@ def test_every_kind_of_riddle_is_seen(line, is_riddle):
     assert bool(list(_riddles(ast.parse(line)))) is is_riddle
 
 
+_WRITTEN_BY_HAND = ("src", "tests", "benchmarks", "studies", "docs")
+
+
+def _starred_literals(tree):
+    """Arguments that a call is given by their places in a literal."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            for each in node.args:
+                is_literal = isinstance(each, ast.Starred) and isinstance(
+                    each.value, ast.Tuple | ast.List
+                )
+                if is_literal:
+                    yield node
+
+
+def test_no_arguments_hide_in_a_starred_literal():
+    found = [
+        f"{path.relative_to(ROOT).as_posix()}, line {node.lineno}"
+        for folder in _WRITTEN_BY_HAND
+        for path in sorted((ROOT / folder).rglob("*.py"))
+        for node in _starred_literals(ast.parse(path.read_text("utf-8")))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("line", "is_starred"),
+    [
+        ('Quantity(*("t", "s"), "time")', True),
+        ('invoke("press", *["--load", load])', True),
+        ('invoke("press", *options)', False),
+        ('Quantity(symbol="t", unit="s")', False),
+        ('HEADER = (*("t", "F"), *others)', False),
+    ],
+)
+def test_every_starred_literal_in_a_call_is_seen(line, is_starred):
+    assert bool(list(_starred_literals(ast.parse(line)))) is is_starred
+
+
 _EACH_ITS_OWN = {"Real"}  # `exact` imports no other room, so that it names this array type again
 
 

@@ -95,7 +95,11 @@ def _write_map(store: Store, name: str, roll_offs: Sequence[int], path: Path) ->
             rows += [
                 (roll_off, dimension, *row)
                 for row in zip(
-                    *(full.force_bar.values, difference, low, high, mean.scatter / mean.mean),
+                    full.force_bar.values,
+                    difference,
+                    low,
+                    high,
+                    mean.scatter / mean.mean,
                     resolved.astype(int),
                     strict=True,
                 )

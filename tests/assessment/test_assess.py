@@ -44,8 +44,14 @@ def both(topographies, invoke, name, points):
     """What the command line says of a file, and the same question as Python asks it."""
     reading, flags = FILES[name]
     told = invoke(
-        *("press", topographies / name, "--materials", "steel,copper", "--load", "1 mN"),
-        *("--load", "10 kPa", "--resample", points, "--frequency", "5 MHz", "--json", *flags),
+        "press",
+        topographies / name,
+        *flags,
+        materials="steel,copper",
+        load=["1 mN", "10 kPa"],
+        resample=points,
+        frequency="5 MHz",
+        json=True,
     )
     question = rl.Question(
         topographies / name,
@@ -165,8 +171,7 @@ def test_partial_slip_is_an_answer(rough, invoke):
     assert slip.force[-1] == pytest.approx(3.0)  # all of it slides: Q = mu F
     assert (np.diff(slip.displacement) > 0).all()
     code, out, errors = invoke(
-        *("press", rough, "--materials", "steel,copper", "--load", "10 N"),
-        *("--friction", "0.3", "--json"),
+        "press", rough, materials="steel,copper", load="10 N", friction="0.3", json=True
     )
     assert code == 0, errors
     told = json.loads(out)["partial_slip"]

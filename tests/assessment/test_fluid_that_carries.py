@@ -204,7 +204,7 @@ def test_nothing_is_said_of_a_load_that_was_not_asked_for(body):
 def test_each_load_of_a_history_has_its_share(body):
     """Metal keeps the dents of a load when the fluid lifts it midway."""
     given = {"hardness": "3 MPa", "loads": ["0.8 MPa", "0.2 MPa", "0.5 MPa"]}
-    wet = asked(body, *[given.pop("loads")], "6 bar", history=True, **given)
+    wet = asked(body, given.pop("loads"), "6 bar", history=True, **given)
     E_star = wet.curve.E_star
     left = (np.array([8e5, 5e5]) - EXCESS) * body.area
     dry = rl.press(body, E_star=E_star, forces=left, hardness=3e6, periodic=True)

@@ -47,7 +47,7 @@ def cluster_of(request, tmp_path):
 
 def test_a_cluster_gives_the_same_bytes(plan, few_undisturbed, cluster_of, tmp_path, invoke):
     code, out, err = invoke(
-        *("campaign", "run", plan, "--store", tmp_path / "far", "--scheduler", cluster_of(2, 1))
+        "campaign", "run", plan, store=tmp_path / "far", scheduler=cluster_of(2, 1)
     )
     assert code == 0, err
     assert "30 cases computed, 0 failed" in out
@@ -138,9 +138,7 @@ def test_workers_of_another_version(plan, tmp_path, invoke):
     scheduler, address = start_scheduler(tmp_path)
     worker = start_worker(address, env={**os.environ, "PYTHONPATH": str(fake)})
     try:
-        code, _, err = invoke(
-            *("campaign", "run", plan, "--store", tmp_path / "store", "--scheduler", address)
-        )
+        code, _, err = invoke("campaign", "run", plan, store=tmp_path / "store", scheduler=address)
         assert code == 2
         last = err.splitlines()[-1]
         assert "a worker has roughline 0.0.9, and the campaign has" in last
@@ -159,9 +157,7 @@ def test_workers_without_roughline(plan, tmp_path, invoke):
     scheduler, address = start_scheduler(tmp_path)
     worker = start_worker(address, env={**os.environ, "PYTHONPATH": str(fake.parent)})
     try:
-        code, _, err = invoke(
-            *("campaign", "run", plan, "--store", tmp_path / "store", "--scheduler", address)
-        )
+        code, _, err = invoke("campaign", "run", plan, store=tmp_path / "store", scheduler=address)
         assert code == 2
         assert "has no roughline; install version" in err.splitlines()[-1]
         assert "Traceback" not in err

@@ -346,7 +346,7 @@ def test_files_that_may_not_grow(
     if where == "here":
         with short_files(1500):
             code, _, err = invoke(
-                *("campaign", "run", few_plan_file, "--store", store, "--scheduler", two_workers)
+                "campaign", "run", few_plan_file, store=store, scheduler=two_workers
             )
     else:
         code, _, err = run(

@@ -43,9 +43,7 @@ def test_cases_that_fail(
         faults = {key: [FAILING, *each] for key, each in cluster._SILENT_WHEN_CLOSED.items()}
         monkeypatch.setattr(cluster, "_SILENT_WHEN_CLOSED", faults)
         with dask.config.set({"distributed.scheduler.allowed-failures": 0}):
-            code, out, err = invoke(
-                *("campaign", "run", few_plan_file, "--store", store, "--workers", 1)
-            )
+            code, out, err = invoke("campaign", "run", few_plan_file, store=store, workers=1)
     else:
         failing = tmp_path / "failing"
         failing.mkdir()

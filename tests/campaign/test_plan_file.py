@@ -42,7 +42,10 @@ def test_a_plan_file_is_read(tmp_path):
     found = campaign.read_plan(path)
     assert found.name == "study"
     assert [ensemble.name for ensemble in found.ensembles] == [
-        *("map-n32-roll1", "map-n32-roll2", "map-n64-roll1", "map-n64-roll2"),
+        "map-n32-roll1",
+        "map-n32-roll2",
+        "map-n64-roll1",
+        "map-n64-roll2",
     ]
     last = found.ensembles[-1]
     assert (last.n, last.roll_off_ratio, last.cutoff_ratio, last.seed) == (64, 2.0, 16.0, 3)

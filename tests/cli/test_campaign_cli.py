@@ -42,9 +42,7 @@ def test_a_campaign_from_plan_to_files(invoke, plan, tmp_path):
     with xarray.open_dataset(tmp_path / "out" / "lines.nc", engine="h5netcdf") as data:
         assert data.stiffness.shape == (2, 4, 3)
         assert data.attrs["seed"] == 3
-    code, out, _ = invoke(
-        *("campaign", "export", plan, "--out", tmp_path / "csv", "--format", "csv")
-    )
+    code, out, _ = invoke("campaign", "export", plan, out=tmp_path / "csv", format="csv")
     assert (code, out.count("wrote")) == (0, 2)
     code, out, _ = invoke("campaign", "run", plan)
     assert (code, "0 cases computed, 0 failed" in out) == (0, True)
@@ -103,8 +101,14 @@ def test_bad_input_is_one_line_and_exit_2(invoke, plan, arguments, message):
 def test_the_models_are_compared(invoke, only_drawn, tmp_path, n, drawn):
     only_drawn(*drawn)
     code, out, _ = invoke(
-        *("compare", "--hurst", 0.6, "--length", "1 mm", "--cutoff", "62.5 um", "-n", n),
-        *("--surfaces", 4, "--force-bar", 0.05, "--force-bar", 0.5, "--out", tmp_path / "out"),
+        "compare",
+        hurst=0.6,
+        length="1 mm",
+        cutoff="62.5 um",
+        n=n,
+        surfaces=4,
+        force_bar=[0.05, 0.5],
+        out=tmp_path / "out",
     )
     assert code == 0
     assert f"4 surfaces of {n} x {n} points, D_f = 2.4, q_roll / q_0 = 1" in out
@@ -133,8 +137,6 @@ def test_a_surface_in_a_file_is_compared(invoke, tmp_path):
 
 
 def test_a_measured_surface_is_compared(topographies, invoke):
-    code, out, _ = invoke(
-        *("compare", topographies / "al3d-1.al3d", "--force-bar", 0.1, "--force-bar", 1)
-    )
+    code, out, _ = invoke("compare", topographies / "al3d-1.al3d", force_bar=[0.1, 1])
     assert code == 0
     assert "200 x 296 points, and lines of its spectrum" in out

@@ -22,8 +22,7 @@ from roughline.report.contact_figures import write_contact
 def surface_file(tmp_path, invoke):
     path = tmp_path / "surface.nc"
     code, out, _ = invoke(
-        *("generate", "--hurst", 0.8, "--length", "1 mm", "--rms-height", "1 um"),
-        *("-n", 32, "--seed", 7, "--out", path),
+        "generate", hurst=0.8, length="1 mm", rms_height="1 um", n=32, seed=7, out=path
     )
     assert code == 0
     assert "surface of 32 x 32 points, 1 mm x 1 mm; rms height 1 µm" in out
@@ -98,8 +97,15 @@ def test_a_generated_surface_is_pressed(surface_file, invoke, only_drawn, tmp_pa
 def test_a_generated_line_is_pressed(invoke, tmp_path):
     path = tmp_path / "line.nc"
     code, out, _ = invoke(
-        *("generate", "--fractal-dimension", 2.2, "--length", "1 mm", "--rms-height", "1 um"),
-        *("-n", 4096, "--line", "--out", path, "--roll-off", "0.2 mm", "--cutoff", "2 um"),
+        "generate",
+        fractal_dimension=2.2,
+        length="1 mm",
+        rms_height="1 um",
+        n=4096,
+        line=True,
+        out=path,
+        roll_off="0.2 mm",
+        cutoff="2 um",
     )
     assert (code, "line of 4096 points, 1 mm" in out) == (0, True)
     code, out, _ = invoke("press", path, "--modulus", "2 MPa", "--force", "1 uN", "--force", "1 mN")
@@ -125,8 +131,12 @@ def test_the_table_is_in_si_units(surface_file, invoke):
 def test_the_first_real_surface(topographies, invoke, only_drawn, tmp_path, loads, more):
     only_drawn()
     code, out, _ = invoke(
-        *("press", topographies / "al3d-1.al3d", "--modulus", "110 GPa"),
-        *("--loads", loads, *more, "--out", tmp_path / "al3d"),
+        "press",
+        topographies / "al3d-1.al3d",
+        *more,
+        modulus="110 GPa",
+        loads=loads,
+        out=tmp_path / "al3d",
     )
     assert code == 0
     assert "200 x 296 points, 87.61 µm x 129.7 µm" in out
@@ -254,8 +264,13 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
     monkeypatch.setattr(load_cases, "press", press)
     folder = tmp_path / "pressed"
     code, out, err = invoke(
-        *("press", surface_file, "--materials", "steel,copper", "--load", "1 N", "--load", "2 N"),
-        *("--load", "3 N", "--load", "4 N", "--theory", "persson", where, folder),
+        "press",
+        surface_file,
+        where,
+        folder,
+        materials="steel,copper",
+        load=["1 N", "2 N", "3 N", "4 N"],
+        theory="persson",
     )
     assert code == 130, err
     assert "interrupted; the loads solved before are above" in err
@@ -278,8 +293,14 @@ def test_a_report_with_loads_that_failed_says_so(
         load_cases, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=1))
     )
     code, out, err = invoke(
-        *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N", "--elastic"),
-        *("--load", "0.5 N", "--theory", "persson", "--friction", 0.3, "--report", tmp_path / "r"),
+        "press",
+        surface_file,
+        materials="steel,copper",
+        load=["0.1 N", "0.5 N"],
+        elastic=True,
+        theory="persson",
+        friction=0.3,
+        report=tmp_path / "r",
     )
     assert code == 1, err
     assert "max_iterations reached" in " ".join(out.split())

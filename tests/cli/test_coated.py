@@ -42,7 +42,7 @@ def test_words_name_what_lies_at_the_surfaces(rough, invoke):
 def test_a_report_has_the_layers_and_the_command_as_typed(rough, invoke, only_drawn, tmp_path):
     only_drawn()
     folder = tmp_path / "report"
-    code, _, errors = invoke(*("press", rough, "--materials", PAIR, *QUESTION), "--report", folder)
+    code, _, errors = invoke("press", rough, *QUESTION, materials=PAIR, report=folder)
     assert code == 0, errors
     page = (folder / "report.html").read_text("utf-8")
     text = " ".join(re.sub(r"<[^>]*>", " ", page).split())
@@ -91,8 +91,12 @@ def test_a_line_scan_refuses_layers(invoke, tmp_path):
 
 def test_theories_that_do_not_hold_are_named(rough, invoke):
     code, out, errors = invoke(
-        *("press", rough, "--materials", PAIR, *QUESTION),
-        *("--theory", "persson", "--theory", "greenwood-williamson", "--json"),
+        "press",
+        rough,
+        *QUESTION,
+        materials=PAIR,
+        theory=["persson", "greenwood-williamson"],
+        json=True,
     )
     assert code == 0, errors
     found = json.loads(out)

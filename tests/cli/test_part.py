@@ -89,8 +89,13 @@ def test_a_report_on_a_part_and_its_joint(scans, extent, invoke, only_drawn, tmp
     only_drawn("answers")
     folder = tmp_path / "report"
     code, _, errors = invoke(
-        *("press", *scans[:2], scans[3], "--materials", METALS, "--load", "1 kN"),
-        *("--joint-area", "2 cm^2", "--report", folder),
+        "press",
+        *scans[:2],
+        scans[3],
+        materials=METALS,
+        load="1 kN",
+        joint_area="2 cm^2",
+        report=folder,
     )
     assert code == 1, errors
     page = (folder / "report.html").read_text(encoding="utf-8")

@@ -108,8 +108,7 @@ def test_an_interval_holds_the_grids_error_and_the_fillings(holed, invoke):
 def test_no_interval_is_of_width_nothing(tmp_path, invoke):
     np.save(tmp_path / "flat.npy", np.zeros((64, 64)))  # its area is the same on every grid
     code, out, errors = invoke(
-        *("press", tmp_path / "flat.npy", "--unit", "m", "--size", "1 mm"),
-        *("--modulus", "100 GPa", "--load", "1 N"),
+        "press", tmp_path / "flat.npy", unit="m", size="1 mm", modulus="100 GPa", load="1 N"
     )
     assert code == 0, errors
     assert "100% (99.99 to 100%)" in " ".join(out.split())  # not beyond all of it
@@ -313,8 +312,13 @@ def test_a_report_speaks_to_a_client(holed, points, extent, invoke, only_drawn, 
     file, *options = holed
     second = "1 N" if points == 64 else "5 N"  # more than ten points in contact
     code, _, errors = invoke(
-        *("press", file, *options, *PAIR, "--load", "10 N", "--load", second),
-        *("--load", "1 mN", "--grid-error", "--report", tmp_path / "report"),
+        "press",
+        file,
+        *options,
+        *PAIR,
+        load=["10 N", second, "1 mN"],
+        grid_error=True,
+        report=tmp_path / "report",
     )
     assert code == 0, errors
     page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
@@ -352,8 +356,12 @@ def test_a_report_speaks_to_a_client(holed, points, extent, invoke, only_drawn, 
 
 def test_what_is_left_out_is_named_with_the_reason(rough, invoke):
     code, out, errors = invoke(
-        *("press", rough, "--materials", "E=70 GPa nu=0.33, glass", "--load", "1 N"),
-        *("--frequency", "5 MHz", "--json"),
+        "press",
+        rough,
+        materials="E=70 GPa nu=0.33, glass",
+        load="1 N",
+        frequency="5 MHz",
+        json=True,
     )
     assert code == 0, errors
     notes = json.loads(out)["notes"]
@@ -373,11 +381,10 @@ def test_what_is_left_out_is_named_with_the_reason(rough, invoke):
         (note,) = [note for note in notes if note.startswith(answer)]
         assert f"the {quantity_} of {lacking}" in note
         assert f'"{quantity_}=..."' in note
-    code, out, _ = invoke(*("press", rough, *PAIR, "--load", "1 N", "--json"))
+    code, out, _ = invoke("press", rough, *PAIR, load="1 N", json=True)
     assert not [note for note in json.loads(out)["notes"] if note.startswith("no ")]
     code, out, _ = invoke(
-        *("press", rough, "--materials", "steel,rigid", "--load", "1 N", "--frequency", "5 MHz"),
-        "--json",
+        "press", rough, materials="steel,rigid", load="1 N", frequency="5 MHz", json=True
     )
     notes = json.loads(out)["notes"]
     assert not [note for note in notes if "hardness of the second" in note]  # rigid: needs none
@@ -401,8 +408,7 @@ def test_a_decimal_comma_is_blamed(rough, invoke, arguments, message):
 
 def test_units_as_they_stand_in_tables(rough, invoke):
     code, out, errors = invoke(
-        *("press", rough, "--materials", "steel conductivity=20 W/(m K), copper"),
-        *("--load", "2 N/mm2", "--json"),
+        "press", rough, materials="steel conductivity=20 W/(m K), copper", load="2 N/mm2", json=True
     )
     assert code == 0, errors
     found = json.loads(out)
@@ -418,8 +424,7 @@ def test_a_curve_in_a_file_is_shown_and_is_no_topography(tmp_path, invoke, only_
     """As press wrote it, and as it is read in Python."""
     only_drawn()
     code, _, errors = invoke(
-        *("press", rough, "--modulus", "110 GPa", "--load", "1 N", "--load", "2 N"),
-        *("--out", tmp_path / "out"),
+        "press", rough, modulus="110 GPa", load=["1 N", "2 N"], out=tmp_path / "out"
     )
     assert code == 0, errors
     file = tmp_path / "out" / "curve.nc"
@@ -521,7 +526,7 @@ FURTHER = (
             "along x alone; for its curve, leave --fluid out",
         ),
         (
-            (*("--modulus", "1 GPa", "--load", "1 N", "--periodic-along", "x"), *FURTHER),
+            ("--modulus", "1 GPa", "--load", "1 N", "--periodic-along", "x", *FURTHER),
             "for its curve, leave --joint-area and --friction and --frequency and "
             "--sealing-pressure out",
         ),

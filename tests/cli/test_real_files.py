@@ -192,8 +192,14 @@ def test_a_report_a_client_could_receive(
         request.getfixturevalue("few_loads")
         only_drawn()
     code, out, errors = invoke(
-        *("press", topographies / "opd-1.opd", "--materials", "steel,copper", "--load", "10 mN"),
-        *("--theory", "persson", "--friction", "0.3", "--report", folder, "--resample", points),
+        "press",
+        topographies / "opd-1.opd",
+        materials="steel,copper",
+        load="10 mN",
+        theory="persson",
+        friction="0.3",
+        report=folder,
+        resample=points,
     )
     assert code == 0, errors
     page = (folder / "report.html").read_text(encoding="utf-8")
@@ -230,8 +236,14 @@ def test_answers_do_not_depend_on_the_unit(tmp_path, invoke, points, unit):
     for each in ("m", unit):
         np.save(tmp_path / f"{each}.npy", surface.heights * per_metre[each])
         code, out, errors = invoke(
-            *("press", tmp_path / f"{each}.npy", "--unit", each, "--size", "1 mm, 1 mm"),
-            *("--materials", "steel,copper", "--load", "2 MPa", "--frequency", "5 MHz", "--json"),
+            "press",
+            tmp_path / f"{each}.npy",
+            unit=each,
+            size="1 mm, 1 mm",
+            materials="steel,copper",
+            load="2 MPa",
+            frequency="5 MHz",
+            json=True,
         )
         assert code == 0, errors
         found = json.loads(out)["answers"]
@@ -301,8 +313,13 @@ def test_without_the_periodic_half_space_the_interface_is_not_known(
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
     np.save(tmp_path / "map.npy", surface.heights)
     code, out, _ = invoke(
-        *("press", tmp_path / "map.npy", "--unit", "m", "--size", "1 mm", "--load", "2 MPa"),
-        *("--load", "20 MPa", "--materials", "steel,copper", "--json"),
+        "press",
+        tmp_path / "map.npy",
+        unit="m",
+        size="1 mm",
+        load=["2 MPa", "20 MPa"],
+        materials="steel,copper",
+        json=True,
     )
     assert code == 130
     found = json.loads(out)["answers"]
@@ -318,7 +335,7 @@ def test_two_rough_bodies(tmp_path, invoke):
         surface = spectrum.surface(64, i)
         rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / f"{i}.nc")
     code, out, errors = invoke(
-        *("press", tmp_path / "1.nc", "--against", tmp_path / "2.nc", *PRESS, "--json")
+        "press", tmp_path / "1.nc", *PRESS, against=tmp_path / "2.nc", json=True
     )
     assert code == 0, errors
     rms = json.loads(out)["body"]["rms_height"]
@@ -331,7 +348,7 @@ def test_what_laying_two_bodies_together_crops_and_resamples_is_said(tmp_path, i
     small = spectrum.surface(96, 2).cropped((0, 48), (0, 96)).detrended()
     rl.write(replace(small, unit="m"), tmp_path / "small.nc")
     code, out, errors = invoke(
-        *("press", tmp_path / "whole.nc", "--against", tmp_path / "small.nc", *PRESS)
+        "press", tmp_path / "whole.nc", *PRESS, against=tmp_path / "small.nc"
     )
     assert code == 0, errors
     said = " ".join(out.split())
@@ -354,9 +371,14 @@ def test_of_two_rough_bodies_each_is_described_and_filled_twice(
             heights[::5, ::5] = np.nan
         np.save(tmp_path / f"{name}.npy", heights)
     code, out, errors = invoke(
-        *("press", tmp_path / "whole.npy", "--against", tmp_path / "holed.npy", "--unit", "m"),
-        *("--size", "1 mm", "--materials", "steel,copper", "--load", "30 N"),
-        *("--report", tmp_path / "report"),
+        "press",
+        tmp_path / "whole.npy",
+        against=tmp_path / "holed.npy",
+        unit="m",
+        size="1 mm",
+        materials="steel,copper",
+        load="30 N",
+        report=tmp_path / "report",
     )
     assert code == 0, errors
     said = " ".join(out.split())
@@ -445,7 +467,7 @@ def test_nothing_is_refused_after_the_work(tmp_path, invoke, monkeypatch, argume
 
 def test_a_surface_and_a_line_scan_do_not_go_together(topographies, invoke):
     code, _, errors = invoke(
-        *("press", topographies / "al3d-1.al3d", "--against", topographies / "dektak-1.csv", *PRESS)
+        "press", topographies / "al3d-1.al3d", *PRESS, against=topographies / "dektak-1.csv"
     )
     assert code == 2
     assert "must both be surfaces, or both line scans" in errors

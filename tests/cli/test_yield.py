@@ -20,7 +20,7 @@ H = rl.material("copper").hardness
 
 def test_a_hardness_alone_needs_no_materials(rough, invoke):
     code, out, errors = invoke(
-        *("press", rough, "--modulus", "110 GPa", "--hardness", "2 GPa", "--load", "10 N"), "--json"
+        "press", rough, modulus="110 GPa", hardness="2 GPa", load="10 N", json=True
     )
     assert code == 0, errors
     found = json.loads(out)
@@ -52,9 +52,7 @@ def test_json_has_both_stiffnesses_the_scatter_and_the_elastic_answers(rough, in
 def test_loads_of_a_history_are_applied_in_the_order_given(rough, invoke, only_drawn, tmp_path):
     only_drawn()
     loads = [each for load in ("5 N", "10 N", "0 N", "7 N") for each in ("--load", load)]
-    code, out, errors = invoke(
-        *("press", rough, *PAIR, *loads, "--history", "--json", "--out", tmp_path)
-    )
+    code, out, errors = invoke("press", rough, *PAIR, *loads, history=True, json=True, out=tmp_path)
     assert code == 0, errors
     found = json.loads(out)
     forces = [5.0, 10.0, 0.0, 7.0]
@@ -77,7 +75,7 @@ def test_loads_of_a_history_are_applied_in_the_order_given(rough, invoke, only_d
 def test_unloading_is_printed_in_words_and_drawn(rough, invoke, only_drawn, tmp_path, drawn):
     only_drawn(*drawn)
     code, out, errors = invoke(
-        *("press", rough, *PAIR, "--load", "10 N", "--unload", "--out", tmp_path, "--all")
+        "press", rough, *PAIR, load="10 N", unload=True, out=tmp_path, all=True
     )
     assert code == 0, errors
     lines = [" ".join(line.split()) for line in out.splitlines()]
@@ -97,8 +95,15 @@ def test_a_report_of_metals_that_yield(holed, points, extent, invoke, only_drawn
     # the first of them that yield changes by more than its interval
     changed = "contact area fraction" if points == 64 else "unloading stiffness"
     code, _, errors = invoke(
-        *("press", file, *options, *PAIR, "--load", "10 N", "--unload", "--friction", "0.3"),
-        *("--grid-error", "--report", tmp_path / "report"),
+        "press",
+        file,
+        *options,
+        *PAIR,
+        load="10 N",
+        unload=True,
+        friction="0.3",
+        grid_error=True,
+        report=tmp_path / "report",
     )
     assert code == 0, errors
     page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")

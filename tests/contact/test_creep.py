@@ -102,7 +102,8 @@ def test_stress_of_the_strain_of_a_constant_stress_is_constant():
         for t in (0.05, 1.0, 20.0):
             with_delay = quad(
                 lambda s, t=t, creep=creep, rate=rate: float(creep.relaxation(t - s)) * rate(s),
-                *(0, t),
+                0,
+                t,
                 epsabs=1e-13,
                 epsrel=1e-12,
                 limit=200,

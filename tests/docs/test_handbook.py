@@ -41,7 +41,10 @@ def test_no_two_pages_differ_in_capitals_alone():
     ]
     assert len({page.lower() for page in pages}) == len(pages)
     assert set(made.FILES_OF_NAMES) == {
-        *("roughline.estimate", "roughline.flow", "roughline.material", "roughline.reopening"),
+        "roughline.estimate",
+        "roughline.flow",
+        "roughline.material",
+        "roughline.reopening",
     }
 
 

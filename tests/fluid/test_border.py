@@ -156,7 +156,15 @@ def test_measures_at_the_border_are_those_of_the_gap(fluid):
     gap = random_gap(0)
     blank, no_contact = np.zeros(gap.shape), np.zeros(gap.shape, bool)
     fields = Fields(
-        *(blank, blank, gap, gap == 0, no_contact, no_contact, blank), LENGTHS, periodic=True
+        pressure=blank,
+        displacement=blank,
+        gap=gap,
+        contact=gap == 0,
+        plastic=no_contact,
+        pulling=no_contact,
+        indentation=blank,
+        sizes=LENGTHS,
+        periodic=True,
     )
     expected = np.zeros(2)
     even = fluid.is_even(fields.mean_gap)

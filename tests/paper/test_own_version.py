@@ -122,9 +122,7 @@ def test_any_plan_of_both_models_becomes_the_report(
     if resamples == "few":
         request.getfixturevalue("few_resamples")
     plan = own_store.with_suffix(".toml")
-    code, _, err = invoke(
-        *("paper", "--plan", plan, "--out", tmp_path / "report", "--window", "0.02, 0.2")
-    )
+    code, _, err = invoke("paper", plan=plan, out=tmp_path / "report", window="0.02, 0.2")
     assert (code, "Traceback" in err) == (0, False), err
     page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
     assert "from the plan own.toml" in page
@@ -226,7 +224,7 @@ def test_what_makes_no_study_is_one_line(invoke, tmp_path, arguments, message):
     )
     files = {"own": tmp_path / "own.toml", "one": tmp_path / "one.toml"}
     code, _, err = invoke(
-        *("paper", "--out", tmp_path / "out", *(each.format(**files) for each in arguments))
+        "paper", *(each.format(**files) for each in arguments), out=tmp_path / "out"
     )
     assert (code, len(err.splitlines())) == (2, 1), err
     assert message in err

@@ -86,7 +86,8 @@ def test_the_ring_is_around_the_constriction_and_the_axes_have_units(gap):
         rl.plot.flow(flow, "Pa")
     bare = rl.plot.flow(flow)
     assert (bare.get_xlabel(), bare.figure.axes[1].get_ylabel()) == (
-        *("x", r"flux over its mean, $|j|\,/\,\bar j$"),
+        "x",
+        r"flux over its mean, $|j|\,/\,\bar j$",
     )
 
 
@@ -136,7 +137,8 @@ def test_apertures_are_drawn_over_the_pressure_in_their_units():
     values = curve.measured["hydraulic_aperture_x"].values
     assert (values > 0).all()
     assert (axes.get_xlabel(), axes.get_ylabel()) == (
-        *("mean pressure $p$ [MPa]", "hydraulic aperture $u_h$ [mm]"),
+        "mean pressure $p$ [MPa]",
+        "hydraulic aperture $u_h$ [mm]",
     )
     expected = np.column_stack([forces, values])
     assert marks(axes, "-") == pytest.approx(1e3 * expected)

@@ -30,7 +30,7 @@ def texture_rows(found: IsoParameters) -> list[tuple[str, str]]:
         (each.name, f"{_written(found, each)}: {found.undefined.get(each.name, each.meaning)}")
         for each in found.parameters
     ]
-    return [*(("filters", filters_in_words(found)),), *rows]
+    return [("filters", filters_in_words(found)), *rows]
 
 
 def texture_in_text(found: IsoParameters) -> str:
