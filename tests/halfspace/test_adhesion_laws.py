@@ -8,8 +8,9 @@ import pytest
 import roughline as rl
 from random_cases import cases, seeds
 from roughline.contact.loads import even_cycle, separation_depth
-from roughline.halfspace.elasticity.cell import cell_compliance
+from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM, farthest_pulled, remarks
+from roughline.halfspace.operators.cell import cell_compliance
 
 FORCE = 1e-5  # over the largest: rounds end where gaps are right to the tolerance
 LAWS = [rl.Dugdale, rl.Exponential]
@@ -209,32 +210,49 @@ def test_what_is_no_pull_is_refused(law, said):
     assert "\n" not in str(refused.value)
 
 
+def cell_alone(body, E_star, periodic):
+    """Displacement of a cell by unit pressure on it, of square cells, and of the grid's waves.
+
+    Under these the even pressure displaces as the longest wave does.
+    """
+    dx = body.spacing[0]
+    if not periodic:
+        return 4 * np.arcsinh(1) * dx / (np.pi * E_star)
+    q = 2 * np.pi * np.fft.fftfreq(len(body.heights), dx)
+    q = np.hypot(q[:, np.newaxis], q)
+    q[0, 0] = q[0, 1]
+    return np.mean(2 / (E_star * q))
+
+
+@pytest.mark.parametrize("times", [1 - 1e-6, 1 + 1e-6])
 @pytest.mark.parametrize("periodic", [False, True])
-def test_a_law_refuses_the_grids_on_which_its_pull_would_end_within_a_cell(periodic):
-    """At a range h_0 with 4 (w / h_0) c = h_0, c = 4 arsinh(1) dx / (pi E*) being a cell's."""
-    body, work, E_star = surface(n=64), 1e-5, 2.0
-    dx, half_space = body.spacing[0], rl.Homogeneous(E_star, periodic)
-    least = np.sqrt(16 * np.arcsinh(1) * work * dx / (np.pi * E_star))
-    for times in (1.02, 0.95):
-        law = rl.Dugdale(work, times * least)
-        if times > 1:
-            law.refuse_grid(half_space, body.spacing)
-            rl.press(body, half_space=half_space, law=law, depths=[-3 * law.range])
-            continue
-        for ask in (
-            lambda: law.refuse_grid(half_space, body.spacing),  # noqa: B023
-            lambda: rl.press(body, half_space=half_space, law=law, depths=[0.0]),  # noqa: B023
-        ):
-            with pytest.raises(rl.InputError, match="range is too short for the grid"):
-                ask()
-    rl.Exponential(work, 0.1 * least).refuse_grid(half_space, body.spacing)  # it ends evenly
+def test_a_law_refuses_the_grids_on_which_its_pull_would_end_within_a_cell(periodic, times):
+    """At a range h_0 with 4 (w / h_0) c = h_0; unit pressure on a cell displaces it by c."""
+    body, work, E_star = surface(n=32), 1e-5, 2.0
+    half_space = rl.Homogeneous(E_star, periodic)
+    law = rl.Dugdale(work, times * np.sqrt(4 * work * cell_alone(body, E_star, periodic)))
+    if times > 1:
+        rl.press(body, half_space=half_space, law=law, depths=[-3 * law.range])
+    else:
+        with pytest.raises(rl.InputError, match="range is too short for the grid"):
+            rl.press(body, half_space=half_space, law=law, depths=[0.0])
+    rl.Exponential(work, 1e-9).refuse_grid(compliance=1.0)  # it ends evenly
 
 
-def test_a_cell_of_a_repeated_half_space_is_displaced_nearly_as_one_alone():
-    spacing, layer = (0.3, 0.2), rl.Layered(2.0, 0.3, 1.0, np.inf)
-    for free in (rl.Homogeneous(2.0), layer, layer + rl.Homogeneous(1.0)):
-        found = cell_compliance(free.interface, spacing)
-        assert found == pytest.approx(cell_compliance(free, spacing), rel=0.02)
+@pytest.mark.parametrize(
+    "half_space",
+    [
+        *(rl.Homogeneous(2.0, periodic) for periodic in (False, True, "x", "y")),
+        *(rl.Layered(2.0, 0.3, 0.1, np.inf, periodic=each) for each in (False, True, "x")),
+        rl.Layered(2.0, 0.3, 0.1, 20.0) + rl.Homogeneous(1.0),
+        (rl.Layered(2.0, 0.3, 0.1, 20.0) + rl.Homogeneous(1.0)).interface,
+    ],
+    ids=str,
+)
+def test_a_grid_is_refused_by_the_number_that_the_search_has(half_space):
+    shape, spacing = (16, 21), (0.3, 0.2)
+    asked = cell_compliance(half_space, shape, spacing)
+    assert asked == pytest.approx(inverse_on(half_space, shape, spacing).diagonal, rel=1e-10)
 
 
 def test_what_the_grid_does_not_resolve_is_refused_or_told():

@@ -78,3 +78,17 @@ def test_the_same_contact_in_other_units():
     longer = rl.Surface(1e3 * body.heights, [1e3 * size for size in body.sizes])
     other = rl.press(longer, half_space=PlateOnSprings(2e-3, 1e4), depths=[50.0])
     assert other.force == pytest.approx(1e6 * curve.force, rel=1e-9)
+
+
+@pytest.mark.parametrize("times", [1 - 1e-6, 1 + 1e-6])
+def test_a_pull_may_be_as_short_as_one_cell_of_the_plate_allows(times):
+    """At a range h_0 with 4 (w / h_0) c = h_0; unit pressure on a cell displaces it by c."""
+    body = rl.SelfAffine(hurst=0.7, rms_height=0.02, q_roll=12).surface(16, rng=3)
+    half_space, work = PlateOnSprings(2.0, 1e-6), 1e-4
+    of_cell = dense(body.heights.shape, body.sizes, half_space)[0, 0]
+    law = rl.Dugdale(work, times * np.sqrt(4 * work * of_cell))
+    if times > 1:
+        rl.press(body, half_space=half_space, law=law, depths=[-3 * law.range])
+    else:
+        with pytest.raises(rl.InputError, match="range is too short for the grid"):
+            rl.press(body, half_space=half_space, law=law, depths=[0.0])

@@ -18,6 +18,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import resolves_pull_off, zone
+from roughline.halfspace.operators.cell import cell_compliance
 from roughline.spectra.self_affine import SelfAffine
 
 _ModelName = Literal["full", "reduced"]
@@ -198,7 +199,8 @@ class Ensemble:
                 f"{most:.3g}: give smaller force_bars"
             )
         try:
-            law.refuse_grid(self.pressed_into, (1 / self.n, 1 / self.n))
+            grid = (self.n, self.n), (1 / self.n, 1 / self.n)
+            law.refuse_grid(cell_compliance(self.pressed_into, *grid))
         except InputError as error:
             self._refuse(str(error))
         in_cells = law.scaled(1.0, 1 / self.n)

@@ -39,6 +39,7 @@ from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.operators.cell import cell_compliance
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.profile import Profile
 
@@ -238,7 +239,8 @@ def press(
         )
     law = given_law(law, hardness)
     half_space.refuse(body.spacing)
-    law.refuse_grid(half_space, body.spacing)
+    if not law.only_pushes:
+        law.refuse_grid(cell_compliance(half_space, body.shape, body.spacing))
     single = solver.precision == "float32"
     loads = surface_loads(body, half_space, given, rtol, single=single, law=law)
     wanted = FieldRequest(kept_loads(fields, loads.values.size), measures)

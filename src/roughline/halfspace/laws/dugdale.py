@@ -9,8 +9,6 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors.public import public_making
-from roughline.halfspace.elasticity.cell import cell_compliance
-from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.halfspace.laws.pulling_zone import refuse_end_within_a_cell
 
@@ -81,6 +79,6 @@ class Dugdale(Adhesive):
         """Return the part of the range that is left to open."""
         return self.range - gap
 
-    def refuse_grid(self, half_space: HalfSpace, spacing: tuple[float, float]) -> None:
+    def refuse_grid(self, compliance: float) -> None:
         """Refuse cells that the pull displaces so far that it would end within one of them."""
-        refuse_end_within_a_cell(self, cell_compliance(half_space, spacing))
+        refuse_end_within_a_cell(self, compliance)

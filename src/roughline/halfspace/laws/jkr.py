@@ -10,7 +10,6 @@ from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
 from roughline.errors.checks import as_number
 from roughline.errors.public import public_making
-from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 
 
@@ -79,7 +78,7 @@ class JKR(ContactLaw):
         """Return the law in other units."""
         return JKR(self.work_of_adhesion / (pressure * length))
 
-    def refuse_grid(self, half_space: HalfSpace, spacing: tuple[float, float]) -> NoReturn:
+    def refuse_grid(self, compliance: float) -> NoReturn:
         """Refuse all grids: none resolves a pull without a range."""
         raise InputError(
             "is rl.JKR, which holds where the contact radius is the only length, of a Profile; a "

@@ -11,7 +11,6 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 from roughline.errors.earlier import refuse_part
-from roughline.halfspace.elasticity.half_space import HalfSpace
 
 LEAST_SHARE = 1e-7
 """Share of the largest pull, from which on pulls are told apart."""
@@ -121,19 +120,16 @@ class ContactLaw(ABC):
         """
         return np.zeros_like(gap)
 
-    def refuse_grid(  # noqa: B027 as most are resolved, or told to be poorly
-        self, half_space: HalfSpace, spacing: tuple[float, float]
-    ) -> None:
-        """Refuse a grid that does not resolve the law, if there are such grids.
+    def refuse_grid(self, compliance: float) -> None:  # noqa: B027 as most are resolved
+        """Refuse a grid that does not resolve the pull of the law, if there are such grids.
 
-        It is asked of the grid of a surface, not of the coarser ones that guesses come from.
+        A law that pulls is asked of the grid of a surface, not of the coarser ones that guesses
+        come from.
 
         Parameters
         ----------
-        half_space : HalfSpace
-            What is pressed.
-        spacing : tuple of float
-            Sides of a cell, (dx, dy). [length]
+        compliance : float
+            Displacement of a cell of the grid by unit pressure on it alone. [length / pressure]
 
         Raises
         ------

@@ -10,6 +10,7 @@ import numpy as np
 
 import roughline as rl
 from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM
+from roughline.halfspace.operators.cell import cell_compliance
 from roughline.lab.controls import ControlError, as_code
 from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.panels import BACK, selected_points
@@ -123,9 +124,10 @@ class AdhesionPhysics(Physics):
 
     def check(self, state: ExploreState) -> None:
         """Refuse a grid that does not resolve the pull."""
-        cell = state.length / state.n
+        side = state.length / state.n
+        compliance = cell_compliance(state.half_space, (state.n, state.n), (side, side))
         try:
-            self.law(state).refuse_grid(state.half_space, (cell, cell))
+            self.law(state).refuse_grid(compliance)
         except rl.InputError as error:
             raise ControlError(str(error), "h0", "w", "n", *SURFACE_KEYS) from None
 
