@@ -203,6 +203,39 @@ def test_every_kind_of_riddle_is_seen(line, is_riddle):
     assert bool(list(_riddles(ast.parse(line)))) is is_riddle
 
 
+_EXPLAINED = {
+    *("alike", "bare", "beyond", "borne", "felt", "judged", "kept", "missed", "said", "sought"),
+    *("told", "untold"),
+}
+
+
+def _words_in_names(tree):
+    """Words of the names of functions, classes, arguments, variables and fields."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            name = node.name
+        elif isinstance(node, ast.arg):
+            name = node.arg
+        elif isinstance(node, ast.Name | ast.Attribute) and isinstance(node.ctx, ast.Store):
+            name = node.id if isinstance(node, ast.Name) else node.attr
+        else:
+            continue
+        yield from re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower().split("_")
+
+
+def test_words_that_say_no_quantity_stand_in_the_glossary():
+    text = (ROOT / "docs/conventions.md").read_text("utf-8")
+    _, _, listed = text.partition("Words that have one meaning in the code:")
+    known = re.findall(r"^\| (.*?) \|", listed.partition("\n## ")[0], flags=re.MULTILINE)
+    found = {
+        word
+        for path in SOURCE.rglob("*.py")
+        for word in _words_in_names(ast.parse(path.read_text("utf-8")))
+    }
+    assert len(known) == len(set(known))
+    assert (found & _EXPLAINED) - {word for each in known for word in each.split(", ")} == set()
+
+
 _WRITTEN_BY_HAND = ("src", "tests", "benchmarks", "studies", "docs")
 
 
