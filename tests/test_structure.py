@@ -153,7 +153,8 @@ def test_every_way_to_look_a_setting_up_is_seen(line, is_read):
 
 _NOT_GENITIVES = {"fluid_of"}  # public
 _BARE_WORDS = {
-    *("ALIKE", "BEYOND", "CLOSE", "FAR", "FARTHEST", "FEW", "FEWEST", "FINE", "FURTHER", "KEPT"),
+    *("ALIKE", "ALL", "AROUND", "BEYOND", "CLOSE", "EDGE", "EVEN", "FAR", "FARTHEST", "FEW"),
+    *("FEWEST", "FINE", "FURTHER", "KEPT", "STRAINED"),
     *("LARGE", "LARGEST", "LEAST", "LONGER", "LONGEST", "MANY", "MORE", "MOST", "MUCH", "NEAR"),
     *("NEARER", "NEAREST", "ROUNDING", "SAME", "SHORTEST", "SMALL", "SMALLEST", "STEEP"),
 }

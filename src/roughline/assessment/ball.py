@@ -35,7 +35,7 @@ _RADIUS = 1e-12, 1e6  # of balls [m]
 _RADII = 800  # of a profile: a sphere's force is right to 1e-5 where nine tenths of it touch
 _FINEST = 1e-6  # least radius of a profile over that of the ball, without its zero
 _ALL_PRESSED_IN = 10.0  # radii of depth, or E* R² of force, that surely press in all of the ball
-_STRAINED = 0.1  # mean contact pressure over E*, above which a warning says so
+_LARGE_STRAIN = 0.1  # mean contact pressure over E*, above which a warning says so
 _YIELDS_FROM = 1.5 * ELASTIC_UP_TO  # largest pressure over hardness; Hertz's mean is 2/3 of it
 _SHORT_RANGE = 5.0  # Tabor's parameter, from which on the pull is as good as without a range
 
@@ -241,7 +241,7 @@ class PressedBall:
                 "on the body yields below the contact, so these elastic answers do not hold"
             )
         strain = float(np.nanmax(self.mean_pressure, initial=0.0)) / self.curve.E_star
-        if strain > _STRAINED:
+        if strain > _LARGE_STRAIN:
             texts.append(
                 f"the mean contact pressure reaches {decimal(strain, 2)} times the contact "
                 "modulus: bodies that are strained so far are not linear elastic"

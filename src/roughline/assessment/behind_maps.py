@@ -45,7 +45,7 @@ from roughline.statistics.places import Agreement, agreement
 from roughline.topography.body import Surface
 from roughline.units import engineering
 
-_EDGE = 2.0  # standard deviations from the middle to the roughest places
+_DEVIATIONS_TO_EDGE = 2.0  # standard deviations from the middle to the roughest places
 _SIDE_TOLERANCE = 0.05  # logarithm of sides, up to which maps have the same waves
 _CHANCE = 0.01  # of a tilt and bow that the waves of the maps explain
 _FEWEST_POINTS = 16  # points along a side, whose quarters have an rms height
@@ -160,8 +160,10 @@ def shared_load(
     a = 1 / (1 + np.exp(-logit_a))
     t = 1 / (1 + 2 * np.exp(log_k) / (math.pi * E_star * side))
     towards_rough = -np.log(a) * t
-    softer = np.minimum(np.maximum(towards_rough, 0.5) * s_k**2, _EDGE * s_k)
-    less = np.minimum(np.maximum(towards_rough * s_k, (a - 0.5) * s_a) * s_a, _EDGE * s_a)
+    softer = np.minimum(np.maximum(towards_rough, 0.5) * s_k**2, _DEVIATIONS_TO_EDGE * s_k)
+    less = np.minimum(
+        np.maximum(towards_rough * s_k, (a - 0.5) * s_a) * s_a, _DEVIATIONS_TO_EDGE * s_a
+    )
     more = np.maximum(0.5 - a, 0.0) * s_a**2
     return Differences((-softer, 0.0 * softer), (-less, more))
 

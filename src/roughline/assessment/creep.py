@@ -54,9 +54,9 @@ _EXAMPLE = (
     '"0.3 10 ms, 0.4 1 s"'
 )
 _ELASTIC_SHARE = 0.01  # of the compliance, up to which what does not creep is as good as rigid
-_STRAINED = 0.1  # strain above which a warning says so
+_LARGE_STRAIN = 0.1  # strain above which a warning says so
 _DEFAULT_TIMES = 12  # beside zero
-_AROUND = 10.0  # before the first relaxation time, and after the last one
+_MARGIN_OF_TIMES = 10.0  # before the first relaxation time, and after the last one
 
 
 def _prony(given: str | Creep) -> Creep:
@@ -221,8 +221,8 @@ class CreepQuestion:
         if self.times:
             return [as_si(each, "s", "times") for each in self.times]
         relaxation = several(self.prony.times)
-        last = _AROUND * max(relaxation) / self.prony.relaxed_share
-        spaced = np.geomspace(min(relaxation) / _AROUND, last, _DEFAULT_TIMES)
+        last = _MARGIN_OF_TIMES * max(relaxation) / self.prony.relaxed_share
+        spaced = np.geomspace(min(relaxation) / _MARGIN_OF_TIMES, last, _DEFAULT_TIMES)
         return [0.0, *spaced.tolist()]
 
     def strain(self, body: Body) -> float:
@@ -267,7 +267,7 @@ class PressedCreep:
         """What a user of the numbers must know."""
         body, strain = self.body, self.question.strain(self.body)
         texts = [*suspicions(body), *grave_effects(body), *self.curve.warnings]
-        if strain > _STRAINED:
+        if strain > _LARGE_STRAIN:
             texts.append(
                 f"the bodies are strained by about {decimal(strain, 2)} in the end, and bodies "
                 "that are strained so far are not linear elastic"

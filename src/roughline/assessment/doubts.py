@@ -38,7 +38,7 @@ from roughline.topography.effects import grave_effects
 from roughline.topography.files.read import suspicions
 from roughline.units import decimal
 
-_STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
+_LARGE_STRAIN = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
 _STEEP_SLOPE = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
 _PRESSED = _STEEP_SLOPE / 2  # mean contact pressure over E*, as on such slopes; on layers it is not
 _WARNED_FILLED_SHARE = 0.05  # share of the force on filled points from which on a warning says so
@@ -195,7 +195,7 @@ def _strained(result: Assessment) -> list[str]:
     """Say how far bodies are strained beyond what is linear elastic, by what strains them most."""
     question, texts = result.question, []
     ratio, text = max(question.strains(result.body), default=(0.0, ""))
-    if ratio > _STRAINED:
+    if ratio > _LARGE_STRAIN:
         so_far = "bodies that are strained so far are not linear elastic"
         texts.append((ratio, f"{text}: {so_far}, and no interval includes that"))
     pressed = result.answers.get("contact_pressure")

@@ -22,7 +22,7 @@ _FEWEST_POINTS = 8  # points along a side that can show a wave
 _TURN = 0.5  # between directions [degree]
 _BISECTIONS = 24
 _SMOOTHED = 6.0  # standard deviation over which the angular spectrum is smoothed [degree]
-_AROUND = 20.0  # its peak, where wave vectors are averaged [degree]
+_PEAK_HALF_WIDTH = 20.0  # about the peak, where wave vectors are averaged [degree]
 _ISOTROPIC = 0.5  # texture aspect ratio from which on no direction is told (ISO 25178-2)
 
 
@@ -165,7 +165,7 @@ def _strongest(heights: Real, spacings: tuple[float, float], *, is_periodic: boo
     peak = np.radians(np.fft.irfft(np.fft.rfft(spectrum) * np.fft.rfft(kernel), bins).argmax())
     peak *= _TURN
     along, across = np.cos(peak) * qx + np.sin(peak) * qy, np.cos(peak) * qy - np.sin(peak) * qx
-    power[np.abs(across) > math.tan(math.radians(_AROUND)) * np.abs(along)] = 0.0
+    power[np.abs(across) > math.tan(math.radians(_PEAK_HALF_WIDTH)) * np.abs(along)] = 0.0
     aside = math.atan2(float((power * np.sign(along) * across).sum()), (power * abs(along)).sum())
     return in_picture(math.degrees(float(peak) + aside))
 

@@ -20,7 +20,7 @@ _STEPS = 2**16  # ordinary steps that are taken at least, if there are as many
 _HEIGHT_ROUNDING = (
     32 * np.finfo(np.float64).eps
 )  # of the largest height, below which nothing is a step
-_EVEN = 1e-6  # least relative variance of ordinary steps
+_LEAST_VARIANCE = 1e-6  # least relative variance of ordinary steps
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def _along(rows: Real, rounding: float) -> Borders:
     from scipy import special  # here because it loads slowly
 
     mean = float(within.mean())
-    variance = max(float(within.var(ddof=1)) / mean**2, _EVEN)
+    variance = max(float(within.var(ddof=1)) / mean**2, _LEAST_VARIANCE)
     ratio = over_borders / mean
     chance = float(special.gammaincc(1 / variance, ratio / variance))
     return Borders(math.sqrt(ratio), chance)

@@ -12,9 +12,9 @@ from roughline.engineering.rules.mechanical import MECHANICAL
 from roughline.engineering.rules.sealing import SEALING
 from roughline.engineering.rules.thermal import THERMAL
 
-_ALL = (MECHANICAL, CONTACT, ADHESION, FRICTION, ELECTRICAL, THERMAL, SEALING, ACOUSTIC)
+_FAMILIES = (MECHANICAL, CONTACT, ADHESION, FRICTION, ELECTRICAL, THERMAL, SEALING, ACOUSTIC)
 
-rules = Rules([rule for group in _ALL for rule in group])
+rules = Rules([rule for group in _FAMILIES for rule in group])
 """By which all answers are worked out; more can be added."""
 
 

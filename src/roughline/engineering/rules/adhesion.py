@@ -16,7 +16,7 @@ from roughline.engineering.symbols import nominal_area
 from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.units import decimal, engineering
 
-_ALL = 0.99  # of the largest pull over the nominal area, from which on it is all of it
+_FULL_PULL_SHARE = 0.99  # of the largest pull over the nominal area, from which on it is all of it
 _AFTER = "after the largest load, slowly, so that nothing swings"
 
 
@@ -97,7 +97,7 @@ def _set_by_the_range(pressed: Pressed) -> str:
     if separation is None or not isinstance(law, Adhesive):
         return ""
     share = separation.pull_off[0] / (law.largest_pull * pressed.area)
-    if not share >= _ALL:
+    if not share >= _FULL_PULL_SHARE:
         return ""
     return (
         f"the pull-off is {share:.0%} of w over the range, on all of the area: it is set by the "

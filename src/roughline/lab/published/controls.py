@@ -13,7 +13,9 @@ DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """Fractal dimensions of the paper's Figures 3 and 4."""
 MODELS: tuple[ModelLabel, ...] = ("1D", "3D")
 
-_EDGE = "Dimensionless force F / (E* h L); the fit takes the loads between the two edges."
+_MEANING_OF_EDGES = (
+    "Dimensionless force F / (E* h L); the fit takes the loads between the two edges."
+)
 
 
 def _edges(model: str, lowest: float, window: tuple[float, float], step: float) -> list[Control]:
@@ -26,7 +28,7 @@ def _edges(model: str, lowest: float, window: tuple[float, float], step: float) 
             low=lowest,
             high=10.0,
             default=edge,
-            meaning=_EDGE,
+            meaning=_MEANING_OF_EDGES,
             step=step,
         )
         for end, word, edge in zip(("low", "high"), ("from", "to"), window, strict=True)

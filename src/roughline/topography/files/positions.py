@@ -10,7 +10,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 
-_EVEN = 0.01  # of a step that positions may be off
+_STEP_TOLERANCE = 0.01  # of a step that positions may be off
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ class Positions:
     def are_even(self) -> bool:
         """Whether all steps are one, but for rounding."""
         even = np.linspace(self.values[0], self.values[-1], self.values.size)
-        return bool(np.abs(self.values - even).max() <= _EVEN * abs(even[1] - even[0]))
+        return bool(np.abs(self.values - even).max() <= _STEP_TOLERANCE * abs(even[1] - even[0]))
 
     @property
     def side(self) -> float:
