@@ -107,7 +107,7 @@ def test_single_precision_takes_the_loads_of_a_stiff_thin_layer():
     """What it resolves is told by how deep a flat punch would sink, not by the layer's modulus."""
     surface = SPECTRA["rolled off"].surface(N, 3)
     thin, plate = SOFT[1], HARD[0]
-    given = {"precision": "float32", "rtol": 1e-4, "throw": False}
+    given = {"solver": rl.Solver(precision="float32"), "rtol": 1e-4, "throw": False}
     curve = rl.press(surface, half_space=thin, n_loads=2, **given)
     assert curve.force_bar[-1] > 100
     with pytest.raises(rl.InputError, match="of what sinks a flat punch by the rms height: so de"):

@@ -33,7 +33,12 @@ def assert_same_bits(one, other):
 
 @pytest.mark.parametrize(
     "settings",
-    [{}, {"periodic": True}, {"precision": "float32", "rtol": 1e-5}, {"hardness": 0.5}],
+    [
+        {},
+        {"periodic": True},
+        {"solver": rl.Solver(precision="float32"), "rtol": 1e-5},
+        {"hardness": 0.5},
+    ],
 )
 def test_what_is_kept_changes_no_bit(settings):
     anew = []

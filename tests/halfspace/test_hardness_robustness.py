@@ -28,7 +28,8 @@ def pressed(rng):
     """Press a random problem and check all of it; say whether it yields, or how it is refused."""
     problem = random_history(rng)
     precision = str(rng.choice(list(RTOL)))
-    settings = {"precision": precision, "rtol": RTOL[precision], "fields": True}
+    settings = {"rtol": RTOL[precision], "fields": True}
+    settings["solver"] = rl.Solver(precision=precision)
     try:
         curve = rl.press(
             problem.surface,

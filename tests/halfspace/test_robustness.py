@@ -57,7 +57,8 @@ def test_the_smallest_loads_that_are_not_refused(control, precision, rtol, perio
     """Squares of their pressures still are numbers in double precision, if not in single."""
     rough = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(24, 3)
     punch = rl.Surface(np.zeros((24, 24)), (1.0, 1.0))
-    settings = {"precision": precision, "rtol": rtol, "periodic": periodic, "hardness": hardness}
+    settings = {"rtol": rtol, "periodic": periodic, "hardness": hardness}
+    settings["solver"] = rl.Solver(precision=precision)
     for surface in (rough,) if periodic and control == "depths" else (rough, punch):
         loads = 0.03 * np.array([1e-98, 1e-60, 1e-44, 1e-30, 1e-15])
         loads = np.append(loads, 0.03) if surface is punch else loads
