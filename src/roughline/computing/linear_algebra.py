@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from threading import Lock, Thread
+from typing import Any
 
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 _lock = Lock()
 _at_work = 0
-_limits: list[threadpool_limits] = []  # one, as long as anyone is at work
+_before: list[tuple[Any, int]] = []  # libraries and their threads, as long as anyone is at work
 
 
 @contextmanager
@@ -23,8 +25,8 @@ def on_one_thread() -> Iterator[None]:
     """
     global _at_work
     with _lock:
-        if not _limits:
-            _in_passing(lambda: _limits.append(threadpool_limits(limits=1, user_api="blas")))
+        if not _before:
+            _in_passing(_limit)
         _at_work += 1
     try:
         yield
@@ -32,13 +34,34 @@ def on_one_thread() -> Iterator[None]:
         with _lock:
             _at_work -= 1
             if not _at_work:
-                _in_passing(lambda: _limits.pop().restore_original_limits())
+                _in_passing(_restore)
+
+
+def _limit() -> None:
+    """Note how many threads each library has, and let it have one."""
+    _before.extend((library, library.num_threads) for library in _libraries())
+    for library, _ in _before:
+        library.set_num_threads(1)
+
+
+def _restore() -> None:
+    for library, threads in _before:
+        library.set_num_threads(threads)
+    _before.clear()
+
+
+@cache
+def _libraries() -> list[Any]:
+    """Libraries of linear algebra; to look for them takes as long as to press a small surface."""
+    import scipy.linalg  # noqa: F401  loads a library of its own
+
+    return ThreadpoolController().select(user_api="blas").lib_controllers
 
 
 def _in_passing(change: Callable[[], None]) -> None:
     """Change the number of threads from a thread that ends with it.
 
-    threadpoolctl lets no other thread change it as long as the one that did is alive.
+    OpenBLAS lets no other thread change it as long as the one that did is alive.
     """
     thread = Thread(target=change)
     thread.start()

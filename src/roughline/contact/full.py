@@ -62,14 +62,15 @@ def press_surface(
     if law.memory == "none":
         values, places = np.unique(loads.values, return_inverse=True)
     scaled = ScaledSurface.of(surface, half_space, loads)
-    curve = _unsolved(scaled, half_space, loads, method, law, wanted.measures)
-    record = _WrittenCurve(curve, scaled, wanted)
+    law_there = scaled.law(law)
+    curve = _unsolved(scaled, half_space, loads, method, (law, law_there), wanted.measures)
+    record = _WrittenCurve(curve, scaled, law_there, wanted)
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with linear_algebra.on_one_thread(), working_memory():
             path = _path(scaled, loads.control, values)
-            solved = solve_path(_problem(scaled, law, method), path, method)
+            solved = solve_path(_problem(scaled, law_there, method), path, method)
             for i in range(len(path)):  # no contact is held while the next is solved
                 record.write(np.flatnonzero(places == i), next(solved))
                 if progress is not None:
@@ -90,14 +91,14 @@ def _path(scaled: ScaledSurface, control: str, values: Real) -> list[Load]:
 
 
 def _problem(scaled: ScaledSurface, law: ContactLaw, method: Method) -> Problem:
-    """Return the untouched bodies, in the units of `scaled`."""
+    """Return the untouched bodies, in the units of `scaled`, which the law has, too."""
     grid = Grid(scaled.half_space, scaled.surface.shape, scaled.spacing)
     bodies = Problem(
         grid,
         scaled.separation(),
         scaled.surface.rms_height / scaled.height,
         method.resolution(grid),
-        scaled.law(law),
+        law,
     )
     return replace(bodies, law=bodies.pull.at_hand())
 
@@ -107,11 +108,14 @@ def _unsolved(
     half_space: HalfSpace,
     loads: Loads,
     method: Method,
-    law: ContactLaw,
+    laws: tuple[ContactLaw, ContactLaw],
     measures: Sequence[Measure],
 ) -> SurfaceCurve:
-    """Return the curve of a surface of which no load is solved yet."""
-    surface, count = scaled.surface, loads.values.size
+    """Return the curve of a surface of which no load is solved yet.
+
+    The laws are the one that is given, and the same in the units of `scaled`.
+    """
+    (law, law_there), surface, count = laws, scaled.surface, loads.values.size
     unknown = partial(np.full, count, math.nan)
     return SurfaceCurve(
         depth=unknown(),
@@ -148,7 +152,7 @@ def _unsolved(
             "precision": method.precision,
             **({} if isinstance(half_space, Homogeneous) else {"half_space": repr(half_space)}),
             **law.settings,
-            **resolution(scaled.law(law)),
+            **resolution(law_there),
             **as_body(surface.settings),
         },
         surface=surface,
@@ -164,9 +168,11 @@ class _WrittenCurve:
         self,
         curve: SurfaceCurve,
         scaled: ScaledSurface,
+        law_there: ContactLaw,
         wanted: FieldRequest,
     ) -> None:
         count = curve.status.size
+        self._law_there = law_there  # in the units of `scaled`
         self._curve = curve
         self._scaled = scaled
         self._wanted = wanted
@@ -250,7 +256,7 @@ class _WrittenCurve:
         # the prescribed value is returned unchanged; its error is part of the residual
         prescribed = curve.force if loads.control == "forces" else curve.depth
         np.copyto(prescribed, loads.values, where=curve.converged)
-        law_there, surface = scaled.law(curve.law), curve.surface
+        law_there, surface = self._law_there, curve.surface
         pull_off_depth, pull_off_force = self._pull_off(curve, law_there)
         return replace(
             curve,

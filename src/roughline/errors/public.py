@@ -152,6 +152,8 @@ def _held(
 
     @functools.wraps(function)
     def held(*positional: Any, **named: Any) -> Any:
+        if by_names and _fits(function, len(positional), *named):
+            return function(*positional, **named)
         signature = _signature(function)
         try:
             given = signature.bind(*positional, **named).arguments
@@ -163,6 +165,16 @@ def _held(
         return function(*positional, **named)
 
     return held
+
+
+@functools.lru_cache(maxsize=256)
+def _fits(function: Callable[..., Any], positional: int, *named: str) -> bool:
+    """Whether a call with so many arguments by position, and these by name, fits a signature."""
+    try:
+        _signature(function).bind(*(None,) * positional, **dict.fromkeys(named))
+    except TypeError:
+        return False
+    return True
 
 
 @functools.cache

@@ -70,6 +70,10 @@ class Homogeneous(HalfSpace):
         """Return E*, which all waves feel."""
         return np.full_like(q, self.E_star)
 
+    def disc_stiffness(self, radius: float) -> float:
+        """Return 2 E* a."""
+        return 2 * self.E_star * radius
+
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of displacements under unit pressure on one cell."""
         # here because compiled loops load slowly

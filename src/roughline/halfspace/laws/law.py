@@ -140,7 +140,8 @@ class ContactLaw(ABC):
     @property
     def only_pushes(self) -> bool:
         """Whether no pressure is negative, so that nodes that lie too far apart cannot touch."""
-        return not np.any(np.less(self.bounds(None)[0], 0.0))
+        low = self.bounds(None)[0]
+        return low >= 0 if isinstance(low, float) else not np.any(np.less(low, 0.0))
 
     @property
     def memory(self) -> Literal["none", "dents", "path"]:
@@ -152,7 +153,10 @@ class ContactLaw(ABC):
         """
         if not self.only_pushes:
             return "path"
-        return "dents" if np.any(np.less(self.bounds(None)[1], math.inf)) else "none"
+        high = self.bounds(None)[1]
+        if isinstance(high, float):
+            return "dents" if high < math.inf else "none"
+        return "dents" if np.any(np.less(high, math.inf)) else "none"
 
     @property
     def settings(self) -> dict[str, str | float]:

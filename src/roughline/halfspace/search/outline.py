@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from roughline.computing.arrays import InGrid, InPatch, Mask
+from roughline.computing.arrays import Indices, InGrid, Mask
+from roughline.computing.compiled import compiled
 from roughline.halfspace.search.problem import Contact
 
 # Gap beyond the outline over (pressure within it times spacing over E*). On a summit it is of order
@@ -36,43 +37,59 @@ def overstated_cells(
        contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
        (2017).
     """
-    shape = contact.separation.shape
-    touching = np.zeros(shape, dtype=bool)
-    touching.flat[contact.nodes[~contact.pulling]] = True
+    on = np.zeros(contact.separation.shape, dtype=np.bool_)
+    on.flat[contact.nodes[~contact.pulling]] = True
     above = contact.pressure - contact.problem.bounds_at(contact.nodes).low
-    pairs, summits = 0, 0.0
-    for axis in (0, 1):
-        for step in (1, -1):
-            outer = touching & ~np.roll(touching, -step, axis)
-            if not repeats[axis]:
-                np.moveaxis(outer, axis, 0)[-1 if step > 0 else 0] = False
-            outline = InGrid(np.flatnonzero(outer))
-            outside, _ = _neighbours(outline, shape, axis, step, repeats[axis])
-            within, loaded_too = _neighbours(outline, shape, axis, -step, repeats[axis])
-            at = InPatch(np.searchsorted(contact.nodes, outline))
-            gap = contact.gap_at(outside)
-            edge = above[at]
-            loaded_too &= touching.flat[within]
-            rising = np.zeros(edge.size, dtype=bool)
-            inner = InPatch(np.searchsorted(contact.nodes, within[loaded_too]))
-            rising[loaded_too] = edge[loaded_too] > above[inner] * (1 + 1e-6)
-            rising |= contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
-            smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP_GAP, _STEEP_GAP_ALONE)
-            steep = (rising | ~loaded_too) & (gap > smooth)
-            pairs += edge.size
-            summits += edge.size - float((1 - smooth[steep] / gap[steep]).sum())
+    pairs, along_x = _pairs(on, repeats)
+    outline, outside, within = pairs
+    at = np.searchsorted(contact.nodes, outline)
+    gap, edge = contact.gap_at(InGrid(outside)), above[at]
+    loaded_too = within >= 0
+    rising = contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
+    inner = np.searchsorted(contact.nodes, within[loaded_too])
+    rising[loaded_too] |= edge[loaded_too] > above[inner] * (1 + 1e-6)
+    smooth = edge * np.where(loaded_too, _STEEP_GAP, _STEEP_GAP_ALONE)
+    smooth[:along_x] *= spacing[0]
+    smooth[along_x:] *= spacing[1]
+    steep = (rising | ~loaded_too) & (gap > smooth)
+    summits = edge.size - float((1 - smooth[steep] / gap[steep]).sum())
     of_pair = (math.pi - 1 + math.log(2)) / 24
-    return of_pair * pairs, of_pair * summits
+    return of_pair * edge.size, of_pair * summits
 
 
-def _neighbours(
-    nodes: InGrid, shape: tuple[int, ...], axis: int, step: int, repeated: bool
-) -> tuple[InGrid, Mask]:
-    """Flat indices of the neighbours along an axis, and whether there are any."""
-    position = list(np.divmod(nodes, shape[1]))
-    position[axis] = position[axis] + step
-    exist = np.ones(nodes.size, dtype=bool)
-    if not repeated:
-        exist = (position[axis] >= 0) & (position[axis] < shape[axis])
-    position[axis] %= shape[axis]
-    return InGrid(position[0] * shape[1] + position[1]), exist
+@compiled
+def _pairs(on: Mask, repeats: tuple[bool, bool]) -> tuple[Indices, int]:
+    """List the pairs of neighbours of which one touches: those along x, then those along y.
+
+    For each: the node that touches, the other one, and the one beyond the first if that touches,
+    too, or -1, shape (3, pairs); all as flat indices. Return with them how many are along x.
+    """
+    nx, ny = on.shape
+    pairs = np.empty((3, 4 * np.count_nonzero(on)), dtype=np.intp)
+    found = along_x = 0
+    for axis in range(2):
+        n = on.shape[axis]
+        for step in (1, -1):
+            for x in range(nx):
+                for y in range(ny):
+                    if not on[x, y]:
+                        continue
+                    place = y if axis else x
+                    out, inner = place + step, place - step
+                    if not repeats[axis] and (out < 0 or out >= n):
+                        continue
+                    out %= n
+                    if on[x, out] if axis else on[out, y]:
+                        continue
+                    exists = repeats[axis] or 0 <= inner < n
+                    inner %= n
+                    loaded = exists and (on[x, inner] if axis else on[inner, y])
+                    pairs[0, found] = x * ny + y
+                    pairs[1, found] = x * ny + out if axis else out * ny + y
+                    pairs[2, found] = -1
+                    if loaded:
+                        pairs[2, found] = x * ny + inner if axis else inner * ny + y
+                    found += 1
+        if axis == 0:
+            along_x = found
+    return pairs[:, :found], along_x

@@ -12,7 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, InGrid, InWindow
+from roughline.computing.arrays import Indices, InGrid, InWindow, Real
+from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Problem
 from roughline.halfspace.search.turns import Turns
@@ -39,11 +40,11 @@ class GridWindow:
         if reach == np.inf or any(problem.grid.half_space.repeats):
             return cls.everywhere(problem)
         shape = problem.separation.shape
-        near = problem.separation <= problem.touch + reach
-        near.flat[start.nodes] = True
-        rows, columns = (
-            _side(np.flatnonzero(near.any(axis=1 - axis)), shape[axis]) for axis in (0, 1)
+        first_row, last_row, first_column, last_column = _ends(
+            problem.separation, problem.touch + reach, start.nodes
         )
+        rows = _side(first_row, last_row, shape[0])
+        columns = _side(first_column, last_column, shape[1])
         window = cls(problem, rows, columns, reach)
         area = window.bodies.separation.size * problem.grid.cell_area
         # with room to spare, as nodes at an upper bound alone are no contact
@@ -126,12 +127,32 @@ class GridWindow:
         )
 
 
-def _side(places: Indices, points: int) -> slice:
+@compiled
+def _ends(separation: Real, reach: float, nodes: Indices) -> tuple[int, int, int, int]:
+    """Return the first and last row and column with nodes within reach, or of these."""
+    nx, ny = separation.shape
+    first_row, last_row, first_column, last_column = nx, -1, ny, -1
+    for x in range(nx):
+        row, found = separation[x], False
+        for y in range(ny):
+            if row[y] <= reach:
+                found = True
+                first_column, last_column = min(first_column, y), max(last_column, y)
+        if found:
+            first_row, last_row = min(first_row, x), x
+    for node in nodes:
+        x, y = node // ny, node % ny
+        first_row, last_row = min(first_row, x), max(last_row, x)
+        first_column, last_column = min(first_column, y), max(last_column, y)
+    return first_row, last_row, first_column, last_column
+
+
+def _side(first: int, last: int, points: int) -> slice:
     """Return a part of a side, halved as often as may be, that holds points and neighbours.
 
     So there are few shapes, and their tables serve again.
     """
-    first, last = max(0, int(places[0]) - 1), min(points, int(places[-1]) + 2)
+    first, last = max(0, first - 1), min(points, last + 2)
     length, least = points, max(last - first, _FEWEST_POINTS)
     while (half := -(-length // 2)) >= least:
         length = half
