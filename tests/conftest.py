@@ -97,6 +97,21 @@ def nothing_kept():
 
 
 @pytest.fixture
+def by_regions(monkeypatch, nothing_kept):
+    """Solve small grids as large ones are: by regions, and by transforms of rows and columns."""
+    from roughline.halfspace.operators import convolution
+
+    monkeypatch.setattr(convolution, "FEW_MODES", 0)
+
+
+@pytest.fixture(params=["at once", "by regions"])
+def either_search(request):
+    """Solve small grids by whole fields, and as large ones are."""
+    if request.param == "by regions":
+        request.getfixturevalue("by_regions")
+
+
+@pytest.fixture
 def rough(tmp_path):
     """A surface of 64 x 64 points of which all are known."""
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)

@@ -9,7 +9,7 @@ import roughline as rl
 from halfspace.dense_contact import love_matrix
 from roughline.halfspace.operators import discretisation
 from roughline.halfspace.operators.convolution import Convolution
-from roughline.halfspace.search import active_set
+from roughline.halfspace.search import active_set, small_grid
 
 pytestmark = pytest.mark.usefixtures("nothing_kept")  # a sound kernel, or a damaged one
 
@@ -96,14 +96,14 @@ def test_steps_that_are_all_wrong_are_refused(monkeypatch):
     assert_true_where_certified(pressed())
 
 
-def test_a_stale_contact_set_is_refused(monkeypatch):
+def test_a_stale_contact_set_is_refused(monkeypatch, by_regions):
     monkeypatch.setattr(active_set, "exchanged", lambda region, carriers, *wrong: carriers)
     curve = pressed()
     assert not curve.converged.any()
     assert (curve.residual > 1e-6).all()
 
 
-def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
+def test_a_contact_set_that_only_grows_is_refused(monkeypatch, by_regions):
     sound = active_set.exchanged
 
     def growing(region, carriers, watched, wrong):
@@ -116,7 +116,7 @@ def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
     assert not curve.converged.all()
 
 
-def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
+def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch, by_regions):
     from roughline.halfspace.search import patch
 
     monkeypatch.setattr(patch, "preconditioner", lambda inverse, nodes: np.copy)
@@ -127,7 +127,7 @@ def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
 
 
 @pytest.mark.parametrize("load", [{"forces": [0.5]}, {"depths": [1.0]}])
-def test_nodes_exchanged_one_by_one_reach_the_same_contact(monkeypatch, load):
+def test_nodes_exchanged_one_by_one_reach_the_same_contact(monkeypatch, by_regions, load):
     surface = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(12, 3)
     together = rl.press(surface, E_star=1.0, **load)
     monkeypatch.setattr(active_set, "_MOST_ROUNDS", -1)
@@ -137,3 +137,30 @@ def test_nodes_exchanged_one_by_one_reach_the_same_contact(monkeypatch, load):
     assert alone.convolutions[0] > together.convolutions[0]
     assert alone.area_fraction == together.area_fraction
     assert alone.stiffness == pytest.approx(together.stiffness, rel=1e-7)
+
+
+def one_third(pressure):
+    """Return pressures of which every third is missing."""
+    pressure[::3] = 0.0
+    return pressure
+
+
+@pytest.mark.parametrize(
+    ("part", "damaged"),
+    [
+        ("_factor", lambda sound: lambda *a: 2 * sound(*a)),
+        ("_exchanged_by_gap", lambda sound: lambda *a: (0, 0.0, 1.0)),
+        ("_exchanged", lambda sound: lambda *a: 0),
+        ("_missing", lambda sound: lambda *a: (0 * (found := sound(*a))[0], *found[1:])),
+        ("_carried_over", lambda sound: lambda *a: one_third(sound(*a))),
+    ],
+)
+@pytest.mark.parametrize("few", [0, 400])
+def test_a_small_grid_that_is_solved_wrongly_is_not_believed(monkeypatch, part, damaged, few):
+    sound = pressed()
+    monkeypatch.setattr(small_grid, "_MOST_FACTORED_NODES", few)
+    monkeypatch.setattr(small_grid, part, damaged(getattr(small_grid, part)))
+    curve = pressed()
+    assert_true_where_certified(curve)
+    solved = curve.converged
+    assert curve.stiffness[solved] == pytest.approx(sound.stiffness[solved], rel=1e-7)

@@ -14,6 +14,8 @@ import roughline as rl
 from halfspace.dense_contact import love_matrix
 from halfspace.small_bodies import needle, rough
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 N = 16
 SIZES = (1.0, 1.6)
 E_STAR = 2.0

@@ -6,6 +6,8 @@ import pytest
 import roughline as rl
 from roughline.exact import indenters, punch, westergaard
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 GRIDS = (64, 128, 256)
 RADIUS = 0.3  # of the contact, in a square of side 1
 

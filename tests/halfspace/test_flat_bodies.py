@@ -8,6 +8,8 @@ import roughline as rl
 from halfspace.dense_contact import Body
 from halfspace.dense_hardness import History
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 RTOL = {"mixed": 1e-6, "float64": 1e-6, "float32": 1e-4}
 SIZES = (1.0, 1.3)
 PRESSURE = 5e-5  # over the mean one: a pressure answers a gap with the grid's stiffness

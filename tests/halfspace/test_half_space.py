@@ -70,6 +70,7 @@ def test_a_modulus_that_is_none_is_refused(E_star):
 
 @pytest.mark.parametrize(("shape", "spacing"), [((40, 57), (1.0, 1.0)), ((64, 30), (1.0, 2.7))])
 def test_sums_over_pairs_are_those_of_the_transforms(monkeypatch, shape, spacing):
+    monkeypatch.setattr(convolution, "FEW_MODES", 0)
     rng = np.random.default_rng(5)
     operator = on_grid(Homogeneous(E_star=2.0), shape, spacing)
     points = shape[0] * shape[1]
@@ -103,6 +104,7 @@ def test_the_displacement_of_many_nodes_under_few_takes_no_more_than_the_transfo
 
 @pytest.mark.parametrize("shape", [(16, 24), (9, 35), (1, 8)])
 def test_modes_taken_in_even_and_odd_halves_displace_as_all_at_once(shape, monkeypatch):
+    monkeypatch.setattr(convolution, "FEW_MODES", 0)
     operator = on_grid(Homogeneous(1.0), shape, (1.0, 0.6))
     rng = np.random.default_rng(8)
     sources, targets = (
@@ -115,6 +117,25 @@ def test_modes_taken_in_even_and_odd_halves_displace_as_all_at_once(shape, monke
         halves = operator.displacement(pressure, sources, where)
         assert halves == pytest.approx(whole, abs=ROUNDING * abs(whole).max())
         assert (halves != whole).any()
+
+
+@pytest.mark.parametrize("periodic", [False, True, "x", "y"])
+@pytest.mark.parametrize("shape", [(16, 24), (9, 35), (1, 8), (64, 64)])
+def test_a_small_grid_is_transformed_at_once_as_a_large_one_is_by_rows(
+    monkeypatch, shape, periodic
+):
+    rng = np.random.default_rng(8)
+    sources, targets = (
+        GridNodes.of(np.flatnonzero(rng.random(shape) < 0.4), shape) for _ in range(2)
+    )
+    pressure, found = rng.normal(size=sources.indices.size), []
+    for few in (convolution.FEW_MODES, 0):
+        monkeypatch.setattr(convolution, "FEW_MODES", few)
+        operator = on_grid(Homogeneous(1.0, periodic), shape, (1.0, 0.6))
+        assert bool(operator.small_grid) == bool(few)
+        found.append([operator.displacement(pressure, sources, each) for each in (None, targets)])
+    for one, other in zip(*found, strict=True):
+        assert one == pytest.approx(other, abs=ROUNDING * abs(other).max())
 
 
 def test_an_interface_is_displaced_from_its_mean_and_by_waves_as_the_whole_is():

@@ -12,6 +12,8 @@ import roughline as rl
 from halfspace.dense_hardness import Body
 from random_cases import cases, seeds
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 BODIES = cases(84, share=4)  # for each precision, under four loads each: of 1,008 in all
 BELOW = 10.0 ** np.array([-6, -1])  # of the depths below that of full contact, over it
 MANY = 1000  # convolutions; the loads take 400 at most, and thousands where nodes go one by one

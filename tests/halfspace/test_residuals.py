@@ -8,6 +8,8 @@ from halfspace.dense_contact import Body
 from roughline.contact import loads
 from roughline.halfspace.elasticity.kernel import love
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 RTOL = 1e-6
 ROUGH = np.random.default_rng(5).normal(size=(16, 12))
 GROOVES = np.where(np.arange(16) % 2, -1.0, 0.0)[:, None] * np.ones((16, 12))

@@ -12,7 +12,7 @@ from roughline.computing import fft
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse import cache
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
-from roughline.halfspace.operators import coarse_grid, convolution, restricted
+from roughline.halfspace.operators import coarse_grid, convolution
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
@@ -25,7 +25,7 @@ from roughline.halfspace.search.turns import Turns
 @pytest.fixture(autouse=True)
 def _on_small_grids(monkeypatch):
     """Restrict the operator of small grids as well."""
-    monkeypatch.setattr(restricted, "_FEW_MODES", 0)
+    monkeypatch.setattr(convolution, "FEW_MODES", 0)
     monkeypatch.setattr(cache._cache, "inverses", {})
 
 

@@ -7,6 +7,8 @@ import roughline as rl
 from random_cases import cases, seeds
 from random_problems import E_STAR, random_problem
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 
 @pytest.mark.filterwarnings("ignore::roughline.UnitWarning")  # loads of all sizes
 @pytest.mark.parametrize("seed", range(1, 6))

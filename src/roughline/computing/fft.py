@@ -99,6 +99,16 @@ def fft_along(lines: _ComplexFloats, axis: int, *, forward: bool) -> None:
     ducc0.fft.c2c(lines, axes=(axis,), forward=forward, out=lines, nthreads=1)
 
 
+def real_rows_forward(rows: Real, modes: _Complex) -> None:
+    """Transform real rows into their modes with q >= 0, by one thread."""
+    ducc0.fft.r2c(rows, axes=(1,), out=modes, nthreads=1)
+
+
+def real_rows_back(modes: _Complex, rows: Real) -> None:
+    """Transform modes with q >= 0 back into real rows, by one thread."""
+    ducc0.fft.c2r(modes, axes=(1,), lastsize=rows.shape[1], forward=False, out=rows, nthreads=1)
+
+
 def cosine_spectrum(quarter: Real, periods: tuple[int, int] = (0, 0)) -> None:
     """Turn an even, periodic array, given as its quarter, into its spectrum in place.
 

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -45,6 +45,7 @@ from roughline.halfspace.operators.restricted import (
     RestrictedOperators,
     excess_compliance,
 )
+from roughline.halfspace.operators.small_grid import SmallGrid
 
 _BLOCK_CELLS = 16  # cells along the side of a block, where these are square
 _MOST_DIRECT_NODES = 300  # whose equations are solved directly
@@ -67,6 +68,7 @@ class ApproximateInverse:
     block_sides: tuple[int, int]  # in cells
     block_kernel: Real  # averaged over two blocks, by their distance
     restricted: RestrictedOperators  # forms of the operator that cost what the contact costs
+    factors: dict[str, tuple[InGrid, Real]] = field(default_factory=dict)  # Cholesky's, of nodes
 
     @classmethod
     def of(cls, operator: Convolution) -> ApproximateInverse:
@@ -95,7 +97,9 @@ class ApproximateInverse:
     @property
     def nbytes(self) -> int:
         """Memory of its tables and those of the operator, the kernel among them. [bytes]"""
-        return self.operator.spectrum.nbytes + 4 * self.operator.shape[0] * self.operator.shape[1]
+        few = self.operator.small_grid
+        held = self.operator.spectrum.nbytes + (few.nbytes if few else 0)
+        return held + 4 * self.operator.shape[0] * self.operator.shape[1]
 
     @cached_property
     def block_spectrum(self) -> tuple[Real, tuple[int, int]]:
@@ -157,6 +161,27 @@ class ApproximateInverse:
         return replace(operator, spectrum=inverse, half_space=None)
 
     @cached_property
+    def small_inverse(self) -> tuple[SmallGrid, Real]:
+        """The inverse convolution with less padding, and transforms for it.
+
+        Its kernel falls so fast that a quarter of a free side is enough between the grid and its
+        repetition.
+        """
+        inverse = self.inverse_convolution
+        mx, my = inverse.periods
+        corner = np.zeros((mx, my // 2 + 1), dtype=np.complex128)
+        corner[:] = inverse.spectrum[np.minimum(np.arange(mx), mx - np.arange(mx))]
+        kernel = fft.synthesise(corner, my)
+        px, py = (
+            n if repeated else fft.good_size(n + -(-n // 4))
+            for n, repeated in zip(inverse.shape, inverse.repeats, strict=True)
+        )
+        x, y = (np.minimum(np.arange(n), n - np.arange(n)) for n in (px, py))
+        spectrum = fft.half_spectrum(kernel[x[:, np.newaxis], y]).real[: px // 2 + 1]
+        spectrum = np.maximum(spectrum, _EIGENVALUE_FLOOR * np.median(spectrum))
+        return SmallGrid(inverse.shape, (px, py)), spectrum / (px * py)
+
+    @cached_property
     def stencil(self) -> tuple[Integers, Single]:
         """Offsets of the stencil in the restricted operators' flat grid, and its coefficients.
 
@@ -171,12 +196,23 @@ class ApproximateInverse:
         )
 
     @cached_property
-    def kernel(self) -> Single:
-        """Displacement under unit pressure on one node, by the distance from it in cells."""
+    def kernel(self) -> Floats:
+        """Displacement under unit pressure on one node, by the distance from it in cells.
+
+        In double precision on a small grid, in single precision on others.
+        """
         corner = GridNodes.of(InGrid(np.zeros(1, dtype=np.intp)), self.operator.shape)
         kernel = self.operator.displacement(np.ones(1), corner, None, "float32")
-        kernel += _even_pressure_term(self.operator)
-        return kernel.astype(np.float32)
+        kernel += self.even_pressure_term
+        return kernel if self.operator.small_grid else kernel.astype(np.float32)
+
+    @property
+    def even_pressure_term(self) -> float:
+        """What is added to the kernel, so that even pressure displaces as other pressures do.
+
+        Nothing, unless even pressure displaces nothing. [length / pressure]
+        """
+        return _even_pressure_term(self.operator)
 
 
 def bends_as_plates(operator: Convolution) -> bool:
@@ -233,7 +269,7 @@ class _Direct:
     def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
         rows = np.repeat(nodes.rows, np.diff(nodes.starts))
         matrix = np.empty((rows.size, rows.size))
-        _fill_triangle(inverse.kernel, rows, nodes.columns, matrix)
+        fill_triangle(inverse.kernel, rows, nodes.columns, matrix)
         self._factor, failed = lapack.dpotrf(matrix.T, lower=1, clean=0, overwrite_a=1)
         if failed:
             raise np.linalg.LinAlgError("the matrix is not positive definite")
@@ -454,12 +490,13 @@ def _apply_stencil(
 
 
 @compiled
-def _fill_triangle(kernel: Floats, rows: Integers, columns: Integers, matrix: Real) -> None:
+def fill_triangle(kernel: Floats, rows: Integers, columns: Integers, matrix: Real) -> None:
     """Fill the upper triangle with the kernel at the distances of nodes.
 
-    Its diagonal is raised, as the kernel comes in single precision.
+    Its diagonal is raised where the kernel comes in single precision.
     """
+    raised = 1 + 1e-6 if kernel.itemsize == 4 else 1.0
     for i in range(rows.size):
         for j in range(i + 1, rows.size):
             matrix[i, j] = kernel[abs(rows[i] - rows[j]), abs(columns[i] - columns[j])]
-        matrix[i, i] = (1 + 1e-6) * kernel[0, 0]
+        matrix[i, i] = raised * kernel[0, 0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -12,10 +13,16 @@ from roughline.computing.arrays import Floats, InGrid, Integers, Real
 from roughline.computing.compiled import compiled
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision, unit_in_single
+from roughline.halfspace.operators.small_grid import SmallGrid
 from roughline.halfspace.operators.workspace import Workspace
 
 _PAIRS_PER_MODE = 4.0  # of nodes, up to which sums over pairs take less time ...
 _MANY_MODES = 2**20  # ... where there are so many modes
+FEW_MODES = 2**16
+"""Modes up to which a grid is transformed at once, by one thread and in double precision.
+
+Single precision gains nothing there, and a thread does it before another has begun.
+"""
 _ROWS_AT_A_TIME = 32  # of the kernel, over which pairs are summed before others
 _LARGE_GRID_POINTS = 2**22  # of the padded rows, from which on memory counts
 
@@ -62,10 +69,13 @@ class Convolution:
     ) -> Real:
         """Return the displacement of some nodes, or of all, under the pressure on some nodes.
 
-        Pairs of few nodes are summed over; other displacements are transformed. Single precision
-        errs by some 1e-7 of the largest displacement. The result may be written to `out`, which is
-        not the memory of the pressures.
+        Small grids are transformed in double precision. Of larger ones, pairs of few nodes are
+        summed over; other displacements are transformed. Single precision errs by some 1e-7 of the
+        largest displacement. The result may be written to `out`, which is not the memory of the
+        pressures.
         """
+        if self.small_grid:
+            return self._transformed_at_once(self.small_grid, pressure, sources, targets, out)
         if precision == "float32" and (unit := unit_in_single(pressure)) != 1:
             result = self.displacement(pressure / unit, sources, targets, precision, out)
             result *= unit
@@ -77,6 +87,32 @@ class Convolution:
             return self._summed(pressure, sources, targets, out)
         for odd in range(self._parts(precision)):
             self._transform(pressure, sources, targets, precision, out, odd)
+        return out
+
+    @cached_property
+    def small_grid(self) -> SmallGrid | None:
+        """Transforms of the whole grid, whatever the precision; None unless it has few modes."""
+        few = math.prod(self.periods) <= FEW_MODES
+        return SmallGrid(self.shape, self.periods) if few else None
+
+    def _transformed_at_once(
+        self,
+        grid: SmallGrid,
+        pressure: Real,
+        sources: GridNodes,
+        targets: GridNodes | None,
+        out: Real | None,
+    ) -> Real:
+        """Return what :meth:`displacement` does, on a small grid."""
+        if out is None:
+            out = np.empty(self.shape if targets is None else targets.indices.size)
+        field = grid.field()
+        _lay_out(pressure, *sources.listed, field)
+        grid.convolve(field, self.spectrum, field)
+        if targets is None:
+            out[:] = field[:, : self.shape[1]]
+        else:
+            _pick(field, *targets.listed, out)
         return out
 
     def _sums_are_cheap(self, sources: int, targets: int) -> bool:
@@ -172,8 +208,7 @@ class Convolution:
             else:
                 _gather_pairs(real_modes, *targets.listed[:2], first, last, result)
 
-        # a thread does small transforms before another has begun
-        at_a_time = max(mx, my) if mx * my <= 2**16 else fft.LINES_AT_A_TIME
+        at_a_time = fft.LINES_AT_A_TIME
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
         fft.share_out_blocks(transform_rows, pairs, at_a_time)
         fft.share_out_blocks(convolve_columns, spectrum.shape[1], at_a_time)
@@ -184,6 +219,26 @@ def displacement_field(operator: Convolution, pressure: Real) -> Real:
     """Return the displacement everywhere under the pressure on each cell, shape (nx, ny)."""
     nodes = InGrid(np.flatnonzero(pressure))
     return operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, operator.shape))
+
+
+@compiled
+def _lay_out(
+    values: Floats, starts: Integers, columns: Integers, rows: Integers, field: Floats
+) -> None:
+    """Write values at their nodes into a field."""
+    for k in range(rows.size):
+        for i in range(starts[k], starts[k + 1]):
+            field[rows[k], columns[i]] = values[i]
+
+
+@compiled
+def _pick(
+    field: Floats, starts: Integers, columns: Integers, rows: Integers, values: Floats
+) -> None:
+    """Read what _lay_out would write."""
+    for k in range(rows.size):
+        for i in range(starts[k], starts[k + 1]):
+            values[i] = field[rows[k], columns[i]]
 
 
 @compiled

@@ -44,7 +44,6 @@ _SIDES = (8, 0.025), (4, 0.35), (2, 1.0)
 _LARGEST_SHARE = 0.15  # of the grid for each mode a point; up to it the exact operator takes longer
 _MOST_REACH = int(_NEAR_RADIUS * _SIDES[0][0])  # of the near part, at most
 RESOLVED_EXCESS = 0.15  # compliance that lower layers may add for a coarse grid's shortest waves
-_FEW_MODES = 2**16  # up to which it takes less in any case
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +198,7 @@ def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
         rx, ry = (side * 2 ** round(np.log2(max(dx, dy) / each)) for each in (dx, dy))
         radius = _NEAR_RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
         divide = operator.periods[0] % rx == operator.periods[1] % ry == 0
-        large = min(operator.shape) >= 64 and math.prod(operator.periods) > _FEW_MODES
+        large = min(operator.shape) >= 64 and not operator.small_grid
         if large and divide and radius < _MOST_REACH + 1:
             possible.append(((rx, ry), min(share, most)))
     half_space = operator.half_space

@@ -207,7 +207,7 @@ def _relaxed(
     gradients = partition.gradients(trial, precision, fixed_total=load.force is not None)
     while True:
         level = trial.approach if load.force is None else gradients.level
-        error = float(np.abs(gradients.error).max())
+        error = gradients.largest_error
         if error <= tolerance or gradients.steps >= most_steps:
             break
         if gradients.steps and not to_tolerance:

@@ -9,11 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.computing.arrays import InGrid, Real
+from roughline.computing.compiled import compiled
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.pull import Shares
 from roughline.halfspace.search.window import GridWindow
 
-_COARSEST_POINTS = 64  # points along the longer side of the grid that starts from the rigid shift
+_COARSEST_POINTS = 16  # points along the longer side of the grid that starts from the rigid shift
+_FEW_NODES = 120  # of a rigid shift on a small grid, which a coarser one guesses no faster
 # A guess whose pressures exceed an upper bound so many times leaves no doubt that nodes yield.
 _CERTAIN_YIELD = 3.0
 _ROUGH_METHOD = Method(rtol=1e-2, max_iterations=200, precision="float32")
@@ -40,6 +42,8 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
     separation = problem.separation
     if max(separation.shape) <= _COARSEST_POINTS:
         return None
+    if problem.operator.small_grid and (few := _shifted(problem, load, _FEW_NODES)):
+        return few
     coarse_separation = _halved(separation)
     if problem.operator.mean_is_free:  # depths count from mean planes, odd sides end in half blocks
         coarse_separation += separation.mean() - coarse_separation.mean()
@@ -60,13 +64,22 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
 
 def _halved(field: Real) -> Real:
     """Means over two by two nodes; fewer at the end of an odd side."""
-    for axis, n in enumerate(field.shape):
-        along = np.moveaxis(field, axis, 0)
-        means = along[::2].astype(np.float64)
-        means[: n // 2] += along[1::2]
-        means[: n // 2] /= 2
-        field = np.moveaxis(means, 0, axis)
-    return np.ascontiguousarray(field)
+    nx, ny = field.shape
+    means = np.empty((-(-nx // 2), -(-ny // 2)))
+    _fill_means(field, means)
+    return means
+
+
+@compiled
+def _fill_means(field: Real, means: Real) -> None:
+    """Average over two by two nodes, along y first; over fewer at the end of an odd side."""
+    for i in range(means.shape[0]):
+        last_x = min(2 * i + 1, field.shape[0] - 1)
+        for j in range(means.shape[1]):
+            last_y = min(2 * j + 1, field.shape[1] - 1)
+            above = (field[2 * i, 2 * j] + field[last_x, 2 * j]) / 2
+            below = (field[2 * i, last_y] + field[last_x, last_y]) / 2
+            means[i, j] = (above + below) / 2
 
 
 def _halved_shares(shares: Shares, shape: tuple[int, int]) -> Shares:
@@ -101,23 +114,44 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
     A force shifts the body to the depth at which one disc of as many nodes would carry it,
     its stiffness times (d - mean separation).
     """
-    separation, depth, force = problem.separation, load.depth, load.force
+    start = _shifted(problem, load, problem.separation.size)
+    assert start is not None
+    return start
+
+
+def _shifted(problem: Problem, load: Load, most: int) -> ContactSet | None:
+    """Return that start; None if it has more than so many nodes."""
+    separation, depth = problem.separation, load.depth
     if depth is None:
-        assert force is not None
-        separations = np.sort(separation, axis=None)
-        sums, next_separations = np.cumsum(separations), np.append(separations[1:], np.inf)
-
-        def disc_depth(count: int) -> float:
-            radius = math.sqrt(count * problem.grid.cell_area / math.pi)
-            shift = force / problem.grid.half_space.disc_stiffness(radius)
-            return shift + float(sums[count - 1]) / count
-
-        counts = range(1, separations.size + 1)
-        reached = bisect_left(
-            counts, True, key=lambda count: disc_depth(count) <= next_separations[count - 1]
-        )
-        depth = disc_depth(counts[reached])
-        fewest = np.nan_to_num(force / problem.bounds.largest_force(problem.grid.cell_area))
-        depth = max(depth, float(separations[min(int(fewest), separations.size - 1)]))
+        depth = _rigid_depth(problem, load.value, most)
+    if depth is None:
+        return None
     nodes = InGrid(np.flatnonzero(separation < depth))
+    if nodes.size > most:
+        return None
     return ContactSet(nodes, depth - separation.flat[nodes], load.depth)
+
+
+def _rigid_depth(problem: Problem, force: float, most: int) -> float | None:
+    """Return the depth of the rigid shift; None if it overlaps more than so many nodes."""
+    separation, grid = problem.separation, problem.grid
+    if most < separation.size:
+        lowest = np.partition(separation, most, axis=None)[: most + 1]
+        lowest.sort()
+    else:
+        lowest = np.append(np.sort(separation, axis=None), np.inf)
+    sums = np.cumsum(lowest[:-1])
+
+    def disc_depth(count: int) -> float:
+        radius = math.sqrt(count * grid.cell_area / math.pi)
+        return force / grid.half_space.disc_stiffness(radius) + float(sums[count - 1]) / count
+
+    counts = range(1, sums.size + 1)
+    reached = bisect_left(counts, True, key=lambda count: disc_depth(count) <= lowest[count])
+    if reached == len(counts):
+        return None
+    depth = disc_depth(counts[reached])
+    fewest = np.nan_to_num(force / problem.bounds.largest_force(grid.cell_area))
+    if fewest > most:
+        return None
+    return max(depth, float(lowest[min(int(fewest), sums.size - 1)]))

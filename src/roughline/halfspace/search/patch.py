@@ -8,7 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from roughline.computing.arrays import InGrid, Mask, Real
+from roughline.computing.arrays import Floats, InGrid, Mask, Real
+from roughline.computing.compiled import compiled_sums
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
@@ -99,44 +100,86 @@ class ConjugateGradients:
         self._patch = patch
         self._fixed_total = fixed_total
         self._precision = precision
-        self._direction, self.energy = self._projected()
+        self._direction = np.zeros_like(pressure)
+        self.energy = 0.0  # of the error, norm squared, by the preconditioner
+        self.largest_error = 0.0  # [length]
+        self._turn()
 
-    def _projected(self) -> tuple[Real, float]:
-        """Precondition the error; with a fixed total, so that the sum of the step is zero.
+    def _turn(self) -> None:
+        """Precondition the error, and take the next direction, which is conjugate to the last.
 
-        Return the step, and the energy norm of the error by it, squared.
+        With a fixed total the sum of the direction is zero.
         """
         step = self._patch.precondition(self.error)
-        if self._fixed_total:
-            even = self._patch.even_preconditioned
+        rise = 0.0
+        even = self._patch.even_preconditioned if self._fixed_total else None
+        if even is not None:
             rise = -float(step.sum() / even.sum())
-            step += rise * even
-            self.error += rise
             self.level += rise
-        return step, float(self.error @ step)
+        self.energy, self.largest_error = _next_direction(
+            step, even, rise, self.energy, self.error, self._direction
+        )
 
     def advance(self) -> bool:
         """Do one step; return False if there is nothing more to gain."""
-        before = self.energy
-        if not self._goes():
-            return False
-        # the new direction is conjugate to this one
-        step, self.energy = self._projected()
-        self._direction *= self.energy / before
-        self._direction += step
-        return True
-
-    def _goes(self) -> bool:
-        """Go along the direction to the least energy; return whether there is any to gain."""
         response, watched = self._patch.displacement(self._direction, self._precision)
-        curvature = float(self._direction @ response)
-        if not (curvature > 0 and self.energy > 0):
+        length = _step(
+            self._direction, response, watched, self.energy, self.pressure, self.error, self.watched
+        )
+        if not length > 0:
             return False
-        length = self.energy / curvature
-        self.pressure += length * self._direction
-        self.watched += length * watched
-        response *= length
-        self.error -= response
         self.steps += 1
         self.gained += length * self.energy
+        self._turn()
         return True
+
+
+@compiled_sums
+def _next_direction(
+    step: Floats,
+    even: Floats | None,
+    rise: float,
+    before: float,
+    error: Floats,
+    direction: Floats,
+) -> tuple[float, float]:
+    """Raise the error and its step, and let the direction be conjugate to the one before.
+
+    Return the energy of the error, and its largest value. The energy before is zero at first.
+    """
+    energy, largest = 0.0, 0.0
+    for i in range(step.size):
+        if even is not None:
+            step[i] += rise * even[i]
+            error[i] += rise
+        energy += error[i] * step[i]
+        largest = max(largest, abs(error[i]))
+    part = energy / before if before > 0 else 0.0
+    for i in range(step.size):
+        direction[i] = step[i] + part * direction[i]
+    return energy, largest
+
+
+@compiled_sums
+def _step(
+    direction: Floats,
+    response: Floats,
+    watched_response: Floats,
+    energy: float,
+    pressure: Floats,
+    error: Floats,
+    watched: Floats,
+) -> float:
+    """Go along a direction to the least energy; return how far, zero if there is none to gain."""
+    curvature = 0.0
+    for i in range(direction.size):
+        curvature += direction[i] * response[i]
+    if not (curvature > 0 and energy > 0):
+        return 0.0
+    length = energy / curvature
+    for i in range(direction.size):
+        pressure[i] += length * direction[i]
+        error[i] -= length * response[i]
+    for i in range(watched.size):
+        watched[i] += length * watched_response[i]
+    return length

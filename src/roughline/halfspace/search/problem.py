@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 import math
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
@@ -240,6 +240,11 @@ class ContactSet:
     depth: float | None = None  # that goes with them, about; None where it is not known [length]
 
 
+def _largest(numbers: tuple[float, ...]) -> float:
+    """Return the largest of some numbers; NaN if one is."""
+    return math.nan if any(map(math.isnan, numbers)) else max(numbers)
+
+
 @dataclass(frozen=True)
 class Residuals:
     """Violations of the contact conditions, recomputed from the returned pressures."""
@@ -258,14 +263,26 @@ class Residuals:
     misfit: float = 0.0
 
     @property
+    def _each(self) -> tuple[float, ...]:
+        return (
+            self.gap,
+            self.penetration,
+            self.tension,
+            self.excess,
+            self.load,
+            self.rounding,
+            self.misfit,
+        )
+
+    @property
     def worst(self) -> float:
         """The largest of them; NaN if one is."""
-        return float(np.max(astuple(self)))
+        return _largest(self._each)
 
     @property
     def violation(self) -> float:
         """The largest of them but for the rounding."""
-        return replace(self, rounding=0.0).worst
+        return _largest((*self._each[:5], self.misfit))
 
     @property
     def worst_name(self) -> str:
@@ -278,7 +295,7 @@ class Residuals:
             "the force",
             "the rounding of the depth",
             "the pull across gaps",
-        )[int(np.argmax(astuple(self)))]
+        )[int(np.argmax(self._each))]
 
 
 @dataclass(frozen=True, eq=False)

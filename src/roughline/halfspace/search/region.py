@@ -52,7 +52,7 @@ class Region:
 
         The nodes of a contact and their neighbours are among them, too.
         """
-        if math.isinf(reach):
+        if math.isinf(reach) or problem.operator.small_grid:
             return cls.everywhere(problem)
         is_near = problem.separation <= problem.touch + reach
         x, y = np.divmod(contact, is_near.shape[1])
@@ -77,6 +77,8 @@ class Region:
         if self.operator.nodes is not None:
             places = InRegion(np.searchsorted(self.operator.nodes.indices, contact_set.nodes))
         found = Carriers(places, self.bounds.at(places).nearest(contact_set.pressure))
+        if not self.bounds.pulled.size:
+            return found
         pulled = InRegion(np.setdiff1d(self.bounds.pulled, places, assume_unique=True))
         return found.joined_by(pulled, self.bounds.at(pulled).low)
 

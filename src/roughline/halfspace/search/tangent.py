@@ -13,6 +13,7 @@ import numpy as np
 
 from roughline.computing.arrays import InGrid, Mask, Real, among
 from roughline.halfspace.operators.corrected import CorrectedOperator
+from roughline.halfspace.search import small_grid
 from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Contact, Grid, Method
 from roughline.halfspace.search.response import Response, Tangent
@@ -78,6 +79,12 @@ def punch_compliance(
     convolutions.
     """
     inverse, listed = grid.inverse, grid.nodes(nodes)
+    if inverse.operator.small_grid:
+        found, spent = small_grid.compliance(
+            inverse, inverse.operator.small_grid, nodes, pressure, _ENERGY_MARGIN * method.rtol
+        )
+        if not np.isnan(found):
+            return found, spent
     operator = CorrectedOperator(inverse.operator, inverse.restricted.on(listed), listed)
     patch = Patch(operator.linear, inverse, listed)
     accuracy, gained, convolutions = _ENERGY_MARGIN * method.rtol, np.nan, 0

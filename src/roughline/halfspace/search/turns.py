@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.halfspace.operators.grid_nodes import Precision
+from roughline.halfspace.search import small_grid
 from roughline.halfspace.search.active_set import TOLERANCE_AIM, Search
 from roughline.halfspace.search.carriers import Carriers
 from roughline.halfspace.search.problem import (
@@ -64,7 +65,8 @@ class Turns:
     def contact(self) -> Contact:
         """Return the contact, certified or not."""
         method = self._method
-        contact = None if self._foreseen() else self._seen(method.steps)
+        precision = method.certificate if self._found_on_small_grid() else method.steps
+        contact = None if self._foreseen() else self._seen(precision)
         while contact is None and self._near is not None:
             while self._refine():
                 pass
@@ -73,9 +75,22 @@ class Turns:
 
     def guess(self) -> ContactSet:
         """Return a contact that is found roughly, by one search and with no certificate."""
+        if self._found_on_small_grid():
+            assert self._start is not None
+            return self._start
         trial = self._trial(self._method.steps)
         near = self._near_contact(trial, REACH_OF_ERROR) or self._everywhere(trial.contact_set)
         return Search(*near, self._load, self._method).found()[0].contact_set
+
+    def _found_on_small_grid(self) -> bool:
+        """Take what is found by whole fields on a small grid as the start, if anything is."""
+        assert self._start is not None
+        found = small_grid.contact_under(self._problem, self._load, self._start, self._method)
+        if found is None:
+            return False
+        self._start, spent = found
+        self._convolutions += spent
+        return True
 
     def _foreseen(self) -> bool:
         """Take the nodes near a contact under other bounds, unless the exact operator costs less.

@@ -1,0 +1,505 @@
+"""The contact on a small grid of bodies that only push and do not yield, by whole fields.
+
+It is the primal-dual active set of :mod:`~roughline.halfspace.search.active_set` with few calls a
+round, as on a small grid a call takes longer than its work. The equations of few nodes are solved
+by a Cholesky factor; those of more by conjugate gradients, which the inverse convolution
+preconditions. What is found here is certified as any other start is.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import lapack
+
+from roughline.computing.arrays import Indices, InGrid, Mask, Real
+from roughline.computing.compiled import compiled, compiled_sums
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, fill_triangle
+from roughline.halfspace.operators.small_grid import SmallGrid
+from roughline.halfspace.search.active_set import TOLERANCE_AIM
+from roughline.halfspace.search.patch import MOST_STEPS
+from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
+from roughline.halfspace.search.region import REACH_OF_ERROR
+
+_MOST_FACTORED_NODES = 400  # whose equations are solved directly
+_MOST_EXCHANGES = 30
+_MOST_VAIN_EXCHANGES = 6  # without a new minimum of wrong nodes
+_FEW_WRONG = 0.1  # part of the nodes in contact that may be wrong in a guess
+_ROUGH_FROM = 1e-2  # tolerance of one
+_MOST_EVALUATIONS = 4  # each computes the energy form afresh; two are enough
+_ENERGY_AIM = 0.1  # part of its accuracy
+
+
+def contact_under(
+    problem: Problem, load: Load, start: ContactSet, method: Method
+) -> tuple[ContactSet, int] | None:
+    """Return the contact under a load, and the convolutions that it took.
+
+    None where the grid is large, bodies pull or yield, or nothing is found.
+    """
+    grid, bounds = problem.operator.small_grid, problem.bounds
+    if grid is None or np.any(bounds.low) or not np.all(np.isposinf(bounds.high)):
+        return None
+    return _SmallGridSearch(problem, grid, load, method).from_start(start) if start.nodes.size else None
+
+
+class _SmallGridSearch:
+    """Rounds in which the equations of the nodes in contact are solved, and wrong ones exchanged.
+
+    Displacements and gaps count from the surfaces as they touch.
+    """
+
+    def __init__(self, problem: Problem, grid: SmallGrid, load: Load, method: Method) -> None:
+        self._problem, self._grid, self._method = problem, grid, method
+        self._inverse: ApproximateInverse = problem.inverse
+        self._total = load.total(problem.grid.cell_area)
+        self._approach = 0.0 if load.depth is None else load.depth - problem.touch
+        self._above = problem.separation - problem.touch
+        self._on = np.zeros(problem.separation.shape, dtype=bool)
+        self._field, self._gap = grid.field(), grid.field()
+        self._nodes = InGrid(np.empty(0, dtype=np.intp))
+        self._pressure = np.empty(0)
+        self._convolutions = 0
+
+    def from_start(self, start: ContactSet) -> tuple[ContactSet, int] | None:
+        """Return the contact, and the convolutions that it took; None if it is not found."""
+        self._nodes, self._pressure = start.nodes, np.maximum(start.pressure, 0.0)
+        self._on.flat[start.nodes] = True
+        few = _FEW_WRONG if self._method.rtol >= _ROUGH_FROM else 0.0
+        fewest, stale = math.inf, 0
+        for _ in range(_MOST_EXCHANGES):
+            count = self._nodes.size
+            if not count:
+                return None
+            try:
+                wrong, error, tolerance = self._solved()
+            except np.linalg.LinAlgError:  # an elastic half-space is positive definite
+                return None
+            self._exchange()
+            if wrong <= few * count and error <= tolerance:
+                depth = self._approach + self._problem.touch
+                return ContactSet(self._nodes, self._pressure, depth), self._convolutions
+            stale = 0 if wrong < fewest else stale + 1
+            fewest = min(wrong, fewest)
+            if stale > _MOST_VAIN_EXCHANGES or self._convolutions > self._method.max_iterations:
+                return None
+        return None
+
+    def _exchange(self) -> None:
+        """List the nodes that touch now, with the pressures that they have."""
+        before, pressure = self._nodes, self._pressure
+        self._nodes = InGrid(np.flatnonzero(self._on))
+        self._pressure = _carried_over(before, pressure, self._nodes)
+
+    def _moved(self) -> Real:
+        """Return the displacement by the pressures, as a field."""
+        self._convolutions += 1
+        _put(self._pressure, self._nodes, self._grid.shape[1], self._field)
+        self._grid.convolve(self._field, self._problem.operator.spectrum, self._gap)
+        return self._gap
+
+    def _tolerance(self, displaced: float) -> float:
+        """Return the error that is allowed, by the scales of the residuals. [length]"""
+        problem, force = self._problem, float(self._pressure.sum()) * self._problem.grid.cell_area
+        scale = max(displaced, problem.resolution * abs(force))
+        scale = min(problem.rms_height, scale) if problem.rms_height else scale
+        return TOLERANCE_AIM * self._method.rtol * scale
+
+    def _solved(self) -> tuple[int, float, float]:
+        """Solve the equations of the nodes, and exchange wrong ones in the mask.
+
+        Return how many there are, the largest gap in contact, and what is allowed.
+        """
+        few = self._nodes.size <= _MOST_FACTORED_NODES
+        return self._solved_directly() if few else self._led_by_gradients()
+
+    def _solved_directly(self) -> tuple[int, float, float]:
+        """Solve them by a Cholesky factor."""
+        nodes, inverse = self._nodes, self._inverse
+        factor = _factor(inverse, nodes)
+        right = np.empty((nodes.size, 2), order="F")
+        right[:, 0] = 1.0
+        right[:, 1] = self._above.flat[nodes]
+        solution, _ = lapack.dpotrs(factor, right, lower=1, overwrite_b=1)
+        even, rest = (float(each) for each in solution.sum(axis=0))
+        added = inverse.even_pressure_term  # which the kernel displaces more than the half-space
+        if self._total is not None:
+            level = (self._total + rest) / even
+            self._approach = level - added * self._total
+        else:
+            level = (self._approach - added * rest) / (1 - added * even)
+        self._pressure = level * solution[:, 0] - solution[:, 1]
+        wrong, error, displaced = _exchanged_by_gap(
+            self._pressure, nodes, self._moved(), self._above, self._approach, self._on
+        )
+        return wrong, error, self._tolerance(displaced)
+
+    def _led_by_gradients(self) -> tuple[int, float, float]:
+        """Lead the pressures by conjugate gradients, until errors of the set outweigh their own."""
+        total, pressure = self._total, self._pressure
+        if total is not None and pressure.any():
+            pressure *= total / pressure.sum()
+        moved = self._moved()
+        error, level, displaced = _missing(
+            pressure, self._nodes, moved, self._above, self._on, total is not None, self._approach
+        )
+        least = level + REACH_OF_ERROR * math.sqrt(float(error @ error) / error.size)
+        watched = _watched(moved, self._on, least)
+        gradients = Gradients(self._inverse, self._grid, self._nodes, pressure, error)
+        gradients.watch(watched, moved, self._inverse.diagonal)
+        gradients.level, tolerance = level, self._tolerance(displaced)
+        gradients.lead(tolerance, fixed=total is not None)
+        self._convolutions += gradients.steps
+        self._approach = gradients.level
+        wrong = _exchanged(pressure, self._nodes, watched, gradients.gap, gradients.level, self._on)
+        return wrong, gradients.largest_error, tolerance
+
+
+class Gradients:
+    """Conjugate gradients on the nodes in contact of a small grid.
+
+    They start from pressures and from what these miss of the displacement, and overwrite both. What
+    other nodes are displaced by is computed for those that are watched.
+    """
+
+    def __init__(
+        self,
+        inverse: ApproximateInverse,
+        grid: SmallGrid,
+        nodes: InGrid,
+        pressure: Real,
+        error: Real,
+    ) -> None:
+        self.level = 0.0  # of the displacement, which a fixed total leaves open [length]
+        self.largest_error = math.inf  # [length]
+        self.energy = 0.0  # of the error, norm squared, by the preconditioner
+        self.steps = 0  # each takes one convolution
+        self.gap = np.empty(0)  # of the watched nodes, from any datum [length]
+        self._watched = np.empty(0, dtype=np.intp)
+        self._diagonal = 0.0
+        self._inverse, self._grid, self._nodes = inverse, grid, nodes
+        self._pressure, self._error = pressure, error
+
+    def watch(self, watched: Indices, gap: Real, diagonal: float) -> None:
+        """Watch nodes, and pressures that are negative, as displacements at their own nodes."""
+        self._watched, self._diagonal = watched, diagonal
+        self.gap = _at(gap, watched, self._grid.shape[1])
+
+    def lead(self, tolerance: float, *, fixed: bool, least_energy: float = 0.0) -> None:
+        """Go on until errors are within a tolerance, or outweighed by those of the set.
+
+        Or until their energy, by the preconditioner, is so small. With a fixed total the sum of the
+        pressures stays, and the level follows. [pressure length]
+        """
+        grid, error, nodes, width = self._grid, self._error, self._nodes, self._grid.shape[1]
+        around, spectrum = self._inverse.small_inverse
+        to_invert, inverted = around.field(), around.field()
+        field, response = grid.field(), grid.field()
+        direction, even = np.zeros_like(error), np.zeros(0)
+        if fixed:
+            _write(np.ones_like(error), nodes, width, to_invert)
+            around.convolve(to_invert, spectrum, inverted)
+            even = _at(inverted, nodes, width)
+            rise, self.largest_error = _levelled(error, even)
+            self.level += rise
+        while self.steps < MOST_STEPS:
+            _write(error, nodes, width, to_invert)
+            around.convolve(to_invert, spectrum, inverted)
+            self.energy = _turned(inverted, self.energy, error, nodes, width, direction, field)
+            if self.energy <= least_energy:
+                break
+            grid.convolve(field, self._inverse.operator.spectrum, response)
+            rise, squared, missed, largest = _stepped(
+                direction,
+                response,
+                self.energy,
+                even,
+                self.level,
+                self._diagonal,
+                (nodes, self._watched),
+                width,
+                self._pressure,
+                error,
+                self.gap,
+            )
+            if largest < 0:  # nothing to gain
+                break
+            self.steps += 1
+            self.level += rise
+            self.largest_error = largest
+            if largest <= tolerance or squared > missed:
+                break
+
+
+def compliance(
+    inverse: ApproximateInverse, grid: SmallGrid, nodes: InGrid, pressure: Real, accuracy: float
+) -> tuple[float, int]:
+    """Lead pressures of unit force, which are overwritten, to those that displace all nodes alike.
+
+    Return the compliance, NaN where it is not found to such a part of itself, and the convolutions.
+    """
+    if nodes.size <= _MOST_FACTORED_NODES:
+        return _compliance_of_few(inverse, grid, nodes, pressure, accuracy)
+    cell_area, width = inverse.operator.cell_area, grid.shape[1]
+    field, steps = grid.field(), 0
+    for turns in range(1, _MOST_EVALUATIONS + 1):
+        _write(pressure, nodes, width, field)
+        moved = grid.field()
+        grid.convolve(field, inverse.operator.spectrum, moved)
+        displacement = _at(moved, nodes, width)
+        found = float(pressure @ displacement) * cell_area
+        least = _ENERGY_AIM * accuracy * found / cell_area
+        gradients = Gradients(
+            inverse, grid, nodes, pressure, float(displacement.mean()) - displacement
+        )
+        gradients.lead(0.0, fixed=True, least_energy=least)
+        steps += gradients.steps
+        if not gradients.steps:
+            return (found if gradients.energy <= least else math.nan), steps + turns
+    return math.nan, steps + _MOST_EVALUATIONS
+
+
+def _compliance_of_few(
+    inverse: ApproximateInverse, grid: SmallGrid, nodes: InGrid, pressure: Real, accuracy: float
+) -> tuple[float, int]:
+    """Return the compliance of few nodes, from a Cholesky factor, and the convolutions."""
+    factor, cell_area = _factor(inverse, nodes), inverse.operator.cell_area
+    solution, _ = lapack.dpotrs(factor, np.ones(nodes.size), lower=1, overwrite_b=1)
+    pressure[:] = solution / (solution.sum() * cell_area)
+    field = grid.field()
+    _write(pressure, nodes, grid.shape[1], field)
+    grid.convolve(field, inverse.operator.spectrum, field)
+    moved = _at(field, nodes, grid.shape[1])
+    found = float(pressure @ moved) * cell_area
+    off = moved - moved.mean()
+    rest, _ = lapack.dpotrs(factor, off, lower=1)
+    return (found if float(off @ rest) * cell_area <= accuracy * found else math.nan), 1
+
+
+def _factor(inverse: ApproximateInverse, nodes: InGrid) -> Real:
+    """Return the Cholesky factor of the displacements of nodes under pressures on them.
+
+    LinAlgError is raised if they are not positive definite.
+
+    The last one is kept: the stiffness asks for that of the contact, and so does the next load.
+    """
+    kept = inverse.factors.get("last")
+    if kept is not None and np.array_equal(kept[0], nodes):
+        return kept[1]
+    rows, columns = np.divmod(nodes, inverse.operator.shape[1])
+    matrix = np.empty((rows.size, rows.size))
+    fill_triangle(inverse.kernel, rows, columns, matrix)
+    factor, failed = lapack.dpotrf(matrix.T, lower=1, clean=0, overwrite_a=1)
+    if failed:
+        raise np.linalg.LinAlgError("the matrix is not positive definite")
+    inverse.factors["last"] = nodes, factor
+    return factor
+
+
+@compiled
+def _write(values: Real, nodes: Indices, width: int, field: Real) -> None:
+    """Write values at nodes into a field."""
+    for i in range(nodes.size):
+        field[nodes[i] // width, nodes[i] % width] = values[i]
+
+
+@compiled
+def _put(values: Real, nodes: Indices, width: int, field: Real) -> None:
+    """Write values at nodes into a field, which is zero elsewhere."""
+    field[:] = 0.0
+    _write(values, nodes, width, field)
+
+
+@compiled
+def _at(field: Real, nodes: Indices, width: int) -> Real:
+    """Return the values of a field at nodes."""
+    values = np.empty(nodes.size)
+    for i in range(nodes.size):
+        values[i] = field[nodes[i] // width, nodes[i] % width]
+    return values
+
+
+@compiled
+def _carried_over(before: Indices, pressure: Real, nodes: Indices) -> Real:
+    """Return pressures on other ascending nodes: zero on those that had none."""
+    values, place = np.zeros(nodes.size), 0
+    for i in range(nodes.size):
+        while place < before.size and before[place] < nodes[i]:
+            place += 1
+        if place < before.size and before[place] == nodes[i]:
+            values[i] = pressure[place]
+    return values
+
+
+@compiled
+def _exchanged_by_gap(
+    pressure: Real, nodes: Indices, moved: Real, above: Real, approach: float, on: Mask
+) -> tuple[int, float, float]:
+    """Let nodes that overlap join, and those that pull leave.
+
+    Return how many there are, the largest gap in contact, and the largest displacement there.
+    """
+    wrong, error, displaced, width = 0, 0.0, 0.0, on.shape[1]
+    for x in range(on.shape[0]):
+        for y in range(width):
+            if not on[x, y] and moved[x, y] + above[x, y] < approach:
+                on[x, y] = True
+                wrong += 1
+    for i in range(nodes.size):
+        x, y = nodes[i] // width, nodes[i] % width
+        error = max(error, abs(moved[x, y] + above[x, y] - approach))
+        displaced = max(displaced, moved[x, y])
+        if pressure[i] < 0:
+            on[x, y] = False
+            wrong += 1
+    return wrong, error, displaced
+
+
+@compiled_sums
+def _missing(
+    pressure: Real,
+    nodes: Indices,
+    moved: Real,
+    above: Real,
+    on: Mask,
+    fixed: bool,
+    approach: float,
+) -> tuple[Real, float, float]:
+    """Turn displacements into gaps from the datum, and return what is missing in contact.
+
+    Return with it the level: the approach, or, with a fixed total, that of the work of the
+    pressures; and the largest displacement.
+    """
+    error, width = np.empty(nodes.size), on.shape[1]
+    work, total, displaced = 0.0, 0.0, 0.0
+    for i in range(nodes.size):
+        x, y = nodes[i] // width, nodes[i] % width
+        displaced = max(displaced, moved[x, y])
+        error[i] = moved[x, y] + above[x, y]
+        work += pressure[i] * error[i]
+        total += pressure[i]
+    level = approach
+    if fixed:
+        level = work / total if total > 0 else error.mean()
+    for i in range(nodes.size):
+        error[i] = level - error[i]
+    for x in range(on.shape[0]):
+        for y in range(width):
+            moved[x, y] += above[x, y]
+    return error, level, displaced
+
+
+@compiled
+def _watched(gap: Real, on: Mask, least: float) -> Indices:
+    """List the nodes without pressure whose gap is below a number."""
+    nodes, found, width = np.empty(on.size, dtype=np.intp), 0, on.shape[1]
+    for x in range(on.shape[0]):
+        for y in range(width):
+            if gap[x, y] < least and not on[x, y]:
+                nodes[found] = x * width + y
+                found += 1
+    return nodes[:found].copy()
+
+
+@compiled_sums
+def _levelled(error: Real, even: Real) -> tuple[float, float]:
+    """Raise an error so that its preconditioned sum is zero; return by how much, and the largest.
+
+    The even one is what the preconditioner makes of an error of one.
+    """
+    total, largest = 0.0, 0.0
+    for i in range(error.size):
+        total += even[i] * error[i]
+    rise = -total / even.sum()
+    for i in range(error.size):
+        error[i] += rise
+        largest = max(largest, abs(error[i]))
+    return rise, largest
+
+
+@compiled_sums
+def _turned(
+    inverted: Real,
+    before: float,
+    error: Real,
+    nodes: Indices,
+    width: int,
+    direction: Real,
+    field: Real,
+) -> float:
+    """Let the direction be conjugate to the last one, and write it into a field.
+
+    The energy of the error is returned; the one before is zero at first.
+    """
+    energy = 0.0
+    for i in range(nodes.size):
+        energy += error[i] * inverted[nodes[i] // width, nodes[i] % width]
+    part = energy / before if before > 0 else 0.0
+    for i in range(nodes.size):
+        x, y = nodes[i] // width, nodes[i] % width
+        direction[i] = inverted[x, y] + part * direction[i]
+        field[x, y] = direction[i]
+    return energy
+
+
+@compiled_sums
+def _stepped(
+    direction: Real,
+    response: Real,
+    energy: float,
+    even: Real,
+    level: float,
+    diagonal: float,
+    nodes_and_watched: tuple[Indices, Indices],
+    width: int,
+    pressure: Real,
+    error: Real,
+    gap: Real,
+) -> tuple[float, float, float, float]:
+    """Go along a direction to the least energy.
+
+    Return the rise of the level, the sums of the squared violations of the set and of the squared
+    errors, and the largest error, which is negative where nothing is to be gained.
+    """
+    nodes, watched = nodes_and_watched
+    curvature = 0.0
+    for i in range(nodes.size):
+        curvature += direction[i] * response[nodes[i] // width, nodes[i] % width]
+    if not (curvature > 0 and energy > 0):
+        return 0.0, 0.0, 0.0, -1.0
+    length, total, rise = energy / curvature, 0.0, 0.0
+    for i in range(nodes.size):
+        pressure[i] += length * direction[i]
+        error[i] -= length * response[nodes[i] // width, nodes[i] % width]
+    if even.size:
+        for i in range(nodes.size):
+            total += even[i] * error[i]
+        rise = -total / even.sum()
+    squared, missed, largest = 0.0, 0.0, 0.0
+    for i in range(nodes.size):
+        error[i] += rise
+        missed += error[i] ** 2
+        largest = max(largest, abs(error[i]))
+        squared += (diagonal * min(pressure[i], 0.0)) ** 2
+    for i in range(watched.size):
+        gap[i] += length * response[watched[i] // width, watched[i] % width]
+        squared += min(gap[i] - level - rise, 0.0) ** 2
+    return rise, squared, missed, largest
+
+
+@compiled
+def _exchanged(
+    pressure: Real, nodes: Indices, watched: Indices, gap: Real, level: float, on: Mask
+) -> int:
+    """Let nodes that pull leave, and watched ones that overlap join; return how many there are."""
+    wrong, width = 0, on.shape[1]
+    for i in range(nodes.size):
+        if pressure[i] < 0:
+            on[nodes[i] // width, nodes[i] % width] = False
+            wrong += 1
+    for i in range(watched.size):
+        if gap[i] < level:
+            on[watched[i] // width, watched[i] % width] = True
+            wrong += 1
+    return wrong
