@@ -13,6 +13,7 @@ import psutil
 from roughline.errors import InputError
 
 _USABLE_SHARE = 0.95  # of the memory that is free
+_FREE_IN_GROUPS = 2**24  # what control groups always have: to look takes a millisecond [bytes]
 _PROCESS_GROUPS = Path("/proc/self/cgroup")  # its control groups, where Linux has them
 _GROUPS = Path("/sys/fs/cgroup")
 _NAMES = {
@@ -53,6 +54,8 @@ def limit_process(memory: int) -> None:
 
 def fits_into_memory(needed: int) -> bool:
     """Return whether this process may take so many bytes of memory."""
+    if needed <= _FREE_IN_GROUPS and _limit is None:
+        return needed <= _USABLE_SHARE * psutil.virtual_memory().available
     usable = free_memory()
     if _limit is not None:
         usable = min(usable, _limit.most - _held())

@@ -47,6 +47,7 @@ _DENTS_BYTES = 30  # and for each node in contact
 # a side soft layers were measured to take 8 to 12 bytes more than homogeneous bodies do under light
 # loads, and nothing more under heavy ones; free plates take 23 to 25.
 _ALL_PLACES_BYTES = 12
+_SMALL_GRIDS_BYTES = 150, 2e6  # of small grids that lead a grid: on each point, and at most
 _GRIDS_FACTOR = 4 / 3  # coarser grids that lead a grid, and itself
 _MEMORY_MARGIN = 1.15  # times as much, so that what is told covers what was measured
 _PROCESS_BYTES = 225_000_000  # of the interpreter and its libraries
@@ -212,7 +213,9 @@ def bytes_at_a_point(
     """Return what a press with this share in contact holds, over the points, as it was measured."""
     from roughline.halfspace.operators.discretisation import bytes_on_grid
 
-    held = _POINT_BYTES + bytes_on_grid(shape, periodic=periodic) / (shape[0] * shape[1])
+    points, (on_each, most) = shape[0] * shape[1], _SMALL_GRIDS_BYTES
+    held = _POINT_BYTES + bytes_on_grid(shape, periodic=periodic) / points
+    held += min(on_each, most / points)
     at_least, more = _MUCH_CONTACT_BYTES
     held += min(_NEAR_CONTACT_BYTES * share, at_least + more * share)
     if yielding and several:  # the surface is kept as loads have left it

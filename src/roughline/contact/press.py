@@ -66,9 +66,6 @@ class _PressArguments(TypedDict, total=False):
     progress: Callable[[int, int], None] | None
 
 
-_SMALL_POINTS = 2**14  # of all fields, for which there is always memory: to look takes longer
-
-
 @overload
 def press(body: Surface, **asked: Unpack[_PressArguments]) -> SurfaceCurve: ...
 @overload
@@ -315,8 +312,6 @@ def _refuse_beyond_memory(
 ) -> None:
     """Refuse loads that memory cannot hold; full contact is supposed where that fits."""
     kept = len(wanted.loads)
-    if surface.heights.size * (1 + max(kept, bool(wanted.measures))) <= _SMALL_POINTS:
-        return
     memory = partial(
         memory_for,
         surface.shape,

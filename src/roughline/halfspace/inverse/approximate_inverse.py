@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -68,7 +68,6 @@ class ApproximateInverse:
     block_sides: tuple[int, int]  # in cells
     block_kernel: Real  # averaged over two blocks, by their distance
     restricted: RestrictedOperators  # forms of the operator that cost what the contact costs
-    factors: dict[str, tuple[InGrid, Real]] = field(default_factory=dict)  # Cholesky's, of nodes
 
     @classmethod
     def of(cls, operator: Convolution) -> ApproximateInverse:
@@ -168,18 +167,17 @@ class ApproximateInverse:
         repetition.
         """
         inverse = self.inverse_convolution
-        mx, my = inverse.periods
-        corner = np.zeros((mx, my // 2 + 1), dtype=np.complex128)
-        corner[:] = inverse.spectrum[np.minimum(np.arange(mx), mx - np.arange(mx))]
-        kernel = fft.synthesise(corner, my)
         px, py = (
             n if repeated else fft.good_size(n + -(-n // 4))
             for n, repeated in zip(inverse.shape, inverse.repeats, strict=True)
         )
-        x, y = (np.minimum(np.arange(n), n - np.arange(n)) for n in (px, py))
-        spectrum = fft.half_spectrum(kernel[x[:, np.newaxis], y]).real[: px // 2 + 1]
-        spectrum = np.maximum(spectrum, _EIGENVALUE_FLOOR * np.median(spectrum))
-        return SmallGrid(inverse.shape, (px, py)), spectrum / (px * py)
+        kernel = inverse.spectrum.copy()
+        fft.cosine_spectrum(kernel, inverse.periods)
+        spectrum = np.ascontiguousarray(kernel[: px // 2 + 1, : py // 2 + 1])
+        fft.cosine_spectrum(spectrum, (px, py))
+        np.maximum(spectrum, _EIGENVALUE_FLOOR * np.median(spectrum), out=spectrum)
+        spectrum /= px * py
+        return SmallGrid(inverse.shape, (px, py)), spectrum
 
     @cached_property
     def stencil(self) -> tuple[Integers, Single]:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, InGrid, Mask
+from roughline.computing.arrays import Indices, InGrid, Mask, among
 from roughline.computing.compiled import compiled
 from roughline.halfspace.search.problem import Contact
 
@@ -37,10 +37,10 @@ def overstated_cells(
        contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
        (2017).
     """
-    on = np.zeros(contact.separation.shape, dtype=np.bool_)
-    on.flat[contact.nodes[~contact.pulling]] = True
+    on, touching = np.zeros(contact.separation.shape, dtype=np.bool_), ~contact.pulling
+    on.flat[contact.nodes[touching]] = True
     above = contact.pressure - contact.problem.bounds_at(contact.nodes).low
-    pairs, along_x = _pairs(on, repeats)
+    pairs, along_x = _pairs(among(contact.nodes, touching), on, repeats)
     outline, outside, within = pairs
     at = np.searchsorted(contact.nodes, outline)
     gap, edge = contact.gap_at(InGrid(outside)), above[at]
@@ -58,38 +58,38 @@ def overstated_cells(
 
 
 @compiled
-def _pairs(on: Mask, repeats: tuple[bool, bool]) -> tuple[Indices, int]:
+def _pairs(nodes: Indices, on: Mask, repeats: tuple[bool, bool]) -> tuple[Indices, int]:
     """List the pairs of neighbours of which one touches: those along x, then those along y.
+
+    The nodes that touch are given, and marked in a field.
 
     For each: the node that touches, the other one, and the one beyond the first if that touches,
     too, or -1, shape (3, pairs); all as flat indices. Return with them how many are along x.
     """
-    nx, ny = on.shape
-    pairs = np.empty((3, 4 * np.count_nonzero(on)), dtype=np.intp)
+    ny = on.shape[1]
+    pairs = np.empty((3, 4 * nodes.size), dtype=np.intp)
     found = along_x = 0
     for axis in range(2):
         n = on.shape[axis]
         for step in (1, -1):
-            for x in range(nx):
-                for y in range(ny):
-                    if not on[x, y]:
-                        continue
-                    place = y if axis else x
-                    out, inner = place + step, place - step
-                    if not repeats[axis] and (out < 0 or out >= n):
-                        continue
-                    out %= n
-                    if on[x, out] if axis else on[out, y]:
-                        continue
-                    exists = repeats[axis] or 0 <= inner < n
-                    inner %= n
-                    loaded = exists and (on[x, inner] if axis else on[inner, y])
-                    pairs[0, found] = x * ny + y
-                    pairs[1, found] = x * ny + out if axis else out * ny + y
-                    pairs[2, found] = -1
-                    if loaded:
-                        pairs[2, found] = x * ny + inner if axis else inner * ny + y
-                    found += 1
+            for node in nodes:
+                x, y = node // ny, node % ny
+                place = y if axis else x
+                out, inner = place + step, place - step
+                if not repeats[axis] and (out < 0 or out >= n):
+                    continue
+                out %= n
+                if on[x, out] if axis else on[out, y]:
+                    continue
+                exists = repeats[axis] or 0 <= inner < n
+                inner %= n
+                loaded = exists and (on[x, inner] if axis else on[inner, y])
+                pairs[0, found] = node
+                pairs[1, found] = x * ny + out if axis else out * ny + y
+                pairs[2, found] = -1
+                if loaded:
+                    pairs[2, found] = x * ny + inner if axis else inner * ny + y
+                found += 1
         if axis == 0:
             along_x = found
     return pairs[:, :found], along_x

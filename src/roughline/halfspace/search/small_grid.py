@@ -9,6 +9,7 @@ preconditions. What is found here is certified as any other start is.
 from __future__ import annotations
 
 import math
+import threading
 
 import numpy as np
 from scipy.linalg import lapack
@@ -31,6 +32,17 @@ _MOST_EVALUATIONS = 4  # each computes the energy form afresh; two are enough
 _ENERGY_AIM = 0.1  # part of its accuracy
 
 
+class _Last(threading.local):
+    """The last Cholesky factor of a thread, and of which nodes of which grid it is."""
+
+    inverse: ApproximateInverse | None = None
+    nodes: InGrid
+    factor: Real
+
+
+_last = _Last()
+
+
 def contact_under(
     problem: Problem, load: Load, start: ContactSet, method: Method
 ) -> tuple[ContactSet, int] | None:
@@ -41,7 +53,11 @@ def contact_under(
     grid, bounds = problem.operator.small_grid, problem.bounds
     if grid is None or np.any(bounds.low) or not np.all(np.isposinf(bounds.high)):
         return None
-    return _SmallGridSearch(problem, grid, load, method).from_start(start) if start.nodes.size else None
+    return (
+        _SmallGridSearch(problem, grid, load, method).from_start(start)
+        if start.nodes.size
+        else None
+    )
 
 
 class _SmallGridSearch:
@@ -210,25 +226,18 @@ class Gradients:
             if self.energy <= least_energy:
                 break
             grid.convolve(field, self._inverse.operator.spectrum, response)
-            rise, squared, missed, largest = _stepped(
-                direction,
-                response,
-                self.energy,
-                even,
-                self.level,
-                self._diagonal,
-                (nodes, self._watched),
-                width,
-                self._pressure,
-                error,
-                self.gap,
+            rise, of_set, of_error, largest = _stepped(
+                (direction, response, self.energy),
+                (even, self.level, self._diagonal),
+                (nodes, self._watched, width),
+                (self._pressure, error, self.gap),
             )
             if largest < 0:  # nothing to gain
                 break
             self.steps += 1
             self.level += rise
             self.largest_error = largest
-            if largest <= tolerance or squared > missed:
+            if largest <= tolerance or of_set > of_error:
                 break
 
 
@@ -284,16 +293,15 @@ def _factor(inverse: ApproximateInverse, nodes: InGrid) -> Real:
 
     The last one is kept: the stiffness asks for that of the contact, and so does the next load.
     """
-    kept = inverse.factors.get("last")
-    if kept is not None and np.array_equal(kept[0], nodes):
-        return kept[1]
+    if _last.inverse is inverse and np.array_equal(_last.nodes, nodes):
+        return _last.factor
     rows, columns = np.divmod(nodes, inverse.operator.shape[1])
     matrix = np.empty((rows.size, rows.size))
     fill_triangle(inverse.kernel, rows, columns, matrix)
     factor, failed = lapack.dpotrf(matrix.T, lower=1, clean=0, overwrite_a=1)
     if failed:
         raise np.linalg.LinAlgError("the matrix is not positive definite")
-    inverse.factors["last"] = nodes, factor
+    _last.inverse, _last.nodes, _last.factor = inverse, nodes, factor
     return factor
 
 
@@ -445,24 +453,21 @@ def _turned(
 
 @compiled_sums
 def _stepped(
-    direction: Real,
-    response: Real,
-    energy: float,
-    even: Real,
-    level: float,
-    diagonal: float,
-    nodes_and_watched: tuple[Indices, Indices],
-    width: int,
-    pressure: Real,
-    error: Real,
-    gap: Real,
+    step: tuple[Real, Real, float],
+    conditions: tuple[Real, float, float],
+    places: tuple[Indices, Indices, int],
+    state: tuple[Real, Real, Real],
 ) -> tuple[float, float, float, float]:
     """Go along a direction to the least energy.
 
-    Return the rise of the level, the sums of the squared violations of the set and of the squared
-    errors, and the largest error, which is negative where nothing is to be gained.
+    A step is the direction, the field that it displaces by, and the energy of the error. Conditions
+    are the even one, the level, and the diagonal of the operator; places are the nodes in contact,
+    the watched ones, and columns of the grid. The state is overwritten: pressures, errors, and gaps
+    of the watched nodes. Return the rise of the level, the sums of the squared violations of the
+    set and of the squared errors, and the largest error, negative where nothing is to be gained.
     """
-    nodes, watched = nodes_and_watched
+    (direction, response, energy), (even, level, diagonal) = step, conditions
+    (nodes, watched, width), (pressure, error, gap) = places, state
     curvature = 0.0
     for i in range(nodes.size):
         curvature += direction[i] * response[nodes[i] // width, nodes[i] % width]
@@ -476,16 +481,16 @@ def _stepped(
         for i in range(nodes.size):
             total += even[i] * error[i]
         rise = -total / even.sum()
-    squared, missed, largest = 0.0, 0.0, 0.0
+    of_set, of_error, largest = 0.0, 0.0, 0.0
     for i in range(nodes.size):
         error[i] += rise
-        missed += error[i] ** 2
+        of_error += error[i] ** 2
         largest = max(largest, abs(error[i]))
-        squared += (diagonal * min(pressure[i], 0.0)) ** 2
+        of_set += (diagonal * min(pressure[i], 0.0)) ** 2
     for i in range(watched.size):
         gap[i] += length * response[watched[i] // width, watched[i] % width]
-        squared += min(gap[i] - level - rise, 0.0) ** 2
-    return rise, squared, missed, largest
+        of_set += min(gap[i] - level - rise, 0.0) ** 2
+    return rise, of_set, of_error, largest
 
 
 @compiled
