@@ -27,3 +27,12 @@ def test_a_broken_assumption_stands_above_other_warnings_only_where_answers_rest
         rl.Question(body, E_star="100 GPa", loads=["1 MPa"], grid_error=False)
     )
     assert departure.text not in " ".join(of_the_map_alone.warnings)
+
+
+def test_a_press_without_materials_fits_no_spectrum(monkeypatch):
+    def fitted(body):
+        raise AssertionError("no answer to this question rests on the spectrum's law")
+
+    monkeypatch.setattr("roughline.spectra.departures.fitted", fitted)
+    result = rl.assess(rl.Question(wavy_map(), E_star="100 GPa", loads=["1 MPa"], grid_error=True))
+    assert result.intervals is not None

@@ -100,3 +100,13 @@ def test_a_map_of_four_times_the_area_shows_four_times_the_independent_values():
 
 def test_a_reduced_line_departs_from_nothing():
     assert departures(rl.Line(np.arange(64.0) ** 2, SIDE)) == ()
+
+
+@pytest.mark.parametrize("kind", ["lognormal pits", "ground, 9", "uneven roughness", "no roll-off"])
+def test_departures_from_some_assumptions_are_among_all_in_their_order(kind):
+    body = piece(kind, 2)
+    for some in ({"measured"}, {"isotropic", "roll-off"}, {"stationary", "longer waves"}):
+        own = replace(body, heights=body.heights.copy())  # of which nothing is known yet
+        assert departures(own, some) == tuple(
+            each for each in departures(body) if each.assumption in some
+        )

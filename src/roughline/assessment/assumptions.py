@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal
 
 from roughline.spectra.departures import FIT_RESTS_ON, Assumption, Departure, departures
@@ -29,7 +29,14 @@ _RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
 
 def broken(prediction: Prediction, body: Body) -> tuple[Departure, ...]:
     """Departures of a body on which a prediction rests, gravest first; empty where it holds."""
-    return tuple(each for each in departures(body) if takes_down(each, prediction, body))
+    return tuple(
+        each for each in departures_behind([prediction], body) if takes_down(each, prediction, body)
+    )
+
+
+def departures_behind(predictions: Iterable[Prediction], body: Body) -> tuple[Departure, ...]:
+    """Departures of a body from what some predictions rest on, gravest first."""
+    return departures(body, frozenset().union(*(_RESTS_ON[each] for each in predictions)))
 
 
 def takes_down(departure: Departure, prediction: Prediction, body: Body) -> bool:
@@ -41,5 +48,5 @@ def takes_down(departure: Departure, prediction: Prediction, body: Body) -> bool
     if departure.assumption not in _RESTS_ON[prediction]:
         return False
     if prediction == "larger surface" and departure.assumption == "stationary":
-        return all(each.assumption != "gaussian" for each in departures(body))
+        return not departures(body, {"gaussian"})
     return True

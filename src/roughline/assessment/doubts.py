@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import Prediction, takes_down
+from roughline.assessment.assumptions import Prediction, departures_behind, takes_down
 from roughline.assessment.case import COARSENED_FROM
 from roughline.assessment.kinds import is_map
 from roughline.assessment.notes import (
@@ -29,7 +29,6 @@ from roughline.engineering.rules.mechanical import (
 )
 from roughline.errors.remark import INTERVALS, Remark, remarks
 from roughline.errors.words import called
-from roughline.spectra.departures import departures
 from roughline.spectra.homogeneity import ISOTROPIC_FROM
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments
@@ -106,12 +105,13 @@ def _departures_in_words(result: Assessment) -> list[Remark]:
         "larger surface": is_map(result.body) and bool(result.answers),
         "theories": bool(result.theories),
     }
+    predictions = [prediction for prediction, is_made in made.items() if is_made]
     texts = []
-    for departure in departures(result.body):
+    for departure in departures_behind(predictions, result.body):
         down = {
             prediction: _without_interval(result, prediction)
-            for prediction, is_made in made.items()
-            if is_made and takes_down(departure, prediction, result.body)
+            for prediction in predictions
+            if takes_down(departure, prediction, result.body)
         }
         if down:
             text = "; ".join([departure.text, *filter(None, dict.fromkeys(down.values()))])

@@ -16,7 +16,7 @@ from roughline.assessment.notes import listed, listed_in_short
 from roughline.assessment.part import PartAnswer
 from roughline.errors.remark import INTERVALS, Remark, remarks
 from roughline.errors.words import called
-from roughline.spectra.departures import departures
+from roughline.spectra.departures import Assumption, departures
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
@@ -64,8 +64,8 @@ def remarks_of_part(
 
 def _common_departures(body: Body) -> tuple[str, ...]:
     """How what is said of a map alone begins where the maps judge it together."""
-    common = ("stationary", "steady", "longer waves", "roll-off")
-    return tuple(each.text for each in departures(body) if each.assumption in common)
+    common: tuple[Assumption, ...] = ("stationary", "steady", "longer waves", "roll-off")
+    return tuple(each.text for each in departures(body, common))
 
 
 def differ_in_size(results: Sequence[Assessment]) -> bool:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -75,46 +75,60 @@ class Departure:
     gravity: float  # the number measured over that which would not matter; above 1
 
 
-def departures(body: Body) -> tuple[Departure, ...]:
-    """Return how a topography departs from what predictions rest on, gravest first."""
-    if body not in _KNOWN:
-        _KNOWN[body] = _departures(body)
-    return _KNOWN[body]
+def departures(
+    body: Body, on: Collection[Assumption] = get_args(Assumption)
+) -> tuple[Departure, ...]:
+    """Return how a topography departs from some of what predictions rest on, gravest first.
 
-
-_KNOWN: WeakKeyDictionary[Body, tuple[Departure, ...]] = WeakKeyDictionary()
-
-
-def _departures(body: Body) -> tuple[Departure, ...]:
+    What it departs from otherwise is not computed.
+    """
     if isinstance(body, Line) and body.kind == "reduced":
         return ()
+    known = _KNOWN.setdefault(body, {})
+    found: list[Departure] = []
+    for assumptions, test in _TESTS.items():
+        if not assumptions.isdisjoint(on):
+            if assumptions not in known:
+                known[assumptions] = tuple(filter(None, test(body)))
+            found += [each for each in known[assumptions] if each.assumption in on]
+    return tuple(sorted(found, key=lambda each: -each.gravity))
+
+
+_Tested = frozenset[Assumption]
+
+_KNOWN: WeakKeyDictionary[Body, dict[_Tested, tuple[Departure, ...]]] = WeakKeyDictionary()
+
+
+def _find_chance(body: Body) -> Iterator[Departure | None]:
+    """Say whether heights, or their scatter between places, are not by chance."""
     selves = list(coarser_selves(body))
-    found = [
-        _first("gaussian", shapes_on_every_scale(body, selves), body),
-        _first("stationary", scatter_between_places(selves), body),
-        _find_steps(body),
-    ]
+    yield _first("gaussian", shapes_on_every_scale(body, selves), body)
+    yield _first("stationary", scatter_between_places(selves), body)
+
+
+def _find_lay(body: Body) -> Iterator[Departure | None]:
+    """Say whether slopes differ by direction."""
     if isinstance(body, Surface):
-        found.append(_first("isotropic", slopes_by_direction(body), body))
-        if body.is_cut_out:
-            found.append(_first("steady", drift_along_sides(body), body, _DRIFT_CHANCE))
-    if body.is_cut_out and selves:
-        found += _find_long_waves(body)
-    found += _find_faults(body)
-    return tuple(sorted(filter(None, found), key=lambda each: -each.gravity))
+        yield _first("isotropic", slopes_by_direction(body), body)
 
 
-def _find_steps(body: Body) -> Departure | None:
+def _find_drift(body: Body) -> Iterator[Departure | None]:
+    """Say whether the roughness drifts over a piece."""
+    if isinstance(body, Surface) and body.is_cut_out:
+        yield _first("steady", drift_along_sides(body), body, _DRIFT_CHANCE)
+
+
+def _find_steps(body: Body) -> Iterator[Departure]:
     """Say whether heights stand in steps, as an instrument rounds them or ends its range."""
     share = _share_on_lines(body.heights)
     if share <= _STEPPED_SHARE:
-        return None
+        return
     text = (
         f"{share:.0%} of the heights lie in line with their neighbours to the last digit, which "
         "chance does not do: they are rounded, filled, or at the end of the instrument's "
         "range, so slopes there are not the surface's: measure with finer steps or a larger range"
     )
-    return Departure("resolution", text, share / _STEPPED_SHARE)
+    yield Departure("resolution", text, share / _STEPPED_SHARE)
 
 
 def _find_faults(body: Body) -> Iterator[Departure]:
@@ -299,6 +313,8 @@ _REMEDIES = {"map": "several maps of a part show what one does not", "scan": "me
 
 def _find_long_waves(body: Body) -> list[Departure | None]:
     """Say whether a piece shows a roll-off, and whether it lies on waves longer than itself."""
+    if not body.is_cut_out or next(coarser_selves(body), None) is None:
+        return []
     what = _what(body)
     try:
         _, fit = fitted(body)
@@ -358,7 +374,7 @@ def checked_fit(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
         return fit
     if fit.objections:
         return fit.without_intervals()
-    if any(each.assumption in FIT_RESTS_ON for each in departures(body)):
+    if departures(body, FIT_RESTS_ON):
         return fit.without_intervals()
     for shape in _grave_shapes(body, fit) if body.is_cut_out else []:
         if shape.degree > 1:
@@ -389,3 +405,14 @@ def _in_words(shape: LongShape, body: Body, what: str) -> str:
 
 def _say_so() -> str:
     return f"say that the tilt is the mounting's ({called('tilt', 'mounting')})"
+
+
+_TESTS: Mapping[_Tested, Callable[[Body], Iterable[Departure | None]]] = {
+    frozenset({"gaussian", "stationary"}): _find_chance,
+    frozenset({"resolution"}): _find_steps,
+    frozenset({"isotropic"}): _find_lay,
+    frozenset({"steady"}): _find_drift,
+    frozenset({"roll-off", "longer waves"}): _find_long_waves,
+    frozenset({"measured"}): _find_faults,
+}
+"""What is tested, by the assumptions that are judged together."""
