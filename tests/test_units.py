@@ -3,6 +3,7 @@
 import pytest
 
 import roughline as rl
+from roughline import units
 from roughline.units import engineering, in_si, metres_per
 
 
@@ -77,6 +78,41 @@ def test_prefixes(value, unit, text):
     ],
 )
 def test_units_are_read_as_engineers_write_them(text, unit, value):
+    assert in_si(text, unit, "it") == value
+
+
+@pytest.mark.parametrize("prefix", ["", *"afpnuµμmckMGTPE"])
+@pytest.mark.parametrize(
+    "unit", ["m", "s", "g", "K", "mol", "N", "Pa", "bar", "J", "W", "Hz", "ohm"]
+)
+def test_plain_units_are_those_of_the_registry(prefix, unit):
+    registry = units._registry()
+    ten, powers = units._plain(prefix + unit)
+    expected = registry.Quantity(10.0**ten, "")
+    for each, power in powers.items():
+        expected *= registry.Quantity(1.0, each) ** power
+    assert (registry.Quantity(1.0, prefix + unit) / expected).to("").magnitude == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("2 cm^2", "m^2"),
+        ("2 mm**2", "m^2"),
+        ("2 N/mm²", "Pa"),
+        ("1 bar", "Pa"),
+        ("50 mJ/m^2", "J/m**2"),
+        ("50 mN / m", "J/m**2"),
+        ("400 W m-1 K-1", "W/m/K"),
+        ("40 mPa s", "Pa*s"),
+        ("29 g/mol", "kg/mol"),
+        ("7.86 g/cm³", "kg/m**3"),
+        ("2 1/µm", "1/m"),
+    ],
+)
+def test_products_of_plain_units_are_those_of_the_registry(text, unit, monkeypatch):
+    value = in_si(text, unit, "it")
+    monkeypatch.setattr(units, "_plain", lambda written: None)
     assert in_si(text, unit, "it") == value
 
 

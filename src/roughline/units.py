@@ -30,8 +30,29 @@ SI = ("m", "m²", "N", "N/m", "Pa", "J")
 """Units that get a prefix where values are shown."""
 
 _PREFIXES = dict(zip(range(-18, 19, 3), (*"afpnµm", "", *"kMGTPE"), strict=True))
-_POWERS = {prefix: power for power, prefix in _PREFIXES.items()}
+_POWERS = {each: power for power, each in _PREFIXES.items()} | {"u": -6, "μ": -6, "c": -2}
 _PREFIXED = re.compile(r"(?P<prefix>[afpnuµμmkMGTPE]?)(?P<unit>m|N|Pa|Hz)")
+_PLAIN: dict[str, tuple[int, dict[str, int]]] = {
+    "m": (0, {"m": 1}),
+    "s": (0, {"s": 1}),
+    "g": (-3, {"N": 1, "s": 2, "m": -1}),
+    "K": (0, {"K": 1}),
+    "mol": (0, {"mol": 1}),
+    "N": (0, {"N": 1}),
+    "Pa": (0, {"N": 1, "m": -2}),
+    "bar": (5, {"N": 1, "m": -2}),
+    "J": (0, {"N": 1, "m": 1}),
+    "W": (0, {"N": 1, "m": 1, "s": -1}),
+    "Hz": (0, {"s": -1}),
+    "ohm": (0, {"ohm": 1}),
+}
+"""Powers of ten and of other units in those that are read without the registry."""
+_PLAIN_FACTOR = re.compile(
+    rf"(?P<prefix>[afpnuµμmckMGTPE]??)(?P<unit>{'|'.join(_PLAIN)})"
+    r"((\^|\*\*)?(?P<exponent>-?[1-9]))?"
+)
+_PLAIN_JOINT = re.compile(r" ?((?<!\*)\*(?!\*)|[·/ ]) ?")
+_RAISED = str.maketrans("²³", "23")
 _SIGNS = {"ohm": "Ω", "ohm m²": "Ω m²"}
 _WITHOUT_PREFIX = ("mbar l/s",)  # units that people write without a prefix
 _DIMENSIONS = {"m²": 2, "m³/s": 3}  # of lengths that get a prefix
@@ -84,11 +105,11 @@ def in_si(text: str, unit: str, name: str) -> float:
     try:
         if not parts:
             raise ValueError("no number with a unit")
-        if prefixed := _PREFIXED.fullmatch(parts["unit"]):  # the registry loads slowly
-            if prefixed["unit"] != unit:
+        plain, wanted = _plain(parts["unit"]), _plain(unit)
+        if plain is not None and wanted is not None:  # the registry loads slowly
+            if plain[1] != wanted[1]:
                 raise ValueError(f"no quantity in {unit}")
-            power = _POWERS[prefixed["prefix"].replace("u", "µ").replace("μ", "µ")]
-            value = float(Decimal(parts["number"]).scaleb(power))
+            value = float(Decimal(parts["number"]).scaleb(plain[0] - wanted[0]))
             return float(f"{value:.{_EXACT}g}")
         written = _MIL.sub("thou", parts["unit"].replace("·", "*"))
         units = _registry().parse_units(_EXPONENT.sub(r"**\1", written))
@@ -101,6 +122,28 @@ def in_si(text: str, unit: str, name: str) -> float:
             f"{vickers}",
             name,
         ) from error
+
+
+@functools.cache
+def _plain(written: str) -> tuple[int, dict[str, int]] | None:
+    """Read a unit such as "mm^2" as a power of ten, and units with powers.
+
+    None for one that is not a product of plain units.
+    """
+    first, *rest = _PLAIN_JOINT.split(written.translate(_RAISED))
+    factors = zip(["*", *rest[::2]], [first, *rest[1::2]], strict=True)
+    ten, powers = 0, dict[str, int]()
+    for joint, factor in factors:
+        found = _PLAIN_FACTOR.fullmatch(factor)
+        if found:
+            exponent = int(found["exponent"] or 1) * (-1 if joint == "/" else 1)
+            tens, units = _PLAIN[found["unit"]]
+            ten += exponent * (_POWERS[found["prefix"]] + tens)
+            for unit, times in units.items():
+                powers[unit] = powers.get(unit, 0) + exponent * times
+        elif factor != "1":
+            return None
+    return ten, {unit: power for unit, power in powers.items() if power}
 
 
 def as_si(given: float | str, unit: str, name: str) -> float:
