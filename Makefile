@@ -11,7 +11,7 @@ PEERS_PYTHON ?= $(BIN)/python
 unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -125,6 +125,10 @@ layers: $(VENV)/installed
 
 permeance: $(VENV)/installed
 	$(BIN)/python benchmarks/permeance.py
+
+# Writes src/roughline/spectra/square_leakage.npz again, after a change of what it holds.
+square-leakage: $(VENV)/installed
+	$(BIN)/python benchmarks/square_leakage.py
 
 start-up: $(VENV)/installed
 	$(BIN)/python benchmarks/start_up.py

@@ -2,14 +2,16 @@
 
 A piece of a larger surface holds no whole waves. After its plane is removed and a Hann window is
 applied, each wave of the surface appears in several modes of the piece. Wavenumbers are in
-units of the piece's q_low = 2 pi / L here, in which its modes are 1 apart.
+units of the piece's q_low = 2 pi / L here, in which its modes are 1 apart. What square maps need is
+kept in a file, which ``make square-leakage`` writes.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,9 @@ RING_HALF_WIDTH = 0.25
 LONGER_WAVES = np.geomspace(1 / 16, 0.5, 13)
 """Ends of the ranges of waves that are longer than the piece and leave a trace in it. [q_low]"""
 
+SQUARE_MAPS = Path(__file__).with_name("square_leakage.npz")
+"""Arrays of :func:`compute_map_leakage` and :func:`compute_power_inside` for Lx = Ly."""
+
 LONG_WAVES = 8  # wavenumber up to which a line scan's waves are those of a cosine series [q_low]
 _MOST_MODES = 48  # from the longest; beyond, a power law is smeared by less than 0.3 %
 _PLANE_RINGS = 12  # rings whose power the removed plane changes
@@ -33,7 +38,7 @@ _MODES_PER_RING = 24  # that are computed of a large ring
 
 
 @dataclass(frozen=True, eq=False)
-class _Leakage:
+class Leakage:
     """Expected power in the longest modes of a piece, from ranges of waves of its surface. [q_low]
 
     It is that in each ring of a map, or of each function of a scan, for a spectrum of one in a
@@ -47,8 +52,16 @@ class _Leakage:
 
 
 @lru_cache(maxsize=8)
-def map_leakage(aspect: float = 1.0) -> _Leakage:
+def map_leakage(aspect: float = 1.0) -> Leakage:
     """Leakage into the longest rings of a map of some Lx / Ly, the mean over all directions."""
+    if aspect != 1.0:
+        return compute_map_leakage(aspect)
+    with np.load(SQUARE_MAPS) as kept:
+        return Leakage(*(kept[each.name] for each in fields(Leakage)))
+
+
+def compute_map_leakage(aspect: float) -> Leakage:
+    """Compute :func:`map_leakage`."""
     sides = _sides(aspect)
     reach = _LEAKAGE_REACH / min(sides)
     edges = _edges(_MOST_MODES + reach)
@@ -63,15 +76,15 @@ def map_leakage(aspect: float = 1.0) -> _Leakage:
         members = np.flatnonzero(ring == k)
         members = members[:: -(-members.size // _MODES_PER_RING)]
         for x, y in zip(mx[members], my[members], strict=True):
-            q = np.hypot((x + offset[:, np.newaxis]) / sides[0], (y + offset) / sides[1])
+            q = _wavenumbers((x + offset) / sides[0], (y + offset) / sides[1])
             wave = LONGER_WAVES.size - 1 + ((q - LONGER_WAVES[-1]) / _RANGE_WIDTH).astype(np.intp)
-            by_wave = np.bincount(wave.ravel(), power.ravel(), minlength=waves.size)
+            by_wave = np.bincount(wave, power, minlength=waves.size)
             response[k - 1] += by_wave[: waves.size] / members.size
-    return _Leakage(edges, waves, response, remaining)
+    return Leakage(edges, waves, response, remaining)
 
 
 @lru_cache(maxsize=1)
-def scan_leakage() -> _Leakage:
+def scan_leakage() -> Leakage:
     """Leakage into the longest waves of a line scan, those of a cosine series.
 
     Its functions are sqrt(2) cos(pi k (x + 1/2)) over a unit length, k = 2, 3, ..., with the
@@ -89,7 +102,7 @@ def scan_leakage() -> _Leakage:
     ramp = np.where(k % 2, -2 * math.sqrt(2) / (np.pi * k) ** 2, 0.0)
     left -= ramp * -6j / math.pi * _sinc_slope(waves)
     removed = np.sinc(waves) ** 2 + 3 / math.pi**2 * _sinc_slope(waves) ** 2
-    return _Leakage(edges, waves, 2 * np.abs(left) ** 2 * widths, 1 - removed)
+    return Leakage(edges, waves, 2 * np.abs(left) ** 2 * widths, 1 - removed)
 
 
 @lru_cache(maxsize=8)
@@ -99,6 +112,14 @@ def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
     It is computed far from the longest waves, where it depends alone on the distance to the end,
     which is its wavenumber less the ring's. The distances rise, and the share from 0 to 1.
     """
+    if aspect != 1.0:
+        return compute_power_inside(aspect)
+    with np.load(SQUARE_MAPS) as kept:
+        return kept["distances"], kept["share"]
+
+
+def compute_power_inside(aspect: float) -> tuple[Real, Real]:
+    """Compute :func:`power_inside`."""
     sides = _sides(aspect)
     far, steps = 200.0, 16
     offset, power = _patch(steps)
@@ -109,8 +130,9 @@ def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
     for ring in far + RING_HALF_WIDTH * np.linspace(-1, 1, 5):
         for angle in angles:
             x, y = ring * math.cos(angle), ring * math.sin(angle)
-            q = np.hypot(x + offset[:, np.newaxis] / sides[0], y + offset / sides[1])
-            share += np.histogram(q - far, edges, weights=power)[0]
+            q = _wavenumbers(x + offset / sides[0], y + offset / sides[1])
+            beyond = ((q - far + reach) * steps).astype(np.intp)
+            share += np.bincount(beyond, power, minlength=share.size)
     return edges, np.append(0.0, np.cumsum(share)) / share.sum()
 
 
@@ -153,9 +175,13 @@ def _without_plane(q: Real, sides: tuple[float, float]) -> tuple[Real, Real]:
     are products of sinc and of its derivative, and so are the transforms of that plane.
     """
     along_x, along_y, ring = _ring_modes(sides, _PLANE_RINGS)
-    mx, my = (along.astype(np.float64) for along in (along_x, along_y))
+    (mx, of_x), (my, of_y) = (
+        np.unique(each.astype(np.float64), return_inverse=True) for each in (along_x, along_y)
+    )
+    flat_x, flat_y = _hann(mx)[of_x], _hann(my)[of_y]
+    tilted_x, tilted_y = _hann_slope(mx)[of_x], _hann_slope(my)[of_y]
     tilted = 3 / math.pi**2  # 12 / (2 pi)², from the transform of x over its mean square
-    power, remaining = np.zeros((mx.size, q.size)), np.zeros(q.size)
+    power, remaining = np.zeros((ring.size, q.size)), np.zeros(q.size)
     angles = (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS * math.pi / 2
     for angle in angles:
         for sign in (1, -1):
@@ -163,14 +189,20 @@ def _without_plane(q: Real, sides: tuple[float, float]) -> tuple[Real, Real]:
                 sign * side * q * of_angle
                 for side, of_angle in zip(sides, (math.cos(angle), math.sin(angle)), strict=True)
             )
-            left = _hann(mx[:, np.newaxis] - x) * _hann(my[:, np.newaxis] - y)
-            left -= np.outer(_hann(mx) * _hann(my), np.sinc(x) * np.sinc(y))
-            left -= tilted * np.outer(_hann_slope(mx) * _hann(my), _sinc_slope(x) * np.sinc(y))
-            left -= tilted * np.outer(_hann(mx) * _hann_slope(my), np.sinc(x) * _sinc_slope(y))
+            mean_x, mean_y, slope_x, slope_y = (
+                np.sinc(x),
+                np.sinc(y),
+                _sinc_slope(x),
+                _sinc_slope(y),
+            )
+            left = _hann(mx[:, np.newaxis] - x)[of_x] * _hann(my[:, np.newaxis] - y)[of_y]
+            left -= np.outer(flat_x * flat_y, mean_x * mean_y)
+            left -= tilted * np.outer(tilted_x * flat_y, slope_x * mean_y)
+            left -= tilted * np.outer(flat_x * tilted_y, mean_x * slope_y)
             power += left**2
-        removed = (np.sinc(x) * np.sinc(y)) ** 2
-        removed += tilted * (_sinc_slope(x) * np.sinc(y)) ** 2
-        removed += tilted * (np.sinc(x) * _sinc_slope(y)) ** 2
+        removed = (mean_x * mean_y) ** 2
+        removed += tilted * (slope_x * mean_y) ** 2
+        removed += tilted * (mean_x * slope_y) ** 2
         remaining += 1 - removed
     counts = np.bincount(ring, minlength=_PLANE_RINGS + 1)[1:]
     sums = np.zeros((_PLANE_RINGS + 1, q.size))
@@ -179,11 +211,17 @@ def _without_plane(q: Real, sides: tuple[float, float]) -> tuple[Real, Real]:
     return means / (2 * angles.size), remaining / angles.size
 
 
+def _wavenumbers(along_x: Real, along_y: Real) -> Real:
+    """Wavenumbers on a grid, as one row."""
+    squares: Real = np.add.outer(along_x**2, along_y**2).ravel()
+    return np.sqrt(squares, out=squares)
+
+
 def _patch(steps: int) -> tuple[Real, Real]:
-    """Offsets from a mode along one side, and the power of the window over both sides."""
+    """Offsets from a mode along one side, and the power of the window over both sides, as a row."""
     offset = (np.arange(2 * steps * _LEAKAGE_REACH) + 0.5) / steps - _LEAKAGE_REACH
     along = _hann(offset) ** 2 / steps
-    return offset, np.outer(along, along)
+    return offset, np.outer(along, along).ravel()
 
 
 def _edges(last: float) -> Real:
