@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special
 
 from roughline.computing import fft
 from roughline.computing.arrays import Mask, Real
@@ -71,6 +70,8 @@ class Chance:
 
 def score_of_square(freedom: float, ratio: float) -> float:
     """Return the standard score of a chi-squared variable over its mean."""
+    from scipy import special  # here because it loads slowly
+
     over = float(special.chdtrc(freedom, freedom * ratio))
     if over < 0.5:
         return -float(special.ndtri(max(over, _SMALLEST_CHANCE)))

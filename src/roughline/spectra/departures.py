@@ -9,7 +9,6 @@ from typing import Literal, get_args
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from scipy import special
 
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
@@ -292,6 +291,8 @@ def _first(
     chance: float = _DEPARTURE_CHANCE,
 ) -> Departure | None:
     """The gravest of findings that chance does not explain; None if there is none."""
+    from scipy import special  # here because it loads slowly
+
     findings = list(findings)
     if not findings:
         return None

@@ -9,7 +9,6 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
@@ -373,6 +372,8 @@ def _rms_factors(observed: Observed, likely: LikelyLaws) -> Real:
     The mean square of a piece has about a gamma distribution, whose shape is that of its powers.
     The interval misses where the law is missed or where chance is larger; both are as rare.
     """
+    from scipy import special  # here because it loads slowly
+
     factors, miss_chance = [], 1 - _CONFIDENCE
     for which in (likely.laws.best, *likely.outline()):
         law = likely.laws.at(*which)

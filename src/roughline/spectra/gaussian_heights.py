@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.spectra.chance import Chance, Finding, score_of_square
@@ -146,6 +145,8 @@ def _mean_and_slopes(heights: Real) -> tuple[Real, list[Real]]:
 
 def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
     """Judge the mean square slope of the highest places over that of all."""
+    from scipy import special  # here because it loads slowly
+
     shape = 2 / variance  # of a chi-squared variable with as many degrees of freedom
     score = _SCORE_SHARE * score_of_square(shape, ratio)
 

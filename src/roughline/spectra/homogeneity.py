@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.spectra.chance import Finding, score_of_square
@@ -44,6 +43,8 @@ def scatter_between_places(selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
 
 def _scatter(logs: Real, shape: float) -> Finding:
     """Compare the scatter of logarithms of mean squares with that of gamma variates."""
+    from scipy import special  # here because it loads slowly
+
     expected = float(special.polygamma(1, shape))
     variance, freedom = float(logs.var(ddof=1)), logs.size - 1
     score = score_of_square(freedom, variance / expected)
@@ -81,6 +82,8 @@ def drift_along_sides(surface: Surface) -> Iterable[Finding]:
 
 def _drift(along: str, logs: Real) -> Finding:
     """Fit a line to the logarithms of rms slopes of strips, whose scatter may be correlated."""
+    from scipy import special  # here because it loads slowly
+
     n = logs.size
     place = np.linspace(-0.5, 0.5, n) * (1 - 1 / n)
     spread = float((place**2).sum())
@@ -139,6 +142,8 @@ def slopes_by_direction(surface: Surface) -> Iterable[Finding]:
 
 def _lay(lay: float, variance: float, wave: float, unit: str | None) -> Finding:
     """Judge how far slopes of waves longer than one prefer a direction."""
+    from scipy import special  # here because it loads slowly
+
     chance = math.exp(-min(lay**2 / 2 / variance, 600.0))
     score = -float(special.ndtri(chance / 2))
 

@@ -13,7 +13,6 @@ from functools import cached_property, lru_cache
 from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
-from scipy import special
 
 from roughline.computing import linear_algebra
 from roughline.computing.arrays import Indices, Mask, Real
@@ -110,6 +109,8 @@ class LikelyLaws:
     @classmethod
     def of(cls, laws: _Laws, level: float) -> LikelyLaws:
         """Take the laws within a level of the profile likelihood."""
+        from scipy import special  # here because it loads slowly
+
         # a chi-squared variable with one degree of freedom is twice a gamma variable of shape 1/2
         most = 2 * special.gammaincinv(0.5, level)
         most += laws.deviance.min()

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.spectra.fit import SelfAffineFit
@@ -56,6 +55,8 @@ def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShap
     As far as they are known. A tilt that several pieces have is the mounting's; it counts how much
     they are tilted differently.
     """
+    from scipy import special  # here because it loads slowly
+
     level = [body.detrended() for body in bodies]
     found = [_mean_squares(each) for each in level]
     squares, counts = np.mean([each for each, _ in found], axis=0), found[0][1]
@@ -146,5 +147,7 @@ def _scan_response() -> tuple[Real, Real]:
 
 def _legendre(q: Real) -> Real:
     """Mean square of a unit wave in the Legendre polynomial of each degree, over a side of 1."""
+    from scipy import special  # here because it loads slowly
+
     degrees = np.arange(_DEGREE_COUNT).reshape(-1, *[1] * q.ndim)
     return np.asarray((2 * degrees + 1) * special.spherical_jn(degrees, math.pi * q) ** 2)

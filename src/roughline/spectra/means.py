@@ -10,7 +10,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
@@ -95,6 +94,8 @@ class Means:
 
     def deviations(self, law: Real) -> _Deviations:
         """Compare the powers with the logarithm of a law, -inf where it has ended."""
+        from scipy import special  # here because it loads slowly
+
         bins, inside = _bins(self.q), np.isfinite(law)
         size = int(bins[-1]) + 1
         shape = np.bincount(bins, np.where(inside, 1 / self.by_chance, 0.0), size)

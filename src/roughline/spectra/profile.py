@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
 
 from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
@@ -79,6 +78,8 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
     InputError
         If a line is not a profile, is flat, or has fewer than 64 points, or if they differ in size.
     """
+    from scipy import fft  # here because it loads slowly
+
     cuts = [lines] if isinstance(lines, Line) else several(lines)
     if not cuts or not all(isinstance(cut, Line) for cut in cuts):
         refuse("lines", lines, 'a Line of kind "profile", or a list of them, is needed')

@@ -25,7 +25,6 @@ import math
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
-from scipy import special
 
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real
@@ -158,6 +157,8 @@ class _Images:
         A pair that is m periods away displaces by a / m + b / m³ + c / m^5 there. Those at this
         place, and at twice and four times as many periods, tell a, b and c.
         """
+        from scipy import special  # here because it loads slowly
+
         if self._half_space.has_base:
             return np.zeros_like(pairs[0])
         far = np.array([1.0, 2.0, 4.0])

@@ -23,7 +23,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import erfc
 
 from roughline.computing import fft
 from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
@@ -61,6 +60,8 @@ class RestrictedOperator:
         cls, operator: Convolution, ratios: tuple[int, int], margins: tuple[int, int]
     ) -> RestrictedOperator:
         """Split an operator, with so many cells along the sides of a coarse cell."""
+        from scipy.special import erfc  # here because it loads slowly
+
         (px, py), (dx, dy), (rx, ry) = operator.periods, operator.spacing, ratios
         coarse = px // rx, py // ry
         side = max(rx * dx, ry * dy)
