@@ -257,9 +257,10 @@ class Observed(ABC):
         shares = self.responses.log_share[responses]
         total = (weight @ inside)[:, np.newaxis]
         scaled = weight * means.power * np.exp(-shares)
-        inverse_law = np.exp(-law) * (inside * np.exp(-log_share))
-        log_level = np.log(np.tensordot(scaled, inverse_law, (1, 1)) / total)
-        logs = np.tensordot(weight, (law + log_share) * inside, (1, 1))
+        sums = _sums_over_means(scaled, np.exp(-law), inside * np.exp(-log_share))
+        log_level = np.log(sums / total)
+        logs = _sums_over_means(weight, law, inside)
+        logs += (weight @ (log_share * inside))[:, np.newaxis]
         logs += ((weight * (shares - np.log(means.power))) @ inside)[:, np.newaxis]
         deviance = 2 * (logs + total * log_level) + self.ends.free_deviance[ends]
         deviance += (added @ inside)[:, np.newaxis]
@@ -325,6 +326,17 @@ class Observed(ABC):
         return _Laws(
             self.rolls, at, margins, deviance, log_level, explained, explanations, of_responses
         )
+
+
+def _sums_over_means(weights: Real, laws: Real, shares: Real) -> Real:
+    """Sums of products over (response, mean), (node, mean, end or 1) and (mean, end).
+
+    They are over (response, node, end).
+    """
+    if laws.shape[2] > 1:
+        return np.tensordot(weights, laws * shares, (1, 1))
+    rows = weights[:, np.newaxis] * laws[:, :, 0]
+    return (rows.reshape(-1, weights.shape[1]) @ shares).reshape(*rows.shape[:2], -1)
 
 
 @lru_cache(maxsize=4)
