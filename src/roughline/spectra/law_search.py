@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
 from typing import ClassVar, Literal, NamedTuple
 
@@ -171,6 +171,25 @@ class LawEnds:
     log_share: Real  # logarithm of the share of it that they have
     free_deviance: Real  # of the means beyond, where the spectrum is free
 
+    def taken(self, which: Indices) -> Ends:
+        """Return some of the ends."""
+        return Ends(*(getattr(self, each.name)[which] for each in fields(self)))
+
+    @cached_property
+    def of_means(self) -> Real:
+        """One for means that hold the law's power, over (mean, end), else zero."""
+        return np.ascontiguousarray(self.inside.T, dtype=np.float64)
+
+    @cached_property
+    def share_of_means(self) -> Real:
+        """Logarithm of the share of that power, over (mean, end)."""
+        return self.of_means * self.log_share.T
+
+    @cached_property
+    def inverse_share(self) -> Real:
+        """One over that share, over (mean, end), zero for other means."""
+        return self.of_means * np.exp(-self.log_share.T)
+
 
 @dataclass(frozen=True, eq=False)
 class Observed(ABC):
@@ -230,7 +249,7 @@ class Observed(ABC):
         """_Laws that are not far from the spectrum."""
         with linear_algebra.on_one_thread():  # threads gain nothing on small matrices
             selected, ends = self._first_search()
-            return self._second_search(selected, ends)
+            return self._second_search(selected, self.ends.taken(ends))
 
     def log_powers(self, law: Law, *, seen: bool = True) -> Real:
         """Logarithm of the expected power in each mean for a plateau of one; -inf beyond its end.
@@ -247,24 +266,22 @@ class Observed(ABC):
         return np.where(self.means.q <= end, power, -math.inf)
 
     def deviances(
-        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Indices
+        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Ends
     ) -> tuple[Real, Real]:
         """Deviances and log levels of laws, over (response, node, end); the last end is none."""
-        means, at = self.means, self.ends.at[ends]
+        means, inside = self.means, ends.of_means
         weight, added = (each[responses] for each in self._weights)
-        inside, log_share = self.ends.inside[ends].T, self.ends.log_share[ends].T
-        law, last = self.expected(_NODES[nodes], roll, corner, at)
+        law, last = self.expected(_NODES[nodes], roll, corner, ends.at)
         shares = self.responses.log_share[responses]
         total = (weight @ inside)[:, np.newaxis]
         scaled = weight * means.power * np.exp(-shares)
-        sums = _sums_over_means(scaled, np.exp(-law), inside * np.exp(-log_share))
-        log_level = np.log(sums / total)
+        log_level = np.log(_sums_over_means(scaled, np.exp(-law), ends.inverse_share) / total)
         logs = _sums_over_means(weight, law, inside)
-        logs += (weight @ (log_share * inside))[:, np.newaxis]
+        logs += (weight @ ends.share_of_means)[:, np.newaxis]
         logs += ((weight * (shares - np.log(means.power))) @ inside)[:, np.newaxis]
-        deviance = 2 * (logs + total * log_level) + self.ends.free_deviance[ends]
+        deviance = 2 * (logs + total * log_level) + ends.free_deviance
         deviance += (added @ inside)[:, np.newaxis]
-        two_ends = np.outer(self.responses.is_second_end[responses], np.isfinite(at))
+        two_ends = np.outer(self.responses.is_second_end[responses], np.isfinite(ends.at))
         deviance += math.log(means.weight.sum() + 1) * two_ends[:, np.newaxis]
         folds = np.flatnonzero(self.responses.reaches[responses] > 1)
         if folds.size:  # of laws without an end alone
@@ -280,7 +297,7 @@ class Observed(ABC):
         none, every = self.ends.at.size - 1, np.arange(self.responses.blurs.size)
         blurs = np.flatnonzero(self.responses.reaches == 1)[::_FEW_BLURS]
 
-        def least(corner: Corner, responses: Indices, ends: Indices) -> Real:
+        def least(corner: Corner, responses: Indices, ends: Ends) -> Real:
             """Least deviances of few laws, over (roll-off, response, end)."""
             tried = [
                 self.deviances(corner, float(roll), _FEW_NODES, responses, ends)[0]
@@ -289,15 +306,16 @@ class Observed(ABC):
             finer = _between(_NODES[_FEW_NODES].tobytes(), _NODES.tobytes())
             return np.array([(finer @ each).min(axis=1) for each in tried])
 
-        of_ends = least("sharp", blurs, np.arange(none + 1)).min(axis=(0, 1))
+        of_ends = least("sharp", blurs, self.ends).min(axis=(0, 1))
         few = np.append(np.argsort(of_ends[:-1], kind="stable")[:_FEW_ENDS], none)
-        found = np.array([least(corner, every, few).min(axis=2) for corner in _CORNERS])
+        of_few = self.ends.taken(few)
+        found = np.array([least(corner, every, of_few).min(axis=2) for corner in _CORNERS])
         most = float(found.min()) + _DEVIANCE_MARGIN
         return found <= most, np.append(np.flatnonzero(of_ends[:-1] <= most), none)
 
-    def _second_search(self, selected: Mask, ends: Indices) -> _Laws:
+    def _second_search(self, selected: Mask, ends: Ends) -> _Laws:
         """Compare the spectrum with all laws between those that were found."""
-        shape = (_HURSTS.size, self.rolls.size, ends.size)
+        shape = (_HURSTS.size, self.rolls.size, ends.at.size)
         deviance, log_level = np.full(shape, np.inf), np.zeros(shape)
         explained = np.zeros(shape, dtype=np.intp)
         explanations: list[tuple[Corner, int]] = []
@@ -322,9 +340,15 @@ class Observed(ABC):
                 log_level[:, j][better] = levels[better]
                 explained[:, j][better] = first + best[better]
         deviance[deviance > IMPOSSIBLE / 2] = np.inf
-        at, margins = self.ends.at[ends], self.ends.margins[ends]
         return _Laws(
-            self.rolls, at, margins, deviance, log_level, explained, explanations, of_responses
+            self.rolls,
+            ends.at,
+            ends.margins,
+            deviance,
+            log_level,
+            explained,
+            explanations,
+            of_responses,
         )
 
 

@@ -134,11 +134,11 @@ class ScanBins(Observed):
         return law, law[:, -1, -1] - (2 * hursts + 1) * to_nyquist
 
     def deviances(
-        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Indices
+        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Ends
     ) -> tuple[Real, Real]:
         """Deviances and log levels of laws; those that end before their roll-off cannot be."""
         deviance, log_level = super().deviances(corner, roll, nodes, responses, ends)
-        deviance[:, :, self.ends.at[ends] <= roll] = IMPOSSIBLE
+        deviance[:, :, ends.at <= roll] = IMPOSSIBLE
         return deviance, log_level
 
     def mean_square(self, law: Law) -> tuple[float, float]:
