@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.fluid import network
 from roughline.fluid.winding import windings
 
 KINDS = ("closed in places", "throats", "any")
@@ -339,3 +340,12 @@ def test_windings_are_those_of_the_rolled_map():
             ]
             assert len({(each.leads(0), each.leads(1)) for each in found}) == 1
             assert len({each.through.sum() for each in found}) == 1
+
+
+def test_what_is_kept_of_rectangles_is_what_is_found_again(monkeypatch):
+    gap = np.random.default_rng(3).uniform(0.1, 1.0, (40, 48)) ** 2
+    kept = rl.flow(gap, (1.0, 1.2))
+    monkeypatch.setattr(network, "MOST_KEPT", 0)
+    found_again = rl.flow(gap, (1.0, 1.2))
+    assert np.array_equal(kept.pressure, found_again.pressure)
+    assert kept.permeance == found_again.permeance

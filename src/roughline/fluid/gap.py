@@ -31,6 +31,9 @@ REPEATS: dict[Sides, tuple[bool, bool]] = {
 _SHORTEST_LENGTH, _LONGEST_LENGTH = 1e-40, 1e40  # squares of their third powers are numbers
 _ASPECT = 1e10  # largest of a cell
 _CELL_BYTES = 130  # that an open cell takes for each doubling of a side
+MOST_KEPT = 2**16
+"""Cells of a map of which it is kept how pressures follow; of larger ones it is found again."""
+_KEPT_BYTES = 700  # that an open cell takes for that
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,8 +78,11 @@ class Gap:
 
     def conducting(self, through: Mask) -> Real:
         """Conductances of the cells through which a fluid flows, were they square. [length³]"""
+        cell_bytes = _CELL_BYTES * np.log2(max(through.shape))
+        if through.size <= MOST_KEPT:
+            cell_bytes += _KEPT_BYTES
         refuse_beyond_memory(
-            int(_CELL_BYTES * through.sum() * np.log2(max(through.shape))),
+            int(cell_bytes * through.sum()),
             f"a flow through {through.shape[0]} x {through.shape[1]} cells",
             "coarsen the gap",
         )

@@ -30,6 +30,7 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.computing.compiled import compiled
 from roughline.computing.cores import available_cores
 from roughline.computing.linear_algebra import on_one_thread
+from roughline.fluid.gap import MOST_KEPT
 
 _INLET, _OUTLET = 0, 1  # numbers of these two among the faces
 
@@ -154,6 +155,21 @@ class _Block:
 
 
 @dataclass(frozen=True, eq=False)
+class _Condensed:
+    """A rectangle, condensed, and how the pressures of its cells follow from those of its faces."""
+
+    block: _Block
+    shares: Real  # and the two below as :func:`_eliminate_cells` gives them
+    driven: Real
+    slots: Indices
+
+    def pressures(self, of_faces: Real, rows: int, columns: int) -> Real:
+        """Pressures of the cells from those of all faces."""
+        of_border = of_faces[self.block.faces]
+        return _follow_cells(self.shares, self.driven, self.slots, of_border, rows, columns)
+
+
+@dataclass(frozen=True, eq=False)
 class _Elimination:
     """How the pressures of faces between two blocks follow from those on the border of both."""
 
@@ -227,7 +243,9 @@ class _Dissection:
         self, sources: Real, retained_pressures: Callable[[_Block], Real], pool: ThreadPoolExecutor
     ) -> Real:
         corners = list(product(pairwise(self.rows), pairwise(self.columns)))
-        blocks = list(pool.map(lambda corner: self._condensed(corner, sources), corners))
+        keeps = self.network.cells.size <= MOST_KEPT
+        condensed = list(pool.map(lambda each: self._condensed(each, sources, keeps), corners))
+        blocks = [each.block for each in condensed]
         shape = self.rows.size - 1, self.columns.size - 1
         steps: list[_Elimination] = []
         while len(blocks) > 1:
@@ -248,7 +266,13 @@ class _Dissection:
         for step in reversed(steps):
             step.descend(of_faces)
         pressures = np.empty((sources.shape[2], *self.network.cells.shape))
-        list(pool.map(lambda each: self._spread(each, sources, of_faces, pressures), corners))
+
+        def spread(corner: _Rectangle, known: _Condensed) -> None:
+            found = known if keeps else self._condensed(corner, sources, keeps=True)
+            (i, i_end), (j, j_end) = corner
+            pressures[:, i:i_end, j:j_end] = found.pressures(of_faces, i_end - i, j_end - j)
+
+        list(pool.map(spread, corners, condensed))
         return pressures
 
     def _border(self, corner: _Rectangle) -> tuple[Indices, list[Indices]]:
@@ -265,31 +289,19 @@ class _Dissection:
         ends = np.cumsum([face.size for face in faces])[:-1]
         return numbers[closed:], np.split(places - closed, ends)
 
-    def _condensed(self, corner: _Rectangle, sources: Real) -> _Block:
-        """A rectangle, condensed."""
-        numbers, places = self._border(corner)
-        found = self._eliminated(corner, sources, places, numbers.size, retained=1)
-        return _Block(numbers, *found[:2])
-
-    def _spread(self, corner: _Rectangle, sources: Real, of_faces: Real, pressures: Real) -> None:
-        """Set the pressures of the cells of a rectangle from those of its faces."""
+    def _condensed(self, corner: _Rectangle, sources: Real, keeps: bool) -> _Condensed:
+        """A rectangle, condensed; how the pressures of its cells follow only if that is kept."""
         (i, i_end), (j, j_end) = corner
-        numbers, places = self._border(corner)
-        rows, columns = i_end - i, j_end - j
-        found = self._eliminated(corner, sources, places, numbers.size, retained=rows * columns)
-        of_border = of_faces[numbers]
-        pressures[:, i:i_end, j:j_end] = _follow_cells(*found[2:], of_border, rows, columns)
-
-    def _eliminated(
-        self, corner: _Rectangle, sources: Real, places: list[Indices], faces: int, retained: int
-    ) -> tuple[Real, Real, Real, Real, Indices]:
-        """What the elimination of the cells of a rectangle gives."""
-        (i, i_end), (j, j_end) = corner
-        square = self.network.along, self.network.across
-        cells, into = self.network.cells[i:i_end, j:j_end], sources[i:i_end, j:j_end]
-        before, behind, left, right = places
-        borders = before, behind, left, right
-        return _eliminate_cells(cells, into, square, borders, faces, retained)
+        numbers, (before, behind, left, right) = self._border(corner)
+        conductances, into, shares, driven, slots = _eliminate_cells(
+            self.network.cells[i:i_end, j:j_end],
+            sources[i:i_end, j:j_end],
+            (self.network.along, self.network.across),
+            (before, behind, left, right),
+            numbers.size,
+            retained=(i_end - i) * (j_end - j) if keeps else 1,
+        )
+        return _Condensed(_Block(numbers, conductances, into), shares, driven, slots)
 
 
 _Rectangle = tuple[tuple[int, int], tuple[int, int]]
