@@ -71,6 +71,20 @@ def test_to_press_an_array_loads_nothing_for_figures_and_tables(files):
     assert "numba" in loaded
 
 
+@pytest.mark.parametrize(
+    "asked",
+    [
+        ("--joint-area", "1 cm^2"),
+        ("--fluid", "helium", "--inlet", "1 bar", "--outlet", "0 bar", "--seal", "5 mm .. 6 mm"),
+    ],
+    ids=["a joint", "a fluid"],
+)
+def test_answers_load_no_registry_of_units(files, asked):
+    materials = ("--materials", "steel,copper", "--load", "1 MPa")
+    loaded = loaded_by("press", files / "map.npy", *SIDES, *materials, *asked)
+    assert not loaded & (TO_DRAW | TO_STORE | TO_READ | TO_DESCRIBE | UNITS)
+
+
 def test_to_describe_what_an_instrument_measured_loads_its_reader_alone(files, tmp_path):
     """SurfaceTopography, with which the file is written there, loads some libraries itself."""
     written = WRITTEN.format(str(files / "map.npy"), str(tmp_path / "map.x3p"))
@@ -88,3 +102,23 @@ def test_the_package_runs_as_a_module():
     command = [sys.executable, "-m", "roughline", "--version"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout == f"roughline {rl.__version__}\n"
+
+
+GARBAGE = """
+import atexit, gc
+usual = gc.get_threshold()
+atexit.register(lambda: print(gc.get_freeze_count() > 30_000, gc.get_threshold() == usual))
+from roughline.cli import main
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    ("command", "is_long"), [("info", False), ("press", True)], ids=["info", "press"]
+)
+def test_what_stays_is_not_searched_for_garbage(files, command, is_long):
+    """When the process ends all of it is frozen; in long work garbage is looked for as usual."""
+    asked = ("--modulus", "110 GPa", "--load", "1 N") if is_long else ()
+    call = [sys.executable, "-c", GARBAGE, command, files / "map.npy", *SIDES, *asked]
+    done = subprocess.run(call, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == f"True {is_long}"

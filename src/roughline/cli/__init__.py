@@ -10,6 +10,7 @@ import typer
 from typer.exceptions import TyperException
 
 from roughline._version import __version__
+from roughline.cli import garbage
 from roughline.cli.about import about
 from roughline.cli.ball import ball_command
 from roughline.cli.campaign import app as campaign_app
@@ -69,6 +70,7 @@ def _options(
 
 def main() -> None:
     """Run the command line; errors are one line, exit code 2 for input and 1 for numerics."""
+    garbage.seldom()
     try:
         refuse_empty(sys.argv[1:])
         command = typer.main.get_command(app)

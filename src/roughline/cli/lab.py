@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from roughline.cli import garbage
 from roughline.errors.checks import positive
 
 _MB = 1_000_000
@@ -67,6 +68,7 @@ def lab(
     from roughline.lab.server.settings import ServerSettings, networks_in, password_in
     from roughline.lab.tasks import warm_up
 
+    garbage.as_usual()
     sizes = (("max_upload", max_upload), ("max_memory", max_memory), ("max_disk", max_disk))
     for name, megabytes in sizes:
         if megabytes is not None:

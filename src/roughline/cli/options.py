@@ -14,6 +14,7 @@ import typer
 
 import roughline as rl
 from roughline.assessment.fields import ANSWERS, BODIES, FIELDS, Field
+from roughline.cli import garbage
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
 
@@ -169,7 +170,8 @@ def continuation(place: Path) -> str:
 
 @contextmanager
 def interruptible(remark: str) -> Iterator[None]:
-    """End with exit code 130 and a word on what is kept, when interrupted."""
+    """Do long work; when interrupted, end with exit code 130 and a word on what is kept."""
+    garbage.as_usual()
     try:
         yield
     except KeyboardInterrupt:
