@@ -130,8 +130,9 @@ permeance: $(VENV)/installed
 square-leakage: $(VENV)/installed
 	$(BIN)/python benchmarks/square_leakage.py
 
+# MAPS names files of instruments, if there are any.
 start-up: $(VENV)/installed
-	$(BIN)/python benchmarks/start_up.py
+	$(BIN)/python benchmarks/start_up.py $(MAPS)
 
 lab-benchmark: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_moves.py
