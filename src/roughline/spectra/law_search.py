@@ -176,19 +176,19 @@ class LawEnds:
         return Ends(*(getattr(self, each.name)[which] for each in fields(self)))
 
     @cached_property
-    def of_means(self) -> Real:
+    def inside_weights(self) -> Real:
         """One for means that hold the law's power, over (mean, end), else zero."""
         return np.ascontiguousarray(self.inside.T, dtype=np.float64)
 
     @cached_property
-    def share_of_means(self) -> Real:
+    def log_share_inside(self) -> Real:
         """Logarithm of the share of that power, over (mean, end)."""
-        return self.of_means * self.log_share.T
+        return self.inside_weights * self.log_share.T
 
     @cached_property
     def inverse_share(self) -> Real:
         """One over that share, over (mean, end), zero for other means."""
-        return self.of_means * np.exp(-self.log_share.T)
+        return self.inside_weights * np.exp(-self.log_share.T)
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,7 +269,7 @@ class Observed(ABC):
         self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Ends
     ) -> tuple[Real, Real]:
         """Deviances and log levels of laws, over (response, node, end); the last end is none."""
-        means, inside = self.means, ends.of_means
+        means, inside = self.means, ends.inside_weights
         weight, added = (each[responses] for each in self._weights)
         law, last = self.expected(_NODES[nodes], roll, corner, ends.at)
         shares = self.responses.log_share[responses]
@@ -277,7 +277,7 @@ class Observed(ABC):
         scaled = weight * means.power * np.exp(-shares)
         log_level = np.log(_sums_over_means(scaled, np.exp(-law), ends.inverse_share) / total)
         logs = _sums_over_means(weight, law, inside)
-        logs += (weight @ ends.share_of_means)[:, np.newaxis]
+        logs += (weight @ ends.log_share_inside)[:, np.newaxis]
         logs += ((weight * (shares - np.log(means.power))) @ inside)[:, np.newaxis]
         deviance = 2 * (logs + total * log_level) + ends.free_deviance
         deviance += (added @ inside)[:, np.newaxis]
