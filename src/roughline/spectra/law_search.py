@@ -137,7 +137,7 @@ class LikelyLaws:
 
     @property
     def end_interval(self) -> tuple[float, float]:
-        """Ends of likely laws, with their margins; infinite if one has no end. [q_low]"""
+        """LawEnds of likely laws, with their margins; infinite if one has no end. [q_low]"""
         ends, margins = self.laws.ends, self.laws.margins
         return float((ends - margins)[self.ends].min()), float((ends + margins)[self.ends].max())
 
@@ -163,7 +163,7 @@ class LikelyLaws:
 
 @dataclass(frozen=True, eq=False)
 class LawEnds:
-    """Ends of laws, and the means that each leaves unchanged, changes, or ignores."""
+    """LawEnds of laws, and the means that each leaves unchanged, changes, or ignores."""
 
     at: Real  # wavenumbers; the last is infinite, and no end
     margins: Real  # distance to the next end
@@ -171,9 +171,9 @@ class LawEnds:
     log_share: Real  # logarithm of the share of it that they have
     free_deviance: Real  # of the means beyond, where the spectrum is free
 
-    def taken(self, which: Indices) -> Ends:
+    def taken(self, which: Indices) -> LawEnds:
         """Return some of the ends."""
-        return Ends(*(getattr(self, each.name)[which] for each in fields(self)))
+        return LawEnds(*(getattr(self, each.name)[which] for each in fields(self)))
 
     @cached_property
     def inside_weights(self) -> Real:
@@ -216,7 +216,7 @@ class Observed(ABC):
     @property
     @abstractmethod
     def ends(self) -> LawEnds:
-        """Ends to try."""
+        """LawEnds to try."""
 
     @abstractmethod
     def expected(self, hursts: Real, roll: float, corner: Corner, ends: Real) -> tuple[Real, Real]:
@@ -266,7 +266,7 @@ class Observed(ABC):
         return np.where(self.means.q <= end, power, -math.inf)
 
     def deviances(
-        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Ends
+        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: LawEnds
     ) -> tuple[Real, Real]:
         """Deviances and log levels of laws, over (response, node, end); the last end is none."""
         means, inside = self.means, ends.inside_weights
@@ -297,7 +297,7 @@ class Observed(ABC):
         none, every = self.ends.at.size - 1, np.arange(self.responses.blurs.size)
         blurs = np.flatnonzero(self.responses.reaches == 1)[::_FEW_BLURS]
 
-        def least(corner: Corner, responses: Indices, ends: Ends) -> Real:
+        def least(corner: Corner, responses: Indices, ends: LawEnds) -> Real:
             """Least deviances of few laws, over (roll-off, response, end)."""
             tried = [
                 self.deviances(corner, float(roll), _FEW_NODES, responses, ends)[0]
@@ -313,7 +313,7 @@ class Observed(ABC):
         most = float(found.min()) + _DEVIANCE_MARGIN
         return found <= most, np.append(np.flatnonzero(of_ends[:-1] <= most), none)
 
-    def _second_search(self, selected: Mask, ends: Ends) -> _Laws:
+    def _second_search(self, selected: Mask, ends: LawEnds) -> _Laws:
         """Compare the spectrum with all laws between those that were found."""
         shape = (_HURSTS.size, self.rolls.size, ends.at.size)
         deviance, log_level = np.full(shape, np.inf), np.zeros(shape)

@@ -111,7 +111,7 @@ class ScanBins(Observed):
 
     @cached_property
     def ends(self) -> LawEnds:
-        """Ends to try: those of the bins."""
+        """LawEnds to try: those of the bins."""
         bins = self.means.q.size
         last = np.arange(FEWEST_MEANS // 2, bins + 1)
         last[-1] = bins - 1
@@ -134,7 +134,7 @@ class ScanBins(Observed):
         return law, law[:, -1, -1] - (2 * hursts + 1) * to_nyquist
 
     def deviances(
-        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: Ends
+        self, corner: Corner, roll: float, nodes: slice, responses: Indices, ends: LawEnds
     ) -> tuple[Real, Real]:
         """Deviances and log levels of laws; those that end before their roll-off cannot be."""
         deviance, log_level = super().deviances(corner, roll, nodes, responses, ends)
