@@ -239,7 +239,7 @@ def test_a_wrong_call_is_exit_2(arguments):
 def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
     original = load_cases.press
     monkeypatch.setattr(
-        load_cases, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=12))
+        load_cases, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=2))
     )
     code, out, _ = invoke("press", surface_file, "--modulus", "1 GPa", "--loads", 6)
     assert code == 1
@@ -316,7 +316,7 @@ def test_figures_of_a_failed_load_show_the_others(surface_file, only_drawn, tmp_
         E_star=1e9,
         n_loads=6,
         fields=True,
-        solver=rl.Solver(max_iterations=12),
+        solver=rl.Solver(max_iterations=2),
         throw=False,
     )
     assert not curve.converged.all()

@@ -1,5 +1,7 @@
 """Flow through a gap: against dense solutions, its own balances, symmetries and limits."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -225,6 +227,7 @@ def test_arguments_that_do_not_fit_are_refused(arguments, words):
 
 
 def test_what_does_not_fit_into_memory_is_refused_before_the_work(monkeypatch):
-    monkeypatch.setattr("roughline.computing.memory.free_memory", lambda: 10_000)
+    none = SimpleNamespace(available=10_000)
+    monkeypatch.setattr("roughline.computing.memory.psutil.virtual_memory", lambda: none)
     with pytest.raises(InputError, match="GB of memory"):
         rl.flow(np.ones((64, 64)), (1.0, 1.0))

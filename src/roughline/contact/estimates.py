@@ -201,10 +201,9 @@ def memory_for(
     if share is None:
         share = _FULL_CONTACT_FROM if periodic else _SATURATED_FROM
     held = bytes_at_a_point(shape, periodic, share, yielding=yielding, several=several)
-    held += besides
-    return (
-        shape[0] * shape[1] * round(_MEMORY_MARGIN * held + _FIELDS_BYTES[yielding] * kept_fields)
-    )
+    points, (on_each, most) = shape[0] * shape[1], _SMALL_GRIDS_BYTES
+    held += besides + min(on_each, most / points)
+    return points * round(_MEMORY_MARGIN * held + _FIELDS_BYTES[yielding] * kept_fields)
 
 
 def bytes_at_a_point(
@@ -213,9 +212,7 @@ def bytes_at_a_point(
     """Return what a press with this share in contact holds, over the points, as it was measured."""
     from roughline.halfspace.operators.discretisation import bytes_on_grid
 
-    points, (on_each, most) = shape[0] * shape[1], _SMALL_GRIDS_BYTES
-    held = _POINT_BYTES + bytes_on_grid(shape, periodic=periodic) / points
-    held += min(on_each, most / points)
+    held = _POINT_BYTES + bytes_on_grid(shape, periodic=periodic) / (shape[0] * shape[1])
     at_least, more = _MUCH_CONTACT_BYTES
     held += min(_NEAR_CONTACT_BYTES * share, at_least + more * share)
     if yielding and several:  # the surface is kept as loads have left it

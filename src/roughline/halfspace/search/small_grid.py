@@ -45,19 +45,16 @@ _last = _Last()
 
 def contact_under(
     problem: Problem, load: Load, start: ContactSet, method: Method
-) -> tuple[ContactSet, int] | None:
-    """Return the contact under a load, and the convolutions that it took.
+) -> tuple[ContactSet | None, int]:
+    """Return the contact under a load, and the convolutions that were spent.
 
     None where the grid is large, bodies pull or yield, or nothing is found.
     """
     grid, bounds = problem.operator.small_grid, problem.bounds
     if grid is None or np.any(bounds.low) or not np.all(np.isposinf(bounds.high)):
-        return None
-    return (
-        _SmallGridSearch(problem, grid, load, method).from_start(start)
-        if start.nodes.size
-        else None
-    )
+        return None, 0
+    search = _SmallGridSearch(problem, grid, load, method)
+    return search.from_start(start), search.convolutions
 
 
 class _SmallGridSearch:
@@ -76,17 +73,17 @@ class _SmallGridSearch:
         self._field, self._gap = grid.field(), grid.field()
         self._nodes = InGrid(np.empty(0, dtype=np.intp))
         self._pressure = np.empty(0)
-        self._convolutions = 0
+        self.convolutions = 0
 
-    def from_start(self, start: ContactSet) -> tuple[ContactSet, int] | None:
-        """Return the contact, and the convolutions that it took; None if it is not found."""
+    def from_start(self, start: ContactSet) -> ContactSet | None:
+        """Return the contact; None if it is not found."""
         self._nodes, self._pressure = start.nodes, np.maximum(start.pressure, 0.0)
         self._on.flat[start.nodes] = True
         few = _FEW_WRONG if self._method.rtol >= _ROUGH_FROM else 0.0
-        fewest, stale = math.inf, 0
+        fewest, in_vain = math.inf, 0
         for _ in range(_MOST_EXCHANGES):
             count = self._nodes.size
-            if not count:
+            if not count or self.convolutions >= self._method.max_iterations:
                 return None
             try:
                 wrong, error, tolerance = self._solved()
@@ -94,11 +91,10 @@ class _SmallGridSearch:
                 return None
             self._exchange()
             if wrong <= few * count and error <= tolerance:
-                depth = self._approach + self._problem.touch
-                return ContactSet(self._nodes, self._pressure, depth), self._convolutions
-            stale = 0 if wrong < fewest else stale + 1
+                return ContactSet(self._nodes, self._pressure, self._approach + self._problem.touch)
+            in_vain = 0 if wrong < fewest else in_vain + 1
             fewest = min(wrong, fewest)
-            if stale > _MOST_VAIN_EXCHANGES or self._convolutions > self._method.max_iterations:
+            if in_vain > _MOST_VAIN_EXCHANGES:
                 return None
         return None
 
@@ -110,7 +106,7 @@ class _SmallGridSearch:
 
     def _moved(self) -> Real:
         """Return the displacement by the pressures, as a field."""
-        self._convolutions += 1
+        self.convolutions += 1
         _put(self._pressure, self._nodes, self._grid.shape[1], self._field)
         self._grid.convolve(self._field, self._problem.operator.spectrum, self._gap)
         return self._gap
@@ -166,7 +162,7 @@ class _SmallGridSearch:
         gradients.watch(watched, moved, self._inverse.diagonal)
         gradients.level, tolerance = level, self._tolerance(displaced)
         gradients.lead(tolerance, fixed=total is not None)
-        self._convolutions += gradients.steps
+        self.convolutions += gradients.steps
         self._approach = gradients.level
         wrong = _exchanged(pressure, self._nodes, watched, gradients.gap, gradients.level, self._on)
         return wrong, gradients.largest_error, tolerance

@@ -85,12 +85,12 @@ class Turns:
     def _found_on_small_grid(self) -> bool:
         """Take what is found by whole fields on a small grid as the start, if anything is."""
         assert self._start is not None
-        found = small_grid.contact_under(self._problem, self._load, self._start, self._method)
-        if found is None:
-            return False
-        self._start, spent = found
+        found, spent = small_grid.contact_under(
+            self._problem, self._load, self._start, self._method
+        )
         self._convolutions += spent
-        return True
+        self._start = found or self._start
+        return found is not None
 
     def _foreseen(self) -> bool:
         """Take the nodes near a contact under other bounds, unless the exact operator costs less.
