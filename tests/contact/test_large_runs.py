@@ -144,7 +144,7 @@ def held_by(press):
 
 
 @pytest.mark.parametrize(
-    ("law", "deepest", "most"), [(rl.Dugdale, 0.6, 80), (rl.Exponential, 0.4, 400)]
+    ("law", "deepest", "most"), [(rl.Dugdale, 0.6, 80), (rl.Exponential, 0.4, 80)]
 )
 def test_a_pull_takes_what_nodes_within_reach_do(law, deepest, most):
     """Beside the plain press under the same depths, per point."""

@@ -9,7 +9,6 @@ import pytest
 
 import roughline as rl
 from roughline.halfspace.search.pull import Pull, Shares
-from roughline.halfspace.search.region import Region
 from roughline.halfspace.search.rounds import Rounds, _RoundHistory
 
 DUGDALE = rl.Dugdale(work_of_adhesion=0.02, range=0.2)
@@ -61,7 +60,7 @@ def test_the_energy_of_a_pull_is_the_integral_of_its_shares(law):
     of_body = pull(law)
     nodes = np.arange(of_body.separation.size)
     gaps = np.linspace(0, 40 * law.range, 200_001)
-    shares = np.array([of_body._shares(np.full(nodes.size, gap), nodes) for gap in gaps[::10]])
+    shares = np.array([of_body.shares_at(np.full(nodes.size, gap), nodes) for gap in gaps[::10]])
     whole = np.trapezoid(shares, gaps[::10], axis=0) * law.largest_pull
     assert whole == pytest.approx(np.full(nodes.size, law.work_of_adhesion), rel=1e-3)
     for gap in (0.0, 0.5 * law.range, 0.95 * law.range, 1.1 * law.range):
@@ -113,7 +112,7 @@ def test_rounds_end_where_shares_are_those_of_their_gap(law):
             break
     assert count < 20
     nodes = np.arange(size)
-    expected = of_body._shares(gap_of(obeyed), nodes)
+    expected = of_body.shares_at(gap_of(obeyed), nodes)
     assert obeyed.field(size) == pytest.approx(expected, abs=1e-10)
     plain = Shares.none()
     for _ in range(count):
@@ -138,19 +137,3 @@ def test_nodes_that_join_a_history_have_rested_before():
     steps, *_ = np.linalg.lstsq(np.diff(moves, axis=0).T, moves[-1], rcond=1e-10)
     expected = np.clip(values[-1] - steps @ np.diff(values, axis=0), 0, 1)
     assert taken.values[[0, 1, 3, 4]] == pytest.approx(expected[[0, 1, 3, 4]], abs=1e-12)
-
-
-def test_a_round_starts_from_the_gap_of_the_last_one(monkeypatch):
-    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0, q_roll=8 * np.pi, q_high=64 * np.pi)
-    surface = spectrum.surface(160, rng=5)
-    law = rl.Dugdale(work_of_adhesion=0.5, range=0.3)
-
-    def pressed() -> rl.Curve:
-        return rl.press(surface, E_star=1.0, law=law, depths=[0.5, 0.8])
-
-    found = pressed()
-    monkeypatch.setattr(Region, "from_other_bounds", lambda *_: None)
-    by_convolutions = pressed()
-    np.testing.assert_allclose(found.force, by_convolutions.force, rtol=1e-6)
-    assert np.array_equal(found.area_fraction, by_convolutions.area_fraction)
-    assert found.convolutions.sum() < 0.7 * by_convolutions.convolutions.sum()

@@ -36,10 +36,10 @@ _NEAR_CONTACT_BYTES = 210
 _MUCH_CONTACT_BYTES = 70, 18  # on each point, and for each node in contact
 _FIELDS_BYTES = {False: 26, True: 30}  # of one load, elastic and yielding
 # Where bodies pull: the bounds of each point, and for each node within reach its share, what it was
-# in the last rounds, and what it takes as one that bears pressure. A pull without an end moves all
-# nodes in all rounds, and others that about its edge. Measured on 1024 points a side.
+# in the last rounds, and what it takes as one that bears pressure. All nodes bear a pull without an
+# end, but few of them so much that they are led in rounds. Measured on 1024 points a side.
 _PULL_BYTES = 10, 130
-_ENDLESS_PULL_BYTES = 400
+_ENDLESS_PULL_BYTES = 75
 _YIELD_BYTES = 28  # where several loads leave a surface behind
 _DENTS_BYTES = 30  # and for each node in contact
 # Where pressure may displace a free surface towards the other body, as beside a layer, all of it is

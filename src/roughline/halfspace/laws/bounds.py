@@ -37,7 +37,13 @@ class Bounds:
         return float(np.mean(self.high)) * area
 
     def at(self, places: Indices | Mask) -> Bounds:
-        """Return the bounds of some of the nodes."""
+        """Return the bounds of some of the nodes, by ascending places or a mask."""
+        if (
+            places.dtype != bool
+            and isinstance(self.low, np.ndarray)
+            and places.size == self.low.size
+        ):
+            return self  # of all of them
         low = self.low[places] if isinstance(self.low, np.ndarray) else self.low
         high = self.high[places] if isinstance(self.high, np.ndarray) else self.high
         return Bounds(low, high)
@@ -64,6 +70,10 @@ class Bounds:
         if np.all((pressure >= self.low) & (pressure <= self.high)):
             return pressure
         return np.clip(pressure, self.low, self.high)
+
+    def lowered(self, pressure: Real) -> Real:
+        """Return pressures that are no more than the upper bounds; these themselves if none is."""
+        return np.minimum(pressure, self.high) if np.any(pressure > self.high) else pressure
 
     def violations(self, pressure: Real) -> tuple[float, float]:
         """Return by how much pressures are below and above the bounds, at most. [pressure]"""

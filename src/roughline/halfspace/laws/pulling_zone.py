@@ -24,16 +24,16 @@ _PULL_OFF_FROM = 2.0  # cells across that zone, from which on a grid resolves a 
 _RAMP_WIDTH = 4.0
 
 
-def farthest_pulled(law: ContactLaw) -> float:
+def farthest_pulled(law: ContactLaw, least: float = LEAST_SHARE) -> float:
     """Return the gap beyond which nothing is pulled. [length]
 
     It is the cutoff, or twice that where the pull ends by a jump, as no ramp goes beyond; of a pull
-    without an end, it is the gap that leaves 1e-7 of it.
+    without an end, it is the gap that leaves the least share.
     """
     if law.only_pushes:
         return 0.0
     if math.isinf(law.cutoff):
-        return float(law.gap_at(np.array([LEAST_SHARE]))[0])
+        return float(law.gap_at(np.array([least]))[0])
     return 2 * law.cutoff if jump(law) else law.cutoff
 
 

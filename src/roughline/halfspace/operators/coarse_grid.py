@@ -135,7 +135,11 @@ class CoarseGrid:
             margins = [(1, 2) if repeated else (0, 0) for repeated in self.repeats]
             (left, right), (low, high) = margins
             inner = np.ascontiguousarray(spread[left : nx - right, low : ny - high])
-            moved[:] = np.pad(self._convolved(inner, np.empty_like(inner)), margins, mode="wrap")
+            middle = moved[left : nx - right, low : ny - high]
+            middle[:] = self._convolved(inner, np.empty_like(inner))
+            for values, repeated in zip((moved, moved.T), self.repeats, strict=True):
+                if repeated:
+                    values[0], values[-2:] = values[-3], values[1:3]
             return moved
         return self._convolved(spread, moved)
 

@@ -22,7 +22,7 @@ class CorrectedOperator:
     """
 
     exact: Convolution
-    restricted: RestrictedOperator | None = None  # R; None: the exact operator
+    restricted: RestrictedOperator | Convolution | None = None  # R; None: the exact operator
     nodes: GridNodes | None = None  # None: all of the grid
     before: Real | None = None  # p_0, at the nodes; None: zero
     moved: Real | None = None  # u_0

@@ -73,6 +73,39 @@ class Search:
             found = self._after_a_round()
         return found
 
+    def foreseen(self) -> Foreseen | None:
+        """Return where conjugate gradients lead; None where they fail.
+
+        Nodes are exchanged until gaps with the wrong sign, too, are within the tolerance. No
+        residuals are computed in the end, which would take one product more.
+        """
+        method, rule = self._method, self._rule
+        while self.products < method.max_iterations:
+            trial = self._trial()
+            watched = trial.close(np.inf, trial.gap.size)
+            try:
+                relaxation = _relaxed(
+                    trial,
+                    self._load,
+                    watched,
+                    method.rtol,
+                    method.steps,
+                    most_steps=method.max_iterations - self.products,
+                    to_tolerance=rule.to_tolerance,
+                )
+            except np.linalg.LinAlgError:  # an elastic half-space is positive definite
+                return None
+            self.products += relaxation.steps
+            applied = rule.applied(self.region, relaxation, watched)
+            self._carriers = self._able(applied, trial.gap)
+            largest = max(relaxation.largest_error, relaxation.wrong.largest)
+            error = largest / trial.length_scale
+            if error <= method.rtol:
+                gap = np.zeros(trial.gap.size)
+                gap[relaxation.others] = relaxation.gap
+                return Foreseen(self._carriers, gap, error, trial.depth)
+        return None
+
     def _after_a_round(self) -> tuple[Trial, Outcome] | None:
         """Exchange nodes; return what is found where the search ends."""
         region, method, rule, stopping = self.region, self._method, self._rule, self._stopping
@@ -125,6 +158,16 @@ class Search:
         return carriers.able_to_carry(total, region.bounds, gap)
 
 
+@dataclass(frozen=True, eq=False)
+class Foreseen:
+    """Where conjugate gradients lead, with no residuals of it."""
+
+    carriers: Carriers
+    gap: Real  # of all nodes of the region; zero where bodies touch [length]
+    error: float  # of the gap where they touch, over the length scale
+    depth: float  # [length]
+
+
 def _within_bounds(carriers: Carriers, bounds: Bounds) -> Carriers:
     """Set pressures below their bounds to these; a node without pressure is no carrier."""
     below = carriers.pressure < bounds.low
@@ -140,7 +183,7 @@ class _Wrong:
     above: Mask  # and beyond its upper one
     leaving: Mask  # carriers at a bound at which the gap has the wrong sign
     overlapping: Mask  # watched nodes, without pressure, at which the bodies overlap
-    off: Real  # gap at those that leave, by its size [length]
+    off: Real  # gap at those that leave [length]
     overlap: Real  # at those that overlap, by its size [length]
 
     @property
@@ -148,6 +191,11 @@ class _Wrong:
         """Number of wrong nodes."""
         each = (self.below, self.above, self.leaving, self.overlapping)
         return sum(int(np.count_nonzero(wrong)) for wrong in each)
+
+    @property
+    def largest(self) -> float:
+        """The largest gap with the wrong sign. [length]"""
+        return float(max(np.abs(self.off).max(initial=0.0), self.overlap.max(initial=0.0)))
 
     def deepest(self) -> _Wrong:
         """Of the nodes that overlap, leave only those that do so half as deep as any, or deeper."""
@@ -177,6 +225,8 @@ class _Relaxation:
 
     carriers: Carriers  # with the pressures after the steps
     wrong: _Wrong
+    others: InRegion  # watched nodes and carriers at a bound
+    gap: Real  # there, negative where bodies overlap [length]
     level: float  # approach since touch that goes with the pressures [length]
     largest_error: float  # displacement that is missing on the touching nodes [length]
     steps: int  # each takes one product with the operator
@@ -203,7 +253,9 @@ def _relaxed(
     partition = Partition.of(trial, watched)
     if not trial.touching.any():  # under a given depth, all may be at a bound
         wrong = partition.wrong(trial.carriers.pressure[:0], partition.gap, tolerance)
-        return _Relaxation(trial.carriers, wrong, trial.approach, 0.0, 0)
+        return _Relaxation(
+            trial.carriers, wrong, partition.places, partition.gap, trial.approach, 0.0, 0
+        )
     gradients = partition.gradients(trial, precision, fixed_total=load.force is not None)
     while True:
         level = trial.approach if load.force is None else gradients.level
@@ -216,7 +268,8 @@ def _relaxed(
                 break
         if not gradients.advance():
             break
-    wrong = partition.wrong(gradients.pressure, gradients.watched - level, tolerance)
+    gap = gradients.watched - level
+    wrong = partition.wrong(gradients.pressure, gap, tolerance)
     pressure = gradients.pressure
     if not trial.touching.all():
         pressure = trial.carriers.pressure.copy()
@@ -224,7 +277,7 @@ def _relaxed(
     # a pressure out of its bounds counts as the displacement that it causes at its own node
     largest = max(error, max(partition.bounds.violations(gradients.pressure)) * diagonal)
     carriers = Carriers(trial.carriers.places, pressure)
-    return _Relaxation(carriers, wrong, level, largest, gradients.steps)
+    return _Relaxation(carriers, wrong, partition.places, gap, level, largest, gradients.steps)
 
 
 @dataclass(frozen=True, eq=False)

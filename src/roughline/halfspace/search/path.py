@@ -15,6 +15,7 @@ import numpy as np
 from roughline.computing.arrays import InGrid, InPatch, Real, among
 from roughline.halfspace.search.by_depths import under_forces
 from roughline.halfspace.search.cascade import first_guess
+from roughline.halfspace.search.near_rounds import NearRounds
 from roughline.halfspace.search.problem import (
     Contact,
     ContactSet,
@@ -24,7 +25,8 @@ from roughline.halfspace.search.problem import (
     Problem,
     Residuals,
 )
-from roughline.halfspace.search.response import Response, Tangent
+from roughline.halfspace.search.pull import Shares
+from roughline.halfspace.search.response import Tangent
 from roughline.halfspace.search.rounds import Rounds
 from roughline.halfspace.search.tangent import response
 from roughline.halfspace.search.window import GridWindow
@@ -52,8 +54,8 @@ class LoadPath:
         self._method = method
         self._last: Contact | None = None  # until the next search
         self._start: ContactSet | None = None  # of the search, which takes it
-        self._before: Contact | None = None  # under other shares, with this start
-        self._followed: tuple[InGrid, Response] | None = None  # nodes and tangents that led to it
+        # dp/dF that led to it, on loading and on unloading, and where
+        self._followed: tuple[InGrid, Real, Real] | None = None
         self._largest: float | None = None
         self._furthest: Contact | None = None  # under the largest load, until a larger one follows
         self._unknown_below = -np.inf  # the largest load that was not solved
@@ -126,7 +128,10 @@ class LoadPath:
         Contacts of shares that do not fit yet are solved roughly, in single precision while that
         serves.
         """
-        problem, rtol, single, spent = replace(self._problem), _LARGEST_TOLERANCE, True, 0
+        near, rtol, single = self._near_rounds(load), _LARGEST_TOLERANCE, True
+        if contact := near.contact():
+            return contact, GridWindow.everywhere(contact.problem)
+        problem, self._start, spent = near.problem, near.start, near.convolutions
         rounds = Rounds(problem.pull, problem.shares.above_zero)
         while True:
             method = self._method.to(rtol, single)
@@ -152,8 +157,15 @@ class LoadPath:
                 if method.rtol <= self._method.rtol:
                     return contact, window
             self._start = _under(problem, contact)
-            self._before = contact
             del contact, window, following  # none is held while the next is solved
+
+    def _near_rounds(self, load: Load) -> NearRounds:
+        """Return the search near the contact, which takes the start and the shares so far."""
+        problem, start = replace(self._problem), self._start
+        self._problem, self._start = replace(problem, shares=Shares.none()), None
+        if start is None and not _known(problem, load, for_first_time=True):
+            start, problem = first_guess(problem, load)
+        return NearRounds(problem, load, start, self._method)
 
     def _settled(
         self, load: Load, problem: Problem, method: Method, spent: int = 0
@@ -169,8 +181,8 @@ class LoadPath:
         window = GridWindow.of(problem, load, self._start)
         while True:
             method = replace(method, max_iterations=max(1, most - spent))
-            turns = window.turns(load, self._start, method, self._before)
-            self._start = self._before = None
+            turns = window.turns(load, self._start, method)
+            self._start = None
             contact = window.contact(turns)
             spent += contact.convolutions
             holds = window.holds(contact)
@@ -181,15 +193,12 @@ class LoadPath:
 
     def _guesses(self, nodes: InGrid) -> tuple[Real, Real] | None:
         """Return dp/dF of the contact before, on loading and on unloading, on nodes of this one."""
-        if self._followed is None:
+        if self._followed is None or not self._followed[0].size:
             return None
-        before, answer = self._followed
+        before, *rates = self._followed
         places = InPatch(np.minimum(np.searchsorted(before, nodes), before.size - 1))
         known = before[places] == nodes
-        loading, unloading = (
-            np.where(known, each.pressure_per_force[places], 0.0)
-            for each in (answer.loading, answer.unloading)
-        )
+        loading, unloading = (np.where(known, each[places], 0.0) for each in rates)
         return loading, unloading
 
     def _prepare(self, load: Load, contact: Contact) -> None:
@@ -205,7 +214,11 @@ class LoadPath:
         answer = contact.response
         if answer is None or not answer.converged or not contact.nodes.size:
             return
-        self._followed = contact.nodes, answer
+        follows = slice(None) if contact.problem.law.only_pushes else ~contact.pulling
+        loading, unloading = (
+            each.pressure_per_force[follows] for each in (answer.loading, answer.unloading)
+        )
+        self._followed = among(contact.nodes, follows), loading, unloading
         tangent = answer.loading if load.value > contact.load.value else answer.unloading
         self._start = _predicted(contact, tangent, load)
 
@@ -279,7 +292,7 @@ def _predicted(contact: Contact, tangent: Tangent, load: Load) -> ContactSet | N
         return None
     pressure = contact.pressure + change * tangent.pressure_per_force
     loaded = pressure > 0
-    if not contact.problem.law.only_pushes:
-        loaded[:] = True
+    if not contact.problem.law.only_pushes:  # pulls are those of the shares
+        loaded = ~contact.pulling
     depth = contact.depth + change / tangent.stiffness
     return ContactSet(among(contact.nodes, loaded), pressure[loaded], depth)

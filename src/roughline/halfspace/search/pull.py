@@ -10,7 +10,8 @@ work of adhesion stays that of the law.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -26,6 +27,9 @@ from roughline.halfspace.laws.pulling_zone import (
     refuse_end_within_a_cell,
 )
 from roughline.halfspace.laws.unilateral import Unilateral
+from roughline.halfspace.search.carriers import merged
+
+_BLOCK_NODES = 2**16  # for which arrays are made at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,17 +52,24 @@ class Shares:
 
     def at(self, nodes: InGrid) -> Real:
         """Return the shares of some nodes, ascending ones."""
-        if np.array_equal(nodes, self.nodes):
+        if nodes is self.nodes or np.array_equal(nodes, self.nodes):
             return self.values
         found = np.zeros(nodes.size)
         _find(self.nodes, self.values, nodes, found)
         return found
 
     def but(self, nodes: InGrid, values: Real) -> Shares:
-        """Return the same, with other values at some of their nodes."""
-        changed = self.values.copy()
-        changed[np.searchsorted(self.nodes, nodes)] = values
-        return Shares(self.nodes, changed)
+        """Return the same, with other values at some nodes."""
+        if not self.nodes.size:
+            return Shares(nodes, values)
+        places = np.searchsorted(self.nodes, nodes)
+        if np.array_equal(self.nodes[np.minimum(places, self.nodes.size - 1)], nodes):
+            changed = self.values.copy()
+            changed[places] = values
+            return Shares(self.nodes, changed)
+        others = ~np.isin(self.nodes, nodes, assume_unique=True)
+        joined, order = merged(among(self.nodes, others), nodes)
+        return Shares(joined, np.append(self.values[others], values)[order])
 
     def field(self, size: int) -> Real:
         """Return the shares of all nodes of a grid of so many."""
@@ -75,6 +86,7 @@ class Pull:
     separation: Real  # distance of the bodies at first touch, shape (nx, ny) [length]
     compliance: float  # displacement of a node by the pressure on it alone [length / pressure]
     repeats: tuple[bool, bool]  # whether bodies go on as they begin, along x and along y
+    known: tuple[InGrid, Real] | None = None  # nodes, and the ramp there
 
     @cached_property
     def jump(self) -> float:
@@ -85,6 +97,10 @@ class Pull:
     def _narrowest(self) -> float:
         """Half of the width that a ramp has at least. [length]"""
         return narrowest_ramp(self.law, self.compliance)
+
+    def knowing(self, nodes: InGrid) -> Pull:
+        """Return the same, which needs not compute the ramp of these nodes again."""
+        return replace(self, known=(nodes, self._ramp(nodes))) if self.jump else self
 
     def at_hand(self) -> ContactLaw:
         """Return the law, or, where the pull moves less than rounding, one without it.
@@ -103,23 +119,40 @@ class Pull:
         refuse_end_within_a_cell(law, self.compliance)
         return law
 
-    def followed(self, gap: Real, shares: Shares) -> tuple[Shares, Shares, float]:
+    def followed(
+        self, gap: Real, shares: Shares, nodes: InGrid | None = None
+    ) -> tuple[Shares, Shares, float]:
         """Return the shares that a gap leaves, and from others, at nodes where both differ.
 
-        The gap is that of all nodes, shape (nx * ny,). Return with them by how much, at most, gaps
-        differ that go with the two. [length]
+        The gap is that of some nodes, which alone are pulled, or without any, of all, shape
+        (nx * ny,). Return with them by how much, at most, gaps differ that go with the two.
+        [length]
         """
-        nodes = self._near(gap, shares)
-        followed = self._shares(gap[nodes] if nodes.size < gap.size else gap, nodes)
-        taken = shares.at(nodes)
+        if nodes is None:
+            nodes = self._near(gap, shares)
+            gap = gap[nodes] if nodes.size < gap.size else gap
+        ramp = self._ramp(nodes) if self.jump else None
+        followed, taken = self._shares(gap, ramp), shares.at(nodes)
         places = np.flatnonzero(followed != taken)
         moved, there, before = among(nodes, places), followed[places], taken[places]
-        gap_change = self._gap_change(there, before, moved)
+        gap_change = self._gap_change(there, before, None if ramp is None else ramp[places])
         return (
             Shares(nodes, followed),
             Shares(moved, there - before),
             float(gap_change.max(initial=0.0)),
         )
+
+    def followed_everywhere(self, gap: Real, shares: Shares) -> tuple[Shares, float]:
+        """Return what :meth:`followed` does, without where shares differ, in little memory."""
+        nodes = self._near(gap, shares)
+        followed, largest = np.empty(nodes.size), 0.0
+        for block in _blocks(nodes.size):
+            part = among(nodes, block)
+            taken = Shares(part, shares.at(part))
+            each, _, gap_change = self.followed(gap[part], taken, part)
+            followed[block] = each.values
+            largest = max(largest, gap_change)
+        return Shares(nodes, followed), largest
 
     def _near(self, gap: Real, shares: Shares) -> InGrid:
         """Return the nodes that a gap leaves within reach, and those of shares, in one memory."""
@@ -131,28 +164,32 @@ class Pull:
         nodes = InGrid(np.flatnonzero(near))
         return nodes if nodes.size > shares.nodes.size else shares.nodes
 
-    def _shares(self, gap: Real, nodes: InGrid) -> Real:
+    def shares_at(self, gap: Real, nodes: InGrid) -> Real:
         """Return the shares that the gaps of nodes leave."""
+        return self._shares(gap, self._ramp(nodes) if self.jump else None)
+
+    def _shares(self, gap: Real, ramp: Real | None) -> Real:
+        """Return the shares that gaps leave, with the ramp where the pull ends by a jump."""
         law = self.law
         shares = law.share_at(np.clip(gap, 0.0, law.cutoff))
         if math.isinf(law.cutoff):
             return shares
-        if not self.jump:
+        if ramp is None:
             return np.where(gap < law.cutoff, shares, 0.0)
-        within = self._within(gap, self._ramp(nodes))
+        within = self._within(gap, ramp)
         within *= self.jump
         shares -= self.jump
         shares += within
         return shares
 
-    def _gap_change(self, shares: Real, others: Real, nodes: InGrid) -> Real:
+    def _gap_change(self, shares: Real, others: Real, ramp: Real | None) -> Real:
         """Return by how much the gaps of nodes differ that go with shares. [length]"""
         least = self.jump or LEAST_SHARE
         gaps = [self.law.gap_at(np.maximum(each, least)) for each in (shares, others)]
         gap_change = np.abs(gaps[0] - gaps[1])
-        if self.jump:  # the rest is along the ramp
+        if ramp is not None:  # the rest is along it
             lower = [np.minimum(each, self.jump) / self.jump for each in (shares, others)]
-            gap_change += 2 * self._ramp(nodes) * np.abs(lower[0] - lower[1])
+            gap_change += 2 * ramp * np.abs(lower[0] - lower[1])
         return gap_change
 
     def energy(self, gap: Real) -> float:
@@ -160,10 +197,14 @@ class Pull:
 
         The gap is that of all nodes, shape (nx * ny,). [pressure * length]
         """
-        law = self.law
-        farthest = farthest_pulled(law) if self.jump else law.cutoff
+        farthest = farthest_pulled(self.law) if self.jump else self.law.cutoff
         nodes = InGrid(np.flatnonzero(gap < farthest))
-        gap = np.maximum(gap[nodes], 0.0)
+        parts = (among(nodes, part) for part in _blocks(nodes.size))
+        return float(sum(self._energy_of(gap[part], part) for part in parts))
+
+    def _energy_of(self, gap: Real, nodes: InGrid) -> float:
+        """Return minus the work that is left to separate some nodes, over the area of a cell."""
+        law, gap = self.law, np.maximum(gap, 0.0)
         work = law.work_beyond(np.minimum(gap, law.cutoff))
         if self.jump:
             ramp = self._ramp(nodes)
@@ -181,10 +222,17 @@ class Pull:
 
     def _ramp(self, nodes: InGrid) -> Real:
         """Return half of the width over which the pull ends at nodes. [length]"""
+        if self.known is not None and nodes is self.known[0]:
+            return self.known[1]
         steps = _steps(self.separation, nodes, *self.repeats)
         steps /= 2
         np.clip(steps, self._narrowest, self.law.cutoff, out=steps)
         return steps
+
+
+def _blocks(size: int) -> Iterator[slice]:
+    """Divide a list into blocks that take little memory."""
+    return (slice(start, start + _BLOCK_NODES) for start in range(0, size, _BLOCK_NODES))
 
 
 @compiled

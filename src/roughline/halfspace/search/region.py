@@ -10,8 +10,10 @@ import numpy as np
 from roughline.computing.arrays import Floats, InGrid, InRegion, Mask, Real, among
 from roughline.computing.compiled import compiled
 from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
+from roughline.halfspace.operators.restricted import RestrictedOperator
 from roughline.halfspace.search.carriers import Carriers, merged
 from roughline.halfspace.search.problem import (
     Contact,
@@ -82,6 +84,42 @@ class Region:
         pulled = InRegion(np.setdiff1d(self.bounds.pulled, places, assume_unique=True))
         return found.joined_by(pulled, self.bounds.at(pulled).low)
 
+    def touching_among(self, carriers: Carriers) -> Carriers:
+        """Return the carriers that are between their bounds."""
+        return carriers.without(~self.bounds.at(carriers.places).touching(carriers.pressure))
+
+    def bearing(self, touching: Carriers) -> Carriers:
+        """Return touching nodes, within their bounds, and with them all others that are pulled."""
+        pressure = np.broadcast_to(self.bounds.low, self.separation.shape).copy()
+        bears = pressure != 0
+        places = touching.places
+        pressure[places] = np.maximum(touching.pressure, pressure[places])
+        bears[places] = True
+        bearing = InRegion(np.flatnonzero(bears))
+        return Carriers(bearing, pressure if bears.all() else pressure[bearing])
+
+    def around(self, trial: Trial, nodes: InGrid) -> tuple[Region, Load, Carriers]:
+        """Return nodes of the grid as a region, with its load and its touching nodes.
+
+        The trial is one of all of the grid, and pressures on other nodes stay as they are there.
+        """
+        here = np.zeros(trial.gap.size, dtype=bool)
+        here[nodes] = True
+        carriers, within = trial.carriers, here[trial.carriers.places]
+        places = InRegion(np.searchsorted(nodes, carriers.places[within]))
+        found = Carriers(places, carriers.pressure[within])
+        moved = trial.gap[nodes]
+        moved += trial.approach
+        problem = replace(self.problem)  # without the bounds of all nodes
+        listed, bounds = problem.grid.nodes(nodes), self.bounds.at(nodes)
+        linear = problem.inverse.restricted.on(listed) or problem.operator
+        region = _centred(problem, linear, listed, bounds, found, moved)
+        load = trial.load
+        if load.force is not None:
+            beyond = self.problem.grid.cell_area * float(carriers.pressure[~within].sum())
+            load = Load(force=load.force - beyond)
+        return region, load, found.without(~trial.touching[within])
+
     def near(self, trial: Trial, reach: float) -> tuple[Region, Carriers] | None:
         """Return the nodes near the contact of a trial as a region; None if that costs more.
 
@@ -98,32 +136,6 @@ class Region:
         nodes = self.operator.grid_nodes(places)
         region = _restricted(self.problem, nodes, self.bounds.at(places), found, moved)
         return (region, found) if region else None
-
-    @classmethod
-    def from_other_bounds(
-        cls, problem: Problem, contact: Contact, start: ContactSet
-    ) -> tuple[Region, Carriers] | None:
-        """Return the nodes as a region that bear pressure in a contact under other bounds or now.
-
-        The start is of nodes of that contact. Nodes whose bounds allow no zero pressure are
-        carriers, too. None if the exact operator costs less.
-        """
-        bears = np.zeros(problem.separation.size, dtype=bool)
-        bears[contact.nodes] = bears[problem.shares.above_zero.nodes] = True
-        places = InGrid(np.flatnonzero(bears))
-        bounds = problem.bounds_at(places)
-        before = Carriers(InRegion(np.searchsorted(places, contact.nodes)), contact.pressure)
-        moved = contact.gap_at(places)
-        moved += contact.depth - problem.touch
-        region = _restricted(problem, problem.grid.nodes(places), bounds, before, moved)
-        if region is None:
-            return None
-        carriers = InRegion(np.searchsorted(places, start.nodes))
-        pressure = np.broadcast_to(bounds.low, places.shape).copy()
-        pressure[carriers] = bounds.at(carriers).nearest(start.pressure)
-        bears = pressure != 0
-        bears[carriers] = True
-        return region, Carriers(InRegion(np.flatnonzero(bears)), pressure[bears])
 
     def recentred(self, carriers: Carriers, precision: Precision) -> Region:
         """Return the region with the operator that is exact for the pressures of carriers."""
@@ -147,7 +159,7 @@ class Region:
         bounds, touch = self.bounds.at(places), self.problem.touch
         cell_area = self.problem.grid.cell_area
         if load.force is None:
-            pressure = np.minimum(pressure, bounds.high)
+            pressure = bounds.lowered(pressure)
         else:
             pressure = bounds.with_total(pressure, load.force / cell_area)
         touching = bounds.touching(pressure)
@@ -164,6 +176,7 @@ class Region:
             moved *= factor
         if approach is None:
             approach = _level(moved[places] + above, pressure, touching)
+        del above
         _leave_gaps(moved, self.separation, touch, approach)
         return Trial.of(self, load, Carriers(places, pressure), approach, moved)
 
@@ -205,8 +218,11 @@ class Trial:
         pressure_scale, length_scale = 1.0, abs(approach) or 1.0
         compared = absolute_force
         if absolute_force > 0:
-            displacement = gap[places] + approach - (region.separation[places] - problem.touch)
+            displacement = gap[places]
+            displacement += approach
+            displacement -= region.separation[places] - problem.touch
             pressure_scale, length_scale = problem.scales(pressure, displacement)
+            del displacement
             compared = max(absolute_force, pressure_scale * cell_area)
         # which keeps what is no number
         length_scale = float(np.maximum(length_scale, problem.resolution * absolute_force))
@@ -216,13 +232,14 @@ class Trial:
         # count whatever their sign, so they may stay in the minimum.
         overlap = np.maximum(-gap[places[plastic]], 0.0)
         gap[places[plastic]] += overlap
-        on_carriers = gap[places]
-        on_contact = np.where(touching | plastic, on_carriers, np.minimum(on_carriers, 0.0))
+        on_contact = gap[places]
+        np.minimum(on_contact, 0.0, out=on_contact, where=~(touching | plastic))
         least_on_contact = float(on_contact.min(initial=0.0))
+        largest_on_contact = max(-least_on_contact, float(on_contact.max(initial=0.0)))
         least_gap = float(gap.min(initial=0.0))
         below, above = bounds.violations(pressure)
         residuals = Residuals(
-            gap=float(np.abs(on_contact).max(initial=0.0)) / length_scale,
+            gap=largest_on_contact / length_scale,
             penetration=-least_gap / length_scale if least_gap < least_on_contact else 0.0,
             tension=below / pressure_scale,
             excess=above / pressure_scale,
@@ -313,19 +330,29 @@ class Trial:
 def _restricted(
     problem: Problem, nodes: GridNodes, bounds: Bounds, carriers: Carriers, moved: Real
 ) -> Region | None:
-    """Return some nodes as a region; None if a restricted operator costs more.
-
-    It is exact for the carriers among them, which move the surface by so much more than the bodies
-    are apart there at first touch. The array is overwritten. [length]
-    """
+    """Return some nodes as a region; None if a restricted operator costs more."""
     restricted = problem.inverse.restricted.on(nodes)
-    if restricted is None:
-        return None
+    return _centred(problem, restricted, nodes, bounds, carriers, moved) if restricted else None
+
+
+def _centred(
+    problem: Problem,
+    linear: RestrictedOperator | Convolution,
+    nodes: GridNodes,
+    bounds: Bounds,
+    carriers: Carriers,
+    moved: Real,
+) -> Region:
+    """Return some nodes as a region, whose operator is exact for the carriers among them.
+
+    These move the surface by so much more than the bodies are apart there at first touch. The array
+    is overwritten. [length]
+    """
     before = np.zeros(nodes.indices.size)
     before[carriers.places] = carriers.pressure
     separation = problem.separation.flat[nodes.indices]
     moved -= separation - problem.touch
-    operator = CorrectedOperator(problem.operator, restricted, nodes, before, moved)
+    operator = CorrectedOperator(problem.operator, linear, nodes, before, moved)
     return Region(problem, operator, separation, bounds, 0.0)
 
 

@@ -93,9 +93,12 @@ class Rounds:
     moved: Shares = field(default_factory=Shares.none)
     followed: Shares = field(default_factory=Shares.none)  # where they went further
 
-    def then(self, gap: Real) -> Rounds:
-        """Take the shares of a gap, of all nodes, or others on the way to where rounds end."""
-        followed, moved, misfit = self.pull.followed(gap, self.shares)
+    def then(self, gap: Real, nodes: InGrid | None = None) -> Rounds:
+        """Take the shares of a gap, or others on the way to where rounds end.
+
+        The gap is that of some nodes, to which shares are kept; without any, it is that of all.
+        """
+        followed, moved, misfit = self.pull.followed(gap, self.shares, nodes)
         change, onwards = _largest(moved), _along(moved, self.moved)
         plain = Rounds(self.pull, followed, misfit, near=self.near, change=change, moved=moved)
         if self.factor > 1 and not onwards:  # shares went beyond an end

@@ -38,20 +38,12 @@ class Turns:
     the one after. The bound on iterations is one on convolutions and products together.
     """
 
-    def __init__(
-        self,
-        problem: Problem,
-        load: Load,
-        start: ContactSet,
-        method: Method,
-        before: Contact | None = None,
-    ) -> None:
+    def __init__(self, problem: Problem, load: Load, start: ContactSet, method: Method) -> None:
         self._problem = problem
         self._load = load
         self._method = method
         self._start: ContactSet | None = start
         self._near: tuple[Region, Carriers] | None = None
-        self._before = before  # contact under other bounds, from which the start is
         self._worst = np.inf  # residual of the last look wherever bodies can touch
         self._worst_near = np.inf  # and of the last one near the contact
         self._convolutions = 0  # with the exact operator
@@ -66,7 +58,7 @@ class Turns:
         """Return the contact, certified or not."""
         method = self._method
         precision = method.certificate if self._found_on_small_grid() else method.steps
-        contact = None if self._foreseen() else self._seen(precision)
+        contact = self._seen(precision)
         while contact is None and self._near is not None:
             while self._refine():
                 pass
@@ -91,22 +83,6 @@ class Turns:
         self._convolutions += spent
         self._start = found or self._start
         return found is not None
-
-    def _foreseen(self) -> bool:
-        """Take the nodes near a contact under other bounds, unless the exact operator costs less.
-
-        The gap that a start from it leaves is not looked at: it is taken to be what one search
-        makes good.
-        """
-        before, self._before = self._before, None
-        if before is None or self._left <= 1:
-            return False
-        assert self._start is not None
-        self._near = Region.from_other_bounds(self._problem, before, self._start)
-        if self._near is None:
-            return False
-        self._worst = self._worst_near = TOLERANCE_AIM * self._method.rtol / _RESIDUAL_GAIN
-        return True
 
     def _seen(self, precision: Precision) -> Contact | None:
         """Look wherever bodies can touch; return the contact if it is certified.

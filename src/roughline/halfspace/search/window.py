@@ -71,17 +71,11 @@ class GridWindow:
             law=problem.law.on(lambda field: field[here]),
         )
 
-    def turns(
-        self, load: Load, start: ContactSet, method: Method, before: Contact | None = None
-    ) -> Turns:
-        """Return the search in the window, which starts from a contact set of the grid.
-
-        The contact before, under other bounds, serves it if the window is all of the grid.
-        """
+    def turns(self, load: Load, start: ContactSet, method: Method) -> Turns:
+        """Return the search in the window, which starts from a contact set of the grid."""
         nodes = InGrid(self.inside(start.nodes))  # the window is the grid of what is sought there
         start = replace(start, nodes=nodes)
-        before = before if self.bodies is self.problem else None
-        return Turns(self.bodies, load, start, method, before)
+        return Turns(self.bodies, load, start, method)
 
     def inside(self, nodes: InGrid) -> InWindow:
         """Return nodes of the grid as nodes of the window."""
