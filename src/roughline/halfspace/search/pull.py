@@ -29,7 +29,7 @@ from roughline.halfspace.laws.pulling_zone import (
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.search.carriers import merged
 
-_BLOCK_NODES = 2**16  # for which arrays are made at a time
+_BLOCK_NODES = 2**14  # for which arrays are made at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,9 +200,9 @@ class Pull:
         farthest = farthest_pulled(self.law) if self.jump else self.law.cutoff
         nodes = InGrid(np.flatnonzero(gap < farthest))
         parts = (among(nodes, part) for part in _blocks(nodes.size))
-        return float(sum(self._energy_of(gap[part], part) for part in parts))
+        return float(sum(self._energy_at(gap[part], part) for part in parts))
 
-    def _energy_of(self, gap: Real, nodes: InGrid) -> float:
+    def _energy_at(self, gap: Real, nodes: InGrid) -> float:
         """Return minus the work that is left to separate some nodes, over the area of a cell."""
         law, gap = self.law, np.maximum(gap, 0.0)
         work = law.work_beyond(np.minimum(gap, law.cutoff))

@@ -235,11 +235,10 @@ class Trial:
         on_contact = gap[places]
         np.minimum(on_contact, 0.0, out=on_contact, where=~(touching | plastic))
         least_on_contact = float(on_contact.min(initial=0.0))
-        largest_on_contact = max(-least_on_contact, float(on_contact.max(initial=0.0)))
         least_gap = float(gap.min(initial=0.0))
         below, above = bounds.violations(pressure)
         residuals = Residuals(
-            gap=largest_on_contact / length_scale,
+            gap=max(-least_on_contact, float(on_contact.max(initial=0.0))) / length_scale,
             penetration=-least_gap / length_scale if least_gap < least_on_contact else 0.0,
             tension=below / pressure_scale,
             excess=above / pressure_scale,
