@@ -257,9 +257,9 @@ def with_few_steps(monkeypatch, which, steps):
 
 
 def test_work_that_is_not_solved_is_told_with_its_limits(monkeypatch):
-    known = asked(rough(16), rl.Adhesion(RANGE), periodic=True)
-    with_few_steps(monkeypatch, "depths", 21)
-    result = asked(rough(16), rl.Adhesion(RANGE), periodic=True)
+    known = asked(rough(20), rl.Adhesion(RANGE), periodic=True)
+    with_few_steps(monkeypatch, "depths", 23)
+    result = asked(rough(20), rl.Adhesion(RANGE), periodic=True)
     assert "work_of_separation" not in result.answers
     assert value(result, "pull_off_force") == value(known, "pull_off_force")
     (said,) = (each for each in result.remarks if each.startswith("no work of separation"))
