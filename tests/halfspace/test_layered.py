@@ -463,16 +463,16 @@ def test_noise_on_plates_is_found_though_those_that_join_lift_the_others(seed):
     noise = rl.Surface(np.random.default_rng(seed).normal(size=(96, 96)), (1.0, 10.0))
     plate = rl.Layered(1.0, 0.3, 0.2, 1e-3, 0.3, periodic=True)
     depth = 0.6 * float(noise.heights.max() - noise.heights.mean())
-    assert rl.press(noise, half_space=plate, depths=[depth]).convolutions.max() < 1500
+    assert rl.press(noise, half_space=plate, depths=[depth]).convolutions.max() < 700
 
 
 @pytest.mark.parametrize("seed", [3, 4])
 def test_plates_are_found_in_some_hundred_convolutions(seed):
-    """Without the inverse of all waves they take a thousand."""
+    """With the inverse convolution, cut to the contact, they take two hundred to a thousand."""
     plate, body = rl.Layered(1.0, 0.3, 0.05, 1e-3, 0.3, periodic=True), rough(64, seed)
     most = rl.press(body, half_space=plate, n_loads=2, throw=False).force[-1]
     curve = rl.press(body, half_space=plate, forces=most * np.array([0.05, 0.5]))
-    assert curve.convolutions.max() < 500
+    assert curve.convolutions.max() < 100
 
 
 # Two bodies, and what is refused

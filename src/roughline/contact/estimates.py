@@ -43,7 +43,7 @@ _ENDLESS_PULL_BYTES = 75
 _YIELD_BYTES = 28  # where several loads leave a surface behind
 _DENTS_BYTES = 30  # and for each node in contact
 # Where pressure may displace a free surface towards the other body, as beside a layer, all of it is
-# looked at. Where layers bend as plates, there is the inverse of all waves. On 1024 and 2048 points
+# looked at. Where layers bend as plates, there are tables of small blocks. On 1024 and 2048 points
 # a side soft layers were measured to take 8 to 12 bytes more than homogeneous bodies do under light
 # loads, and nothing more under heavy ones; free plates take 23 to 25.
 _ALL_PLACES_BYTES = 12

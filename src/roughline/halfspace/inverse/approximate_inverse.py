@@ -5,29 +5,20 @@ What is smooth over blocks of 16 cells is inverted by the inverse convolution of
 blocks. The two spaces are split by zero means, so each adds only what the other cannot represent;
 the splitting is stable for operators of this order [1]_ [2]_.
 
-Cut to blocks that bear unevenly, the inverse convolution mixes long waves with short ones. That is
-harmless unless a base that is softer than the layer gives way to long waves far more. There the
-equations between blocks are solved as they are for pressures of a few shapes, and the inverse
-convolution serves for the rest, as in deflation [3]_ and balancing [4]_.
-
-A hard layer on a much softer base bends as a plate does, and its compliance falls faster with the
-wavenumber than 1 / q. There the inverse convolution of the whole grid is used.
+Where a base is softer than the layers on it, the equations between blocks are solved instead.
 
 References
 ----------
 .. [1] P. Oswald, "Multilevel norms for H^(-1/2)", Computing 61, 235-255 (1998).
 .. [2] M. Hahne and E. P. Stephan, "Schwarz iterations for the efficient solution of screen problems
    with boundary elements", Computing 56, 61-85 (1996).
-.. [3] R. A. Nicolaides, "Deflation of conjugate gradients with applications to boundary value
-   problems", SIAM J. Numer. Anal. 24, 355-365 (1987).
-.. [4] J. Mandel, "Balancing domain decomposition", Commun. Numer. Methods Eng. 9, 233-241 (1993).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -37,6 +28,13 @@ from scipy.linalg import blas, lapack
 from roughline.computing import fft
 from roughline.computing.arrays import Floats, Indices, InGrid, Integers, Real, Single
 from roughline.computing.compiled import compiled
+from roughline.halfspace.inverse.blocks import (
+    BlockOperator,
+    BlockOperators,
+    SolvedBlocks,
+    block_sides,
+    stretch,
+)
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
 from roughline.halfspace.operators.grid_nodes import RUN_UNIT, GridNodes, unit_in_single
@@ -48,11 +46,9 @@ from roughline.halfspace.operators.restricted import (
 from roughline.halfspace.operators.small_grid import SmallGrid
 
 _BLOCK_CELLS = 16  # cells along the side of a block, where these are square
+_LEAST_EIGENVALUE = 0.1  # of an inverse convolution, over that of the wave or the usual one
 _MOST_DIRECT_NODES = 300  # whose equations are solved directly
-
-_MOST_PARTS = 4  # of the surface along an axis; and fewest blocks along the side of one
 _PLATES_FROM = 50.0  # fall of wavenumber times compliance, from which on plates bend
-_EIGENVALUE_FLOOR = 0.1  # of the eigenvalues on a grid, over the compliance of the wave
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,29 +63,32 @@ class ApproximateInverse:
     diagonal: float  # displacement of a node by the pressure on itself
     block_sides: tuple[int, int]  # in cells
     block_kernel: Real  # averaged over two blocks, by their distance
+    blocks: BlockOperators  # the operator between blocks, by their sides
     restricted: RestrictedOperators  # forms of the operator that cost what the contact costs
 
     @classmethod
     def of(cls, operator: Convolution) -> ApproximateInverse:
         """Derive it from the operator's spectrum."""
-        (nx, ny), (dx, dy) = operator.shape, operator.spacing
-        stretch = float(np.clip(np.sqrt(dy / dx), 0.25, 4.0))  # of stencil and blocks along x
-        offsets, taps = _stencil(operator, stretch)
+        (nx, ny), cell = operator.shape, min(operator.spacing)
+        offsets, taps = _stencil(operator, stretch(operator))
         reach_x, reach_y = (int(each) for each in abs(offsets).max(axis=0))
         assert operator.half_space is not None
         block = _BLOCK_CELLS
-        if excess_compliance(operator.half_space, block / 4 * min(dx, dy)) > RESOLVED_EXCESS:
+        if excess_compliance(operator.half_space, block / 4 * cell) > RESOLVED_EXCESS:
             block //= 2
-        sides = min(round(block * stretch), nx), min(round(block / stretch), ny)
+        sides = block_sides(operator, block)
         corners = np.arange(0, nx, sides[0]), np.arange(0, ny, sides[1])
         grid, origin = (operator.spectrum, operator.periods), (np.zeros(1), np.zeros(1))
+        even_term = _even_pressure_term(operator)
+        diagonal = float(even_sums(*grid, origin)[0, 0]) + even_term
         return cls(
             operator,
             offsets,
             taps,
-            float(even_sums(*grid, origin)[0, 0]) + _even_pressure_term(operator),
+            diagonal,
             sides,
-            even_sums(*grid, corners, sides) + _even_pressure_term(operator),
+            even_sums(*grid, corners, sides) + even_term,
+            BlockOperators(operator, diagonal, even_term),
             RestrictedOperators(operator, (reach_x, reach_y + RUN_UNIT)),
         )
 
@@ -101,34 +100,19 @@ class ApproximateInverse:
         return held + 4 * self.operator.shape[0] * self.operator.shape[1]
 
     @cached_property
-    def block_spectrum(self) -> tuple[Real, tuple[int, int]]:
-        """Half of the spectrum of the kernel of blocks, and its periods."""
+    def block_inverse(self) -> tuple[Real, tuple[int, int]]:
+        """Spectrum of the inverse of the kernel of blocks, and its periods.
+
+        Cut short, the kernel may have eigenvalues that are too small.
+        """
         (mx, my), kernel = self.block_kernel.shape, self.block_kernel
         mx, my = (
             n if repeated else max(1, 2 * n - 2)
             for n, repeated in zip((mx, my), self.operator.repeats, strict=True)
         )
         x, y = (np.minimum(np.arange(n), -np.arange(n) % n) for n in (mx, my))
-        return fft.half_spectrum(kernel[x[:, np.newaxis], y]).real, (mx, my)
-
-    @cached_property
-    def block_inverse(self) -> tuple[Real, tuple[int, int]]:
-        """Spectrum of the inverse of that kernel, and its periods.
-
-        Cut short, the kernel may have eigenvalues that are too small.
-        """
-        spectrum, (mx, my) = self.block_spectrum
+        spectrum = fft.half_spectrum(kernel[x[:, np.newaxis], y]).real
         return 1 / (np.maximum(spectrum, 0.1 * np.median(spectrum)) * mx * my), (mx, my)
-
-    @cached_property
-    def mixes_waves(self) -> bool:
-        """Whether a softer base gives way to long waves, under a layer that blocks resolve."""
-        operator, half_space = self.operator, self.operator.half_space
-        assert half_space is not None
-        sides = [n * side for n, side in zip(operator.periods, operator.spacing, strict=True)]
-        block = min(n * side for n, side in zip(self.block_sides, operator.spacing, strict=True))
-        longest, short = (excess_compliance(half_space, side / 2) for side in (max(sides), block))
-        return longest > RESOLVED_EXCESS > short
 
     @cached_property
     def is_of_plates(self) -> bool:
@@ -136,28 +120,14 @@ class ApproximateInverse:
         return bends_as_plates(self.operator)
 
     @cached_property
-    def inverse_convolution(self) -> Convolution:
-        """The inverse convolution of the whole grid."""
+    def solves_blocks(self) -> bool:
+        """Whether a softer base gives way to long waves, under plates or resolved layers."""
         operator, half_space = self.operator, self.operator.half_space
         assert half_space is not None
-        kx, ky = (
-            2 * np.pi / (n * side) * np.arange(n // 2 + 1)
-            for n, side in zip(operator.periods, operator.spacing, strict=True)
-        )
-        modes, inverse = float(np.prod(operator.periods)), operator.spectrum.copy()
-
-        def fill(first: int, last: int) -> None:
-            q, eigenvalues = np.hypot(kx[first:last, np.newaxis], ky), inverse[first:last]
-            q[q == 0] = max(kx[-1], ky[-1])  # in place of no wave
-            np.maximum(
-                eigenvalues, _EIGENVALUE_FLOOR / modes * half_space.spectrum(q), out=eigenvalues
-            )
-
-        fft.share_out_blocks(fill, kx.size, 1 + fft.VALUES_AT_A_TIME // ky.size)
-        inverse[0, 0] += _even_pressure_term(operator)
-        inverse *= modes**2
-        np.reciprocal(inverse, out=inverse)
-        return replace(operator, spectrum=inverse, half_space=None)
+        sides = [n * side for n, side in zip(operator.periods, operator.spacing, strict=True)]
+        block = min(n * side for n, side in zip(self.block_sides, operator.spacing, strict=True))
+        longest, short = (excess_compliance(half_space, side / 2) for side in (max(sides), block))
+        return self.is_of_plates or longest > RESOLVED_EXCESS > short
 
     @cached_property
     def small_inverse(self) -> tuple[SmallGrid, Real]:
@@ -166,18 +136,29 @@ class ApproximateInverse:
         Its kernel falls so fast that a quarter of a free side is enough between the grid and its
         repetition.
         """
-        inverse = self.inverse_convolution
+        operator, half_space = self.operator, self.operator.half_space
+        assert half_space is not None
+        kx, ky = (
+            2 * np.pi / (n * side) * np.arange(n // 2 + 1)
+            for n, side in zip(operator.periods, operator.spacing, strict=True)
+        )
+        modes, q = math.prod(operator.periods), np.hypot(kx[:, np.newaxis], ky)
+        q[0, 0] = max(kx[-1], ky[-1])  # in place of no wave
+        least = _LEAST_EIGENVALUE / modes * half_space.spectrum(q)
+        kernel = np.maximum(operator.spectrum, least)
+        kernel[0, 0] += self.even_pressure_term
+        kernel *= modes**2
+        np.reciprocal(kernel, out=kernel)
+        fft.cosine_spectrum(kernel, operator.periods)
         px, py = (
             n if repeated else fft.good_size(n + -(-n // 4))
-            for n, repeated in zip(inverse.shape, inverse.repeats, strict=True)
+            for n, repeated in zip(operator.shape, operator.repeats, strict=True)
         )
-        kernel = inverse.spectrum.copy()
-        fft.cosine_spectrum(kernel, inverse.periods)
         spectrum = np.ascontiguousarray(kernel[: px // 2 + 1, : py // 2 + 1])
         fft.cosine_spectrum(spectrum, (px, py))
-        np.maximum(spectrum, _EIGENVALUE_FLOOR * np.median(spectrum), out=spectrum)
+        np.maximum(spectrum, _LEAST_EIGENVALUE * np.median(spectrum), out=spectrum)
         spectrum /= px * py
-        return SmallGrid(inverse.shape, (px, py)), spectrum
+        return SmallGrid(operator.shape, (px, py)), spectrum
 
     @cached_property
     def stencil(self) -> tuple[Integers, Single]:
@@ -255,7 +236,7 @@ def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> _Preconditi
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
     if nodes.indices.size <= _MOST_DIRECT_NODES:
         return _Direct(inverse, nodes)
-    return (_Waves if inverse.is_of_plates else _TwoLevels)(inverse, nodes)
+    return _TwoLevels(inverse, nodes, inverse.blocks.on(nodes) if inverse.solves_blocks else None)
 
 
 class _Direct:
@@ -280,28 +261,17 @@ class _Direct:
         return blas.dtrsv(self._factor, half, lower=1, trans=1, overwrite_x=1)
 
 
-class _Waves:
-    """The inverse convolution of the whole grid, cut to the contact nodes.
-
-    It is taken in double precision, as compliances of waves differ by many powers of ten.
-    """
-
-    def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        self._convolution, self._nodes = inverse.inverse_convolution, nodes
-
-    def __call__(self, residual: Real) -> Real:
-        """Return the change of pressure that causes the displacement `residual`, about."""
-        return self._convolution.displacement(residual, self._nodes, self._nodes)
-
-
 class _TwoLevels:
-    """The approximate inverse on many contact nodes."""
+    """The approximate inverse on many contact nodes; an operator between blocks is solved."""
 
-    def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        grid, sides, kernel = inverse.restricted.grid, inverse.block_sides, inverse.block_kernel
+    def __init__(
+        self, inverse: ApproximateInverse, nodes: GridNodes, solved: BlockOperator | None
+    ) -> None:
+        grid, sides = inverse.restricted.grid, solved.sides if solved else inverse.block_sides
+        shape = solved.shape if solved else inverse.block_kernel.shape
         width = grid.values.shape[1]
         self._at = _Layout(
-            np.searchsorted(nodes.rows, np.arange(len(kernel) + 1) * sides[0]),
+            np.searchsorted(nodes.rows, np.arange(shape[0] + 1) * sides[0]),
             (np.arange(nodes.shape[1]) // sides[1]).astype(np.int32),
             nodes.rows,
             nodes.starts,
@@ -311,34 +281,15 @@ class _TwoLevels:
             width,
         )
         self._nodes, self._grid, self._stencil = nodes, grid, inverse.stencil
-        self._bands_at_a_time = max(1, fft.VALUES_AT_A_TIME * len(kernel) // nodes.indices.size)
-        count, full = np.empty(kernel.shape), float(kernel[0, 0])
+        self._bands_at_a_time = max(1, fft.VALUES_AT_A_TIME * shape[0] // nodes.indices.size)
+        count = np.empty(shape)
         self._share_out(lambda first, last: _count_nodes(self._at, first, last, count))
         self._per_node = 1 / np.maximum(count, 1.0)
-        if not full > 0:
-            raise np.linalg.LinAlgError("the half-space is not positive definite")
-        # Each block counts by the energy of even pressure on its nodes, as if they lay at random.
-        alone = (1 - count / (sides[0] * sides[1])) * max(0.0, inverse.diagonal - full)
-        self._scale = 1 / np.sqrt(np.maximum(count * (count + alone / full), 1.0))
-        self._block_inverse = inverse.block_inverse
-        self._shapes = _Shapes(inverse, count, alone, self._scale) if inverse.mixes_waves else None
+        self._even = SolvedBlocks(solved, count) if solved else _CutBlocks(inverse, count)
 
     def _share_out(self, work: Callable[[int, int], None]) -> None:
         """Do some work on all bands."""
         fft.share_out_blocks(work, self._at.bands.size - 1, self._bands_at_a_time)
-
-    def _even(self, sums: Real) -> Real:
-        """Return the pressure on the nodes of each block, from the sums of their residuals."""
-        if self._shapes is None:
-            return self._cut(sums)
-        solved_part, rest = self._shapes.solved(sums)
-        pressure = self._cut(rest)
-        return solved_part + pressure - self._shapes.of(pressure)
-
-    def _cut(self, sums: Real) -> Real:
-        """Return it by the inverse convolution alone, cut to the blocks with nodes."""
-        pressure: Real = fft.convolved(sums * self._scale, *self._block_inverse)
-        return pressure * self._scale
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""
@@ -360,39 +311,22 @@ class _TwoLevels:
         return result
 
 
-class _Shapes:
-    """Pressures of a few shapes, even on the nodes of each block, and what they displace.
+class _CutBlocks:
+    """The inverse convolution between blocks, cut to those with nodes."""
 
-    A shape bears on one part of the surface, as its blocks would if they did not displace each
-    other. Even pressures x have the energy x A x, where A tells how far blocks displace each other,
-    and how much farther the nodes of a block are displaced if they are few.
-    """
+    def __init__(self, inverse: ApproximateInverse, count: Real) -> None:
+        full, cells = float(inverse.block_kernel[0, 0]), math.prod(inverse.block_sides)
+        if not full > 0:
+            raise np.linalg.LinAlgError("the half-space is not positive definite")
+        # Each block counts by the energy of even pressure on its nodes, as if they lay at random.
+        alone = (1 - count / cells) * max(0.0, inverse.diagonal - full)
+        self._scale = 1 / np.sqrt(np.maximum(count * (count + alone / full), 1.0))
+        self._block_inverse = inverse.block_inverse
 
-    def __init__(self, inverse: ApproximateInverse, count: Real, alone: Real, scale: Real) -> None:
-        parts = [max(1, min(_MOST_PARTS, n // _MOST_PARTS)) for n in count.shape]
-        rows, columns = (np.arange(n) * m // n for n, m in zip(count.shape, parts, strict=True))
-        part = rows[:, np.newaxis] * parts[1] + columns
-        each = (np.where(part == k, count * scale**2, 0.0) for k in range(math.prod(parts)))
-        shapes = [shape for shape in each if shape.any()]
-        spectrum, periods = inverse.block_spectrum
-        kernel = spectrum / math.prod(periods)
-        displaced = [
-            count * (fft.convolved(count * shape, kernel, periods) + alone * shape)
-            for shape in shapes
-        ]
-        self._shapes, self._displaced = (np.reshape(x, (len(x), -1)) for x in (shapes, displaced))
-        self._inverse = np.linalg.inv(self._displaced @ self._shapes.T)
-
-    def solved(self, sums: Real) -> tuple[Real, Real]:
-        """Return the pressures by which shapes take up residuals, and what remains of these."""
-        parts = self._inverse @ (self._shapes @ sums.ravel())
-        solved_part, moved = parts @ self._shapes, parts @ self._displaced
-        return solved_part.reshape(sums.shape), sums - moved.reshape(sums.shape)
-
-    def of(self, pressure: Real) -> Real:
-        """Return the part of pressures that shapes have, by energy."""
-        parts = self._inverse @ (self._displaced @ pressure.ravel())
-        return (parts @ self._shapes).reshape(pressure.shape)
+    def __call__(self, sums: Real) -> Real:
+        """Return the pressure on the nodes of each block, from the sums of their residuals."""
+        pressure: Real = fft.convolved(sums * self._scale, *self._block_inverse)
+        return pressure * self._scale
 
 
 class _Layout(NamedTuple):

@@ -48,6 +48,8 @@ TOLERANCE_AIM = 0.3
 # no minimum follows in twice as many, nodes are exchanged one by one.
 _MOST_ROUNDS = 8
 _MOST_RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at most
+_MANY_BELOW = 0.05  # part of the carriers that pull plates, up to which others join
+_DEEPEST_PART = 0.1  # of the nodes that overlap, that joins where rounds are slow
 
 
 class Search:
@@ -197,12 +199,30 @@ class _Wrong:
         """The largest gap with the wrong sign. [length]"""
         return float(max(np.abs(self.off).max(initial=0.0), self.overlap.max(initial=0.0)))
 
-    def deepest(self) -> _Wrong:
-        """Of the nodes that overlap, leave only those that do so half as deep as any, or deeper."""
-        join = 2 * self.overlap >= self.overlap.max(initial=0.0)
+    def deepest(self, least: float = math.inf) -> _Wrong:
+        """Of the nodes that overlap, leave only those that do so half as deep as any, or deeper.
+
+        The deepest tenth stays in any case, and with a least overlap those that overlap by as much.
+        """
+        if self.overlap.size:
+            tenth = float(np.quantile(self.overlap, 1 - _DEEPEST_PART))
+            least = min(least, float(self.overlap.max()) / 2, tenth)
+        join = self.overlap >= least
         overlapping = self.overlapping.copy()
         overlapping[self.overlapping] = join
         return replace(self, overlapping=overlapping, overlap=self.overlap[join])
+
+    def certain(self, carriers: int, error: float) -> _Wrong:
+        """Leave out nodes that may no longer overlap once the pressures under a plate are known.
+
+        Pressures beyond the lower bound hold a plate down beside them. So as long as these are many
+        of the carriers nodes only leave, and then those join that overlap by more than the error of
+        the gap where bodies touch, or most of all.
+        """
+        if np.count_nonzero(self.below) > _MANY_BELOW * carriers:
+            none = np.zeros_like(self.overlapping)
+            return replace(self, overlapping=none, overlap=self.overlap[:0])
+        return self.deepest(error)
 
     def last_alone(self, places: InRegion, watched: InRegion) -> _Wrong:
         """Leave only the wrong node of highest place."""
@@ -228,6 +248,7 @@ class _Relaxation:
     others: InRegion  # watched nodes and carriers at a bound
     gap: Real  # there, negative where bodies overlap [length]
     level: float  # approach since touch that goes with the pressures [length]
+    gap_error: float  # largest gap or overlap of the touching nodes [length]
     largest_error: float  # displacement that is missing on the touching nodes [length]
     steps: int  # each takes one product with the operator
 
@@ -249,12 +270,14 @@ def _relaxed(
     not positive definite.
     """
     diagonal = trial.region.problem.inverse.diagonal
+    # how far plates bend beside a node shows only once the gap is known at all
+    known = trial.length_scale if trial.region.problem.inverse.is_of_plates else math.inf
     tolerance, most_steps = TOLERANCE_AIM * rtol * trial.length_scale, min(most_steps, MOST_STEPS)
     partition = Partition.of(trial, watched)
     if not trial.touching.any():  # under a given depth, all may be at a bound
         wrong = partition.wrong(trial.carriers.pressure[:0], partition.gap, tolerance)
         return _Relaxation(
-            trial.carriers, wrong, partition.places, partition.gap, trial.approach, 0.0, 0
+            trial.carriers, wrong, partition.places, partition.gap, trial.approach, 0.0, 0.0, 0
         )
     gradients = partition.gradients(trial, precision, fixed_total=load.force is not None)
     while True:
@@ -262,7 +285,7 @@ def _relaxed(
         error = gradients.largest_error
         if error <= tolerance or gradients.steps >= most_steps:
             break
-        if gradients.steps and not to_tolerance:
+        if gradients.steps and not to_tolerance and error < known:
             squared = partition.squared(gradients.pressure, gradients.watched - level, diagonal)
             if squared > gradients.error @ gradients.error:
                 break
@@ -277,7 +300,9 @@ def _relaxed(
     # a pressure out of its bounds counts as the displacement that it causes at its own node
     largest = max(error, max(partition.bounds.violations(gradients.pressure)) * diagonal)
     carriers = Carriers(trial.carriers.places, pressure)
-    return _Relaxation(carriers, wrong, partition.places, gap, level, largest, gradients.steps)
+    return _Relaxation(
+        carriers, wrong, partition.places, gap, level, error, largest, gradients.steps
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -385,8 +410,11 @@ class _ExchangeRule:
         self.wrong = wrong.count
         if self.one_by_one:
             wrong = wrong.last_alone(carriers.places, watched)
-        elif self.is_slow:
-            wrong = wrong.deepest()
+        else:
+            if region.problem.inverse.is_of_plates:
+                wrong = wrong.certain(carriers.places.size, relaxation.gap_error)
+            if self.is_slow:
+                wrong = wrong.deepest()
         self._rounds = 0 if self.wrong < self._fewest else self._rounds + 1
         self._fewest = min(self.wrong, self._fewest)
         if not self.to_tolerance and self._rounds > 6 * _MOST_ROUNDS:

@@ -48,7 +48,8 @@ def contact_under(
 ) -> tuple[ContactSet | None, int]:
     """Return the contact under a load, and the convolutions that were spent.
 
-    None where the grid is large, bodies pull or yield, or nothing is found.
+    None where the grid is large, bodies pull or yield, many nodes touch under a hard layer, of
+    which the inverse convolution is no inverse, or nothing is found.
     """
     grid, bounds = problem.operator.small_grid, problem.bounds
     if grid is None or np.any(bounds.low) or not np.all(np.isposinf(bounds.high)):
@@ -84,6 +85,8 @@ class _SmallGridSearch:
         for _ in range(_MOST_EXCHANGES):
             count = self._nodes.size
             if not count or self.convolutions >= self._method.max_iterations:
+                return None
+            if count > _MOST_FACTORED_NODES and self._inverse.solves_blocks:
                 return None
             try:
                 wrong, error, tolerance = self._solved()
@@ -246,6 +249,8 @@ def compliance(
     """
     if nodes.size <= _MOST_FACTORED_NODES:
         return _compliance_of_few(inverse, grid, nodes, pressure, accuracy)
+    if inverse.solves_blocks:
+        return math.nan, 0
     cell_area, width = inverse.operator.cell_area, grid.shape[1]
     field, steps = grid.field(), 0
     for turns in range(1, _MOST_EVALUATIONS + 1):
