@@ -148,7 +148,7 @@ class SolvedBlocks:
         between = np.empty((first.size, first.size))
         self._within = np.empty((first.size, _ALONG_LARGER**2, _ALONG_LARGER**2))
         is_positive = _sum_and_factor(
-            operator.kernel, *places, nodes, self._alone, self._starts, between, self._within
+            operator.kernel, places, nodes, self._alone, self._starts, between, self._within
         )
         self._between, failed = lapack.dpotrf(between.T, lower=1, clean=0, overwrite_a=1)
         if failed or not is_positive:
@@ -184,8 +184,7 @@ class SolvedBlocks:
 @compiled
 def _sum_and_factor(
     kernel: Real,
-    x: Indices,
-    y: Indices,
+    places: tuple[Indices, Indices],
     nodes: Real,
     alone: Real,
     starts: Indices,
@@ -196,6 +195,7 @@ def _sum_and_factor(
 
     Return whether the latter are positive definite.
     """
+    x, y = places
     is_positive = True
     for a in range(starts.size - 1):
         for b in range(a + 1):
