@@ -9,6 +9,8 @@ from scipy.optimize import brentq
 import roughline as rl
 from roughline.exact import yielding
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 R, HARDNESS = 10.0, 0.02  # of a ball on a square of side 1, E* = 1
 YIELD_FORCE = yielding.ball_yield_force(R, 1.0, HARDNESS)  # at a_y = 0.314
 

@@ -16,6 +16,8 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 laws = partial(random_surfaces.laws, many=15)
 
 RTOL = 1e-6  # the certified tolerance

@@ -11,6 +11,8 @@ from halfspace.dense_contact import Body
 from halfspace.dense_hardness import History
 from halfspace.small_bodies import needle, rough
 
+pytestmark = pytest.mark.usefixtures("either_search")
+
 E_STAR = 2.0
 LOADS = np.array([0.2, 0.5, 0.3, 1.0, 0.4, 0.0, 1.0, 1.3, 0.7])  # over the force drawn for a body
 

@@ -16,8 +16,9 @@ from roughline.halfspace.search.window import GridWindow
 
 _COARSEST_POINTS = 16  # points along the longer side of the grid that starts from the rigid shift
 _FEW_NODES = 120  # of a rigid shift on a small grid, which a coarser one guesses no faster
-# A guess whose pressures exceed an upper bound so many times leaves no doubt that nodes yield.
-_CERTAIN_YIELD = 3.0
+# A guess whose pressures exceed an upper bound so many times leaves no doubt that nodes yield, on
+# grids of more points along a side.
+_CERTAIN_YIELD, _CERTAIN_FROM = 3.0, 64
 _ROUGH_METHOD = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
@@ -27,14 +28,15 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, Problem]:
     Return with them the bodies, which yield where pressures on the next coarser grid foresee it.
     """
     start = _from_coarser(problem, load)
-    if start is not None and problem.exceeds(start.nodes, start.pressure, _CERTAIN_YIELD):
+    is_fine = max(problem.separation.shape) > _CERTAIN_FROM
+    if is_fine and start and problem.exceeds(start.nodes, start.pressure, _CERTAIN_YIELD):
         problem = replace(problem, is_elastic=False)
         start = _from_coarser(problem, load)
     return start or _rigid_guess(problem, load), problem
 
 
 def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
-    """Solve roughly on a coarser grid; return None where that is too coarse to touch.
+    """Solve roughly on a coarser grid; None where that is too coarse to touch, or no faster.
 
     The coarse grid sees the mean separation of two by two nodes, and its pressures are the same on
     all four.
@@ -42,8 +44,8 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
     separation = problem.separation
     if max(separation.shape) <= _COARSEST_POINTS:
         return None
-    if problem.operator.small_grid and (few := _shifted(problem, load, _FEW_NODES)):
-        return few
+    if problem.operator.small_grid and _shifted(problem, load, _FEW_NODES):
+        return None
     coarse_separation = _halved(separation)
     if problem.operator.mean_is_free:  # depths count from mean planes, odd sides end in half blocks
         coarse_separation += separation.mean() - coarse_separation.mean()

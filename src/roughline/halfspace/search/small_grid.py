@@ -1,4 +1,4 @@
-"""The contact on a small grid of bodies that only push and do not yield, by whole fields.
+"""The contact on a small grid of bodies that only push, by whole fields.
 
 It is the primal-dual active set of :mod:`~roughline.halfspace.search.active_set` with few calls a
 round, as on a small grid a call takes longer than its work. The equations of few nodes are solved
@@ -14,11 +14,12 @@ import threading
 import numpy as np
 from scipy.linalg import lapack
 
-from roughline.computing.arrays import Indices, InGrid, Mask, Real
+from roughline.computing.arrays import Indices, InGrid, Integers, Real, among
 from roughline.computing.compiled import compiled, compiled_sums
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, fill_triangle
 from roughline.halfspace.operators.small_grid import SmallGrid
 from roughline.halfspace.search.active_set import TOLERANCE_AIM
+from roughline.halfspace.search.carriers import merged
 from roughline.halfspace.search.patch import MOST_STEPS
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.region import REACH_OF_ERROR
@@ -28,6 +29,7 @@ _MOST_EXCHANGES = 30
 _MOST_VAIN_EXCHANGES = 6  # without a new minimum of wrong nodes
 _FEW_WRONG = 0.1  # part of the nodes in contact that may be wrong in a guess
 _ROUGH_FROM = 1e-2  # tolerance of one
+_RELIEF = 1e-3  # part of the most that a node bears by which it is relieved
 _MOST_EVALUATIONS = 4  # each computes the energy form afresh; two are enough
 _ENERGY_AIM = 0.1  # part of its accuracy
 
@@ -48,18 +50,21 @@ def contact_under(
 ) -> tuple[ContactSet | None, int]:
     """Return the contact under a load, and the convolutions that were spent.
 
-    None where the grid is large, bodies pull or yield, many nodes touch under a hard layer, of
-    which the inverse convolution is no inverse, or nothing is found.
+    None where the grid is large, bodies pull or yield by a field, many nodes touch under a hard
+    layer, of which the inverse convolution is no inverse, or nothing is found.
     """
     grid, bounds = problem.operator.small_grid, problem.bounds
-    if grid is None or np.any(bounds.low) or not np.all(np.isposinf(bounds.high)):
+    if grid is None or np.any(bounds.low) or np.ndim(bounds.high):
         return None, 0
     search = _SmallGridSearch(problem, grid, load, method)
     return search.from_start(start), search.convolutions
 
 
+_APART, _TOUCHING, _PLASTIC = 0, 1, 2  # states of a node
+
+
 class _SmallGridSearch:
-    """Rounds in which the equations of the nodes in contact are solved, and wrong ones exchanged.
+    """Rounds in which the equations of the nodes that touch are solved, and wrong ones exchanged.
 
     Displacements and gaps count from the surfaces as they touch.
     """
@@ -67,62 +72,98 @@ class _SmallGridSearch:
     def __init__(self, problem: Problem, grid: SmallGrid, load: Load, method: Method) -> None:
         self._problem, self._grid, self._method = problem, grid, method
         self._inverse: ApproximateInverse = problem.inverse
+        self._most = float(problem.bounds.high)  # that a node bears
         self._total = load.total(problem.grid.cell_area)
         self._approach = 0.0 if load.depth is None else load.depth - problem.touch
         self._above = problem.separation - problem.touch
-        self._on = np.zeros(problem.separation.shape, dtype=bool)
+        self._state = np.zeros(problem.separation.shape, dtype=np.int8)
         self._field, self._gap = grid.field(), grid.field()
-        self._nodes = InGrid(np.empty(0, dtype=np.intp))
-        self._pressure = np.empty(0)
+        self._slack = 0.0  # gap up to which plastic nodes stay so [length]
         self.convolutions = 0
 
     def from_start(self, start: ContactSet) -> ContactSet | None:
         """Return the contact; None if it is not found."""
-        self._nodes, self._pressure = start.nodes, np.maximum(start.pressure, 0.0)
-        self._on.flat[start.nodes] = True
+        is_plastic = start.pressure >= self._most
+        bound = int(np.count_nonzero(is_plastic))
+        if bound and self._total is not None and bound * self._most >= self._total:
+            is_plastic[:] = False  # a start of bodies that do not yield
+        self._state.flat[start.nodes] = np.where(is_plastic, _PLASTIC, _TOUCHING)
+        self._nodes, self._plastic = among(start.nodes, ~is_plastic), among(start.nodes, is_plastic)
+        self._pressure = np.maximum(start.pressure[~is_plastic], 0.0)
         few = _FEW_WRONG if self._method.rtol >= _ROUGH_FROM else 0.0
         fewest, in_vain = math.inf, 0
         for _ in range(_MOST_EXCHANGES):
             count = self._nodes.size
-            if not count or self.convolutions >= self._method.max_iterations:
-                return None
-            if count > _MOST_FACTORED_NODES and self._inverse.solves_blocks:
+            if not self._can_go_on():
                 return None
             try:
-                wrong, error, tolerance = self._solved()
+                wrong, error, self._slack = self._solved()
             except np.linalg.LinAlgError:  # an elastic half-space is positive definite
                 return None
             self._exchange()
-            if wrong <= few * count and error <= tolerance:
-                return ContactSet(self._nodes, self._pressure, self._approach + self._problem.touch)
+            if wrong <= few * count and error <= self._slack:
+                return self._contact()
             in_vain = 0 if wrong < fewest else in_vain + 1
             fewest = min(wrong, fewest)
             if in_vain > _MOST_VAIN_EXCHANGES:
                 return None
         return None
 
+    def _can_go_on(self) -> bool:
+        count, left = self._nodes.size, self._left
+        return (
+            count > 0
+            and (left is None or left > 0)
+            and self.convolutions < self._method.max_iterations
+            and (count <= _MOST_FACTORED_NODES or not self._inverse.solves_blocks)
+        )
+
+    @property
+    def _left(self) -> float | None:
+        """Sum of the pressures on nodes that touch; None under a given depth."""
+        if self._total is None or not self._plastic.size:
+            return self._total
+        return self._total - self._most * self._plastic.size
+
+    def _contact(self) -> ContactSet:
+        """Return the nodes under pressure, the pressures and the depth."""
+        nodes, pressure = self._nodes, self._pressure
+        if self._plastic.size:
+            nodes, order = merged(nodes, self._plastic)
+            pressure = np.append(pressure, np.full(self._plastic.size, self._most))[order]
+        return ContactSet(nodes, pressure, self._approach + self._problem.touch)
+
     def _exchange(self) -> None:
-        """List the nodes that touch now, with the pressures that they have."""
-        before, pressure = self._nodes, self._pressure
-        self._nodes = InGrid(np.flatnonzero(self._on))
+        """List the nodes that touch now and those at the bound, with the pressures they have."""
+        before, pressure, relieved = self._nodes, self._pressure, self._plastic
+        self._nodes = InGrid(np.flatnonzero(self._state == _TOUCHING))
         self._pressure = _carried_over(before, pressure, self._nodes)
+        if math.isfinite(self._most):
+            self._plastic = InGrid(np.flatnonzero(self._state == _PLASTIC))
+            high = np.full(relieved.size, (1 - _RELIEF) * self._most)
+            self._pressure += _carried_over(relieved, high, self._nodes)
 
     def _moved(self) -> Real:
         """Return the displacement by the pressures, as a field."""
         self.convolutions += 1
         _put(self._pressure, self._nodes, self._grid.shape[1], self._field)
+        if self._plastic.size:
+            high = np.full(self._plastic.size, self._most)
+            _write(high, self._plastic, self._grid.shape[1], self._field)
         self._grid.convolve(self._field, self._problem.operator.spectrum, self._gap)
         return self._gap
 
     def _tolerance(self, displaced: float) -> float:
         """Return the error that is allowed, by the scales of the residuals. [length]"""
-        problem, force = self._problem, float(self._pressure.sum()) * self._problem.grid.cell_area
-        scale = max(displaced, problem.resolution * abs(force))
+        problem, total = self._problem, float(self._pressure.sum())
+        if self._plastic.size:
+            total += self._most * self._plastic.size
+        scale = max(displaced, problem.resolution * abs(total) * problem.grid.cell_area)
         scale = min(problem.rms_height, scale) if problem.rms_height else scale
         return TOLERANCE_AIM * self._method.rtol * scale
 
     def _solved(self) -> tuple[int, float, float]:
-        """Solve the equations of the nodes, and exchange wrong ones in the mask.
+        """Solve the equations of the nodes that touch, and let wrong ones change their state.
 
         Return how many there are, the largest gap in contact, and what is allowed.
         """
@@ -136,38 +177,53 @@ class _SmallGridSearch:
         right = np.empty((nodes.size, 2), order="F")
         right[:, 0] = 1.0
         right[:, 1] = self._above.flat[nodes]
+        if self._plastic.size:
+            self._pressure[:] = 0.0
+            right[:, 1] += _at(self._moved(), nodes, self._grid.shape[1])
         solution, _ = lapack.dpotrs(factor, right, lower=1, overwrite_b=1)
         even, rest = (float(each) for each in solution.sum(axis=0))
-        added = inverse.even_pressure_term  # which the kernel displaces more than the half-space
-        if self._total is not None:
-            level = (self._total + rest) / even
-            self._approach = level - added * self._total
+        added, left = inverse.even_pressure_term, self._left  # the kernel displaces by more
+        if left is not None:
+            level = (left + rest) / even
+            self._approach = level - added * left
         else:
             level = (self._approach - added * rest) / (1 - added * even)
         self._pressure = level * solution[:, 0] - solution[:, 1]
         wrong, error, displaced = _exchanged_by_gap(
-            self._pressure, nodes, self._moved(), self._above, self._approach, self._on
+            self._pressure,
+            (nodes, self._plastic),
+            (self._moved(), self._above, self._approach),
+            (self._most, self._slack),
+            self._state,
         )
         return wrong, error, self._tolerance(displaced)
 
     def _led_by_gradients(self) -> tuple[int, float, float]:
         """Lead the pressures by conjugate gradients, until errors of the set outweigh their own."""
-        total, pressure = self._total, self._pressure
-        if total is not None and pressure.any():
-            pressure *= total / pressure.sum()
+        left, pressure, width = self._left, self._pressure, self._grid.shape[1]
+        if left is not None and pressure.any():
+            pressure *= left / pressure.sum()
         moved = self._moved()
-        error, level, displaced = _missing(
-            pressure, self._nodes, moved, self._above, self._on, total is not None, self._approach
+        displaced = float(_at(moved, self._plastic, width).max(initial=0.0))
+        error, level, most_displaced = _missing(
+            pressure, self._nodes, moved, self._above, left is not None, self._approach
         )
         least = level + REACH_OF_ERROR * math.sqrt(float(error @ error) / error.size)
-        watched = _watched(moved, self._on, least)
+        beside = _watched(moved, self._state, least)
         gradients = Gradients(self._inverse, self._grid, self._nodes, pressure, error)
-        gradients.watch(watched, moved, self._inverse.diagonal)
-        gradients.level, tolerance = level, self._tolerance(displaced)
-        gradients.lead(tolerance, fixed=total is not None)
+        watched = np.append(beside, self._plastic)
+        gradients.watch(watched, moved, (self._inverse.diagonal, self._most, beside.size))
+        gradients.level, tolerance = level, self._tolerance(max(displaced, most_displaced))
+        gradients.lead(tolerance, fixed=left is not None)
         self.convolutions += gradients.steps
         self._approach = gradients.level
-        wrong = _exchanged(pressure, self._nodes, watched, gradients.gap, gradients.level, self._on)
+        wrong = _exchanged(
+            pressure,
+            (self._nodes, watched, beside.size),
+            gradients.gap - gradients.level,
+            (self._most, self._slack),
+            self._state,
+        )
         return wrong, gradients.largest_error, tolerance
 
 
@@ -192,13 +248,17 @@ class Gradients:
         self.steps = 0  # each takes one convolution
         self.gap = np.empty(0)  # of the watched nodes, from any datum [length]
         self._watched = np.empty(0, dtype=np.intp)
-        self._diagonal = 0.0
+        self._bounds = 0.0, math.inf, 0
         self._inverse, self._grid, self._nodes = inverse, grid, nodes
         self._pressure, self._error = pressure, error
 
-    def watch(self, watched: Indices, gap: Real, diagonal: float) -> None:
-        """Watch nodes, and pressures that are negative, as displacements at their own nodes."""
-        self._watched, self._diagonal = watched, diagonal
+    def watch(self, watched: Indices, gap: Real, bounds: tuple[float, float, int]) -> None:
+        """Watch nodes, and pressures beyond their bounds, as displacements at their own nodes.
+
+        The bounds are the diagonal of the operator, the most that a node bears, and how many of
+        the watched nodes are without pressure; the others bear the most.
+        """
+        self._watched, self._bounds = watched, bounds
         self.gap = _at(gap, watched, self._grid.shape[1])
 
     def lead(self, tolerance: float, *, fixed: bool, least_energy: float = 0.0) -> None:
@@ -227,7 +287,7 @@ class Gradients:
             grid.convolve(field, self._inverse.operator.spectrum, response)
             rise, of_set, of_error, largest = _stepped(
                 (direction, response, self.energy),
-                (even, self.level, self._diagonal),
+                (even, self.level, *self._bounds),
                 (nodes, self._watched, width),
                 (self._pressure, error, self.gap),
             )
@@ -343,24 +403,38 @@ def _carried_over(before: Indices, pressure: Real, nodes: Indices) -> Real:
 
 @compiled
 def _exchanged_by_gap(
-    pressure: Real, nodes: Indices, moved: Real, above: Real, approach: float, on: Mask
+    pressure: Real,
+    nodes_and_plastic: tuple[Indices, Indices],
+    lengths: tuple[Real, Real, float],
+    limits: tuple[float, float],
+    state: Integers,
 ) -> tuple[int, float, float]:
-    """Let nodes that overlap join, and those that pull leave.
+    """Let nodes that overlap join, those that pull leave, and those that bear too much yield.
 
-    Return how many there are, the largest gap in contact, and the largest displacement there.
+    Plastic nodes of which the gap is more than a slack touch again. Lengths are displacements,
+    separations and the approach; limits are the most that a node bears, and the slack. Return how
+    many have changed, the largest gap of those that touch, and the largest displacement.
     """
-    wrong, error, displaced, width = 0, 0.0, 0.0, on.shape[1]
-    for x in range(on.shape[0]):
+    (nodes, plastic), (moved, above, approach) = nodes_and_plastic, lengths
+    (most, slack), width = limits, state.shape[1]
+    wrong, error, displaced = 0, 0.0, 0.0
+    for x in range(state.shape[0]):
         for y in range(width):
-            if not on[x, y] and moved[x, y] + above[x, y] < approach:
-                on[x, y] = True
+            if state[x, y] == 0 and moved[x, y] + above[x, y] < approach:
+                state[x, y] = 1
                 wrong += 1
     for i in range(nodes.size):
         x, y = nodes[i] // width, nodes[i] % width
         error = max(error, abs(moved[x, y] + above[x, y] - approach))
         displaced = max(displaced, moved[x, y])
-        if pressure[i] < 0:
-            on[x, y] = False
+        if pressure[i] < 0 or pressure[i] > most:
+            state[x, y] = 0 if pressure[i] < 0 else 2
+            wrong += 1
+    for node in plastic:
+        x, y = node // width, node % width
+        displaced = max(displaced, moved[x, y])
+        if moved[x, y] + above[x, y] - approach > slack:
+            state[x, y] = 1
             wrong += 1
     return wrong, error, displaced
 
@@ -371,7 +445,6 @@ def _missing(
     nodes: Indices,
     moved: Real,
     above: Real,
-    on: Mask,
     fixed: bool,
     approach: float,
 ) -> tuple[Real, float, float]:
@@ -380,7 +453,7 @@ def _missing(
     Return with it the level: the approach, or, with a fixed total, that of the work of the
     pressures; and the largest displacement.
     """
-    error, width = np.empty(nodes.size), on.shape[1]
+    error, width = np.empty(nodes.size), above.shape[1]
     work, total, displaced = 0.0, 0.0, 0.0
     for i in range(nodes.size):
         x, y = nodes[i] // width, nodes[i] % width
@@ -393,19 +466,19 @@ def _missing(
         level = work / total if total > 0 else error.mean()
     for i in range(nodes.size):
         error[i] = level - error[i]
-    for x in range(on.shape[0]):
+    for x in range(above.shape[0]):
         for y in range(width):
             moved[x, y] += above[x, y]
     return error, level, displaced
 
 
 @compiled
-def _watched(gap: Real, on: Mask, least: float) -> Indices:
+def _watched(gap: Real, state: Integers, least: float) -> Indices:
     """List the nodes without pressure whose gap is below a number."""
-    nodes, found, width = np.empty(on.size, dtype=np.intp), 0, on.shape[1]
-    for x in range(on.shape[0]):
+    nodes, found, width = np.empty(state.size, dtype=np.intp), 0, state.shape[1]
+    for x in range(state.shape[0]):
         for y in range(width):
-            if gap[x, y] < least and not on[x, y]:
+            if gap[x, y] < least and state[x, y] == 0:
                 nodes[found] = x * width + y
                 found += 1
     return nodes[:found].copy()
@@ -455,19 +528,20 @@ def _turned(
 @compiled_sums
 def _stepped(
     step: tuple[Real, Real, float],
-    conditions: tuple[Real, float, float],
+    conditions: tuple[Real, float, float, float, int],
     places: tuple[Indices, Indices, int],
     state: tuple[Real, Real, Real],
 ) -> tuple[float, float, float, float]:
     """Go along a direction to the least energy.
 
     A step is the direction, the field that it displaces by, and the energy of the error. Conditions
-    are the even one, the level, and the diagonal of the operator; places are the nodes in contact,
-    the watched ones, and columns of the grid. The state is overwritten: pressures, errors, and gaps
+    are the even one, the level, the diagonal of the operator, the most that a node bears, and how
+    many watched nodes are without pressure; places are the nodes that touch, the watched ones, and
+    columns of the grid. The state is overwritten: pressures, errors, and gaps
     of the watched nodes. Return the rise of the level, the sums of the squared violations of the
     set and of the squared errors, and the largest error, negative where nothing is to be gained.
     """
-    (direction, response, energy), (even, level, diagonal) = step, conditions
+    (direction, response, energy), (even, level, diagonal, most, beside) = step, conditions
     (nodes, watched, width), (pressure, error, gap) = places, state
     curvature = 0.0
     for i in range(nodes.size):
@@ -487,25 +561,35 @@ def _stepped(
         error[i] += rise
         of_error += error[i] ** 2
         largest = max(largest, abs(error[i]))
-        of_set += (diagonal * min(pressure[i], 0.0)) ** 2
+        of_set += (diagonal * (min(pressure[i], 0.0) + max(pressure[i] - most, 0.0))) ** 2
     for i in range(watched.size):
         gap[i] += length * response[watched[i] // width, watched[i] % width]
-        of_set += min(gap[i] - level - rise, 0.0) ** 2
+        off = gap[i] - level - rise
+        of_set += (min(off, 0.0) if i < beside else max(off, 0.0)) ** 2
     return rise, of_set, of_error, largest
 
 
 @compiled
 def _exchanged(
-    pressure: Real, nodes: Indices, watched: Indices, gap: Real, level: float, on: Mask
+    pressure: Real,
+    places: tuple[Indices, Indices, int],
+    gap: Real,
+    limits: tuple[float, float],
+    state: Integers,
 ) -> int:
-    """Let nodes that pull leave, and watched ones that overlap join; return how many there are."""
-    wrong, width = 0, on.shape[1]
+    """Let wrong nodes change their state, as above, by the gaps of watched ones.
+
+    Places are the nodes that touch, the watched ones, and how many of these are without pressure;
+    the others are plastic.
+    """
+    (nodes, watched, beside), (most, slack) = places, limits
+    wrong, width = 0, state.shape[1]
     for i in range(nodes.size):
-        if pressure[i] < 0:
-            on[nodes[i] // width, nodes[i] % width] = False
+        if pressure[i] < 0 or pressure[i] > most:
+            state[nodes[i] // width, nodes[i] % width] = 0 if pressure[i] < 0 else 2
             wrong += 1
     for i in range(watched.size):
-        if gap[i] < level:
-            on[watched[i] // width, watched[i] % width] = True
+        if gap[i] < 0 if i < beside else gap[i] > slack:
+            state[watched[i] // width, watched[i] % width] = 1
             wrong += 1
     return wrong
