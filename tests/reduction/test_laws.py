@@ -42,6 +42,20 @@ def test_force_control_inverts_depth_control(heights, depth):
     assert by_force.depth[0] == pytest.approx(depth, rel=1e-9)
 
 
+@laws(profiles, st.floats(1e-3, 10))
+def test_springs_touch_under_a_force_in_the_order_of_their_separations(heights, force):
+    """The least count for which one more spring would need a larger force, of all sorted."""
+    curve = rl.press(rl.Line(heights, length=2.0), E_star=3.0, forces=[force])
+    separations, spring = np.sort(heights.max() - heights), 3.0 * 2.0 / heights.size
+    touch_forces = spring * (
+        np.arange(heights.size) * separations - separations.cumsum() + separations
+    )
+    near = np.isclose(touch_forces, force, rtol=1e-9, atol=1e-13)
+    fewest = np.count_nonzero((touch_forces < force) & ~near)
+    most = np.count_nonzero((touch_forces < force) | near)
+    assert fewest <= round(curve.stiffness[0] / spring) <= most
+
+
 @laws(profiles)
 def test_force_is_convex_and_its_slope_is_the_stiffness(heights):
     depths = np.linspace(0.01, 1.5 * np.ptp(heights), 80)

@@ -93,7 +93,8 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
     seed = ensemble.body_seed(realisation)
     make = spectrum.line if ensemble.model == "reduced" else spectrum.surface
     body = make(ensemble.n, seed)
-    forces, law = np.array(ensemble.force_bars), ensemble.contact_law(body.rms_slope)
+    forces, rms_slope = np.array(ensemble.force_bars), body.rms_slope
+    law = ensemble.contact_law(rms_slope)
     if not law.only_pushes:
         forces = np.append(forces, unbearable_pull(law, 1.0))
     curve = press(
@@ -104,7 +105,7 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
         throw=False,
     )
     of_body = {
-        "rms_slope": body.rms_slope,
+        "rms_slope": rms_slope,
         "highest": body.heights.max() - body.heights.mean(),
         "pull_off_force": curve.pull_off_force,
     }

@@ -68,8 +68,12 @@ class Springs:
     @cached_property
     def _below(self) -> tuple[Indices, Real]:
         """Number of springs and sum of their separations below each bin, and in all."""
+        from roughline.reduction.loops import fill_totals
+
         _, counts, sums = self._binned
-        return np.append(0, np.cumsum(counts)), np.append(0.0, np.cumsum(sums))
+        below, sum_below = np.empty(counts.size + 1, dtype=np.intp), np.empty(sums.size + 1)
+        fill_totals(counts, sums, below, sum_below)
+        return below, sum_below
 
     def at_depths(self, depths: Real) -> _SpringsInContact:
         """Springs in contact at each depth."""
@@ -81,10 +85,13 @@ class Springs:
 
     def under_forces(self, forces: Real) -> _SpringsInContact:
         """Springs in contact under each force."""
+        from roughline.reduction.loops import fill_edge_forces
+
         counts, sums = self._below
-        edges = np.arange(counts.size - 1) / (self._bins_per_length or 1.0)
-        edge_forces = self.spring_stiffness * (counts[:-1] * edges - sums[:-1])
-        bins = np.searchsorted(np.maximum.accumulate(edge_forces), forces, side="right") - 1
+        edge_forces = np.empty(self._bin_count)
+        per_length = self._bins_per_length or 1.0
+        fill_edge_forces(counts, sums, per_length, self.spring_stiffness, edge_forces)
+        bins = np.searchsorted(edge_forces, forces, side="right") - 1
         springs = self._sorted(bins)
         touch_forces = springs.counts * springs.separations - springs.sums
         # where separations repeat these are equal, and rounding must not make them fall

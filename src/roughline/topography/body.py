@@ -297,7 +297,7 @@ class Line:
         """Length that one spring stands for. [length]"""
         return self.length / self.heights.size
 
-    @property
+    @cached_property
     def rms_height(self) -> float:
         """Root-mean-square deviation from the mean height. [length]"""
         return rms_deviation(self.heights)
