@@ -1,11 +1,13 @@
 """The threads of the linear algebra, where several threads are at work side by side."""
 
 from threading import Barrier, Thread
+from types import SimpleNamespace
 
 import scipy.linalg  # noqa: F401  loads the library
 from threadpoolctl import threadpool_info
 
 from reference import patience
+from roughline.computing import linear_algebra
 from roughline.computing.linear_algebra import on_one_thread
 
 
@@ -47,3 +49,13 @@ def test_an_error_gives_the_threads_back():
     except ValueError:
         pass
     assert threads() == before
+
+
+def test_where_there_is_one_thread_already_nothing_is_changed(monkeypatch):
+    def refused(change):
+        raise AssertionError("threads are changed")
+
+    monkeypatch.setattr(linear_algebra, "_libraries", lambda: [SimpleNamespace(num_threads=1)])
+    monkeypatch.setattr(linear_algebra, "_in_passing", refused)
+    with on_one_thread(), on_one_thread():
+        pass

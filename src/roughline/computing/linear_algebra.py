@@ -21,11 +21,12 @@ def on_one_thread() -> Iterator[None]:
 
     The number of its threads belongs to the process, and the last bits of results depend on it. So
     it is changed when the first of several threads of this process begins to compute, and restored
-    when the last of them has ended.
+    when the last of them has ended. Where there is one thread already, as in the workers of a
+    campaign, nothing is changed.
     """
     global _at_work
     with _lock:
-        if not _before:
+        if not _before and any(library.num_threads > 1 for library in _libraries()):
             _in_passing(_limit)
         _at_work += 1
     try:
@@ -33,7 +34,7 @@ def on_one_thread() -> Iterator[None]:
     finally:
         with _lock:
             _at_work -= 1
-            if not _at_work:
+            if _before and not _at_work:
                 _in_passing(_restore)
 
 
