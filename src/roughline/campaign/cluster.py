@@ -295,7 +295,8 @@ def refuse_unguarded_script() -> None:
             "a program from standard input cannot start workers, because they must import it: save "
             "it in a file"
         )
-    trial = multiprocessing.get_context("spawn").Process(target=_do_nothing)
+    # without a target: it imports the script, and nothing of this package that the script does not
+    trial = multiprocessing.get_context("spawn").Process()
     with interrupts_held_back():
         trial.start()
         trial.join()
@@ -304,7 +305,3 @@ def refuse_unguarded_script() -> None:
             "this script starts the campaign again whenever a worker imports it: put what it does "
             'under `if __name__ == "__main__":`'
         )
-
-
-def _do_nothing() -> None:
-    pass
