@@ -103,7 +103,7 @@ def _exponent(window: ForceWindow, geometric: bool, means: Real) -> tuple[Real, 
     table = means.reshape(-1, means.shape[-1])
     logs = table if geometric else np.log(np.maximum(table, _NO_FORCE))
     x, y = np.split(logs, 2, axis=1)
-    right = (x[:, :, np.newaxis] < at).sum(axis=1)
+    right = np.stack([(x < each).sum(axis=1) for each in at], axis=1)
     covers = (right[:, 0] > 0) & (right[:, -1] < x.shape[1])
     right = np.clip(right, 1, x.shape[1] - 1)
     (x_left, y_left), (x_right, y_right) = (

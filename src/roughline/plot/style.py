@@ -104,9 +104,13 @@ def looks(dimensions: NDArray[np.float64]) -> Iterator[tuple[float, Any, str]]:
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:
-    """Write a figure as PNG and PDF; both are free of dates, so equal data give equal files."""
+    """Write a figure as PNG and PDF, laid out alike; without dates, so equal data give equal files.
+
+    The figure keeps the places that its axes have then.
+    """
     paths = [folder / f"{name}.png", folder / f"{name}.pdf"]
     figure.savefig(paths[0], metadata={"Software": None})
+    figure.set_layout_engine("none")  # to lay it out takes as long as to draw it
     figure.savefig(paths[1], metadata={"CreationDate": None, "Creator": None, "Producer": None})
     return paths
 
