@@ -68,7 +68,7 @@ class Springs:
     @cached_property
     def _below(self) -> tuple[Indices, Real]:
         """Number of springs and sum of their separations below each bin, and in all."""
-        from roughline.reduction.loops import fill_totals
+        from roughline.reduction.loops import fill_totals  # here because numba loads slowly
 
         _, counts, sums = self._binned
         below, sum_below = np.empty(counts.size + 1, dtype=np.intp), np.empty(sums.size + 1)
@@ -85,7 +85,7 @@ class Springs:
 
     def under_forces(self, forces: Real) -> _SpringsInContact:
         """Springs in contact under each force."""
-        from roughline.reduction.loops import fill_edge_forces
+        from roughline.reduction.loops import fill_edge_forces  # here because numba loads slowly
 
         counts, sums = self._below
         edge_forces = np.empty(self._bin_count)
