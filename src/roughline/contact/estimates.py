@@ -119,7 +119,7 @@ def estimate(
         all of one that is repeated. [1]
     law : ContactLaw, optional
         As for :func:`press`. One that pulls takes more memory, all of the surface being within
-        reach at worst, and three to ten times as long as the time that is given.
+        reach at worst, and three to six times as long as the time that is given.
 
     Returns
     -------
