@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
 from roughline.computing.arrays import InGrid, Real
 from roughline.computing.compiled import compiled
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.pull import Shares
 from roughline.halfspace.search.window import GridWindow
@@ -146,7 +148,7 @@ def _rigid_depth(problem: Problem, force: float, most: int) -> float | None:
 
     def disc_depth(count: int) -> float:
         radius = math.sqrt(count * grid.cell_area / math.pi)
-        return force / grid.half_space.disc_stiffness(radius) + float(sums[count - 1]) / count
+        return force / _disc_stiffness(grid.half_space, radius) + float(sums[count - 1]) / count
 
     counts = range(1, sums.size + 1)
     reached = bisect_left(counts, True, key=lambda count: disc_depth(count) <= lowest[count])
@@ -157,3 +159,27 @@ def _rigid_depth(problem: Problem, force: float, most: int) -> float | None:
     if fewest > most:
         return None
     return max(depth, float(lowest[min(int(fewest), sums.size - 1)]))
+
+
+def _disc_stiffness(half_space: HalfSpace, radius: float) -> float:
+    """Return about how stiff a half-space is under a disc.
+
+    Where that is no closed form, it is interpolated between powers of two, which are kept.
+    """
+    if type(half_space).disc_stiffness is not HalfSpace.disc_stiffness:
+        return half_space.disc_stiffness(radius)
+    octave = math.floor(math.log2(radius))
+    low, high = (_stiffness_of_octave(half_space, each) for each in (octave, octave + 1))
+    return float(low * (high / low) ** (math.log2(radius) - octave))
+
+
+def _stiffness_of_octave(half_space: HalfSpace, octave: int) -> float:
+    try:
+        return _kept_stiffness(half_space, octave)
+    except TypeError:  # one that holds an array has no hash
+        return half_space.disc_stiffness(2.0**octave)
+
+
+@lru_cache(maxsize=256)
+def _kept_stiffness(half_space: HalfSpace, octave: int) -> float:
+    return half_space.disc_stiffness(2.0**octave)
