@@ -57,7 +57,7 @@ def test_a_body_is_told_in_a_line():
         ({"forces": [1, 10]}, "<SurfaceCurve: 2 loads, force 1 N to 10 N>"),
         ({"forces": [2]}, "<SurfaceCurve: 1 load, force 2 N to 2 N>"),
         (
-            {"forces": [1, 10], "solver": rl.Solver(max_iterations=2), "throw": False},
+            {"forces": [1, 10], "solver": rl.Solver(max_iterations=1), "throw": False},
             "<SurfaceCurve: 2 loads, none solved>",
         ),
     ],
@@ -103,7 +103,7 @@ def test_a_notebook_shows_the_loads_of_a_curve():
     assert rows[-1][2] == "10 N"
     assert rows[0][-1] == "the grid decides"
     unsolved = rl.press(
-        surface, E_star=1e11, forces=[1], solver=rl.Solver(max_iterations=2), throw=False
+        surface, E_star=1e11, forces=[1], solver=rl.Solver(max_iterations=1), throw=False
     )
     _, row = cells(unsolved._repr_html_())
     assert row == ["0", "–", "–", "–", "–", "–", "max_iterations reached above the tolerance"]

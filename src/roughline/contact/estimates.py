@@ -47,10 +47,10 @@ _DENTS_BYTES = 30  # and for each node in contact
 # a side soft layers were measured to take 8 to 12 bytes more than homogeneous bodies do under light
 # loads, and nothing more under heavy ones; free plates take 23 to 25.
 _ALL_PLACES_BYTES = 12
-_SMALL_GRIDS_BYTES = 150, 2e6  # of small grids that lead a grid: on each point, and at most
+_SMALL_GRIDS_BYTES = 150, 1.5e6  # of small grids that lead a grid: on each point, and at most
 _GRIDS_FACTOR = 4 / 3  # coarser grids that lead a grid, and itself
 _MEMORY_MARGIN = 1.15  # times as much, so that what is told covers what was measured
-_PROCESS_BYTES = 225_000_000  # of the interpreter and its libraries
+_PROCESS_BYTES = 228_000_000  # of the interpreter and its libraries
 _HEIGHT_BYTES = 8
 # Largest share in contact where it is not known: that at saturation, free and periodic.
 _SATURATED_FROM = 0.2

@@ -160,7 +160,7 @@ class Convolution:
         """Memory of the spectrum, and of what a product in double precision works in. [bytes]"""
         if math.prod(self.periods) <= FEW_MODES:
             modes = self.periods[0] * self.spectrum.shape[1]
-            return self.spectrum.nbytes + 16 * modes + 8 * self.shape[0] * self.periods[1]
+            return self.spectrum.nbytes + 16 * modes + 4 * 8 * self.shape[0] * self.periods[1]
         return self.spectrum.nbytes + 16 * math.prod(self._rows("float64"))
 
     def _transform(

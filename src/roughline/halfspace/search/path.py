@@ -156,6 +156,8 @@ class LoadPath:
                 contact = replace(contact, residuals=residuals)
                 if method.rtol <= self._method.rtol:
                     return contact, window
+            if spent >= self._method.max_iterations:
+                return replace(contact, outcome=Outcome.MAX_ITERATIONS), window
             self._start = _under(problem, contact)
             del contact, window, following  # none is held while the next is solved
 

@@ -110,11 +110,13 @@ class _SmallGridSearch:
         return None
 
     def _can_go_on(self) -> bool:
+        """Whether a round is possible, and leaves a convolution for the certificate."""
         count, left = self._nodes.size, self._left
+        round_takes = 2 if self._plastic.size else 1
         return (
             count > 0
             and (left is None or left > 0)
-            and self.convolutions < self._method.max_iterations
+            and self.convolutions + round_takes < self._method.max_iterations
             and (count <= _MOST_FACTORED_NODES or not self._inverse.solves_blocks)
         )
 
@@ -214,7 +216,8 @@ class _SmallGridSearch:
         watched = np.append(beside, self._plastic)
         gradients.watch(watched, moved, (self._inverse.diagonal, self._most, beside.size))
         gradients.level, tolerance = level, self._tolerance(max(displaced, most_displaced))
-        gradients.lead(tolerance, fixed=left is not None)
+        spare = self._method.max_iterations - self.convolutions
+        gradients.lead(tolerance, fixed=left is not None, most_steps=min(MOST_STEPS, spare))
         self.convolutions += gradients.steps
         self._approach = gradients.level
         wrong = _exchanged(
@@ -261,7 +264,14 @@ class Gradients:
         self._watched, self._bounds = watched, bounds
         self.gap = _at(gap, watched, self._grid.shape[1])
 
-    def lead(self, tolerance: float, *, fixed: bool, least_energy: float = 0.0) -> None:
+    def lead(
+        self,
+        tolerance: float,
+        *,
+        fixed: bool,
+        least_energy: float = 0.0,
+        most_steps: int = MOST_STEPS,
+    ) -> None:
         """Go on until errors are within a tolerance, or outweighed by those of the set.
 
         Or until their energy, by the preconditioner, is so small. With a fixed total the sum of the
@@ -278,7 +288,7 @@ class Gradients:
             even = _at(inverted, nodes, width)
             rise, self.largest_error = _levelled(error, even)
             self.level += rise
-        while self.steps < MOST_STEPS:
+        while self.steps < most_steps:
             _write(error, nodes, width, to_invert)
             around.convolve(to_invert, spectrum, inverted)
             self.energy = _turned(inverted, self.energy, error, nodes, width, direction, field)
