@@ -48,6 +48,7 @@ _DENTS_BYTES = 30  # and for each node in contact
 # loads, and nothing more under heavy ones; free plates take 23 to 25.
 _ALL_PLACES_BYTES = 12
 _SMALL_GRIDS_BYTES = 150, 1.5e6  # of small grids that lead a grid: on each point, and at most
+_SMALL_CONTACT_BYTES = 2.2e6, 9e6  # and of full contact on them: of a free grid, and one repeated
 _GRIDS_FACTOR = 4 / 3  # coarser grids that lead a grid, and itself
 _MEMORY_MARGIN = 1.15  # times as much, so that what is told covers what was measured
 _PROCESS_BYTES = 228_000_000  # of the interpreter and its libraries
@@ -202,6 +203,7 @@ def memory_for(
         share = _FULL_CONTACT_FROM if periodic else _SATURATED_FROM
     held = bytes_at_a_point(shape, periodic, share, yielding=yielding, several=several)
     points, (on_each, most) = shape[0] * shape[1], _SMALL_GRIDS_BYTES
+    most += share * _SMALL_CONTACT_BYTES[bool(periodic)]
     held += besides + min(on_each, most / points)
     return points * round(_MEMORY_MARGIN * held + _FIELDS_BYTES[yielding] * kept_fields)
 
