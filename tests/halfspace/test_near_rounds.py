@@ -17,6 +17,8 @@ from roughline.halfspace.search.problem import Grid, Load, Method, Problem
 from roughline.halfspace.search.pull import Pull, Shares
 from roughline.halfspace.search.region import Region
 
+pytestmark = pytest.mark.usefixtures("by_regions")
+
 LAWS = [
     rl.Dugdale(work_of_adhesion=0.5, range=0.3),
     rl.Exponential(work_of_adhesion=0.5, range=0.3),
