@@ -17,7 +17,11 @@ from roughline.halfspace.search.problem import Grid, Load, Method, Problem
 from roughline.halfspace.search.pull import Pull, Shares
 from roughline.halfspace.search.region import Region
 
-pytestmark = pytest.mark.usefixtures("by_regions")
+
+@pytest.fixture(autouse=True)
+def _on_few_points(monkeypatch):
+    monkeypatch.setattr(near_rounds, "_FEW_POINTS", 0)
+
 
 LAWS = [
     rl.Dugdale(work_of_adhesion=0.5, range=0.3),

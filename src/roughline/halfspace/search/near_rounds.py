@@ -38,6 +38,9 @@ _MOST_SLOW_LOOKS = 2
 # Nodes that bear less than a part of the largest pull follow from look to look, if they do so at a
 # gap that is less by a part of the range, too. It is the first part that leaves few enough nodes.
 _LEAST_SHARES_NEAR, _MARGIN, _FEW_NODES = (3e-3, 3e-2, 0.1, 0.3), 0.2, 0.12
+# Points of a grid on which rounds with the exact operator take less. There nearly all nodes are
+# near, and steps that go far have left the branch that slow bodies follow.
+_FEW_POINTS = 2**12
 _MOST_ROUNDS, _MOST_PRODUCTS = 40, 200  # between two looks, and in a round
 # Part of the misfit of shares to which their contact is solved, and the largest such tolerance.
 _MISFIT_SHARE, _LARGEST_TOLERANCE = 0.3, 0.05
@@ -84,8 +87,7 @@ class NearRounds:
         self.convolutions = 0
         self._load = load
         self._method = method
-        # on a small grid, rounds with the exact operator take less, and leave no slow branch
-        self._serves = start is not None and problem.operator.small_grid is None
+        self._serves = start is not None and problem.separation.size > _FEW_POINTS
         self._slow_looks = 0
         self._worst = self._aim = np.inf  # of the last look, and for rounds after it
 
