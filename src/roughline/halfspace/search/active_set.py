@@ -86,18 +86,9 @@ class Search:
             trial = self._trial()
             watched = trial.close(np.inf, trial.gap.size)
             try:
-                relaxation = _relaxed(
-                    trial,
-                    self._load,
-                    watched,
-                    method.rtol,
-                    method.steps,
-                    most_steps=method.max_iterations - self.products,
-                    to_tolerance=rule.to_tolerance,
-                )
+                relaxation = self._relaxed(trial, watched, method.steps)
             except np.linalg.LinAlgError:  # an elastic half-space is positive definite
                 return None
-            self.products += relaxation.steps
             applied = rule.applied(self.region, relaxation, watched)
             self._carriers = self._able(applied, trial.gap)
             largest = max(relaxation.largest_error, relaxation.wrong.largest)
@@ -128,22 +119,27 @@ class Search:
         # 3. Conjugate gradients on the touching nodes.
         watched = trial.close(np.inf, trial.gap.size) if rule.one_by_one else trial.watched
         try:
-            relaxation = _relaxed(
-                trial,
-                self._load,
-                watched,
-                method.rtol,
-                stopping.steps,
-                most_steps=method.max_iterations - self.products,
-                to_tolerance=rule.to_tolerance,
-            )
+            relaxation = self._relaxed(trial, watched, stopping.steps)
         except np.linalg.LinAlgError:  # an elastic half-space is positive definite
             return trial, Outcome.STALLED
-        self.products += relaxation.steps
         stopping.choose_precision(relaxation, trial.length_scale)
         # 4. The exchange of wrong nodes.
         self._carriers = self._able(rule.applied(region, relaxation, watched), trial.gap)
         return None
+
+    def _relaxed(self, trial: Trial, watched: InRegion, precision: Precision) -> _Relaxation:
+        """Lead the pressures of a trial on, as far as products are left, and count these."""
+        relaxation = _relaxed(
+            trial,
+            self._load,
+            watched,
+            self._method.rtol,
+            precision,
+            most_steps=self._method.max_iterations - self.products,
+            to_tolerance=self._rule.to_tolerance,
+        )
+        self.products += relaxation.steps
+        return relaxation
 
     def _trial(self, *, rescale: bool = False) -> Trial:
         self.products += 1

@@ -547,9 +547,9 @@ def _stepped(
     A step is the direction, the field that it displaces by, and the energy of the error. Conditions
     are the even one, the level, the diagonal of the operator, the most that a node bears, and how
     many watched nodes are without pressure; places are the nodes that touch, the watched ones, and
-    columns of the grid. The state is overwritten: pressures, errors, and gaps
-    of the watched nodes. Return the rise of the level, the sums of the squared violations of the
-    set and of the squared errors, and the largest error, negative where nothing is to be gained.
+    columns of the grid. The state is overwritten: pressures, errors, and gaps of the watched nodes.
+    Return the rise of the level, the sums of the squared violations of the set and of the squared
+    errors, and the largest error, negative where nothing is to be gained.
     """
     (direction, response, energy), (even, level, diagonal, most, beside) = step, conditions
     (nodes, watched, width), (pressure, error, gap) = places, state
