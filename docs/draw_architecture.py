@@ -39,12 +39,14 @@ PLACES = {
     "texture": 1.1,
     "spectra": 6.6,
     "topography": 4.0,
+    "facts": 4.0,
     "computing": 3.1,
     "units": 4.9,
     "errors": 3.1,
     "exact": 7.6,
 }
 WIDTH, HEIGHT = 1.5, 0.5
+GROUND = 3  # layers that all others build on, whose imports are not drawn
 APART = 0.2  # between arrows that run side by side
 
 
@@ -119,15 +121,15 @@ def draw(path: Path) -> None:
     if unplaced := set(found) - set(PLACES):
         sys.exit(f"PLACES in {Path(__file__).name} lacks {', '.join(sorted(unplaced))}")
     level = {name: len(rows) - 1 - i for i, row in enumerate(rows) for name in row}
-    drawn = strokes(found, {name for name, height in level.items() if height < 2})
+    drawn = strokes(found, {name for name, height in level.items() if height < GROUND})
     with mpl.rc_context({"font.family": "DejaVu Sans", "svg.hashsalt": "roughline"}):
         figure = Figure(figsize=(9.6, 9.8))
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set(xlim=(-0.1, 9.5), ylim=(-1.1, len(rows) - 0.6))
         axes.axis("off")
-        for height in range(2, len(rows), 2):
+        for height in range(GROUND, len(rows), 2):
             axes.axhspan(height - 0.5, height + 0.5, color="#f7f7f5", zorder=0)
-        axes.add_patch(Rectangle((-0.1, -0.5), 9.6, 2, color="#ececea", zorder=0))
+        axes.add_patch(Rectangle((-0.1, -0.5), 9.6, GROUND, color="#ececea", zorder=0))
         for stroke, points in zip(drawn, _routes(drawn, level), strict=True):
             _arrow(axes, stroke, points)
         most = max(room.lines for room in found.values())

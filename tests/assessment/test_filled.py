@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.facts.loads import on_filled_points
 
 LENGTH = 1e-4
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=LENGTH, rms_height=4e-7, q_roll=8 * np.pi / LENGTH)
@@ -44,9 +45,10 @@ def test_force_on_filled_points_is_said_and_widens_intervals(tmp_path):
     found = asked_of(heights, tmp_path, "5 N")
     share = found.on_filled[0]
     assert 0.1 < share < 0.9
-    said = next(each for each in found.warnings if "stands on points" in each)
+    fact = next(each for each in found.facts if each.kind is on_filled_points)
+    said = str(fact)
     assert said.startswith(f"{share:.0%} of the force of load 5 N stands on points that were")
-    assert said.is_grave == (share > 0.5)
+    assert fact.is_grave == (share > 0.5)
     low, high = (each[0] for each in found.intervals.stiffness)
     stiffness = found.curve.stiffness[0]
     assert high >= stiffness / (1 - share)
@@ -61,7 +63,7 @@ def test_no_interval_holds_where_many_points_are_missing(tmp_path):
     first = found.warnings[0]
     assert first.startswith("89% of the points are missing and were filled")
     assert first.endswith("all values come without an interval")
-    assert first.is_grave
+    assert found.facts[0].is_grave
 
 
 def test_where_all_points_are_known_nothing_is_said_of_filled_ones(tmp_path):

@@ -11,6 +11,7 @@ import roughline as rl
 from roughline.assessment.from_fields import build_question
 from roughline.cli import app
 from roughline.engineering.sealing import ATMOSPHERE
+from roughline.facts.fluid import fluid_lifts
 from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 
@@ -171,10 +172,11 @@ def test_a_seal_that_opens_has_no_leak_and_says_so_in_one_line(body, capsys):
         assert np.isnan(each.values[0]) == (key not in of_load), key
     opens = found.answers["opening_pressure"].values
     assert opens == pytest.approx([4e5 + ATMOSPHERE, 16e5 + ATMOSPHERE])
-    (said,) = [each for each in found.warnings if "lifts" in each]
+    (fact,) = [each for each in found.facts if each.kind is fluid_lifts]
+    said = str(fact)
     assert said.startswith("water at 249.3 kPa above the outside, in the mean of the gap, lifts ")
     assert "under the load at 200 kPa: the seal is open" in said
-    assert said.is_grave
+    assert fact.is_grave
     print_assessment(found)
     page = capsys.readouterr().out
     assert page.count("lifts the bodies apart") == 1

@@ -358,7 +358,7 @@ def test_a_fluid_that_lifts_the_bodies_leaves_no_leak_and_says_so():
     assert "leak_rate" not in lifted.answers
     assert "hydraulic_aperture" in lifted.answers
     said = lifted.warnings[0]
-    assert said.is_grave
+    assert lifted.facts[0].is_grave
     assert not any("no path leads" in each for each in lifted.notes)
     assert said.startswith("no leak rate: water at 249.3 kPa above the outside, in the mean of")
     partly = sealed_by("6 bar", ["0.2 MPa", "0.3 MPa"])

@@ -342,9 +342,9 @@ def test_a_report_speaks_to_a_client(holed, points, extent, invoke, only_drawn, 
     items = re.findall("<li>(.*?)</li>", page)
     told = (
         "carried within",
-        "The interface stiffness k_i is",
         "of the contact yields at the largest load: it bears the hardness, 370 MPa",
         "known to a factor of 1.5",
+        "The interface stiffness k_i is",
         "15 missing points",
         "Load 10 N",
     )

@@ -9,7 +9,7 @@ import roughline as rl
 from random_cases import cases, seeds
 from roughline.contact.loads import even_cycle, separation_depth
 from roughline.halfspace.inverse.cache import inverse_on
-from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM, farthest_pulled, remarks
+from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM, facts_of_pull, farthest_pulled
 from roughline.halfspace.operators.cell import cell_compliance
 
 FORCE = 1e-5  # over the largest: rounds end where gaps are right to the tolerance
@@ -377,7 +377,7 @@ def test_a_range_that_is_a_little_too_short_is_told_to_be_so():
     """Never that one times as much is needed, nor that four cells are fewer than four."""
     for zone in (3.999999, 3.9, 1.0, 0.5):
         law = rl.Dugdale(1.0, (np.pi * zone) ** 0.5)  # h_0² / (pi w) cells
-        (remark,) = remarks(law, np.full((2, 2), 1e3))
+        (remark,) = map(str, facts_of_pull(law, np.full((2, 2), 1e3)))
         wider = float(remark.split("range ")[1].split(" times")[0])
         cells = float(remark.split("is ")[1].split(" cells")[0])
         assert wider > 1

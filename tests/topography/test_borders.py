@@ -178,7 +178,7 @@ def unclear():
 
 def test_what_the_heights_leave_open_is_said_where_it_matters():
     found = unclear()
-    (said,) = border_doubts(found)
+    (said,) = map(str, border_doubts(found))
     assert "it is unclear whether these heights are periodic" in said
     assert "(is_cut_out=True or False)" in said
     assert said in rl.press(found, E_star=1.0, depths=[1e-3]).warnings

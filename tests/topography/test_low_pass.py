@@ -39,7 +39,7 @@ def test_a_periodic_body_keeps_all_points_and_its_wave_is_halved_at_the_border_t
     assert found.shape == (N, N)
     assert not found.is_cut_out
     assert found.heights == pytest.approx(0.5 * heights, abs=2e-3)
-    assert [each.text for each in effects(found)] == [
+    assert [str(each.fact) for each in effects(found)] == [
         "the low pass of 100 µm lowers the rms height by 50% and the rms slope by 50%"
     ]
 
@@ -60,7 +60,7 @@ def test_what_is_left_out_at_borders_is_said_and_recorded():
     found = low_passed(rl.Surface(piece.heights, piece.sizes, "m", is_cut_out=True))
     assert found.shape == (102, 38)
     assert found.spacing == pytest.approx(piece.spacing)
-    _, said = (each.text for each in effects(found))
+    _, said = (str(each.fact) for each in effects(found))
     assert said == (
         "half a cutoff of the low pass is left out at each border, beyond which no heights are "
         "known: 398.4 µm x 148.4 µm stay, and loads act on them"
@@ -76,4 +76,4 @@ def test_a_low_pass_that_leaves_nothing_is_refused():
     with pytest.raises(rl.InputError, match="half of it is left out at each border, and of a side"):
         low_passed(piece, SIDE / 4)
     whole = rl.Surface(piece.heights, piece.sizes, "m", is_cut_out=False)
-    assert "most of the roughness" in effects(low_passed(whole, SIDE))[0].text
+    assert "most of the roughness" in str(effects(low_passed(whole, SIDE))[0].fact)

@@ -214,7 +214,7 @@ def test_the_memory_of_a_preparation_is_known_before_the_work(monkeypatch, dimen
 
 
 def notes(body, **steps):
-    return [each.text for each in effects(Preparation(**steps).applied(body))]
+    return [str(each.fact) for each in effects(Preparation(**steps).applied(body))]
 
 
 def test_a_step_says_what_it_took_of_the_roughness():

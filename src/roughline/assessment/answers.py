@@ -24,13 +24,14 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
+from roughline.facts.fact import Fact
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Surface
 
 
 def work_out_answers(
     case: Case, solution: Solution, *, body: Body | None = None, hardness: float | None = None
-) -> tuple[Mapping[str, Answer], Sequence[str]]:
+) -> tuple[Mapping[str, Answer], Sequence[Fact]]:
     """Answers at the loads that were asked for, by their keys, and which are left out, and why.
 
     The solution is that of the case, or of a variant of it with another body or hardness [Pa].

@@ -23,6 +23,8 @@ from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
 from roughline.errors.public import public
+from roughline.facts.fact import Fact
+from roughline.facts.intervals import without_answer
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 
@@ -81,7 +83,7 @@ def assess_body(
         theories=theories,
     )
     warnings = collect_warnings(result, case.moments, case.loads.grid_error)
-    return replace(result, warnings=warnings, notes=collect_notes(result, solution.note))
+    return replace(result, facts=[*warnings, *collect_notes(result, solution.note)])
 
 
 def _solved(
@@ -144,7 +146,7 @@ def _with_fluid_recorded(case: Case, curve: Curve) -> Curve:
     return replace(curve, settings={**settings, **units})
 
 
-def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[TheoryCurve], list[str]]:
+def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[TheoryCurve], list[Fact]]:
     """Theories at the mean pressures of the loads that were solved, rising, each once.
 
     The second result says which are left out, as they do not hold of layers.
@@ -161,4 +163,4 @@ def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[Theory
         for name, why in left_out.items()
         if not why
     ]
-    return found, [f"no {name}: {why}" for name, why in left_out.items() if why]
+    return found, [without_answer((name,), why) for name, why in left_out.items() if why]

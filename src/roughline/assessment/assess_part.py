@@ -20,11 +20,12 @@ from roughline.assessment.behind_maps import BehindMaps, behind_maps, ends_in_co
 from roughline.assessment.cost import Announce
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.assessment.part_remarks import differ_in_size, remarks_of_part
+from roughline.assessment.part_remarks import differ_in_size, facts_of_part
 from roughline.assessment.question import Question
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
+from roughline.facts.part import not_pressed, refused
 
 _MapProgress = Callable[[int, int], None]
 """Called with (maps done, maps in all)."""
@@ -170,9 +171,9 @@ def _press(
 ) -> bool:
     """Press one map; says whether it came to its end."""
     try:
-        result = answer(question)
+        result = answer(_named(question, name))
     except InputError as error:
-        done.refused[name] = str(error).replace(str(question.body), name)  # without folders
+        done.refused[name] = str(error)
         return True
     except KeyboardInterrupt:
         return False
@@ -184,8 +185,15 @@ def _press(
                 f"its heights are those of {other}, and each place counts only once"
             )
             return True
-    done.assessments[name] = result
+    done.assessments[name] = replace(result, question=question)
     return True
+
+
+def _named(question: Question, name: str) -> Question:
+    """The question with its file called as the map is, in messages."""
+    if not isinstance(question.body, Path) or question.reading.name is not None:
+        return question
+    return attrs.evolve(question, reading=replace(question.reading, name=name))
 
 
 def _combined(done: _PressedMaps) -> PartAssessment:
@@ -194,9 +202,8 @@ def _combined(done: _PressedMaps) -> PartAssessment:
     first = results[0].question
     behind = behind_maps(results)
     answers = _answers(results, behind)
-    refused = [f"refused: {_reason(name, why)}" for name, why in done.refused.items()]
-    left = [f"not pressed, because of Ctrl-C: {', '.join(done.left)}"] if done.left else []
-    warnings, notes = remarks_of_part(done.assessments, behind, answers)
+    missing = [refused(_reason(name, why)) for name, why in done.refused.items()]
+    missing += [not_pressed(tuple(done.left))] if done.left else []
     return PartAssessment(
         question=first,
         names=list(done.assessments),
@@ -205,8 +212,7 @@ def _combined(done: _PressedMaps) -> PartAssessment:
         left=done.left,
         answers=answers,
         elastic=_elastic(results, answers),
-        warnings=[*refused, *left, *warnings],
-        notes=notes,
+        facts=[*missing, *facts_of_part(done.assessments, behind, answers)],
     )
 
 

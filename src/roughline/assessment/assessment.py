@@ -25,6 +25,7 @@ from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pressed import Sought
 from roughline.engineering.rule import Answer
 from roughline.engineering.slip import PartialSlip
+from roughline.facts.fact import Fact
 from roughline.fluid.flow import Flow, flow
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.texture.iso import IsoParameters, iso
@@ -60,7 +61,7 @@ class Assessment:
     answers : mapping of str to Answer
         By their keys, such as "contact_stiffness", for the two materials, over the loads that were
         asked for; empty without materials.
-    left_out : sequence of str
+    left_out : sequence of Fact
         Which answers there are not, and why.
     elastic : mapping of str to Answer
         The same without yield; empty where nothing yields.
@@ -82,10 +83,9 @@ class Assessment:
         (``separation``), and how they slip (``slip``).
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved, rising, each once.
-    warnings : sequence of str
-        Where an assumption breaks, what is suspicious, and why there are no intervals.
-    notes : sequence of str
-        What is left out, what was filled, and how the loads were meant.
+    facts : sequence of Fact
+        What is worth telling, warnings first: where an assumption breaks, what is suspicious, and
+        why there are no intervals; what is left out, what was filled, and how the loads were meant.
     """
 
     question: Question
@@ -96,7 +96,7 @@ class Assessment:
     intervals: Intervals | None = None
     interrupted: bool = False
     answers: Mapping[str, Answer] = field(default_factory=dict)
-    left_out: Sequence[str] = ()
+    left_out: Sequence[Fact] = ()
     elastic: Mapping[str, Answer] = field(default_factory=dict)
     hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
     larger: LargerSurface | None = None
@@ -105,8 +105,7 @@ class Assessment:
     fields_of_gap: Fields | None = None
     sought: Sought = field(default_factory=Sought)
     theories: Sequence[TheoryCurve] = ()
-    warnings: Sequence[str] = ()
-    notes: Sequence[str] = ()
+    facts: Sequence[Fact] = ()
 
     __repr__ = summary
     __str__ = printed
@@ -142,8 +141,18 @@ class Assessment:
         return None
 
     @property
+    def warnings(self) -> list[str]:
+        """Where an assumption breaks, what is suspicious, and why there are no intervals."""
+        return [str(each) for each in self.facts if each.is_warning]
+
+    @property
+    def notes(self) -> list[str]:
+        """What is left out, what was filled, and how the loads were meant."""
+        return [str(each) for each in self.facts if not each.is_warning]
+
+    @property
     def remarks(self) -> list[str]:
-        """Warnings and notes, the most serious first."""
+        """Warnings and notes."""
         return [*self.warnings, *self.notes]
 
     @property

@@ -10,8 +10,9 @@ import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.computing.arrays import Real
+from roughline.facts.fact import Fact
+from roughline.facts.intervals import border_moves_flow
 from roughline.fluid.gap import Along
-from roughline.units import engineering
 
 _COUNTED_RATIO = 1.2  # largest over least aperture of what is said
 _END_ROUNDING = 1 - 1e-9  # of an end of an interval, to rounding
@@ -28,19 +29,13 @@ class _Border:
     over: Real  # by how much their logarithms differ where they are an end of the interval, else 0
     has_interval: bool
 
-    def words(self, load: int) -> str:
-        """All three under a load."""
-        of_map, with_flow, with_pressure = (
-            engineering(float(each[load]), "m", 3)
-            for each in (self.of_map, self.with_flow, self.with_pressure)
-        )
-        return (
-            f"along {self.along} u_h is {of_map} as the map repeats, {with_pressure} with the "
-            f"pressure held even along the border, and {with_flow} with the flow given there"
-        )
+    def at(self, load: int) -> tuple[str, float, float, float]:
+        """The direction, and all three under a load."""
+        of_map, with_flow, with_pressure = self.of_map, self.with_flow, self.with_pressure
+        return self.along, float(of_map[load]), float(with_flow[load]), float(with_pressure[load])
 
 
-def what_borders_do(result: Assessment) -> list[str]:
+def what_borders_do(result: Assessment) -> list[Fact]:
     """Say what flows with the pressure held along the border of a map, and with the flow given.
 
     That is said of each direction in which one of them is an end of the interval, or there is none,
@@ -51,13 +46,9 @@ def what_borders_do(result: Assessment) -> list[str]:
         return []
     load = int(np.argmax(np.maximum.reduce([each.over for each in found])))
     differing = [each for each in found if each.over[load] > 0]
-    rest = (
-        "leaves open more than all else does"
-        if all(each.has_interval for each in differing)
-        else "moves what flows, and no interval holds that"
-    )
-    listed = "; ".join(each.words(load) for each in differing)
-    return [f"under {result.headings[load]} the border of the map {rest}: {listed}"]
+    is_in_interval = all(each.has_interval for each in differing)
+    directions = tuple(each.at(load) for each in differing)
+    return [border_moves_flow(result.headings[load], is_in_interval, directions)]
 
 
 def _borders(result: Assessment) -> Iterator[_Border]:

@@ -266,7 +266,8 @@ class PressedCreep:
     def warnings(self) -> list[str]:
         """What a user of the numbers must know."""
         body, strain = self.body, self.question.strain(self.body)
-        texts = [*suspicions(body), *grave_effects(body), *self.curve.warnings]
+        facts = [*suspicions(body), *grave_effects(body), *self.curve.elastic.facts]
+        texts = list(map(str, facts))
         if strain > _LARGE_STRAIN:
             texts.append(
                 f"the bodies are strained by about {decimal(strain, 2)} in the end, and bodies "
@@ -285,7 +286,7 @@ class PressedCreep:
             )
         elif question.both_give_way:
             texts.append("both bodies are taken to creep alike")
-        return texts + what_was_prepared(self.body)
+        return [*texts, *map(str, what_was_prepared(self.body))]
 
 
 def press_with_creep(question: CreepQuestion) -> PressedCreep:

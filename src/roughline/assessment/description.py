@@ -88,7 +88,7 @@ def describe_measurement(
     if obstacles:
         return found
     body = as_prepared(body_of(piece, reading, preparation), preparation)
-    notes, parameters = suspicions(body) + what_was_prepared(body), None
+    notes, parameters = [*map(str, suspicions(body) + what_was_prepared(body))], None
     try:
         parameters = roughness(body)
     except InputError as error:  # a reduced line is no topography

@@ -27,10 +27,17 @@ from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pressed import InterfaceStiffness
 from roughline.errors import InputError
-from roughline.errors.words import called
+from roughline.facts.answers import (
+    joint_in_reach,
+    joint_out_of_reach,
+    larger_surface_behind,
+    piece_alone,
+    reduced_line_alone,
+    some_larger_surface,
+)
+from roughline.facts.fact import Fact
 from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.topography.body import Body, Line, Surface
-from roughline.units import decimal
 
 _PUNCH_MATTERS = 0.05
 """Share of 1 / k_s in 1 / k, up to which k_i of a piece is within 2 % of that of it repeated."""
@@ -135,19 +142,12 @@ def stiffness_of_the_piece(
     k = unloading_stiffness(curve)
     if isinstance(body, Line):
         saturated, error, warned_from = curve.E_star * body.length, 0.0, 0.0
-        validity = "of the reduced line alone; waves longer than the scan are missing"
+        place = reduced_line_alone()
     else:
         saturated, warned_from = saturated_stiffness(body, curve), _PUNCH_MATTERS
         # as a share of k_s, which is a little more
         error = PUNCH_GRID_ERROR / math.sqrt(body.heights.size)
-        validity = "of this piece alone, a punch with its outline; "
-        if is_layered:
-            validity += "press it periodically for that of a large surface"
-        else:
-            validity += (
-                "under the same mean pressure a large surface is a fifth less stiff at half "
-                "contact and a third stiffer at 80 %: press it periodically for that"
-            )
+        place = piece_alone(is_layered)
     low, high = interval or np.full((2, k.size), np.nan)
     close = k > saturated * (1 - error)
     low = np.where(close, np.fmin(low, k * (1 - error)), low)
@@ -156,7 +156,7 @@ def stiffness_of_the_piece(
     ends = interface_stiffness(low, saturated), interface_stiffness(high, saturated)
     formula = "1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch"
     return InterfaceStiffness(
-        interface_stiffness(k, saturated), ends if known else None, validity, formula, warned_from
+        interface_stiffness(k, saturated), ends if known else None, place, formula, warned_from
     )
 
 
@@ -204,29 +204,16 @@ def larger_surface(
 
 def which_surface(
     extrapolation: Extrapolation, of: Literal["stiffness", "gap"] = "stiffness"
-) -> str:
+) -> Fact:
     """Say which larger surface is meant, and how much of its waves the map holds."""
     if extrapolation.roll_offs is not None:
-        return (
-            "of the larger surface that the map was cut out of; the map holds "
-            f"{extrapolation.roll_offs:.2g} roll-off wavelengths along a side"
-        )
-    factor = decimal(2**extrapolation.doublings, 2)
-    times = f"{factor} times as long as the map, which shows no roll-off"
+        return larger_surface_behind(extrapolation.roll_offs)
+    times = 2**extrapolation.doublings
     if extrapolation.assembly is None:
-        further = "lower the stiffness" if of == "stiffness" else "open the gap"
-        return (
-            f"of a surface {times}: on a larger one longer waves {further} further; give "
-            f"the joint's area ({called('rl.Joint')}), or measure a larger map"
-        )
+        return some_larger_surface(times, of)
     if extrapolation.is_supported:
-        return (
-            f"of a {extrapolation.assembly} {times}: the interval allows for waves as long as that"
-        )
-    return (
-        f"of a {extrapolation.assembly} {times}: what its longer waves do is not known; "
-        f"measure a map at least 1/{2**MOST_DOUBLINGS:g} as long"
-    )
+        return joint_in_reach(times, extrapolation.assembly)
+    return joint_out_of_reach(times, extrapolation.assembly, 2**MOST_DOUBLINGS)
 
 
 def _widened_share(values: Real, ends: Ends, further: Ends) -> Ends:

@@ -18,14 +18,16 @@ from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors.checks import flag
 from roughline.errors.public import public
-from roughline.errors.remark import remarks
+from roughline.facts.fact import Fact
+from roughline.facts.intervals import line_stands_for_surface
+from roughline.facts.own_words import on_body
+from roughline.facts.pressed import few_heights, one_line_only, stiff_heights
 from roughline.spectra.coarser_selves import coarser_selves
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.topography.body import Line
 from roughline.topography.settings import as_body
-from roughline.units import decimal
 
 _SCAN_LINES = 200
 _SPRINGS_A_WAVE = 8
@@ -126,12 +128,13 @@ def press_scan(
         found = _gaussian_doubt(
             each, bins[which], curve.force_bar, is_known_gaussian=gaussian, rng=seed
         )
-        whose = f"{('first', 'second')[which]} body: " if len(scans) > 1 else ""
-        doubts += [whose + doubt for doubt in found]
+        doubts += [
+            doubt.within(on_body(doubt, ("first", "second")[which])) if len(scans) > 1 else doubt
+            for doubt in found
+        ]
     if doubts:
-        off = "the stiffness comes without an interval, and may be off by a factor of several"
-        warnings = remarks((f"{doubt}; {off}: press a map" for doubt in doubts), is_grave=True)
-        curve = replace(curve, warnings=(*warnings, *curve.warnings))
+        doubted = [line_stands_for_surface(doubt).grave() for doubt in doubts]
+        curve = replace(curve, facts=(*doubted, *curve.facts))
         low, high = (np.full(curve.stiffness.size, math.nan) for _ in range(2))
     return PressedScan(curve, low, high)
 
@@ -173,11 +176,7 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:
             "spectrum": "of surfaces that the line scan may be cut from",
             **as_body(scan.settings),
         },
-        warnings=(
-            "a line scan shows one line only: the surface is assumed to be isotropic, alike "
-            "everywhere and without waves longer than the scan, and a square whose side is the "
-            "scan's length",
-        ),
+        facts=(one_line_only(),),
     )
 
 
@@ -239,23 +238,19 @@ def _gaussian_doubt(
     *,
     is_known_gaussian: bool,
     rng: np.random.SeedSequence,
-) -> list[str]:
+) -> list[Fact]:
     """Say why a surface with Gaussian heights may not stand for that of a scan; empty if it may.
 
     Forces are over E* times the rms height and the length of the scan. A short scan need not show
     that it is Gaussian if that is known.
     """
     levelled = scan.detrended()
-    found = [each.text for each in broken("line scan", levelled)]
+    found = [each.fact for each in broken("line scan", levelled)]
     if not found:
         found = _stiffness_doubt(levelled.heights, bins, forces, rng)
     heights = independent_heights(levelled)
     if not found and not is_known_gaussian and heights < _LEAST_HEIGHTS:
-        found = [
-            f"the scan has about {decimal(heights, 2)} independent heights, too few to show "
-            f"whether those of its surface are Gaussian: {_LEAST_HEIGHTS} are needed, "
-            "or rl.press_scan(..., gaussian=True) where that is known"
-        ]
+        found = [few_heights(heights, _LEAST_HEIGHTS)]
     return found
 
 
@@ -267,7 +262,7 @@ def independent_heights(scan: Line) -> float:
 
 def _stiffness_doubt(
     heights: Real, bins: ScanBins, forces: Real, rng: np.random.SeedSequence
-) -> list[str]:
+) -> list[Fact]:
     """Compare a scan with Gaussian cuts of its spectrum, each pressed as independent springs.
 
     Such springs stand for no surface, but feel the distribution of heights alone, at the same
@@ -285,11 +280,7 @@ def _stiffness_doubt(
         return []
     ratio = float(np.exp(own - middle)[worst])
     allowed = float(np.exp(np.sign(own - middle)[worst] * by_chance * spread[worst]))
-    return [
-        "heights are not Gaussian: pressed as independent springs, those of the scan are "
-        f"{decimal(ratio, 2)} times as stiff under load {worst + 1} as Gaussian ones of its "
-        f"spectrum, and chance allows {decimal(allowed, 2)}"
-    ]
+    return [stiff_heights(ratio, allowed, worst + 1)]
 
 
 def _stiffness_of_springs(heights: Real, forces: Real) -> Real:

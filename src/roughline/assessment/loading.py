@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,9 +13,11 @@ from roughline.assessment.kinds import nominal_area
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole_number
 from roughline.errors.words import called
+from roughline.facts.fact import Fact
+from roughline.facts.loads import Strains, strained
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.topography.body import Body, side_lengths
-from roughline.units import as_si, decimal, engineering, load_in_newtons
+from roughline.units import as_si, engineering, load_in_newtons
 
 DEFAULT_LOADS = 20
 
@@ -124,25 +127,22 @@ class Loading:
 
     def strains(
         self, body: Body, half_space: HalfSpace, pressing: Sequence[float], *, is_layered: bool
-    ) -> list[tuple[float, str]]:
-        """Return how far each load strains a body, of what it presses with: in numbers and words.
+    ) -> list[tuple[float, Fact]]:
+        """Return how far each load strains a body, of what it presses with, and the fact.
 
         A fluid that carries a part of the load acts on all of the surface, and deforms little.
         """
         area, side = nominal_area(body), min(side_lengths(body))
+        what: Strains = "layers" if is_layered else "pressure"
+        is_beside_fluid = False
         if depths := self.heights():
-            what = "depth {} is {} times the shorter side of the body"
-            ratios = [depth / side for depth in depths]
+            what, ratios = "depth", [depth / side for depth in depths]
         else:
-            what = "the mean pressure of load {} is {} times the contact modulus"
-            if is_layered:
-                what = "the mean pressure of load {} strains the layers or their base by about {}"
-            if any(own < load for own, load in zip(pressing, self.forces(area), strict=True)):
-                what = what.replace("load {}", "load {}, without what the fluid carries,")
+            is_beside_fluid = any(map(operator.lt, pressing, self.forces(area)))
             side = math.inf if half_space.periodic is True else side
             ratios = [half_space.strain(max(force, 0.0) / area, side) for force in pressing]
         return [
-            (ratio, what.format(heading, decimal(ratio, 2)))
+            (ratio, strained(what, heading, ratio, is_beside_fluid))
             for heading, ratio in zip(self.headings, ratios, strict=False)
         ]
 

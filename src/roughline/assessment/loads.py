@@ -158,7 +158,7 @@ class LoadCase:
         """A curve under these loads over all those that they are among, lifted ones included."""
         if self.lifted is not None:
             if self.lifted.all():
-                curve = replace(at_loads(curve, np.array([], int)), warnings=())  # none of its own
+                curve = replace(at_loads(curve, np.array([], int)), facts=())  # none of its own
             curve = among_loads(curve, ~self.lifted, Status.LIFTED)
         return curve if self.among is None else among_loads(curve, self.among)
 

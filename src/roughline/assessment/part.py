@@ -15,6 +15,7 @@ from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
 from roughline.engineering.intervals import Ends
 from roughline.engineering.rule import Answer, Rule, within
+from roughline.facts.fact import Fact
 from roughline.statistics.places import average_of_places
 
 
@@ -125,8 +126,8 @@ class PartAssessment:
         have no common answers that depend on the size.
     elastic : mapping of str to PartAnswer
         The same without yield; empty where nothing yields in any map.
-    warnings, notes : sequence of str
-        On all maps, and on single ones, with their names.
+    facts : sequence of Fact
+        On all maps, and on single ones, with their names; warnings first.
     """
 
     question: Question
@@ -136,8 +137,7 @@ class PartAssessment:
     left: Sequence[str]
     answers: Mapping[str, PartAnswer]
     elastic: Mapping[str, PartAnswer] = field(default_factory=dict)
-    warnings: Sequence[str] = ()
-    notes: Sequence[str] = ()
+    facts: Sequence[Fact] = ()
 
     __repr__ = summary
     __str__ = printed
@@ -154,8 +154,18 @@ class PartAssessment:
         return self.question.loading.headings
 
     @property
+    def warnings(self) -> list[str]:
+        """What is to be known before the numbers are used."""
+        return [str(each) for each in self.facts if each.is_warning]
+
+    @property
+    def notes(self) -> list[str]:
+        """What is left out, what was filled, and how the loads were meant."""
+        return [str(each) for each in self.facts if not each.is_warning]
+
+    @property
     def remarks(self) -> list[str]:
-        """Warnings and notes, the most serious first."""
+        """Warnings and notes."""
         return [*self.warnings, *self.notes]
 
     @property

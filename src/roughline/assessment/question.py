@@ -44,6 +44,8 @@ from roughline.errors.checks import refuse, shown
 from roughline.errors.earlier import refuse_part
 from roughline.errors.public import public
 from roughline.errors.words import called
+from roughline.facts.fact import Fact
+from roughline.facts.loads import how_far_strained
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import Preparation
@@ -336,8 +338,8 @@ class Question:
         hardness = self.hardness if pair is None or self.hardness is not None else pair.hardness
         return hardness is not None and hardness < math.inf and not self.elastic
 
-    def strains(self, body: Body) -> list[tuple[float, str]]:
-        """Return how far each load strains a body: as a ratio, and in words."""
+    def strains(self, body: Body) -> list[tuple[float, Fact]]:
+        """Return how far each load strains a body: as a ratio, and the fact."""
         pressing = self.pressing(nominal_area(body))
         return self.loading.strains(body, self.half_space, pressing, is_layered=bool(self.coated))
 
@@ -360,8 +362,9 @@ class Question:
             self._asked(Joint, lambda asked: asked.refuse_map(body.area))
             if self.attraction is not None:
                 self.attraction.refuse_too_strong(min(body.sizes), self.modulus)
-        for ratio, text in self.strains(body):
+        for ratio, fact in self.strains(body):
             if ratio > LARGEST_STRAIN:
+                text = how_far_strained(**fact.numbers)
                 raise InputError(f"{text}, and {LINEARITY}: give a smaller one, and check its unit")
         if self.theories and not has_spectrum(body):
             raise InputError(

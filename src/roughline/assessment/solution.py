@@ -26,6 +26,8 @@ from roughline.contact.measures import Measured
 from roughline.contact.selection import first_fields
 from roughline.engineering.intervals import Intervals
 from roughline.engineering.pressed import Sought
+from roughline.facts.fact import Fact
+from roughline.facts.intervals import filled_before, filling_matters, no_filled_point_left
 from roughline.topography.body import Body, Line, Surface
 
 _SMALLEST_CHANGE = 0.001  # changes below this are reported as less than this [%]
@@ -39,10 +41,10 @@ class Solution:
     intervals: Intervals | None  # None where the grid's errors are not known
     larger: LargerSurface | None = None  # None where the answers are not about a larger surface
     measured: Mapping[str, Measured] = field(default_factory=dict)
-    place: str = ""  # the surface that these are of; empty for the map alone
+    place: Fact | None = None  # the surface that these are of; None for the map alone
     sought: Sought = field(default_factory=Sought)
     on_filled: Real | None = None  # share of the force that stands on filled points, if known [1]
-    note: str = ""  # what another way to fill missing points changes, if that was tried
+    note: Fact | None = None  # what another way to fill missing points changes, if that was tried
 
 
 def combine_curves(case: Case, curves: Curves) -> Solution:
@@ -50,7 +52,7 @@ def combine_curves(case: Case, curves: Curves) -> Solution:
     curve = curves.as_asked
     intervals, note = _with_filling(case, curves, Way.AS_ASKED, case.body)
     measured = variant_measures(case, curves, Way.AS_ASKED, are_known=intervals is not None)
-    larger, place = larger_behind(case, curves, Way.AS_ASKED), ""
+    larger, place = larger_behind(case, curves, Way.AS_ASKED), None
     if larger is not None and larger.measures:
         extrapolation = case.gap_extrapolation if case.tells_of_larger else None
         of_larger = {
@@ -78,7 +80,7 @@ def solve_scan(case: Case, body: Line) -> Solution:
         body, E_star=case.loads.half_space.E_star, forces=case.loads.forces, against=against
     )
     ends = scan.low, scan.high
-    _, is_too_steep = line_scan_limits(case.question, body)
+    is_too_steep = any(each.is_grave for each in line_scan_limits(case.question, body))
     known = not (is_too_steep or np.isnan(scan.low).any())
     sought = Sought(slip=slip_at_largest_load(case, Curves({Way.AS_ASKED: scan.curve})))
     return Solution(scan.curve, Intervals(ends, ends) if known else None, sought=sought)
@@ -168,9 +170,9 @@ def _beside(measured: Measured, other: Real, unsure: Real | float) -> Measured:
 
 def _with_filling(
     case: Case, curves: Curves, name: str, body: Body
-) -> tuple[Intervals | None, str]:
+) -> tuple[Intervals | None, Fact | None]:
     """Intervals of a variant with the effect of the other filling, and a note on that."""
-    curve, other, note = curves.get(name), curves.get(filled_otherwise(name)), ""
+    curve, other, note = curves.get(name), curves.get(filled_otherwise(name)), None
     if curve is None:
         return None, note
     if other is not None:
@@ -178,10 +180,7 @@ def _with_filling(
         stiffness = _most_changed(curve.stiffness, other.stiffness, loads)
         area = _most_changed(curve.area_fraction_corrected, other.area_fraction_corrected, loads)
         method = case.parts[0].reading.missing.other
-        note = (
-            f"with missing points filled by {method} instead, stiffness changes by {stiffness}, "
-            f"area by {area}"
-        )
+        note = filling_matters(method, stiffness, area, _SMALLEST_CHANGE)
     elif case.filled and curves.stopped != name:
         note = _why_filling_changes_nothing(case.filled)
     if broken("grid", body):
@@ -189,11 +188,10 @@ def _with_filling(
     return estimate_intervals(curve, other, _unsure(curves)), note
 
 
-def _most_changed(before: Real, after: Real, loads: Indices) -> str:
-    """By how many per cent the loads that were asked for change at most, in words."""
+def _most_changed(before: Real, after: Real, loads: Indices) -> float:
+    """By how many per cent the loads that were asked for change at most."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        share = 100 * float(np.nanmax((change(before, after) / before)[loads], initial=0.0))
-    return f"up to {share:.2g}%" if share >= _SMALLEST_CHANGE else f"less than {_SMALLEST_CHANGE}%"
+        return 100 * float(np.nanmax((change(before, after) / before)[loads], initial=0.0))
 
 
 def _tiled(curves: Curves, map_curve: SurfaceCurve | None, body: Surface) -> TiledCurves | None:
@@ -211,9 +209,8 @@ def _tiled(curves: Curves, map_curve: SurfaceCurve | None, body: Surface) -> Til
     return TiledCurves(map_curve, halves, quarters, shape[0] * shape[1], border)
 
 
-def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:
+def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> Fact:
     """Say why the other filling gives the same body."""
     if all(each.measurement is not None for each in topographies if each.is_filled):
-        return "no filled point is left in the piece that is pressed"
-    before = "before the file was written" if topographies[0].file else "before"
-    return f"the points were filled {before}: the effect of their filling is not known"
+        return no_filled_point_left()
+    return filled_before(is_of_file=bool(topographies[0].file))

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.errors.remark import Remark
+from roughline.facts.borders import border_carries
+from roughline.facts.fact import Fact
 from roughline.halfspace.search.problem import Contact
 from roughline.topography.body import Surface
-from roughline.units import engineering
 
 _FRAME = 0.05  # width along the border, over the sides
 _LARGEST_SHARE = 0.05  # of the force that is too much on it
@@ -32,7 +32,7 @@ def share_at_border(contact: Contact) -> float:
     return float(pressure[within < _FRAME].sum() / pressure.sum())
 
 
-def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
+def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[Fact, ...]:
     """Say under which forces the border of a surface that was cut out carries too large a share.
 
     Shares are NaN where a load was not solved.
@@ -40,15 +40,6 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
     heavy = np.flatnonzero(shares > _LARGEST_SHARE)
     if not surface.is_cut_out or not heavy.size:
         return ()
-    extremes = force[heavy].min(), force[heavy].max()
-    ends = [
-        engineering(each, "N", 3) if surface.unit == "m" else f"{each:.3g}" for each in extremes
-    ]
-    at = f"a force of {ends[0]}" if heavy.size == 1 else f"forces of {ends[0]} to {ends[1]}"
-    text = (
-        f"at {at}, up to {shares[heavy].max():.0%} of the force is carried within {_FRAME:.0%} of "
-        "the border, where this surface was cut out of a larger one: the surface beyond it would "
-        "carry a part of the load, so depth, stiffness and area are those of the piece alone, a "
-        "punch with this outline. Take a larger piece, or the periodic half-space"
-    )
-    return (Remark(text, is_grave=bool(shares[heavy].max() > _DECISIVE_SHARE)),)
+    least, most, share = force[heavy].min(), force[heavy].max(), float(shares[heavy].max())
+    fact = border_carries(float(least), float(most), share, surface.unit, _FRAME)
+    return (fact.grave(share > _DECISIVE_SHARE),)

@@ -21,6 +21,7 @@ from roughline.contact.measures import Measured
 from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_name
 from roughline.contact.status import Status
 from roughline.errors import InputError
+from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.jkr import JKR
 from roughline.halfspace.laws.law import ContactLaw
@@ -73,7 +74,7 @@ class Curve:
         Unit of lengths ("m": forces are in newtons, stiffness in N/m).
     settings : mapping
         How it was computed: version, tolerance, boundary, and the settings of the body.
-    warnings : sequence of str
+    facts : sequence of Fact
         What a user of the numbers must know; empty if there is nothing to say.
     pull_off_force, pull_off_depth : float
         Largest pull of bodies that stick, negative, and its depth; NaN where there is none.
@@ -97,7 +98,7 @@ class Curve:
     length: float
     unit: str | None
     settings: Mapping[str, str | int | float]
-    warnings: Sequence[str] = ()
+    facts: Sequence[Fact] = ()
     pull_off_force: float = math.nan
     pull_off_depth: float = math.nan
     law: ContactLaw | None = field(repr=False)
@@ -161,6 +162,11 @@ class Curve:
     def converged(self) -> Mask:
         """Whether each load was solved to the tolerance."""
         return self.status == Status.CONVERGED
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a user of the numbers must know, in words."""
+        return tuple(map(str, self.facts))
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the curve as an xarray Dataset over the loads, units in attrs.

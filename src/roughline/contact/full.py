@@ -25,12 +25,13 @@ from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.selection import among_loads, at_loads
 from roughline.contact.status import Status
 from roughline.errors import Interrupted
+from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.cache import working_memory
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
-from roughline.halfspace.laws.pulling_zone import remarks, resolution, resolves_pull_off
+from roughline.halfspace.laws.pulling_zone import facts_of_pull, resolution, resolves_pull_off
 from roughline.halfspace.search.outline import overstated_cells
 from roughline.halfspace.search.path import solve_path
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
@@ -265,13 +266,13 @@ class _WrittenCurve:
             residual_of=_where_known(self._residual_of, known, ""),
             fields=_where_known(self._fields, known, None) if self._wanted.loads else (),
             dents=_where_known(self._dents, known, None) if curve.law.memory == "dents" else (),
-            warnings=(
+            facts=(
                 *border_doubts(surface),
                 *grave_effects(surface),
                 *tilt_warnings(surface),
-                *_jump_warnings(surface, curve.half_space.repeats),
+                *_jump_facts(surface, curve.half_space.repeats),
                 *border_warnings(surface, curve.force, curve.border_share),
-                *remarks(law_there, scaled.separation()),
+                *facts_of_pull(law_there, scaled.separation()),
             ),
         )
 
@@ -411,9 +412,9 @@ def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) 
     )
 
 
-def _jump_warnings(surface: Surface, repeats: tuple[bool, bool]) -> tuple[str, ...]:
+def _jump_facts(surface: Surface, repeats: tuple[bool, bool]) -> tuple[Fact, ...]:
     """Say how far a piece of a larger surface jumps at its borders where it is repeated."""
     may_jump = any(each and n > 1 for each, n in zip(repeats, surface.shape, strict=True))
     if not may_jump or not surface.is_cut_out or surface.rms_height == 0:
         return ()
-    return (border_jump(surface, repeats).in_words(surface.unit),)
+    return (border_jump(surface, repeats).fact(surface.unit),)

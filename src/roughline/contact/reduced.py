@@ -9,6 +9,8 @@ from roughline.contact.curve import LineCurve
 from roughline.contact.loads import GivenLoads, comes_nearer, line_loads
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
+from roughline.facts.fact import Fact
+from roughline.facts.pressed import ends_do_not_meet
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Line
@@ -51,19 +53,14 @@ def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> LineCu
             "control": loads.control,
             **as_body(line.settings),
         },
-        warnings=(*grave_effects(line), *_end_warnings(line)),
+        facts=(*grave_effects(line), *_end_facts(line)),
         control=loads.control,
     )
 
 
-def _end_warnings(line: Line) -> tuple[str, ...]:
+def _end_facts(line: Line) -> tuple[Fact, ...]:
     """Warn of a line whose ends do not meet, as those of a reduced line do."""
     borders = decided(line)
     if borders is None or not borders.jump:
         return ()
-    return (
-        f"the ends of this line are {borders.step:.2g} ordinary steps apart, and those of a "
-        "reduced line meet where it is made from a spectrum: a measured scan is no reduced line "
-        '(kind="profile"); where the line is one, say that its ends need not meet '
-        "(is_cut_out=True)",
-    )
+    return (ends_do_not_meet(borders.step),)

@@ -13,6 +13,8 @@ from roughline.contact.loads import GivenLoads, comes_nearer, profile_loads
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.status import Status
 from roughline.errors import InputError
+from roughline.facts.fact import Fact
+from roughline.facts.pressed import all_of_profile_touches
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.jkr import JKR
 from roughline.reduction.revolution import Moved, Revolution
@@ -65,7 +67,7 @@ def press_profile(
         on_approach=comes_nearer(depth),
         pull_off_depth=pull_off_depth,
         pull_off_force=pull_off_force,
-        warnings=_warnings(body, radius, depth),
+        facts=_facts(body, radius, depth),
         law=law,
         control=loads.control,
     )
@@ -94,12 +96,7 @@ def _works(body: Revolution, moves: list[Moved], depth: Real) -> tuple[Real, Rea
     return stored + dissipated, dissipated
 
 
-def _warnings(body: Revolution, radius: Real, depth: Real) -> tuple[str, ...]:
+def _facts(body: Revolution, radius: Real, depth: Real) -> tuple[Fact, ...]:
     """Say under which loads all of the body touches."""
     ended = (radius == body.radii[-1]) & (depth > body.table[1][-1] * (1 + 1e-9))
-    if not ended.any():
-        return ()
-    return (
-        f"from depth {depth[ended].min():.3g} on all of the profile touches: the body ends at its "
-        "largest radius, as a cylinder does. Where it goes on, give a larger one",
-    )
+    return (all_of_profile_touches(float(depth[ended].min())),) if ended.any() else ()

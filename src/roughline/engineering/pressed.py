@@ -17,6 +17,7 @@ from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Closing, Fluid
 from roughline.engineering.slip import PartialSlip
+from roughline.facts.fact import Fact
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +26,7 @@ class InterfaceStiffness:
 
     values: Real  # (loads,) [N / m]
     ends: Ends | None  # of its interval; None where it is not known [N / m]
-    validity: str  # which interface it is
+    place: Fact  # which interface it is
     formula: str  # how it was found
     warned_from: float = 0.0
     """Share of 1 / k_u that it leaves to the bodies, from which a warning says which it is. [1]"""
@@ -85,8 +86,8 @@ class Pressed:
         open: of the map in a periodic half-space where it was cut out of a larger surface.
     is_repeated : bool, optional
         Whether these are of a periodic contact.
-    place : str, optional
-        Which surface the intervals of measures are of; empty for that of the map alone.
+    place : Fact, optional
+        Which surface the intervals of measures are of; None for that of the map alone.
     sealing : Fluid, optional
         What is asked of a fluid in the gap.
     load_on_body : ndarray, shape (loads,), optional
@@ -113,7 +114,7 @@ class Pressed:
     has_depths: bool = False
     measured: Mapping[str, Measured] = field(default_factory=dict)
     is_repeated: bool = False
-    place: str = ""
+    place: Fact | None = None
     sealing: Fluid | None = None
     load_on_body: Real | None = None
     attraction: Attraction | None = None
@@ -184,7 +185,7 @@ class Pressed:
     @property
     def interface_note(self) -> str:
         """Says which interface is meant, after a semicolon; nothing where there is but one."""
-        return "" if self.interface is None else f"; k_i {self.interface.validity}"
+        return "" if self.interface is None else f"; k_i {self.interface.place}"
 
     @property
     def area_fraction(self) -> Real | None:

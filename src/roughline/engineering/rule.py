@@ -19,7 +19,9 @@ from roughline.engineering.symbols import Symbol
 from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice, refuse, several, shown
 from roughline.errors.public import are_numbers, public
-from roughline.errors.remark import Remark
+from roughline.facts.fact import Fact, Weight
+from roughline.facts.intervals import without_answer
+from roughline.facts.own_words import in_own_words
 
 _Group = Literal[
     "mechanics", "contact", "adhesion", "friction", "sealing", "electrical", "thermal", "acoustic"
@@ -27,6 +29,8 @@ _Group = Literal[
 """What an answer is about."""
 
 _GROUPS: tuple[_Group, ...] = get_args(_Group)  # in the order in which pages show them
+
+_Facts = Fact | Sequence[Fact | None] | None
 
 Limits = tuple[Real | float, Real | float]
 """Least and largest possible value, over the loads or at all of them."""
@@ -78,6 +82,8 @@ class Rule:
         fault of its rule.
     warning, note : callable, optional
         What is to be said with it of what was pressed; an empty text for nothing.
+    facts : callable, optional
+        The same as facts of some kind: one, several, or None for nothing.
     limits : callable, optional
         Least and largest possible value, beyond which no interval reaches; default: from zero on.
         [unit]
@@ -151,6 +157,7 @@ class Rule:
     unknown: Callable[[Pressed], str] = lambda _pressed: ""
     warning: Callable[[Pressed], str] = lambda _pressed: ""
     note: Callable[[Pressed], str] = lambda _pressed: ""
+    facts: Callable[[Pressed], _Facts] = lambda _pressed: None
     limits: Callable[[Pressed], Limits] = lambda _pressed: (0.0, np.inf)
     under: Callable[[Pressed], tuple[str, float]] | None = None
     leads: Callable[[Pressed], bool] = lambda _pressed: False
@@ -218,8 +225,20 @@ class Rule:
             under=None if self.under is None else self.under(pressed),
             leads=is_first or self.leads(pressed),
             answers_question=is_first,
-            warning=self.warning(pressed),
-            note=self.note(pressed),
+            facts=self._facts_found(pressed),
+        )
+
+    def _facts_found(self, pressed: Pressed) -> tuple[Fact, ...]:
+        """What is to be said with the answer, of it alone."""
+        found = self.facts(pressed)
+        texts: dict[Weight, str] = {"warning": self.warning(pressed), "note": self.note(pressed)}
+        return tuple(
+            each.concerning(self.key)
+            for each in (
+                *([found] if isinstance(found, Fact) else found or ()),
+                *(in_own_words(text).as_(weight) for weight, text in texts.items() if text),
+            )
+            if each is not None
         )
 
 
@@ -254,7 +273,7 @@ class Answer:
         Whether a page begins with it.
     answers_question : bool
         Whether it is what something was asked for beside the contact.
-    warning, note : str
+    facts : tuple of Fact
         What is to be said with it.
     """
 
@@ -272,8 +291,7 @@ class Answer:
     under: tuple[str, float] | None = None
     leads: bool = False
     answers_question: bool = False
-    warning: str = ""
-    note: str = ""
+    facts: tuple[Fact, ...] = ()
 
     @property
     def key(self) -> str:
@@ -372,7 +390,7 @@ class Rules:
         """
         return list(dict.fromkeys(filter(None, (each.lacking(pair, frequency) for each in self))))
 
-    def answers(self, pressed: Pressed) -> tuple[dict[str, Answer], list[str]]:
+    def answers(self, pressed: Pressed) -> tuple[dict[str, Answer], list[Fact]]:
         """Work out all answers by their keys, and say which are left out, and why.
 
         What was asked for beside the contact comes first, with its group.
@@ -388,16 +406,16 @@ class Rules:
             why, share = _why_not_used(answer, pressed)
             if why:
                 loads = "" if share == 1 else f" under {share:.0%} of the loads"
-                left_out.setdefault(why, []).append(f"no {answer.name}{loads}")
+                left_out.setdefault(why, []).append(f"{answer.name}{loads}")
                 if rule.answers_question(pressed):
                     unanswered.add(why)
             if share < 1:
                 answers[rule.key] = answer
         lacking = self.left_out(pressed.pair, pressed.frequency)
         return _in_order(answers), [
-            *lacking,
+            *(in_own_words(text).as_("note") for text in lacking),
             *(
-                Remark(f"{', '.join(of)}: {why}", is_grave=why in unanswered)
+                without_answer(tuple(of), why).grave(why in unanswered)
                 for why, of in left_out.items()
             ),
         ]

@@ -14,6 +14,8 @@ from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public_names
+from roughline.facts.fact import Fact
+from roughline.facts.fluid import gap_is_steep
 from roughline.fluid.gap import REPEATS, Along, Gap, Sides
 
 _FLOW_AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
@@ -257,8 +259,8 @@ class Flow:
     @property
     def validity(self) -> str:
         """Says why Reynolds' equation is not good for this gap; empty where it is."""
-        if steep := why_too_steep(self.slope):
-            return steep
+        if steep := too_steep(self.slope):
+            return str(steep)
         if self.hydraulic_aperture > _HIGHEST_APERTURE * min(self.sizes):
             return (
                 f"the hydraulic aperture is {self.hydraulic_aperture / min(self.sizes):.2g} of the "
@@ -289,14 +291,9 @@ class Flow:
         return lost[0], lost[1]
 
 
-def why_too_steep(slope: float) -> str:
-    """Say why Reynolds' equation is not good for a gap of such a slope; empty where it is."""
-    if slope <= _STEEPEST_GAP:
-        return ""
-    return (
-        f"the gap has a slope of {slope:.2g} where the flow is throttled: Reynolds' equation holds "
-        "for small slopes, and less than it says flows"
-    )
+def too_steep(slope: float) -> Fact | None:
+    """Say why Reynolds' equation is not good for a gap of such a slope; None where it is."""
+    return gap_is_steep(slope) if slope > _STEEPEST_GAP else None
 
 
 @overload

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.contact.status import Status
-from roughline.errors.remark import grave_first
+from roughline.facts.fact import grave_first
 from roughline.report.page import Headline, KeyFigure, sentence
 from roughline.report.values import Write, with_interval
 from roughline.units import decimal, engineering
@@ -109,7 +109,7 @@ def headline(result: Assessment | PartAssessment, write: Write = with_interval) 
         below.insert(0, f"places scatter by {scatter} in {answer.name}")
     return Headline(
         figures,
-        [*map(sentence, grave_first(result.warnings))],
+        [sentence(str(each)) for each in grave_first(result.facts) if each.is_warning],
         " ".join(map(sentence, filter(None, below))),
     )
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughline._version import __version__
-from roughline.assessment.notes import listed, listed_in_short
 from roughline.assessment.part import PartAssessment
+from roughline.facts.listed import listed, listed_in_short
 from roughline.report.answers import (
     UNRESOLVED,
     answer_in_words,

@@ -13,7 +13,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.status import Status
-from roughline.errors.remark import grave_first
+from roughline.facts.fact import grave_first
 from roughline.report.answers import (
     UNRESOLVED,
     answer_table,
@@ -66,7 +66,7 @@ def print_assessment(
     if pair is not None:
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)
     else:
-        print_remarks(console, "warning", grave_first(assessment.warnings))
+        print_remarks(console, "warning", _warnings(assessment))
         if unfolded_by and assessment.asked.size > MOST_PRINTED:
             ends = f"{_ends_of_curve(assessment)}; for each load use {unfolded_by}"
             console.print(ends, highlight=False, soft_wrap=True)
@@ -178,9 +178,14 @@ def _print_headline(console: Console, result: Assessment | PartAssessment) -> No
         interval = f"  ({each.interval})" if each.interval else ""
         console.print(Text(f"  {each.name:<{width}}  {each.value}{interval}"), soft_wrap=True)
     console.print()
-    print_remarks(console, "warning", grave_first(result.warnings))
+    print_remarks(console, "warning", _warnings(result))
     if result.warnings:
         console.print()
+
+
+def _warnings(result: Assessment | PartAssessment) -> list[str]:
+    """Warnings in words, grave ones first."""
+    return [str(each) for each in grave_first(result.facts) if each.is_warning]
 
 
 def print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:

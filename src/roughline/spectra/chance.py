@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Mask, Real
+from roughline.facts.fact import Fact
 
 MOST_CELLS = 512  # cells along a side of a map, from which correlations are taken
 _SMALLEST_CHANCE = 1e-300
@@ -21,7 +22,7 @@ class Finding:
 
     score: float  # of a standard normal distribution, if the assumption holds
     gravity: float  # what was measured over what would not matter
-    text: Callable[[float], str]  # says it, with what chance allows, for the score that it allows
+    fact: Callable[[float], Fact]  # with what chance allows, for the score that it allows
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,19 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.words import called
+from roughline.facts.fact import Fact
+from roughline.facts.heights import (
+    beyond_chance,
+    bowed,
+    heights_in_steps,
+    heights_on_a_level,
+    levelled_before,
+    levelled_by_lines,
+    many_filled,
+    map_jumps,
+    no_roll_off,
+    tilted,
+)
 from roughline.spectra.chance import Finding
 from roughline.spectra.coarser_selves import coarser_selves
 from roughline.spectra.fit import SelfAffineFit, fitted
@@ -70,8 +83,13 @@ class Departure:
     """A departure from what predictions rest on."""
 
     assumption: Assumption  # what does not hold
-    text: str  # says so with the number measured, what chance would allow, and what to do
+    fact: Fact  # with the number measured, what chance would allow, and what to do
     gravity: float  # the number measured over that which would not matter; above 1
+
+    @property
+    def text(self) -> str:
+        """The fact in words."""
+        return str(self.fact)
 
 
 def departures(
@@ -122,53 +140,27 @@ def _find_steps(body: Body) -> Iterator[Departure]:
     share = _share_on_lines(body.heights)
     if share <= _STEPPED_SHARE:
         return
-    text = (
-        f"{share:.0%} of the heights lie in line with their neighbours to the last digit, which "
-        "chance does not do: they are rounded, filled, or at the end of the instrument's "
-        "range, so slopes there are not the surface's: measure with finer steps or a larger range"
-    )
-    yield Departure("resolution", text, share / _STEPPED_SHARE)
+    yield Departure("resolution", heights_in_steps(share), share / _STEPPED_SHARE)
 
 
 def _find_faults(body: Body) -> Iterator[Departure]:
     """Say where heights are not the surface's, so that no answer holds."""
     if (share := body.provenance.missing_share) > _FILLED_SHARE:
-        text = (
-            f"{share:.0%} of the points are missing and were filled, so that summits may be "
-            f"missing as well: measure again, or crop to where points are known ({called('crop')})"
-        )
-        yield Departure("measured", text, share / _FILLED_SHARE)
+        yield Departure("measured", many_filled(share), share / _FILLED_SHARE)
     if not body.is_cut_out or not body.rms_height:
         return
     if (share := _share_on_a_level(body.heights)) > _LEVEL_SHARE:
-        text = (
-            f"{100 * share:.2g}% of the heights are equal to the last digit: the range of the "
-            "instrument ends there, and cuts summits off, or missing points were written as a "
-            "number: measure with a larger range, or mark missing points"
-        )
-        yield Departure("measured", text, share / _LEVEL_SHARE)
+        yield Departure("measured", heights_on_a_level(share), share / _LEVEL_SHARE)
     rows = _jump(body) if isinstance(body, Surface) else None
     if isinstance(body, Surface) and rows and abs(rows.height) > _LARGEST_JUMP * body.rms_height:
         gravity = abs(rows.height) / _LARGEST_JUMP / body.rms_height
         yield Departure("measured", _describe_jump(rows, body), gravity)
 
 
-def _describe_jump(rows: _Jump, surface: Surface) -> str:
+def _describe_jump(rows: _Jump, surface: Surface) -> Fact:
     """Say where rows of a map jump."""
-    height, scatter = (in_words(abs(each), surface.unit, 2) for each in (rows.height, rows.scatter))
-    at = in_words(rows.index * surface.spacing[rows.axis], surface.unit, 3)
-    place = f"at {'xy'[rows.axis]} = {at}"
-    side = "above" if rows.height > 0 else "below"
-    if rows.is_single:
-        return (
-            f"{place} a whole row stands {height} {side} those beside it, and others scatter by "
-            f"{scatter}: one line of the instrument is off: mark it as missing, or measure again"
-        )
-    return (
-        f"{place} all heights beyond stand {height} {side} those before, and other rows scatter by "
-        f"{scatter}: the instrument jumped, or two faces are seen: take either side "
-        f"({called('crop')}), or measure again"
-    )
+    axis, at = "xy"[rows.axis], rows.index * surface.spacing[rows.axis]
+    return map_jumps(rows.height, rows.scatter, axis, at, surface.unit, rows.is_single)
 
 
 def _share_on_lines(heights: Real) -> float:
@@ -301,15 +293,11 @@ def _first(
     if not grave:
         return None
     worst = max(grave, key=lambda each: each.gravity)
-    text = f"{worst.text(limit)}: {_REMEDIES[_what(body)]}"
-    return Departure(assumption, text, worst.gravity)
+    return Departure(assumption, beyond_chance(worst.fact(limit), _what(body)), worst.gravity)
 
 
 def _what(body: Body) -> str:
     return "map" if isinstance(body, Surface) else "scan"
-
-
-_REMEDIES = {"map": "several maps of a part show what one does not", "scan": "measure a map"}
 
 
 def _find_long_waves(body: Body) -> list[Departure | None]:
@@ -325,34 +313,20 @@ def _find_long_waves(body: Body) -> list[Departure | None]:
         return []
     found = [_find_tilt_and_bow(body, fit, what)]
     if not fit.shows_roll_off:
-        text = (
-            f"the {what} shows no roll-off: its spectrum still rises at its longest waves, so "
-            f"longer ones are missing: a longer {what} would hold more of them"
-        )
-        found.append(Departure("roll-off", text, _NO_ROLL_OFF_GRAVITY))
+        found.append(Departure("roll-off", no_roll_off(what), _NO_ROLL_OFF_GRAVITY))
     return found
 
 
 def _find_tilt_and_bow(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
     if body.provenance.is_levelled_by_lines:
-        text = (
-            f"the {what} was levelled line by line, which takes waves across its lines with their "
-            "jumps, so its heights do not tell whether it lies on waves longer than itself: "
-            "measure with less drift, or along both sides"
-        )
-        return Departure("longer waves", text, _LEVELLED_GRAVITY)
+        return Departure("longer waves", levelled_by_lines(what), _LEVELLED_GRAVITY)
     if grave := _grave_shapes(body, fit):
         worst = max(grave, key=lambda each: each.share)
-        return Departure(
-            "longer waves", _in_words(worst, body, what), math.sqrt(worst.share / _LONG_WAVES_SHARE)
-        )
+        gravity = math.sqrt(worst.share / _LONG_WAVES_SHARE)
+        return Departure("longer waves", _describe_shape(worst, body, what), gravity)
     if known_tilt(body) is None and not body.provenance.tilt.is_of_mounting:
-        text = (
-            f"the {what} was levelled before it was given, so its heights do not tell whether it "
-            f"lies on waves longer than itself: give it as it was measured, or {_say_so()}"
-        )
-        return Departure("longer waves", text, _LEVELLED_GRAVITY)
+        return Departure("longer waves", levelled_before(what), _LEVELLED_GRAVITY)
     return None
 
 
@@ -387,25 +361,12 @@ def checked_fit(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
     return fit
 
 
-def _in_words(shape: LongShape, body: Body, what: str) -> str:
+def _describe_shape(shape: LongShape, body: Body, what: str) -> Fact:
     """Say what waves longer than a body leave in it."""
-    rms, explained = (in_words(each, body.unit, 2) for each in (shape.rms, shape.explained))
-    remedy = "map a larger area, or several places" if what == "map" else "scan a longer line"
     if shape.degree == 1:
-        return (
-            f"the tilt of the {what} has an rms height of {rms}, and its own waves explain "
-            f"{explained}: the rest is the mounting's, or of waves longer than the {what}: "
-            f"{remedy}, or {_say_so()}"
-        )
+        return tilted(what, shape.rms, shape.explained, body.unit)
     name = "bow" if shape.degree == 2 else "longest shape"
-    return (
-        f"the {what} lies on waves longer than itself: its {name} has an rms height of {rms}, and "
-        f"its own waves explain {explained}: {remedy}"
-    )
-
-
-def _say_so() -> str:
-    return f"say that the tilt is the mounting's ({called('tilt', 'mounting')})"
+    return bowed(what, name, shape.rms, shape.explained, body.unit)
 
 
 _TESTS: Mapping[_Tested, Callable[[Body], Iterable[Departure | None]]] = {

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.facts.fact import Fact
+from roughline.facts.heights import long_tailed, skewed, slopes_differ_by_height
 from roughline.spectra.chance import Chance, Finding, score_of_square
 from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Body, point_spacings
@@ -55,21 +57,15 @@ def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[F
         return
     skewness, kurtosis = skewness_and_kurtosis(values)
 
-    def skewed(limit: float) -> str:
-        return (
-            f"heights are not Gaussian: the skewness of {name} is {_in_digits(skewness)}, and "
-            f"chance allows {_in_digits(limit * math.sqrt(6 / third))}"
-        )
+    def skew(limit: float) -> Fact:
+        return skewed(name, skewness, limit * math.sqrt(6 / third))
 
-    def tailed(limit: float) -> str:
-        return (
-            f"heights are not Gaussian: the kurtosis of {name} is {_in_digits(kurtosis)}, and "
-            f"chance allows 3 with {_in_digits(limit * math.sqrt(24 / fourth))} more or less"
-        )
+    def tails(limit: float) -> Fact:
+        return long_tailed(name, kurtosis, limit * math.sqrt(24 / fourth))
 
-    yield Finding(_skewness_score(skewness, third), abs(skewness) / _LARGEST_SKEWNESS, skewed)
+    yield Finding(_skewness_score(skewness, third), abs(skewness) / _LARGEST_SKEWNESS, skew)
     gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LARGEST_LACK)
-    yield Finding(_kurtosis_score(kurtosis, fourth), gravity, tailed)
+    yield Finding(_kurtosis_score(kurtosis, fourth), gravity, tails)
 
 
 def skewness_and_kurtosis(values: Real) -> tuple[float, float]:
@@ -150,19 +146,11 @@ def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
     shape = 2 / variance  # of a chi-squared variable with as many degrees of freedom
     score = _SCORE_SHARE * score_of_square(shape, ratio)
 
-    def text(limit: float) -> str:
+    def fact(limit: float) -> Fact:
         chance = special.ndtr(-limit / _SCORE_SHARE)
         least, most = (
             math.sqrt(special.chdtri(shape, each) / shape) for each in (1 - chance, chance)
         )
-        return (
-            f"heights are not Gaussian: the rms slope of {places} is "
-            f"{_in_digits(math.sqrt(ratio))} of that of all, and chance allows {_in_digits(least)} "
-            f"to {_in_digits(most)}"
-        )
+        return slopes_differ_by_height(places, math.sqrt(ratio), least, most)
 
-    return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _LARGEST_SLOPE_RATIO, text)
-
-
-def _in_digits(value: float) -> str:
-    return in_words(value, None, 2)
+    return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _LARGEST_SLOPE_RATIO, fact)

@@ -8,10 +8,11 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.facts.fact import Fact
+from roughline.facts.heights import differs_between_places, drifts, slopes_differ_by_direction
 from roughline.spectra.chance import Finding, score_of_square
 from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
-from roughline.units import in_words
 
 ISOTROPIC_FROM = 0.7  # least over largest slope, from which on a surface counts as isotropic
 
@@ -51,14 +52,11 @@ def _scatter(logs: Real, shape: float) -> Finding:
     varies = math.sqrt(max(0.0, variance - expected)) / 2
     spread = math.exp(float(np.ptp(logs)) / 2)
 
-    def text(limit: float) -> str:
-        return (
-            f"roughness is not alike everywhere: between {logs.size} parts the rms slope scatters "
-            f"by a factor of {math.exp(math.sqrt(variance) / 2):.3g}, from least to largest by "
-            f"{spread:.3g}, and chance explains {math.exp(math.sqrt(expected) / 2):.3g}"
-        )
+    def fact(_limit: float) -> Fact:
+        factor, chance = (math.exp(math.sqrt(each) / 2) for each in (variance, expected))
+        return differs_between_places(logs.size, factor, spread, chance)
 
-    return Finding(score, varies / _LARGEST_SCATTER, text)
+    return Finding(score, varies / _LARGEST_SCATTER, fact)
 
 
 def drift_along_sides(surface: Surface) -> Iterable[Finding]:
@@ -98,15 +96,11 @@ def _drift(along: str, logs: Real) -> Finding:
     ratio = abs(change) / error if error else math.inf
     score = -float(special.ndtri(special.stdtr(freedom, -ratio))) if change else 0.0
 
-    def text(limit: float) -> str:
+    def fact(limit: float) -> Fact:
         allowed = error * float(special.stdtrit(freedom, special.ndtr(limit)))
-        return (
-            f"roughness drifts over the map: along {along} the rms slope changes by a factor of "
-            f"{math.exp(abs(change)):.2f}, and chance allows {math.exp(allowed):.2f}, so that the "
-            "surface beyond is likely to differ as well"
-        )
+        return drifts(along, math.exp(abs(change)), math.exp(allowed))
 
-    return Finding(score, abs(change) / _LARGEST_DRIFT, text)
+    return Finding(score, abs(change) / _LARGEST_DRIFT, fact)
 
 
 def slopes_by_direction(surface: Surface) -> Iterable[Finding]:
@@ -147,15 +141,11 @@ def _lay(lay: float, variance: float, wave: float, unit: str | None) -> Finding:
     chance = math.exp(-min(lay**2 / 2 / variance, 600.0))
     score = -float(special.ndtri(chance / 2))
 
-    def text(limit: float) -> str:
+    def fact(limit: float) -> Fact:
         allowed = math.sqrt(-2 * variance * math.log(2 * special.ndtr(-limit)))
-        length = in_words(wave, unit, 2)
-        return (
-            f"slopes differ by direction: of waves over {length}, the least is "
-            f"{_ratio(lay):.2f} of the largest, and chance allows {_ratio(min(allowed, 1.0)):.2f}"
-        )
+        return slopes_differ_by_direction(wave, unit, _ratio(lay), _ratio(min(allowed, 1.0)))
 
-    return Finding(score, lay / _lay_at(ISOTROPIC_FROM), text)
+    return Finding(score, lay / _lay_at(ISOTROPIC_FROM), fact)
 
 
 def _lay_at(ratio: float) -> float:

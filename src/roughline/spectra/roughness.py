@@ -116,7 +116,7 @@ def roughness(body: Body) -> Roughness:
         )
     skewness, kurtosis = skewness_and_kurtosis(body.heights)
     summits = _summits(body.heights)
-    remarks, spectrum, fit = [*border_doubts(body)], None, None
+    remarks, spectrum, fit = [*map(str, border_doubts(body))], None, None
     remarks += [each.text for each in departures(body)]
     try:
         spectrum, law = fitted(body)

@@ -9,6 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.facts.borders import borders_unclear
+from roughline.facts.fact import Fact
 from roughline.topography.settings import Settings
 from roughline.units import decimal
 
@@ -108,17 +110,12 @@ def whole_or_piece(body: _BodyWithBorders) -> str:
     return name if borders is None else f"{name} ({borders.in_words(_borders_name(body))})"
 
 
-def border_doubts(body: _BodyWithBorders) -> tuple[str, ...]:
+def border_doubts(body: _BodyWithBorders) -> tuple[Fact, ...]:
     """Warn where the heights do not say clearly whether a body is a piece of a larger one."""
     borders = decided(body)
     if borders is None or not borders.are_unclear:
         return ()
-    which, taken = _borders_name(body), "cut out of a larger one" if body.is_cut_out else "periodic"
-    return (
-        f"it is unclear whether these heights are periodic: {which} are {decimal(borders.step, 2)} "
-        f"ordinary steps apart, and they are taken as {taken}: say which (is_cut_out=True or "
-        "False)",
-    )
+    return (borders_unclear(_borders_name(body), borders.step, body.is_cut_out),)
 
 
 def _borders_name(body: _BodyWithBorders) -> str:

@@ -1,15 +1,21 @@
-"""What the steps of a preparation did to the roughness, in words."""
+"""What the steps of a preparation did to the roughness."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from roughline.facts.fact import Fact
+from roughline.facts.heights import (
+    NO_EFFECT,
+    crop_keeps_all,
+    low_pass_leaves_border,
+    none_found,
+    step_changes,
+)
 from roughline.topography.body import Body, BodyType, side_lengths
 from roughline.topography.provenance import Left, Step, with_facts
-from roughline.units import in_words
 
-_NO_EFFECT = 1e-3  # relative change of rms height and slope below which a step did nothing
 _LARGEST_LOSS = 0.5  # share of the rms height whose loss is warned of
 
 
@@ -33,8 +39,7 @@ def effect_of_trend(before: float, after: float) -> Left | None:
 class _Effect:
     """What a step did."""
 
-    text: str  # in words
-    is_grave: bool = False  # whether it took most of the rms height, which a removed trend may do
+    fact: Fact  # grave if it took most of the rms height, which a removed trend may do
     # whether it changed nothing; no spikes are no fault of who lets them be removed
     is_idle: bool = False
 
@@ -43,48 +48,32 @@ def effects(body: Body) -> list[_Effect]:
     """Return what each step did to the rms height and slope, and which steps changed nothing."""
     found, done = [], body.provenance
     if done.cropped_share == 1:
-        found.append(_Effect("the crop keeps all points: it changes nothing", is_idle=True))
+        found.append(_Effect(crop_keeps_all(), is_idle=True))
     if done.scars_removed == 0:
-        found.append(_Effect("no scars are found, so none is removed"))
+        found.append(_Effect(none_found("scars")))
     if done.outliers_removed == 0:
-        found.append(_Effect("no spikes are found, so none is removed"))
-    for step, name in _NAMES.items():
+        found.append(_Effect(none_found("spikes")))
+    for step, how in _HOW.items():
         if left := done.left_by(step):
-            found.append(_effect(left, name(body)))
+            found.append(_effect(left, how(body), body.unit))
     if done.low_pass_kept:
-        sides = " x ".join(in_words(side, body.unit) for side in side_lengths(body))
-        found.append(
-            _Effect(
-                "half a cutoff of the low pass is left out at each border, beyond which no heights "
-                f"are known: {sides} stay, and loads act on them"
-            )
-        )
+        found.append(_Effect(low_pass_leaves_border(side_lengths(body), body.unit)))
     return found
 
 
-def grave_effects(body: Body) -> tuple[str, ...]:
+def grave_effects(body: Body) -> tuple[Fact, ...]:
     """Warn of steps that took most of the rms height."""
-    return tuple(each.text for each in effects(body) if each.is_grave)
+    return tuple(each.fact for each in effects(body) if each.fact.is_grave)
 
 
-def _effect(left: Left, name: str) -> _Effect:
+def _effect(left: Left, how: str | float | None, unit: str | None) -> _Effect:
     """What a step did, from the shares that it left."""
     height, slope = left.height, 1.0 if left.slope is None else left.slope
-    verbs: dict[str, list[str]] = {}
-    for share, of in ((height, "height"), (slope, "slope")):
-        if abs(share - 1) >= _NO_EFFECT:
-            verb = "lowers" if share < 1 else "raises"
-            verbs.setdefault(verb, []).append(f"the rms {of} by {_per_cent(abs(share - 1))}")
-    if not verbs:
-        return _Effect(f"{name} changes neither rms height nor rms slope", is_idle=True)
-    changes = [f"{verb} {' and '.join(which)}" for verb, which in verbs.items()]
-    text = f"{name} {' and '.join(changes)}"
-    if left.step in ("detrended", "levelled") or height >= 1 - _LARGEST_LOSS:
-        return _Effect(text)
-    return _Effect(
-        f"{text}: most of the roughness is gone, and answers are those of what is left",
-        is_grave=True,
-    )
+    is_meant = left.step in ("detrended", "levelled")
+    most_is_gone = not is_meant and height < 1 - _LARGEST_LOSS
+    fact = step_changes(left.step, how, unit, height, slope, most_is_gone)
+    is_idle = max(abs(height - 1), abs(slope - 1)) < NO_EFFECT
+    return _Effect(fact.grave(most_is_gone), is_idle)
 
 
 def _share(after: float, before: float) -> float:
@@ -92,22 +81,12 @@ def _share(after: float, before: float) -> float:
     return after / before if before else 1.0
 
 
-def _per_cent(share: float) -> str:
-    if 0.995 <= share < 1:
-        return "more than 99%"
-    return f"{100 * share:.2g}%" if share < 0.1 else f"{share:.0%}"
-
-
-_NAMES: dict[Step, Callable[[Body], str]] = {
-    "levelled": lambda body: (
-        f"levelling line by line ({body.provenance.lines_levelled}), which takes steps between "
-        "lines and tilt and waves across them, also where they are the surface's,"
-    ),
-    "scars": lambda body: f"the removal of scars ({body.provenance.scars_removed} points)",
-    "outliers": lambda body: "the removal of spikes",
-    "detrended": lambda body: f"the removal of the {body.removed_trend}",
-    "low_pass": lambda body: (
-        f"the low pass of {in_words(body.provenance.low_pass or 0.0, body.unit)}"
-    ),
-    "resampled": lambda body: f"resampling to {body.provenance.resampled_to} points",
+_HOW: dict[Step, Callable[[Body], str | float | None]] = {
+    "levelled": lambda body: body.provenance.lines_levelled,
+    "scars": lambda body: body.provenance.scars_removed,
+    "outliers": lambda _body: None,
+    "detrended": lambda body: body.removed_trend,
+    "low_pass": lambda body: body.provenance.low_pass,
+    "resampled": lambda body: body.provenance.resampled_to,
 }
+"""How each step was done."""

@@ -22,7 +22,8 @@ from roughline.errors.checks import (
     several,
 )
 from roughline.errors.public import public
-from roughline.errors.words import called
+from roughline.facts.borders import surface_is_tilted
+from roughline.facts.fact import Fact
 from roughline.topography.body import (
     Body,
     BodyType,
@@ -206,11 +207,11 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     (32, 32) True
     """
     found = as_prepared(body, preparation)
-    if preparation and preparation.lines and (text := filled_lines_note(found)):
-        warnings.warn(text, PreparationWarning, stacklevel=2)
+    if preparation and preparation.lines and (fact := filled_lines_note(found)):
+        warnings.warn(str(fact), PreparationWarning, stacklevel=2)
     for effect in effects(found) if preparation else ():
-        if effect.is_grave or effect.is_idle:
-            warnings.warn(effect.text, PreparationWarning, stacklevel=2)
+        if effect.fact.is_grave or effect.is_idle:
+            warnings.warn(str(effect.fact), PreparationWarning, stacklevel=2)
     return found
 
 
@@ -222,7 +223,7 @@ def as_prepared(body: Body, preparation: Preparation | None) -> Body:
     return preparation.applied(body)  # one call for each type of body
 
 
-def tilt_warnings(surface: Surface) -> tuple[str, ...]:
+def tilt_warnings(surface: Surface) -> tuple[Fact, ...]:
     """Warn of a piece of a larger surface whose mean plane is much of its height.
 
     Such a plane is mostly the tilt of the stage, or part of a wave longer than the piece. The side
@@ -231,11 +232,7 @@ def tilt_warnings(surface: Surface) -> tuple[str, ...]:
     lower = 1 - math.sqrt(1 - _tilt_share(surface.heights, surface.rms_height))
     if not surface.is_cut_out or lower <= _TILT_MATTERS:
         return ()
-    return (
-        f"this surface is tilted: without its mean plane the rms height would be {lower:.0%} "
-        "lower, and the side that the tilt lifts carries the load. Unless that is meant, remove it "
-        f"({called('trend', 'tilt')}, as rl.read does by default, or surface.detrended())",
-    )
+    return (surface_is_tilted(lower),)
 
 
 def _tilt_share(heights: Real, rms_height: float) -> float:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.errors.words import called
+from roughline.facts.borders import map_jumps_at_borders
+from roughline.facts.fact import Fact
 from roughline.topography.body import Surface
-from roughline.units import decimal, in_words
 
 _OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned of
 
@@ -28,21 +28,12 @@ class _BorderJump:
         """Whether the borders have more of the mean-square slope than all other steps."""
         return self.share_of_slope > _OUTWEIGHS
 
-    def in_words(self, unit: str | None) -> str:
-        """Say how far a map jumps where it is repeated, and what that means if it outweighs."""
-        times = decimal(self.jump / self.step, 2) if self.step else "infinitely many"
-        text = (
-            f"repeated periodically, the map jumps by {in_words(self.jump, unit, 3)} (rms) across "
-            f"its borders, {times} times an ordinary step between neighbouring points, "
-            f"{in_words(self.step, unit, 3)}"
+    def fact(self, unit: str | None) -> Fact:
+        """How far a map jumps where it is repeated; a grave warning if that outweighs."""
+        found = map_jumps_at_borders(
+            self.jump, self.step, self.share_of_slope, unit, self.outweighs
         )
-        if not self.outweighs:
-            return text
-        return (
-            f"{text}; {self.share_of_slope:.0%} of its mean-square slope lies there, so contact "
-            "near the borders is that of a step which the part does not have: remove what is left "
-            f"of the form ({called('trend', 'curvature')}), or take a larger map"
-        )
+        return found.grave(self.outweighs)
 
 
 def border_jump(surface: Surface, repeats: tuple[bool, bool] = (True, True)) -> _BorderJump:

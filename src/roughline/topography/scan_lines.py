@@ -12,12 +12,12 @@ import numpy as np
 
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
-from roughline.errors.words import called
+from roughline.facts.fact import Fact
+from roughline.facts.heights import filled_between_levels, rows_jump
 from roughline.topography.body import Body, BodyType, Surface, after_step
 from roughline.topography.effects import with_effect
 from roughline.topography.line_levels import Levelling, line_levels
 from roughline.topography.missing import Filler
-from roughline.units import in_words
 
 _FEWEST_POINTS = 8  # points of a line, and lines, that tell of either
 _BLOCKS = 8  # parts of a line that show how far its median is by chance
@@ -43,15 +43,10 @@ def levelled(body: BodyType, how: Levelling) -> BodyType:
     return with_effect(body, level, "levelled")
 
 
-def filled_lines_note(body: Body) -> str:
-    """Say that missing points were filled before lines were levelled; empty if they were not."""
-    if not (count := body.provenance.filled_between_levels):
-        return ""
-    return (
-        f"{count} missing points were filled before lines were levelled, between the levels of "
-        "neighbouring lines, and may stand off: fill and level in one step, by a question about "
-        "the file itself (rl.Question) or on the command line"
-    )
+def filled_lines_note(body: Body) -> Fact | None:
+    """Say that missing points were filled before lines were levelled; None if they were not."""
+    count = body.provenance.filled_between_levels
+    return filled_between_levels(count) if count else None
 
 
 def without_scars(body: BodyType) -> BodyType:
@@ -115,10 +110,10 @@ def line_jumps(heights: Real) -> LineJumps | None:
     return LineJumps(float(np.sqrt(square / jumps.size)), float(by_chance), turning)
 
 
-def line_jump_warning(body: Body) -> str:
-    """Say that lines of a measured map jump, and what to do; empty where they do not."""
+def line_jump_warning(body: Body) -> Fact | None:
+    """Say that lines of a measured map jump; None where they do not."""
     if not isinstance(body, Surface) or not body.is_cut_out:
-        return ""
+        return None
     found = line_jumps(body.heights)
     if (
         found is None
@@ -126,13 +121,8 @@ def line_jump_warning(body: Body) -> str:
         or found.rms <= _SMALLEST_JUMP * body.rms_height
         or found.turning >= _TURNING
     ):
-        return ""
-    rms, chance = (in_words(each, body.unit, 2) for each in (found.rms, found.by_chance))
-    return (
-        f"rows jump: medians of neighbouring lines along x differ by {rms} (rms), and their points "
-        f"explain {chance}: unless grooves of the surface run along x, level them line by line "
-        f"({called('lines', 'median')}), which also takes tilt and waves across them"
-    )
+        return None
+    return rows_jump(found.rms, found.by_chance, body.unit)
 
 
 def _refuse_others(body: Body, argument: str) -> None:

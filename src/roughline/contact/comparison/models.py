@@ -15,6 +15,7 @@ from roughline.contact.comparison.trust import Difference
 from roughline.contact.press import press
 from roughline.errors.checks import refuse, refuse_other_seeds, whole_number
 from roughline.errors.public import public
+from roughline.facts.fact import Fact
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.self_affine import SelfAffine
 from roughline.spectra.synthesis import refuse_points
@@ -54,7 +55,7 @@ class Comparison:
         Whether ten cells or more were in contact on every surface.
     surfaces, lines : int
         Number of surfaces and lines that were pressed.
-    warnings : tuple of str
+    facts : tuple of Fact
         What a user of the numbers must know; empty if there is nothing to say.
     """
 
@@ -68,9 +69,14 @@ class Comparison:
     resolved: Mask
     surfaces: int
     lines: int
-    warnings: tuple[str, ...] = ()
+    facts: tuple[Fact, ...] = ()
 
     __repr__ = summary
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a user of the numbers must know, in words."""
+        return tuple(map(str, self.facts))
 
     def differences(self) -> list[Difference]:
         """List the differences, load by load."""
@@ -186,7 +192,7 @@ def _compare_surface(
         resolved=resolved,
         surfaces=1,
         lines=_COMPARED_LINES,
-        warnings=tilt_warnings(surface),
+        facts=tilt_warnings(surface),
     )
 
 

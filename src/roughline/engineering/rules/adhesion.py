@@ -13,8 +13,10 @@ from roughline.engineering.attraction import Separation
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.symbols import nominal_area
+from roughline.facts.answers import on_the_way_in, set_by_the_range
+from roughline.facts.fact import Fact
 from roughline.halfspace.laws.adhesive import Adhesive
-from roughline.units import decimal, engineering
+from roughline.units import engineering
 
 _FULL_PULL_SHARE = 0.99  # of the largest pull over the nominal area, from which on it is all of it
 _AFTER = "after the largest load, slowly, so that nothing swings"
@@ -67,42 +69,24 @@ def _range_texts(name: str, pressed: Pressed) -> Mapping[str, str]:
     return {"name": f"{name} at a range of {reach}", "validity": validity}
 
 
-def _branch(pressed: Pressed) -> str:
+def _branch(pressed: Pressed) -> Fact | None:
     """Say which branch the other answers are of, and which range was taken."""
     law, attraction = pressed.curve.law, pressed.attraction
     if attraction is None or not isinstance(law, Adhesive) or pressed.sought.separation is None:
-        return ""
-    text = (
-        "the bodies stick: other answers are those on the way in, and stiffness and conductance "
-        "those of the points that touch"
-    )
-    if attraction.range is None:
-        reach = law.range
-        text += (
-            f"; no range was given, and the shortest that the map resolves is taken, "
-            f"{engineering(reach, 'm')}"
-        )
-        if pressed.rms_height:
-            text += f" or {decimal(reach / pressed.rms_height, 2)} rms heights"
-        text += (
-            ": what draws the bodies apart is of this range, without an interval, and a finer grid "
-            "would take a shorter one; half of it needs a grid four times as fine"
-        )
-    return text
+        return None
+    if attraction.range is not None:
+        return on_the_way_in(None, None)
+    heights = law.range / pressed.rms_height if pressed.rms_height else None
+    return on_the_way_in(law.range, heights)
 
 
-def _set_by_the_range(pressed: Pressed) -> str:
+def _set_by_the_range(pressed: Pressed) -> Fact | None:
     """Say where the pull-off is the largest pull over all of the area, whatever the roughness."""
     law, separation = pressed.curve.law, pressed.sought.separation
     if separation is None or not isinstance(law, Adhesive):
-        return ""
-    share = separation.pull_off[0] / (law.largest_pull * pressed.area)
-    if not share >= _FULL_PULL_SHARE:
-        return ""
-    return (
-        f"the pull-off is {share:.0%} of w over the range, on all of the area: it is set by the "
-        "range alone, whatever the roughness; give the range of the bodies at hand"
-    )
+        return None
+    share = float(separation.pull_off[0] / (law.largest_pull * pressed.area))
+    return set_by_the_range(share) if share >= _FULL_PULL_SHARE else None
 
 
 def _rule(name: str, **others: Any) -> Rule:
@@ -125,8 +109,7 @@ ADHESION = (
         unit="N",
         formula="largest pull under a load that is taken off and turned into a pull",
         value=partial(_found, lambda separation, pressed: separation.pull_off * pressed.scale),
-        warning=_set_by_the_range,
-        note=_branch,
+        facts=lambda pressed: (_set_by_the_range(pressed), _branch(pressed)),
         answers_question=always,
         is_extensive=True,
     ),

@@ -13,9 +13,9 @@ from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
 from roughline.engineering.symbols import hardness, nominal_area
-from roughline.errors.remark import Remark
-from roughline.errors.words import called
-from roughline.units import decimal, engineering
+from roughline.facts.fact import Fact
+from roughline.facts.hardness import beyond_elastic
+from roughline.facts.layers import through_the_layer
 
 _rule = partial(Rule, group="contact")
 
@@ -55,37 +55,23 @@ def _over_hardness(pressed: Pressed) -> Real | None:
     return pressure / pressed.hardness
 
 
-def _elastic_limit(pressed: Pressed) -> str:
+def _elastic_limit(pressed: Pressed) -> Fact | None:
     """Say where the elastic assumption breaks."""
     ratio = _over_hardness(pressed)
     if pressed.may_yield or ratio is None or not np.isfinite(ratio[0]).any():
-        return ""
+        return None
     worst = float(np.nanmax(ratio[0]))
-    if worst <= ELASTIC_UP_TO:
-        return ""
-    text = (
-        f"the mean contact pressure reaches {decimal(worst, 2)} times the softer body's hardness; "
-        f"beyond {ELASTIC_UP_TO:g} of it summits yield, so these elastic answers do not hold: "
-        f"leave out {called('elastic', True)}, or an infinite {called('hardness')}"
-    )
-    return Remark(text, is_grave=True)
+    return beyond_elastic(worst, ELASTIC_UP_TO) if worst > ELASTIC_UP_TO else None
 
 
-def _through_the_layer(pressed: Pressed) -> str:
+def _through_the_layer(pressed: Pressed) -> Fact | None:
     """Say where a layer is indented deeper than it is thick."""
     softer, yielded = pressed.pair.softer, pressed.yielded
     if yielded is None or not isinstance(softer, Coated):
-        return ""
+        return None
     (top, thickness), *_ = softer.layers
     deepest = float(np.nanmax(yielded.indentation, initial=0.0))
-    if deepest <= thickness:
-        return ""
-    text = (
-        f"the layer of {top.name}, {engineering(thickness, 'm')}, is indented by up to "
-        f"{engineering(deepest, 'm')}: what lies below would yield with a hardness of its own, and "
-        "no interval includes that"
-    )
-    return Remark(text, is_grave=True)
+    return through_the_layer(top.name, thickness, deepest) if deepest > thickness else None
 
 
 CONTACT = (
@@ -135,7 +121,7 @@ CONTACT = (
         symbols=lambda pressed: [hardness(pressed)],
         validity=f"elastic below {ELASTIC_UP_TO:g}, all of the contact yields at 1",
         value=_over_hardness,
-        warning=_elastic_limit,
+        facts=_elastic_limit,
         limits=lambda pressed: (0.0, np.inf if pressed.hardest is None else 1.0),
     ),
     _rule(
@@ -158,7 +144,7 @@ CONTACT = (
         validity="at one point; the finest summits on the grid decide it",
         source="Almqvist et al. 2007",
         value=lambda pressed: pressed.yielded.indentation if pressed.yielded else None,
-        warning=_through_the_layer,
+        facts=_through_the_layer,
     ),
     _rule(
         key="mean_gap",
@@ -168,7 +154,7 @@ CONTACT = (
         formula="volume between the bodies over A_0",
         symbols=lambda pressed: [nominal_area(pressed)],
         validity="of the map in a periodic half-space; waves longer than the map open it further",
-        differing=lambda pressed: {"validity": pressed.place} if pressed.place else {},
+        differing=lambda pressed: {"validity": str(pressed.place)} if pressed.place else {},
         value=lambda pressed: pressed.measure(MEAN_GAP.name),
         is_of_interface=True,
         measures=[MEAN_GAP],

@@ -23,14 +23,17 @@ from roughline.engineering.symbols import (
     nominal_area,
     tangential_modulus,
 )
-from roughline.units import decimal, engineering
+from roughline.facts.answers import (
+    joint_alone,
+    layers_in_series,
+    layers_keep_their_volume,
+    which_interface,
+)
+from roughline.facts.fact import Fact
+from roughline.units import engineering
 
 _rule = partial(Rule, group="mechanics")
 
-_INCOMPRESSIBLE_LAYERS = (
-    "even pressure does not compress layers that keep their volume, nu = 0.5: as a whole they give "
-    "way at their rim alone, where they can widen, and no answer holds that"
-)
 _IN_SERIES_MATTERS = 0.1  # of the interface's stiffness over that of what lies in series with it
 
 
@@ -70,7 +73,7 @@ def _which_interface(pressed: Pressed) -> Mapping[str, str]:
     """Where metals yield, that of a joint is the one on unloading, and says so."""
     if pressed.interface is None:
         return {}
-    texts = {"validity": pressed.interface.validity, "formula": pressed.interface.formula}
+    texts = {"validity": str(pressed.interface.place), "formula": pressed.interface.formula}
     if pressed.joint is not None:
         texts["formula"] = _map_formula("dF/dd on unloading")
         if pressed.tells_unloading:
@@ -78,43 +81,31 @@ def _which_interface(pressed: Pressed) -> Mapping[str, str]:
     return texts
 
 
-def _which_surface(pressed: Pressed) -> str:
+def _which_surface(pressed: Pressed) -> Fact | None:
     """Say which surface k_i belongs to, unless it is so near k_u that this does not matter."""
     if pressed.interface is None:
-        return ""
+        return None
     with np.errstate(divide="ignore", invalid="ignore"):  # bodies apart, and full contact
         left = 1 - pressed.unloading[0] / pressed.interface_stiffness[0]
     if np.nanmax(left, initial=0.0) < pressed.interface.warned_from:
-        return ""
-    return f"the interface stiffness k_i is {pressed.interface.validity}"
+        return None
+    place = pressed.interface.place
+    return which_interface(place).as_(place.weight)
 
 
-def _meaning_of_joint(pressed: Pressed, *, bodies_matter: bool) -> str:
-    """Say what a joint is taken to be, and what is left out of it, where that matters or else."""
+def _meaning_of_joint(pressed: Pressed) -> Fact | None:
+    """Say what a joint is taken to be, and what is left out of it; a warning where that matters."""
     if pressed.joint is None:
-        return ""
+        return None
     disc = pressed.curve.half_space.disc_stiffness(math.sqrt(pressed.joint / math.pi))
     share = float(np.nanmax(pressed.interface_stiffness[0], initial=0.0)) / disc
-    if (share > _IN_SERIES_MATTERS) != bodies_matter:
-        return ""
     resistivities = pressed.pair.both("resistivity")
-    added = engineering(disc, "N/m")
-    if pressed.pair.coated:
-        added = f"about {added}"
+    resistance = None
     if resistivities is not None:
-        resistance = electrical_resistance(disc, pressed.curve.E_star, resistivities)
-        added += f" and {engineering(resistance, 'ohm')}"
-    text = (
-        "answers are those of the joint's interface alone, and the joint is taken to be alike "
-        "everywhere and evenly loaded: bodies wider than the joint add its own constriction in "
-        f"series, {added} for a disc of the same area"
-    )
-    if not bodies_matter:
-        return text
-    return (
-        f"{text}; the interface is up to {decimal(share, 2)} times as stiff as that, so such "
-        "bodies matter as well, and load the joint's edge more than its middle"
-    )
+        resistance = float(electrical_resistance(disc, pressed.curve.E_star, resistivities))
+    matters = share > _IN_SERIES_MATTERS
+    found = joint_alone(disc, resistance, bool(pressed.pair.coated), share if matters else 0.0)
+    return found.as_("warning" if matters else "note")
 
 
 def _layer_stiffness(pressed: Pressed) -> Real | None:
@@ -126,26 +117,21 @@ def _layer_stiffness(pressed: Pressed) -> Real | None:
     return np.where(pressed.curve.converged, stiffness, np.nan)
 
 
-def _beside_layers(pressed: Pressed, *, layers_matter: bool) -> str:
-    """Say that the interface does not hold what layers give way as a whole, if that matters."""
+def _beside_layers(pressed: Pressed) -> Fact | None:
+    """Say that the interface does not hold what layers give way as a whole."""
     of_layers = _layer_stiffness(pressed)
     if of_layers is None:
-        return ""
+        return None
     share = pressed.interface_stiffness[0] / of_layers
-    if bool(np.nanmax(share, initial=0.0) > _IN_SERIES_MATTERS) != layers_matter:
-        return ""
+    matters = bool(np.nanmax(share, initial=0.0) > _IN_SERIES_MATTERS)
     if np.isinf(of_layers).any():
-        return _INCOMPRESSIBLE_LAYERS
-    k_i = pressed.symbols["k_i"]
-    pressure = float(np.nanmax(pressed.load_pressure))  # a fluid compresses them as well
-    compressed = engineering(pressure * pressed.pair.layers_compliance, "m")
-    added = engineering(float(np.nanmax(of_layers)), "N/m")
-    return (
-        f"stiffness {k_i} and approach are those of the interface alone: layers are compressed as "
-        f"a whole too, by {compressed} under {engineering(pressure, 'Pa')}, a spring k_l = "
-        f"{added} in series with {k_i}. That is of layers much wider than they are thick; narrow "
-        "ones widen and give way more"
-    )
+        found = layers_keep_their_volume()
+    else:
+        pressure = float(np.nanmax(pressed.load_pressure))  # a fluid compresses them as well
+        compressed = pressure * pressed.pair.layers_compliance
+        stiffness = float(np.nanmax(of_layers))
+        found = layers_in_series(pressed.symbols["k_i"], compressed, pressure, stiffness)
+    return found.as_("warning" if matters else "note")
 
 
 def _energy_measures(pair: MaterialPair) -> Sequence[Measure]:
@@ -230,7 +216,7 @@ INTERFACE_STIFFNESS = _rule(
     symbols=lambda _pressed: [_PUNCH_STIFFNESS],
     value=lambda pressed: None if pressed.interface is None else pressed.interface_stiffness,
     differing=_which_interface,
-    warning=_which_surface,
+    facts=_which_surface,
     leads=lambda pressed: pressed.joint is not None,
     is_extensive=True,
     is_of_interface=True,
@@ -308,8 +294,7 @@ MECHANICAL = (
         "where that is added, holds it already",
         source="Johnson 1985",
         value=_layer_stiffness,
-        warning=partial(_beside_layers, layers_matter=True),
-        note=partial(_beside_layers, layers_matter=False),
+        facts=_beside_layers,
         is_extensive=True,
         is_given=True,
         may_be_infinite=True,
@@ -324,8 +309,7 @@ MECHANICAL = (
         value=_per_area,
         differing=_joint_texts(symbol="k_i/A_0", formula="k_i / A_0"),
         under=lambda pressed: (_under_unloading(pressed)[0], 1 / pressed.nominal_area),
-        warning=partial(_meaning_of_joint, bodies_matter=True),
-        note=partial(_meaning_of_joint, bodies_matter=False),
+        facts=_meaning_of_joint,
         may_be_infinite=True,
     ),
     _rule(

@@ -21,9 +21,23 @@ from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
 from roughline.engineering.sealing import Closing, Fluid, SealShape
 from roughline.engineering.symbols import Symbol
-from roughline.errors.remark import Remark
 from roughline.errors.words import called
-from roughline.fluid.flow import why_too_steep
+from roughline.facts.fact import Fact
+from roughline.facts.fluid import (
+    Beside,
+    few_molecules,
+    fluid_carries,
+    fluid_left_out,
+    fluid_lifts,
+    gas_is_rare,
+    inertia_counts,
+    leak_without_interval,
+    load_that_seals,
+    no_path,
+    one_channel,
+    stays_tight,
+)
+from roughline.fluid.flow import too_steep
 from roughline.fluid.gap import Along
 from roughline.fluid.measures import (
     equivalent_aperture,
@@ -35,7 +49,7 @@ from roughline.fluid.measures import (
 from roughline.fluid.rarefied import Rarefied
 from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure
-from roughline.units import decimal, engineering
+from roughline.units import engineering
 
 _MAIN_CHANNEL_SHARE = 0.5  # share of the flow from which on one channel is told
 _DENSITY = 1000.0  # of a liquid, to tell whether inertia counts [kg/m³]
@@ -164,79 +178,59 @@ def _lifts(pressed: Pressed) -> str:
     )
 
 
-def _loads_in_words(loads: Real) -> str:
-    """Mean pressures of loads: one, or the least and the largest."""
-    least, most = (engineering(float(end), "Pa") for end in (loads.min(), loads.max()))
-    return f"the load at {most}" if least == most else f"loads from {least} to {most}"
+def _ends(values: Real) -> tuple[float, float]:
+    """The least and the largest of values."""
+    return float(values.min()), float(values.max())
 
 
-def _carries(pressed: Pressed) -> str:
+def _carries(pressed: Pressed) -> Fact | None:
     """Say which part of the load the fluid carries."""
     fluid = pressed.sealing
     if fluid is None:
-        return ""
-    share = _carried(pressed)
+        return None
+    share, loads = _carried(pressed), pressed.load_pressure
     counts = (share > 0) & ~pressed.lifted
     if not counts.any():
-        return ""
-    least, most = share[counts].min(), share[counts].max()
-    part = f"{most:.0%}" if f"{least:.0%}" == f"{most:.0%}" else f"{least:.0%} to {most:.0%}"
-    loads = _loads_in_words(pressed.load_pressure[counts])
-    text = f"{_above_outside(fluid)} carries {part} of {loads}: the bodies press with the rest"
-    if fluid.opens_soft_faces(pressed.load_pressure[counts]).any():
-        text += (
-            "; where it enters, its pressure is above that of the load, and faces that are not "
-            "stiff open from there"
-        )
-    text += _in_a_wide_ring(fluid)
-    if pressed.yields:
-        text += (
-            "; dents are those of the rest, as if the fluid came first: bodies that are loaded "
-            "before it comes keep deeper ones, and less leaks"
-        )
-    if pressed.attraction is not None:
-        text += "; what draws them apart is of the bodies alone, without the fluid"
-    return text
-
-
-def _in_a_wide_ring(fluid: Fluid) -> str:
-    """Say what a ring does that is not narrow beside its radius, of which the sides are unlike."""
-    both = fluid.excess_in_ring
-    if max(abs(each - fluid.excess) for each in both) <= _WIDE_RING * fluid.excess:
-        return ""
-    inside, outside = (engineering(each, "Pa", 3) for each in both)
-    return (
-        f"; that is of a narrow ring: in this one the mean is {inside} if the fluid enters inside, "
-        f"and {outside} if outside, and it opens as much later or earlier"
+        return None
+    beside: dict[Beside, bool] = {
+        "soft faces": bool(fluid.opens_soft_faces(loads[counts]).any()),
+        "yield": pressed.yields,
+        "adhesion": pressed.attraction is not None,
+    }
+    return fluid_carries(
+        fluid.medium.name,
+        fluid.excess,
+        _ends(share[counts]),
+        _ends(loads[counts]),
+        _wide_ring(fluid),
+        tuple(each for each, is_so in beside.items() if is_so),
     )
 
 
-def _left_out(pressed: Pressed) -> str:
+def _wide_ring(fluid: Fluid) -> tuple[float, float] | None:
+    """Mean pressures in a ring that is not narrow beside its radius; None of others. [Pa]"""
+    both = fluid.excess_in_ring
+    is_narrow = max(abs(each - fluid.excess) for each in both) <= _WIDE_RING * fluid.excess
+    return None if is_narrow else both
+
+
+def _left_out(pressed: Pressed) -> Fact | None:
     """Say where the fluid would carry a part of the load, but is not to."""
     fluid, lift = pressed.sealing, _lift(pressed)
     part = lift[(lift >= _MENTIONED) & (lift < 1)]
     if fluid is None or fluid.carries is not False or not part.size:
-        return ""
-    return (
-        f"{_above_outside(fluid)} carries up to {part.max():.0%} of the load, which no answer "
-        "includes: the bodies press with less, and more leaks"
-    )
+        return None
+    return fluid_left_out(fluid.medium.name, fluid.excess, float(part.max()))
 
 
-def _opens(pressed: Pressed) -> str:
+def _opens(pressed: Pressed) -> Fact | None:
     """Say under which loads the fluid lifts the bodies apart."""
     fluid, lifted = pressed.sealing, pressed.lifted
     if fluid is None or not lifted.any():
-        return ""
-    text = (
-        f"{_above_outside(fluid)} lifts the bodies apart under "
-        f"{_loads_in_words(pressed.load_pressure[lifted])}: the seal is open, and nothing else is "
-        "known there"
-    )
-    text += _in_a_wide_ring(fluid)
-    if pressed.attraction is not None:
-        text += "; bodies that stick may hold, which is not solved"
-    return Remark(text, is_grave=True)
+        return None
+    loads = _ends(pressed.load_pressure[lifted])
+    is_sticking = pressed.attraction is not None
+    return fluid_lifts(fluid.medium.name, fluid.excess, loads, _wide_ring(fluid), is_sticking)
 
 
 def _opening_pressure(pressed: Pressed) -> Real | None:
@@ -266,15 +260,10 @@ def _carried_at_sealing(pressed: Pressed) -> float:
     return float(fluid.load_on(np.array([seals]), 1.0)[0]) - seals
 
 
-def _load_that_seals(pressed: Pressed) -> str:
+def _load_that_seals(pressed: Pressed) -> Fact | None:
     """Say what the load that seals is more, where the fluid carries a part of it."""
     carried = _carried_at_sealing(pressed)
-    if not carried > 0:
-        return ""
-    return (
-        "the pressure that seals and the load that is left are of what the bodies press with: of "
-        f"the load that seals the fluid carries {engineering(carried, 'Pa')} beside that"
-    )
+    return load_that_seals(carried) if carried > 0 else None
 
 
 def _bodies_alone_texts(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
@@ -327,89 +316,63 @@ def _through_seal(pressed: Pressed) -> Mapping[str, str]:
     }
 
 
-def _one_channel(pressed: Pressed) -> str:
+def _one_channel(pressed: Pressed) -> Fact | None:
     """Say where a single channel carries half of the flow."""
     share, aperture = _largest(pressed, _SHARES), _largest(pressed, _APERTURES)
     if share is None or aperture is None:
-        return ""
+        return None
     shares = np.where(aperture[0] > 0, share[0], 0.0)
     if not np.nanmax(shares, initial=0.0) >= _MAIN_CHANNEL_SHARE:
-        return ""
+        return None
     worst = int(np.nanargmax(shares))
-    return (
-        f"a single channel of the map carries {100 * shares[worst]:.0f}% of the flow at a mean "
-        f"pressure of {engineering(pressed.load_pressure[worst], 'Pa')}: the leak hangs on one "
-        "place, and that of another map of the same part may differ by a large factor; press "
-        "several"
-    )
+    return one_channel(float(shares[worst]), float(pressed.load_pressure[worst]))
 
 
-def _sealed(pressed: Pressed) -> str:
+def _sealed(pressed: Pressed) -> Fact | None:
     """Say under which loads no path is open, and whether that is sure."""
     aperture = _largest(pressed, _APERTURES)
     if aperture is None:
-        return ""
+        return None
     sealed = (aperture[0] == 0) & (_lift(pressed) < 1)
     if not sealed.any():
-        return ""
+        return None
     loads = pressed.load_pressure
-    least, most = (
-        engineering(float(end), "Pa") for end in (loads[sealed].min(), loads[sealed].max())
-    )
-    under = f"from {least} on"
-    if (np.diff(loads) < 0).any():  # on the way back dents may seal where nothing did before
-        under = f"under {sealed.sum()} of {sealed.size} loads, which are from {least} to {most}"
-    text = (
-        f"no path leads through the map {under}: the leak is exactly zero on this map and its grid"
-    )
-    open_still = aperture.shape[0] == 3 and (aperture[2][sealed] > 0).any()
-    return text + (
-        ", but other places, coarser grids or waves that no grid here has leak"
-        if open_still
-        else ""
+    return no_path(
+        int(sealed.sum()),
+        sealed.size,
+        _ends(loads[sealed]),
+        # on the way back dents may seal where nothing did before
+        are_highest=not (np.diff(loads) < 0).any(),
+        may_be_open=bool(aperture.shape[0] == 3 and (aperture[2][sealed] > 0).any()),
     )
 
 
-def _why_no_interval(pressed: Pressed) -> str:
+def _without_interval(pressed: Pressed) -> Fact | None:
     """Say why a leak has no interval where the contact has."""
     aperture = _largest(pressed, _APERTURES)
     if aperture is None or len(aperture) > 1 or pressed.intervals is None or not pressed.place:
-        return ""
-    return f"what leaks has no interval: it is {pressed.place}"
+        return None
+    return leak_without_interval(pressed.place)
 
 
-def _thin_gap_limits(pressed: Pressed) -> str:
+def _thin_gap_limits(pressed: Pressed) -> list[Fact | None]:
     """Say where the equation of thin gaps is no longer good, and where walls count."""
     fluid, steep = pressed.sealing, _largest(pressed, _SLOPES)
     aperture = _largest(pressed, _APERTURES)
     if steep is None or fluid is None or aperture is None:
-        return ""
-    found = []
-    if too_steep := why_too_steep(float(np.nanmax(steep[0], initial=0.0))):
-        found.append(too_steep)
+        return []
+    found = [too_steep(float(np.nanmax(steep[0], initial=0.0)))]
     if (inertia := float(np.nanmax(_reynolds(pressed) * steep[0], initial=0.0))) > _INERT:
-        found.append(
-            f"the Reynolds number times the slope of the gap is {decimal(inertia, 2)}: inertia, "
-            f"which counts beyond {_INERT:g}, is left out, and less than this flows"
-        )
+        found.append(inertia_counts(inertia, _INERT))
     is_open = aperture[0] > 0
-    if fluid.gas is not None and is_open.any():
-        rare = fluid.free_path / float(np.nanmin(aperture[0][is_open]))
-        if rare > _RARE_GAS:
-            found.append(
-                f"the mean free path of {fluid.medium.name} is {decimal(rare, 2)} of the hydraulic "
-                f"aperture: beyond {_RARE_GAS:g}, leaks are those of kinetic theory (the BGK "
-                "model) and of walls that reflect molecules diffusely: others let more through"
-            )
-    if fluid.gas is None and is_open.any():
-        narrow = float(np.nanmin(aperture[0][is_open]))
-        if narrow < _MOLECULES:
-            found.append(
-                f"the hydraulic aperture is {engineering(narrow, 'm')}, and below "
-                f"{engineering(_MOLECULES, 'm')}, ten molecules or so, a liquid does not flow as "
-                "in bulk: it may leak much less, or not at all"
-            )
-    return "; ".join(found)
+    if not is_open.any():
+        return found
+    narrowest = float(np.nanmin(aperture[0][is_open]))
+    if fluid.gas is None and narrowest < _MOLECULES:
+        found.append(few_molecules(narrowest, _MOLECULES))
+    if fluid.gas is not None and (rare := fluid.free_path / narrowest) > _RARE_GAS:
+        found.append(gas_is_rare(fluid.medium.name, rare, _RARE_GAS))
+    return found
 
 
 def _bisected(
@@ -425,16 +388,11 @@ def _bisected(
     return np.where(known, np.array(rows)[:, np.newaxis], np.nan)
 
 
-def _stays_tight(pressed: Pressed) -> str:
+def _stays_tight(pressed: Pressed) -> Fact | None:
     """Say where the load may be taken off altogether."""
     closing = pressed.sought.closing
     reopens = None if closing is None else closing.reopening
-    if reopens is None or reopens.low > 0:
-        return ""
-    return (
-        "once the largest load was on, less than ten times as much leaks however far it is taken "
-        "off: its dents stay"
-    )
+    return None if reopens is None or reopens.low > 0 else stays_tight()
 
 
 def _without_leak(pressed: Pressed) -> bool:
@@ -503,7 +461,7 @@ SEALING = (
         source="Dapp et al. 2012",
         value=partial(_bisected, lambda closing: closing.pressure),
         differing=partial(_bodies_alone_texts, share=False),
-        note=_load_that_seals,
+        facts=_load_that_seals,
         answers_question=always,
     ),
     _rule(
@@ -516,7 +474,7 @@ SEALING = (
         source="Pérez-Ràfols, Larsson and Almqvist 2016",
         value=partial(_bisected, lambda closing: closing.reopening),
         differing=partial(_bodies_alone_texts, share=True),
-        note=_stays_tight,
+        facts=_stays_tight,
         answers_question=always,
         limits=lambda _pressed: (0.0, 1.0),
         in_per_cent=True,
@@ -570,7 +528,7 @@ SEALING = (
         source="",
         value=_opening_pressure,
         differing=_opening_texts,
-        warning=_opens,
+        facts=_opens,
         leads=lambda pressed: bool((_carried(pressed) > 0).any()),
         is_given=True,
     ),
@@ -583,7 +541,7 @@ SEALING = (
         validity="other answers are of what is left: their F and p are (1 - s_f) of the load",
         source="",
         value=lambda pressed: share if (share := _carried(pressed)).any() else None,
-        warning=_carries,
+        facts=_carries,
         in_per_cent=True,
         is_given=True,
     ),
@@ -597,10 +555,12 @@ SEALING = (
         is_of_interface=True,
         value=partial(_largest, needed=_APERTURES),
         differing=partial(_with_direction, "hydraulic aperture"),
-        warning=lambda pressed: "; ".join(
-            filter(None, (_left_out(pressed), _why_no_interval(pressed), _thin_gap_limits(pressed)))
+        facts=lambda pressed: (
+            _left_out(pressed),
+            _without_interval(pressed),
+            *_thin_gap_limits(pressed),
+            _sealed(pressed),
         ),
-        note=_sealed,
         leads=always,
         answers_question=_without_leak,
         measured_with=_APERTURES,
@@ -649,7 +609,7 @@ SEALING = (
         validity="of the map; the larger one of both directions",
         source="",
         value=partial(_largest, needed=_SHARES),
-        warning=_one_channel,
+        facts=_one_channel,
         limits=lambda _pressed: (0.0, 1.0),
         in_per_cent=True,
         measured_with=_along_each(largest_share, slope_of_flow),

@@ -29,6 +29,8 @@ from roughline.engineering.symbols import (
     hardness,
     nominal_area,
 )
+from roughline.facts.answers import as_in_vacuum
+from roughline.facts.fact import Fact
 
 _rule = partial(Rule, group="thermal")
 
@@ -62,14 +64,10 @@ def _estimated(pair: MaterialPair, _frequency: float | None) -> str:
     return pair.refuses_layers(*COMPARED)
 
 
-def _without_gas(pressed: Pressed) -> str:
+def _without_gas(pressed: Pressed) -> Fact | None:
     """Say what is left out, unless a gas of known conductivity is asked for."""
-    if pressed.sealing is not None and pressed.sealing.conductivity:
-        return ""
-    return (
-        "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "
-        "adds to them, and air may carry several times what the spots do"
-    )
+    sealing = pressed.sealing
+    return None if sealing is not None and sealing.conductivity else as_in_vacuum()
 
 
 def _shape(pressed: Pressed) -> tuple[float, float, tuple[float, float]] | None:
@@ -144,7 +142,7 @@ THERMAL = (
         value=conductance_of_interface,
         differing=_which_interface,
         lacking=_lacking,
-        note=_without_gas,
+        facts=_without_gas,
         leads=always,
         is_of_interface=True,
         may_be_infinite=True,

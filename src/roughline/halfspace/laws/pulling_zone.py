@@ -13,6 +13,8 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.facts.fact import Fact
+from roughline.facts.pressed import pulled_everywhere, pulling_zone_unresolved
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import LEAST_SHARE, ContactLaw
 
@@ -86,7 +88,7 @@ def resolution(law: ContactLaw) -> dict[str, float]:
     return {} if law.only_pushes else {"pulling_zone_cells": zone(law)}
 
 
-def remarks(law: ContactLaw, separation: Real) -> tuple[str, ...]:
+def facts_of_pull(law: ContactLaw, separation: Real) -> tuple[Fact, ...]:
     """Say where the grid does not resolve the pull, and where all of the bodies is pulled."""
     if law.only_pushes:
         return ()
@@ -96,15 +98,7 @@ def remarks(law: ContactLaw, separation: Real) -> tuple[str, ...]:
         cells = f"{width:.2g}"
         if float(cells) >= RESOLVED_FROM:
             cells = f"{math.floor(100 * width) / 100:g}"
-        found.append(
-            f"the zone that pulls about a contact, E* w / (pi sigma_0²), is {cells} "
-            f"cells wide, and {RESOLVED_FROM:.0f} are needed: "
-            + ("" if resolves_pull_off(law) else "no pull-off is given; ")
-            + f"give a range {wider:.3g} times as large, or a finer grid"
-        )
+        found.append(pulling_zone_unresolved(cells, RESOLVED_FROM, resolves_pull_off(law), wider))
     if pulled_length(law) >= separation.max():
-        found.append(
-            "the range of the pull is larger than all heights: bodies in contact are pulled "
-            "everywhere"
-        )
+        found.append(pulled_everywhere())
     return tuple(found)

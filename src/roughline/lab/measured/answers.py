@@ -17,8 +17,9 @@ from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.question import Question
 from roughline.assessment.source import Topography
-from roughline.errors.remark import DATA, INTERVALS, LIMITS, Remark
 from roughline.errors.words import speaking
+from roughline.facts.fact import DATA, INTERVALS, LIMITS
+from roughline.facts.own_words import in_own_words
 from roughline.lab.frames import drawn
 from roughline.lab.measured.cache import cached
 from roughline.lab.measured.part import part_in_words
@@ -94,10 +95,10 @@ def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]
 def _remarks(result: Assessment | PartAssessment, arguments: Arguments) -> dict[str, Any]:
     """Grave remarks, and the others by what they are about."""
     bodies = result.assessments[:1] if isinstance(result, PartAssessment) else [result]
-    theories = [Remark(f"{each.name}: {each.validity}") for each in bodies[0].theories]
+    theories = [in_own_words(f"{each.name}: {each.validity}") for each in bodies[0].theories]
     groups: dict[str, list[str]] = {"": [], DATA: [], INTERVALS: [], LIMITS: []}
-    for each in map(Remark, (*result.remarks, *theories)):
-        text = sentence(without_paths(each, arguments))
+    for each in (*result.facts, *theories):
+        text = sentence(without_paths(str(each), arguments))
         groups["" if each.is_grave else each.about].append(text)
     return {"lists": {"grave": groups.pop("")}, "remarks": groups}
 

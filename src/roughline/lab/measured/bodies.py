@@ -14,7 +14,7 @@ from attrs import evolve
 from roughline.assessment.asked import Theories
 from roughline.assessment.loading import DEFAULT_LOADS
 from roughline.assessment.loads import Hardness, find_hardness
-from roughline.assessment.notes import loads_in_words, unknown_hardness_notes
+from roughline.assessment.notes import facts_on_loads, unknown_hardness_notes
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.rules import rules
@@ -54,13 +54,15 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         bodies = zip(c.BODIES.values(), (pair.first, pair.second), strict=False)
         rows += [[text.label, solid_in_words(solid)] for (_, text), solid in bodies]
         left_out = rules.left_out(pair, question.frequency_in_hertz)
-        notes = [*unknown_hardness_notes(pair), *left_out]
+        notes = [*map(str, unknown_hardness_notes(pair)), *left_out]
     rows.append(["yield", _yield_in_words(question, find_hardness(question))])
     if not question.loads:
         notes.append(
             f"no load is given: {DEFAULT_LOADS} loads from first touch to saturation are taken"
         )
-    meanings = loads_in_words(question, body) if body is not None and question.loads else []
+    meanings = []
+    if body is not None and question.loads:
+        meanings = [*map(str, facts_on_loads(question, body))]
     header = {
         "refused": refused,
         "tables": {"measured-bodies": [["", ""], rows]},

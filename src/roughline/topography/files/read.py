@@ -13,6 +13,9 @@ from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
 from roughline.errors.words import called
+from roughline.facts.fact import Fact
+from roughline.facts.heights import flat, odd_pixels, odd_rms_height, odd_sides, odd_slope
+from roughline.facts.own_words import in_own_words
 from roughline.topography.body import Body, Surface, point_spacings, side_lengths
 from roughline.topography.crop import Crop
 from roughline.topography.files.archives import (
@@ -39,7 +42,6 @@ from roughline.topography.missing import USUALLY_FILLED, Filler, Missing
 from roughline.topography.scan_lines import line_jump_warning
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
-from roughline.units import engineering
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 _SIDES = (1e-8, 1.0)  # that instruments measure [m]
@@ -234,53 +236,32 @@ def _read_array(path: Path, name: str) -> Measurement | None:
     )
 
 
-def suspicions(body: Body) -> list[str]:
+def suspicions(body: Body) -> list[Fact]:
     """List properties of a measured body that suggest a wrong unit, a wrong file or a slip."""
-    doubts = [text] if (text := body.provenance.doubts_of_file) else []
+    doubts = [in_own_words(text).grave()] if (text := body.provenance.doubts_of_file) else []
     rms, slope = body.rms_height, body.rms_slope
     if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
-        doubts.append(
-            f"the rms height is {engineering(rms, 'm')}; roughness is mostly between 1 pm and "
-            "1 mm: check the unit, the tilt, and whether heights share the unit of the sides"
-        )
+        doubts.append(odd_rms_height(rms))
     if rms == 0:
-        doubts.append("all heights are equal: this is a flat punch, or an empty channel")
+        doubts.append(flat())
     if slope > 1:
-        doubts.append(
-            f"the rms slope is {slope:.3g}; theories and instruments do not reach slopes of 1: "
-            "check the unit, and outliers"
-        )
+        doubts.append(odd_slope(slope, is_small=False))
     doubts += _doubts_of_sides(body)
-    if isinstance(body, Surface):
-        dx, dy = body.spacing
-        if max(dx, dy) > 2 * min(dx, dy):
-            doubts.append(f"pixels are {_by((dx, dy))}: check the sizes")
+    if isinstance(body, Surface) and max(body.spacing) > 2 * min(body.spacing):
+        doubts.append(odd_pixels(body.spacing))
     if jumps := line_jump_warning(body):
         doubts.append(jumps)
     return doubts
 
 
-def _doubts_of_sides(body: Body) -> list[str]:
+def _doubts_of_sides(body: Body) -> list[Fact]:
     """What suggests a wrong unit of the sides, of which a rough surface shows nothing itself."""
     doubts = []
     sides, spacings = side_lengths(body), point_spacings(body)
     if max(sides) > _SIDES[1] or min(sides) < _SIDES[0]:
-        doubts.append(
-            f"the sides are {_by(sides)}; instruments measure 10 nm to 1 m: check the unit of the "
-            "sides"
-        )
+        doubts.append(odd_sides(sides, are_pixels=False))
     if body.provenance.instrument.pixels == "means" and max(spacings) > _LARGEST_PIXEL:
-        doubts.append(
-            f"the pixels are {_by(spacings)}; those of optical instruments are below 1 mm: check "
-            "the unit of the sides"
-        )
+        doubts.append(odd_sides(spacings, are_pixels=True))
     if 0 < body.rms_slope < _LEAST_SLOPE:
-        doubts.append(
-            f"the rms slope is {body.rms_slope:.3g}; polished mirrors reach 1e-5: check whether "
-            "heights and sides have the units that they are read in"
-        )
+        doubts.append(odd_slope(body.rms_slope, is_small=True))
     return doubts
-
-
-def _by(lengths: tuple[float, ...]) -> str:
-    return " x ".join(engineering(length, "m") for length in lengths)
