@@ -31,7 +31,7 @@ def test_answers_and_json_are_those_of_the_library(rough, invoke):
 
 
 def test_words_name_what_lies_at_the_surfaces(rough, invoke):
-    code, out, errors = invoke("press", rough, "--materials", PAIR, *QUESTION)
+    code, out, errors = invoke("press", rough, "--materials", PAIR, *QUESTION, "--all")
     assert code == 0, errors
     said = " ".join(out.split())
     E_star = rl.contact_modulus(rl.material("gold"), rl.material("steel"))

@@ -60,7 +60,7 @@ def test_a_part_begins_with_its_maps_and_counts_what_is_folded(scans, invoke, mo
     starts = [line.partition(": ")[0] for line in lines[header:]]
     assert [each for each in starts if each in groups] == groups
     further = re.fullmatch(
-        r"(\d+) further answers and those of each map: --all shows them", lines[-1]
+        r".* notes, (\d+) further answers and those of each map: --all shows them", lines[-1]
     )
     answers = json.loads(invoke("press", *scans, *ASKED, "--json")[1])["part"]
     assert int(further[1]) == len(answers) - len(groups)

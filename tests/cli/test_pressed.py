@@ -11,6 +11,7 @@ import xarray
 import roughline as rl
 from roughline.assessment import case, doubts
 from roughline.assessment import loads as load_cases
+from roughline.facts.listed import listed
 from roughline.report.values import written_scale
 from roughline.units import decimal, engineering
 
@@ -126,19 +127,21 @@ def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
     code, out, errors = invoke("press", rough, *PAIR, *arguments)
     assert code == 0, errors
     assert INTERVAL.search(out)
-    assert "grid error not estimated" not in out
+    assert "the error of the grid is not known" not in out
     monkeypatch.setattr(case, "_CHEAP", 10)
     code, out, _ = invoke("press", rough, *PAIR, *arguments)
+    assert "no intervals, as the error of the grid is not known (--grid-error, twice as" in out
+    code, out, _ = invoke("press", rough, *PAIR, *arguments, "--all")
     assert "grid error not estimated" in out
     assert "twice as long; with --grid-error it is estimated" in " ".join(out.split())
     code, out, _ = invoke("press", rough, *PAIR, *arguments, "--grid-error")
-    assert "grid error not estimated" not in out
+    assert "the error of the grid is not known" not in out
 
 
 def test_few_points_have_no_interval_unasked(tmp_path, invoke):
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(33, 3)
     rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "few.nc")
-    code, out, _ = invoke("press", tmp_path / "few.nc", *PAIR, "--load", "10 N")
+    code, out, _ = invoke("press", tmp_path / "few.nc", *PAIR, "--load", "10 N", "--all")
     assert code == 0
     assert (
         "fewer than 64 points a side; with --grid-error it is estimated nevertheless"
@@ -154,6 +157,11 @@ def test_few_points_have_no_interval_unasked(tmp_path, invoke):
 def test_the_first_screen_is_what_was_asked_and_a_line_for_each_group(rough, invoke, monkeypatch):
     loads = ["--load", "10 N", "--load", "2 N"]
     assert_first_screen(rough, invoke, monkeypatch, loads, ["10 N", "2 N"])
+
+
+def notes(told):
+    """Notes of an answer in JSON, which are no warnings."""
+    return [each for each in told["facts"] if each["weight"] == "note"]
 
 
 @pytest.mark.parametrize("points", [32, 64])
@@ -185,8 +193,9 @@ def assert_first_screen(rough, invoke, monkeypatch, loads, shown):
     assert not any(line.startswith(name) for name in names for line in lines[header + 5 :])
     further = len(told["answers"]) - len(rows)
     assert sum(int(row.split()[-1]) for row in rows) == further
-    loads_left = "" if shown else " and 10 further loads"
-    assert lines[-1] == f"{further} further answers{loads_left}: --all shows them"
+    folded = [f"{len(notes(told))} notes", f"{further} further answers"]
+    folded += [] if shown else ["10 further loads"]
+    assert lines[-1] == f"{listed(folded)}: --all shows them"
 
 
 @pytest.mark.parametrize("points", [32, 64])
@@ -203,8 +212,10 @@ def test_under_one_load_the_large_figures_are_not_repeated_in_a_table(rough, inv
         for figure in figures:
             name, value = re.split("  +", figure.strip())[:2]
             assert sum(line.strip().startswith(name) and value in line for line in lines) == 1
-        further = len(json.loads(invoke(*asked, "--json")[1])["answers"]) - len(figures)
-        assert lines[-1] == f"{further} further answers: --all shows them"
+        told = json.loads(invoke(*asked, "--json")[1])
+        further = len(told["answers"]) - len(figures)
+        said = f"{len(notes(told))} notes and {further} further answers: --all shows them"
+        assert lines[-1] == said
 
 
 def test_nothing_is_folded_that_is_no_answer(rough, invoke):
@@ -223,7 +234,7 @@ def test_named_loads_have_a_row_each(rough, invoke, monkeypatch):
     rows = [line for line in out.splitlines() if re.match(r"\d N ", line)]
     assert [" ".join(row.split()[:2]) for row in rows] == typed
     assert all(len(re.split("  +", row)) == 1 + 4 for row in rows)  # a column for each group
-    assert out.splitlines()[-1] == "17 further answers: --all shows them"
+    assert out.splitlines()[-1] == "10 notes and 17 further answers: --all shows them"
 
 
 def test_a_star_stands_at_the_load_that_the_grid_decides(rough, invoke):
@@ -477,7 +488,7 @@ def test_the_same_is_said_of_a_preparation_wherever_it_is_read(
     said = "most of the roughness is gone, and answers are those of what is left"
     idle = f"esampling to {points} x {points} points changes neither rms height nor rms slope"
     press = ("press", rough, "--materials", "steel,copper", "--load", "1 N", "--no-grid-error")
-    code, out, _ = invoke(*press, *steps, "--report", tmp_path / "report")
+    code, out, _ = invoke(*press, *steps, "--all", "--report", tmp_path / "report")
     assert code == 0
     _, described, _ = invoke("info", rough, *steps)
     page = (tmp_path / "report" / "report.html").read_text("utf-8")
@@ -560,7 +571,7 @@ FLOWS = (*PAIR, "--load", "1 N", "--fluid", "helium", "--seal", "1 mm x 1 mm")
 
 @pytest.mark.parametrize("pressure", ["6 bar", "6 bar abs", "6bara", "6 bar(a)", "600 kPa (abs.)"])
 def test_pressures_of_a_fluid_are_repeated_as_absolute_ones(rough, invoke, pressure):
-    code, out, errors = invoke("press", rough, *FLOWS, "--inlet", pressure)
+    code, out, errors = invoke("press", rough, *FLOWS, "--inlet", pressure, "--all")
     assert code == 0, errors
     assert "note: helium enters at 600 kPa and leaves at 101.3 kPa, both absolute pressures" in out
 

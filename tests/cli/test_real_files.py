@@ -348,7 +348,7 @@ def test_what_laying_two_bodies_together_crops_and_resamples_is_said(tmp_path, i
     small = spectrum.surface(96, 2).cropped((0, 48), (0, 96)).detrended()
     rl.write(replace(small, unit="m"), tmp_path / "small.nc")
     code, out, errors = invoke(
-        "press", tmp_path / "whole.nc", *PRESS, against=tmp_path / "small.nc"
+        "press", tmp_path / "whole.nc", *PRESS, "--all", against=tmp_path / "small.nc"
     )
     assert code == 0, errors
     said = " ".join(out.split())
@@ -373,6 +373,7 @@ def test_of_two_rough_bodies_each_is_described_and_filled_twice(
     code, out, errors = invoke(
         "press",
         tmp_path / "whole.npy",
+        "--all",
         against=tmp_path / "holed.npy",
         unit="m",
         size="1 mm",
@@ -401,7 +402,9 @@ def test_points_filled_before_are_not_said_to_matter_nothing(
         "info", topographies / "opd-1.opd", "--resample", 2 * points, "--out", tmp_path
     )
     assert code == 0, errors
-    code, out, errors = invoke("press", tmp_path / "prepared.nc", *PRESS, "--resample", points)
+    code, out, errors = invoke(
+        "press", tmp_path / "prepared.nc", *PRESS, "--resample", points, "--all"
+    )
     assert code == 0, errors
     said = " ".join(out.split())
     assert "116 missing points (0.04%) filled: harmonic" in said

@@ -186,13 +186,16 @@ def test_without_falling_loads_the_scales_are_logarithmic(unloaded):
 
 def test_an_unloading_is_answered_at_every_load(rough, invoke, monkeypatch):
     monkeypatch.setenv("COLUMNS", "600")  # all answers beside each other
-    code, out, errors = invoke("press", rough, *PAIR, "--load", "10 N", "--unload")
+    asked = ("press", rough, *PAIR, "--load", "10 N", "--unload")
+    code, out, errors = invoke(*asked)
     assert code == 0, errors
     assert "constriction resistance R" in out
     for load in ("10 N", "unloaded to 75%", "unloaded to 10%"):
         (row,) = (line for line in out.splitlines() if line.startswith(f"{load}  "))
         assert re.search(r"[µm]Ω \(", row)
         assert "kW/(m² K) (" in row
+    assert "for comparison, " not in out
+    _, out, _ = invoke(*asked, "--all")
     assert "for comparison, if nothing yielded: " in out
     assert "(at the largest load)" in out
 
@@ -249,6 +252,6 @@ def test_a_line_scan_has_no_hardness(tmp_path, invoke):
     assert "used while mean contact pressures stay below about 0.4 of the hardness" in errors
     assert "leave --hardness out, or press a map\n" in errors
     assert len(errors.splitlines()) == 1
-    code, out, errors = invoke(*scan, "--load", "1 N")
+    code, out, errors = invoke(*scan, "--load", "1 N", "--all")
     assert code == 0, errors
     assert "the reduced model has no yield" in out

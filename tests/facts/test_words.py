@@ -9,9 +9,28 @@ from known_facts import all_kinds, examples
 from roughline.cli.flags import FLAGS
 from roughline.errors.words import speaking
 from roughline.facts.fact import LIMITS, LINE, Fact, grave_first, kind
-from roughline.facts.heights import bowed, flat
-from roughline.facts.intervals import departs
+from roughline.facts.heights import (
+    beyond_chance,
+    bowed,
+    differs_between_places,
+    drifts,
+    flat,
+    heights_in_steps,
+    heights_on_a_level,
+    levelled_before,
+    levelled_by_lines,
+    long_tailed,
+    many_filled,
+    map_jumps,
+    no_roll_off,
+    skewed,
+    slopes_differ_by_direction,
+    slopes_differ_by_height,
+    tilted,
+)
+from roughline.facts.intervals import departs, line_stands_for_surface
 from roughline.facts.own_words import in_own_words, on_body, on_maps
+from roughline.facts.pressed import few_heights, stiff_heights
 
 KINDS = all_kinds()
 
@@ -21,6 +40,30 @@ KINDS = all_kinds()
 def test_every_kind_is_worded_in_full_and_in_one_short_line(name, caller):
     with speaking(caller):
         look_at_words(examples(KINDS[name]))
+
+
+def departures():
+    """What a map or a scan shows, as it is told with what it takes down."""
+    kinds = (
+        *(differs_between_places, drifts, slopes_differ_by_direction, skewed, long_tailed),
+        slopes_differ_by_height,
+    )
+    for fact in [each for some in kinds for each in examples(some)]:
+        yield from (beyond_chance(fact, what) for what in ("map", "scan"))
+    kinds = (
+        *(heights_in_steps, many_filled, heights_on_a_level, map_jumps, no_roll_off),
+        *(levelled_by_lines, levelled_before, tilted, bowed, few_heights, stiff_heights),
+    )
+    yield from (each for some in kinds for each in examples(some))
+
+
+@pytest.mark.parametrize("caller", [None, FLAGS], ids=["python", "terminal"])
+def test_departures_are_short_with_what_they_take_down(caller):
+    with speaking(caller):
+        for fact in departures():
+            look_at_words([departs(fact, takes_all=True, takes_theories=True)])
+            look_at_words([line_stands_for_surface(fact)])
+            assert str(departs(fact, takes_all=True, takes_theories=True)).startswith(str(fact))
 
 
 def look_at_words(found):

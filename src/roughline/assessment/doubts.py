@@ -8,7 +8,12 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import Prediction, departures_behind, takes_down
 from roughline.assessment.case import COARSENED_FROM
 from roughline.assessment.kinds import is_map
-from roughline.assessment.notes import facts_on_each, line_scan_limits, repeated_border_jump
+from roughline.assessment.notes import (
+    ABOUT_THE_BODY,
+    facts_on_each,
+    line_scan_limits,
+    repeated_border_jump,
+)
 from roughline.assessment.question import Question
 from roughline.contact.borders import border_warnings
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -19,10 +24,9 @@ from roughline.engineering.rules.mechanical import (
     INTERFACE_STIFFNESS,
     UNLOADING_STIFFNESS,
 )
-from roughline.facts.borders import border_carries, map_jumps_at_borders
 from roughline.facts.fact import Fact
 from roughline.facts.hardness import summits_yield
-from roughline.facts.heights import steep, step_changes
+from roughline.facts.heights import steep
 from roughline.facts.intervals import (
     Cause,
     WhyNot,
@@ -41,9 +45,6 @@ from roughline.topography.body import Line, Surface
 from roughline.topography.effects import grave_effects
 from roughline.topography.files.read import suspicions
 
-# what a curve says of its body and of where it is repeated is said of all bodies and of the loads
-# that were asked for
-_ABOUT_THE_BODY = (step_changes, map_jumps_at_borders, border_carries)
 _LARGE_STRAIN = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
 _STEEP_SLOPE = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
 _PRESSED = _STEEP_SLOPE / 2  # mean contact pressure over E*, as on such slopes; on layers it is not
@@ -58,7 +59,7 @@ def collect_warnings(
 ) -> list[Fact]:
     """What is suspicious, where assumptions break, and why there is no interval."""
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
-    of_curve = [each for each in curve.facts if each.kind not in _ABOUT_THE_BODY]
+    of_curve = [each for each in curve.facts if each.kind not in ABOUT_THE_BODY]
     is_scan = isinstance(body, Line) and body.kind == "profile"
     warnings = [
         *(of_curve if is_scan else _departures(result)),

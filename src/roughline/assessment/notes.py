@@ -18,6 +18,7 @@ from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pair import MaterialPair
+from roughline.facts.borders import border_carries, map_jumps_at_borders
 from roughline.facts.fact import Fact
 from roughline.facts.hardness import (
     hardness_of_softer_taken,
@@ -40,6 +41,7 @@ from roughline.facts.heights import (
     resampled_to_first,
     spikes_kept,
     spikes_removed,
+    step_changes,
 )
 from roughline.facts.intervals import (
     no_area_of_line,
@@ -69,6 +71,9 @@ from roughline.topography.repetition import border_jump
 from roughline.topography.scan_lines import filled_lines_note
 from roughline.units import LEAST_CHANGE
 
+ABOUT_THE_BODY = (step_changes, map_jumps_at_borders, border_carries)
+"""What a curve says of its body and its borders, which is told of all bodies and loads."""
+
 
 def collect_notes(result: Assessment, filling: Fact | None) -> list[Fact]:
     """What is left out, what was filled, how the loads were meant, and what was cropped."""
@@ -85,6 +90,7 @@ def collect_notes(result: Assessment, filling: Fact | None) -> list[Fact]:
         if not isinstance(result.curve, SurfaceCurve):
             notes.append(no_area_of_line())
     notes += facts_on_each([each.body for each in result.topographies], _filled_and_effects)
+    notes += [each for each in result.curve.facts if each.kind not in ABOUT_THE_BODY]
     notes += [] if filling is None else [filling]
     notes += facts_on_loads(question, body)
     notes += repeated_border_jump(question, body)

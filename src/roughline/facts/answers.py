@@ -104,7 +104,7 @@ def joint_alone(
         )
     times = decimal(share, 2)
     return (
-        f"wide bodies add {added} in series: the joint is up to {times} times as stiff",
+        f"bodies add {added} in series; the joint is {times} times as stiff",
         f"{text}; the interface is up to {times} times as stiff as that, so such bodies matter as "
         "well, and load the joint's edge more than its middle",
     )

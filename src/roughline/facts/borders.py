@@ -52,7 +52,7 @@ def borders_unclear(ends: str, steps: float, is_cut_out: bool) -> Wording:
     taken = "cut out of a larger one" if is_cut_out else "periodic"
     number = decimal(steps, 2)
     return (
-        f"unclear whether heights are periodic; taken as {taken}: say which (is_cut_out=...)",
+        f"taken as {taken}, which is unclear: say which (is_cut_out=...)",
         f"it is unclear whether these heights are periodic: {ends} are {number} ordinary steps "
         f"apart, and they are taken as {taken}: say which (is_cut_out=True or False)",
     )

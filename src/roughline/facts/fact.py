@@ -26,8 +26,8 @@ LIMITS: Subject = "Limits"
 Weight = Literal["grave", "warning", "note"]
 """Grave: the answers do not hold, or are of something else than was asked about."""
 
-LINE = 100
-"""Letters of the longest line in short."""
+LINE = 91
+"""Letters of the longest text in short: a line of 100, with "warning: " before it."""
 
 Wording = str | tuple[str, str]
 """The words of a fact: in short, and in full; or one text for both."""
@@ -42,7 +42,7 @@ class FactKind(Generic[_Parameters]):
     ----------
     words : callable
         Returns the words, from numbers in SI units and names. What it says in short has one line of
-        at most 100 letters: what, how much, and what to do.
+        at most 91 letters: what, how much, and what to do.
     about : str
         DATA, INTERVALS or LIMITS.
     weight : str
@@ -120,7 +120,7 @@ class Fact:
 
     @property
     def in_short(self) -> str:
-        """The same in one line of at most 100 letters."""
+        """The same in one line of at most 91 letters."""
         words = self.kind.words(**self.numbers)
         return textwrap.shorten(
             words if isinstance(words, str) else words[0], LINE, placeholder="…"

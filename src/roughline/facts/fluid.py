@@ -123,7 +123,7 @@ def no_path(
     )
     if may_be_open:
         text += ", but other places, coarser grids or waves that no grid here has leak"
-    return f"no path leads through the map {under}", text
+    return "no path leads through the map under some loads", text
 
 
 @kind(INTERVALS)

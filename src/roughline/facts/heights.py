@@ -125,11 +125,14 @@ def odd_sides(sides: tuple[float, ...], are_pixels: bool) -> Wording:
     lengths = " x ".join(engineering(each, "m") for each in sides)
     if are_pixels:
         return (
-            f"the pixels are {lengths}; optical ones are below 1 mm: check the unit of the sides",
+            f"the pixels are {lengths}; optical ones are below 1 mm: check the unit",
             f"the pixels are {lengths}; those of optical instruments are below 1 mm: check the "
             "unit of the sides",
         )
-    return f"the sides are {lengths}; instruments measure 10 nm to 1 m: check the unit of the sides"
+    return (
+        f"the sides are {lengths}; instruments measure 10 nm to 1 m: check the unit",
+        f"the sides are {lengths}; instruments measure 10 nm to 1 m: check the unit of the sides",
+    )
 
 
 @kind(LIMITS, "grave")
@@ -144,7 +147,7 @@ def rows_jump(rms: float, by_chance: float, unit: str | None) -> Wording:
     jump, chance = (in_words(each, unit, 2) for each in (rms, by_chance))
     remedy = called("lines", "median")
     return (
-        f"rows jump by {jump} (rms), and their points explain {chance}: level them ({remedy})",
+        f"rows jump by {jump} rms, by chance {chance}: level them ({remedy})",
         f"rows jump: medians of neighbouring lines along x differ by {jump} (rms), and their "
         f"points explain {chance}: unless grooves of the surface run along x, level them line by "
         f"line ({remedy}), which also takes tilt and waves across them",
@@ -166,7 +169,7 @@ def steep(slope: float, limit: float) -> Wording:
 def heights_in_steps(share: float) -> Wording:
     """Heights in line with their neighbours to the last digit."""
     return (
-        f"{share:.0%} of the heights stand in steps: measure with finer steps or a larger range",
+        f"{share:.0%} of the heights stand in steps: measure finer ones, or a larger range",
         f"{share:.0%} of the heights lie in line with their neighbours to the last digit, which "
         "chance does not do: they are rounded, filled, or at the end of the instrument's "
         "range, so slopes there are not the surface's: measure with finer steps or a larger range",
@@ -189,7 +192,7 @@ def heights_on_a_level(share: float) -> Wording:
     """The range of an instrument ends."""
     number = f"{100 * share:.2g}%"
     return (
-        f"{number} of the heights are equal: measure with a larger range, or mark missing points",
+        f"{number} of the heights are equal: take a larger range, or mark missing points",
         f"{number} of the heights are equal to the last digit: the range of the "
         "instrument ends there, and cuts summits off, or missing points were written as a "
         "number: measure with a larger range, or mark missing points",
@@ -206,13 +209,13 @@ def map_jumps(
     side = "above" if height > 0 else "below"
     if is_row:
         return (
-            f"{place} a row stands {jump} {side} its neighbours: mark it missing, or measure again",
+            f"{place} a row stands {jump} {side} others: mark it missing",
             f"{place} a whole row stands {jump} {side} those beside it, and others scatter by "
             f"{others}: one line of the instrument is off: mark it as missing, or measure again",
         )
     crop = called("crop")
     return (
-        f"{place} heights jump by {jump}: take either side ({crop}), or measure again",
+        f"{place} heights jump by {jump}: take either side ({crop})",
         f"{place} all heights beyond stand {jump} {side} those before, and other rows scatter by "
         f"{others}: the instrument jumped, or two faces are seen: take either side "
         f"({crop}), or measure again",
@@ -223,7 +226,7 @@ def map_jumps(
 def beyond_chance(fact: Fact, what: str) -> Wording:
     """What chance does not explain in a map or a scan, and what would tell more."""
     if what == "map":
-        short, remedy = "press several maps", "several maps of a part show what one does not"
+        short, remedy = "press more maps", "several maps of a part show what one does not"
     else:
         short, remedy = "measure a map", "measure a map"
     return f"{fact.in_short}: {short}", f"{fact}: {remedy}"
@@ -233,7 +236,7 @@ def beyond_chance(fact: Fact, what: str) -> Wording:
 def differs_between_places(parts: int, factor: float, spread: float, chance: float) -> Wording:
     """The rms slope scatters between places, by factors."""
     return (
-        f"the rms slope scatters by {factor:.3g} between places, by chance {chance:.3g}",
+        f"slopes scatter by {factor:.3g} between places, by chance {chance:.3g}",
         f"roughness is not alike everywhere: between {parts} parts the rms slope scatters by a "
         f"factor of {factor:.3g}, from least to largest by {spread:.3g}, and chance explains "
         f"{chance:.3g}",
@@ -244,7 +247,7 @@ def differs_between_places(parts: int, factor: float, spread: float, chance: flo
 def drifts(along: str, factor: float, chance: float) -> Wording:
     """The rms slope changes along a side, by factors."""
     return (
-        f"the rms slope drifts by {factor:.2f} along {along}, by chance {chance:.2f}",
+        f"slopes drift by {factor:.2f} along {along}, by chance {chance:.2f}",
         f"roughness drifts over the map: along {along} the rms slope changes by a factor of "
         f"{factor:.2f}, and chance allows {chance:.2f}, so that the surface beyond is likely to "
         "differ as well",
@@ -257,7 +260,7 @@ def slopes_differ_by_direction(
 ) -> Wording:
     """Slopes have a lay: the least over the largest, of waves over a length."""
     return (
-        f"slopes differ by direction, {ratio:.2f} least over largest, by chance {chance:.2f}",
+        f"slopes differ by direction, by {ratio:.2f}, by chance {chance:.2f}",
         f"slopes differ by direction: of waves over {in_words(wave, unit, 2)}, the least is "
         f"{ratio:.2f} of the largest, and chance allows {chance:.2f}",
     )
@@ -268,7 +271,7 @@ def skewed(of: str, skewness: float, chance: float) -> Wording:
     """Heights of a map, or of one of its coarser selves, are skewed."""
     value, allowed = (in_words(each, None, 2) for each in (skewness, chance))
     return (
-        f"heights are not Gaussian, skewness {value}, by chance {allowed}",
+        f"heights are skewed by {value}, by chance {allowed}",
         f"heights are not Gaussian: the skewness of {of} is {value}, and chance allows {allowed}",
     )
 
@@ -278,7 +281,7 @@ def long_tailed(of: str, kurtosis: float, chance: float) -> Wording:
     """Heights of a map, or of one of its coarser selves, have other tails."""
     value, allowed = (in_words(each, None, 2) for each in (kurtosis, chance))
     return (
-        f"heights are not Gaussian, kurtosis {value}, by chance 3 ± {allowed}",
+        f"heights have a kurtosis of {value}, by chance 3 ± {allowed}",
         f"heights are not Gaussian: the kurtosis of {of} is {value}, and chance allows 3 with "
         f"{allowed} more or less",
     )
@@ -289,7 +292,7 @@ def slopes_differ_by_height(places: str, ratio: float, least: float, most: float
     """High places are steeper, or less steep, than all."""
     value, *ends = (in_words(each, None, 2) for each in (ratio, least, most))
     return (
-        f"heights are not Gaussian, slopes on top {value} of all, by chance {' to '.join(ends)}",
+        f"tops are {value} times as steep, by chance {' to '.join(ends)}",
         f"heights are not Gaussian: the rms slope of {places} is {value} of that of all, and "
         f"chance allows {' to '.join(ends)}",
     )
@@ -309,7 +312,7 @@ def no_roll_off(what: str) -> Wording:
 def levelled_by_lines(what: str) -> Wording:
     """Waves across lines are gone."""
     return (
-        f"the {what} was levelled line by line, which hides long waves: measure with less drift",
+        "levelling line by line hides long waves: measure with less drift",
         f"the {what} was levelled line by line, which takes waves across its lines with their "
         "jumps, so its heights do not tell whether it lies on waves longer than itself: measure "
         "with less drift, or along both sides",
@@ -321,7 +324,7 @@ def levelled_before(what: str) -> Wording:
     """The tilt is not known."""
     mounting = called("tilt", "mounting")
     return (
-        f"the {what} was levelled before, which hides long waves: give it as measured ({mounting})",
+        f"its tilt was removed before: give it as measured, or {mounting}",
         f"the {what} was levelled before it was given, so its heights do not tell whether it lies "
         f"on waves longer than itself: give it as it was measured, or {_say_so()}",
     )

@@ -80,7 +80,7 @@ def grid_error_unknown(why: WhyNot, points: int) -> Wording:
     }
     reason, remedy = reasons[why]
     return (
-        f"values come without intervals, as the grid error is not known ({remedy or reason})",
+        f"no intervals, as the error of the grid is not known ({remedy or reason})",
         f"grid error not estimated, so values come without intervals ({reason})",
     )
 
@@ -110,7 +110,7 @@ def wide(
     texts = [f"{known[cause][0]} (a factor of {decimal(of, 2)})" for cause, of in causes]
     times, remedy = decimal(factor, 2), known[causes[0][0]][1]
     return (
-        f"{answer} is known to a factor of {times}: {remedy} would narrow it most",
+        f"{answer} is known to a factor of {times}: {remedy} helps most",
         f"the {answer} under {load} is known to a factor of {times} between both ends; it is left "
         f"open by {', then by '.join(texts)}: {remedy} would narrow it most",
     )

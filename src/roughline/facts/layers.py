@@ -57,7 +57,7 @@ def spots_wider_than_film(
         if is_included:
             reach = "intervals reach to there"
         text += f", which is {than}, so area and conductance are too {size}; {reach}"
-    return f"contact spots, {spots} in radius, feel {below} below the layer of {top}", text
+    return f"contact spots of radius {spots} feel {below} below {top}", text
 
 
 @kind(LIMITS, "grave")
@@ -65,7 +65,7 @@ def through_the_layer(material: str, thickness: float, indentation: float) -> Wo
     """A layer is indented deeper than it is thick."""
     thick, deep = engineering(thickness, "m"), engineering(indentation, "m")
     return (
-        f"the layer of {material}, {thick}, is indented by up to {deep}: what is below would yield",
+        f"the layer of {material}, {thick}, is indented by {deep}: what is below would yield",
         f"the layer of {material}, {thick}, is indented by up to {deep}: what lies below would "
         "yield with a hardness of its own, and no interval includes that",
     )

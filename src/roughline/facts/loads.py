@@ -104,7 +104,7 @@ def all_touch(loads: tuple[str, ...], stands: Stands) -> Wording:
         "punch": "k is that of a flat punch",
     }[stands]
     return (
-        f"all points touch under {_first(loads)}: no gap is left, and {rest}",
+        f"all points touch under {_first(loads)}: {rest}",
         f"all points touch under {', '.join(loads)}: no gap is left, and {rest}",
     )
 

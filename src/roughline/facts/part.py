@@ -27,7 +27,7 @@ def not_pressed(names: tuple[str, ...]) -> Wording:
 def some_are_scans(names: tuple[str, ...]) -> Wording:
     """Line scans among maps."""
     return (
-        f"not of one kind: {listed_in_short(names)} is a line scan, and others are maps",
+        f"not of one kind: {listed_in_short(names)} is a line scan, others are maps",
         f"not of one kind: {', '.join(names)} is a line scan, and others are maps",
     )
 

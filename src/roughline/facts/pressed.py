@@ -59,7 +59,7 @@ def ends_do_not_meet(steps: float) -> Wording:
     )
 
 
-@kind(LIMITS)
+@kind(LIMITS, "note")
 def one_line_only() -> Wording:
     """What a line scan does not show."""
     return (
@@ -74,7 +74,7 @@ def few_heights(heights: float, needed: int) -> Wording:
     """A scan is too short to show whether its heights are Gaussian."""
     count = decimal(heights, 2)
     return (
-        f"the scan has about {count} independent heights, and {needed} are needed: measure a map",
+        f"it has {count} independent heights, and {needed} are needed: measure a map",
         f"the scan has about {count} independent heights, too few to show whether those of its "
         f"surface are Gaussian: {needed} are needed, or rl.press_scan(..., gaussian=True) where "
         "that is known",
@@ -86,7 +86,7 @@ def stiff_heights(ratio: float, allowed: float, load: int) -> Wording:
     """Heights of a scan are stiffer as springs, or softer, than Gaussian ones of its spectrum."""
     times, chance = decimal(ratio, 2), decimal(allowed, 2)
     return (
-        f"heights are not Gaussian, {times} times as stiff, by chance {chance}: measure a map",
+        f"heights are {times} times as stiff, by chance {chance}: measure a map",
         "heights are not Gaussian: pressed as independent springs, those of the scan are "
         f"{times} times as stiff under load {load} as Gaussian ones of its spectrum, and chance "
         f"allows {chance}",

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.contact.status import Status
-from roughline.facts.fact import grave_first
+from roughline.facts.fact import Fact, grave_first
 from roughline.report.page import Headline, KeyFigure, sentence
 from roughline.report.values import Write, with_interval
 from roughline.units import decimal, engineering
@@ -95,6 +95,11 @@ def figure_keys(result: Assessment | PartAssessment) -> list[str]:
     return [key for key in result.answers if key in chosen]
 
 
+def warnings_in_order(result: Assessment | PartAssessment) -> list[Fact]:
+    """Warnings, grave ones first."""
+    return [each for each in grave_first(result.facts) if each.is_warning]
+
+
 def headline(result: Assessment | PartAssessment, write: Write = with_interval) -> Headline:
     """The large figures at the largest load, warnings, and what else a page begins with."""
     leading = leading_keys(result)
@@ -109,7 +114,7 @@ def headline(result: Assessment | PartAssessment, write: Write = with_interval) 
         below.insert(0, f"places scatter by {scatter} in {answer.name}")
     return Headline(
         figures,
-        [sentence(str(each)) for each in grave_first(result.facts) if each.is_warning],
+        [sentence(str(each)) for each in warnings_in_order(result)],
         " ".join(map(sentence, filter(None, below))),
     )
 

@@ -14,6 +14,7 @@ import numpy as np
 from roughline._version import __version__
 from roughline.contact.quantities import IN_JSON
 from roughline.contact.status import Status
+from roughline.facts.fact import Fact
 from roughline.report.texture_table import texture_json
 from roughline.topography.body import Body, side_lengths
 
@@ -83,12 +84,29 @@ def assessment_json(assessment: Assessment, files: Sequence[Path] = ()) -> dict[
             for each in assessment.theories
         },
         "notes": assessment.remarks,
+        "facts": list(map(_fact_json, assessment.facts)),
         "settings": curve.settings,
         "files": list(files),
     }
     if question.friction is not None:
         content["partial_slip"] = None if slip is None else vars(slip)
     return content
+
+
+def _fact_json(fact: Fact) -> dict[str, Any]:
+    """A fact by its kind, with its numbers and its words."""
+    return {
+        "kind": fact.kind.name,
+        "weight": fact.weight,
+        "about": fact.about,
+        "answers": fact.of,
+        "numbers": {
+            name: _fact_json(each) if isinstance(each, Fact) else each
+            for name, each in fact.numbers.items()
+        },
+        "in_short": fact.in_short,
+        "in_full": str(fact),
+    }
 
 
 def _measured_json(measured: Measured, assessment: Assessment) -> dict[str, Any]:
@@ -149,6 +167,7 @@ def part_json(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any
         "refused": part.refused,
         "not_pressed": part.left,
         "notes": part.remarks,
+        "facts": list(map(_fact_json, part.facts)),
         "files": list(files),
     }
 

@@ -13,7 +13,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.status import Status
-from roughline.facts.fact import grave_first
+from roughline.facts.listed import listed
 from roughline.report.answers import (
     UNRESOLVED,
     answer_table,
@@ -26,6 +26,7 @@ from roughline.report.answers import (
     load_table,
     quantity,
     starred,
+    warnings_in_order,
 )
 from roughline.report.columns import blocks, paragraph
 from roughline.report.contact_tables import curve_table, modulus_in_words
@@ -35,6 +36,9 @@ from roughline.units import engineering
 
 MOST_PRINTED = 1000
 """Loads that are printed as a table, unless all are wanted."""
+
+MOST_WARNINGS = 3
+"""Warnings that are printed, a line each, unless all are wanted."""
 
 _MOST_ABREAST = 3  # loads of a body whose answers stand beside each other
 _MOST_PART_ABREAST = 2  # and of a part, whose answers have two columns
@@ -62,11 +66,11 @@ def print_assessment(
         boundary = curve.half_space.boundary
         model = f"full model, {boundary} half-space, residuals below {curve.settings['rtol']}"
     console.print(f"{modulus_in_words(assessment)}; {model}", highlight=False)
-    folded = ""
+    folded: list[str] = []
     if pair is not None:
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)
     else:
-        print_remarks(console, "warning", _warnings(assessment))
+        _print_warnings(console, assessment, unfolded_by)
         if unfolded_by and assessment.asked.size > MOST_PRINTED:
             ends = f"{_ends_of_curve(assessment)}; for each load use {unfolded_by}"
             console.print(ends, highlight=False, soft_wrap=True)
@@ -77,7 +81,7 @@ def print_assessment(
         console.print(failure, highlight=False, soft_wrap=not console.is_terminal)
     for line in _theory_lines(assessment):
         console.print(line, highlight=False, soft_wrap=True)
-    _print_end(console, assessment.notes, files, folded)
+    _print_end(console, assessment, files, folded, unfolded_by)
 
 
 def print_part(
@@ -97,18 +101,18 @@ def print_part(
         print_table(console, *maps_table(part))
         console.print()
         print_table(console, *leading_table(part))
-    _print_end(console, part.notes, files, folded)
+    _print_end(console, part, files, folded, unfolded_by)
 
 
 def _print_answers(
     console: Console, result: Assessment | PartAssessment, abreast: int, unfolded_by: str
-) -> str:
-    """Print the answers of two materials; returns a line on what is folded, if anything is.
+) -> list[str]:
+    """Print the answers of two materials; returns which of them are folded, if any are.
 
     Folded, a group has what was asked of it or else one answer, a curve of which no load was named
     has its ends, and a body under one load has the large figures alone.
     """
-    _print_headline(console, result)
+    _print_headline(console, result, unfolded_by)
     headings = starred(result)
     loads = list(range(len(headings)))
     if unfolded_by and not result.question.loading.headings:
@@ -123,15 +127,16 @@ def _print_answers(
     else:
         table = (_folded_table if unfolded_by else _unfolded_table)(result, loads)
         print_table(console, *table)
-    if elastic := elastic_in_words(result):
+    if not unfolded_by and (elastic := elastic_in_words(result)):
         where = " (at the largest load)" if len(headings) > 1 else ""
         console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
     _explain_star(console, [headings[i] for i in loads])
     loads_left = len(headings) - len(loads) if loads else 0
     further = {"answers": len(result.answers) - len(keys), "loads": loads_left}
     counts = [f"{count} further {name}" for name, count in further.items() if count]
-    counts += ["those of each map"] if unfolded_by and isinstance(result, PartAssessment) else []
-    return f"{' and '.join(counts)}: {unfolded_by} shows them" if counts else ""
+    return counts + (
+        ["those of each map"] if unfolded_by and isinstance(result, PartAssessment) else []
+    )
 
 
 def _folded_table(
@@ -168,7 +173,9 @@ def _unfolded_table(
     return header, rows
 
 
-def _print_headline(console: Console, result: Assessment | PartAssessment) -> None:
+def _print_headline(
+    console: Console, result: Assessment | PartAssessment, unfolded_by: str
+) -> None:
     """Print what was asked in words, the answers that lead, and warnings."""
     figures = headline(result).figures
     console.print()
@@ -178,14 +185,18 @@ def _print_headline(console: Console, result: Assessment | PartAssessment) -> No
         interval = f"  ({each.interval})" if each.interval else ""
         console.print(Text(f"  {each.name:<{width}}  {each.value}{interval}"), soft_wrap=True)
     console.print()
-    print_remarks(console, "warning", _warnings(result))
-    if result.warnings:
+    if _print_warnings(console, result, unfolded_by):
         console.print()
 
 
-def _warnings(result: Assessment | PartAssessment) -> list[str]:
-    """Warnings in words, grave ones first."""
-    return [str(each) for each in grave_first(result.facts) if each.is_warning]
+def _print_warnings(
+    console: Console, result: Assessment | PartAssessment, unfolded_by: str
+) -> bool:
+    """Print warnings, grave ones first; folded the first few in short. Says whether any are."""
+    warnings = warnings_in_order(result)
+    words = [each.in_short for each in warnings[:MOST_WARNINGS]]
+    print_remarks(console, "warning", words if unfolded_by else map(str, warnings))
+    return bool(warnings)
 
 
 def print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:
@@ -200,12 +211,24 @@ def _explain_star(console: Console, headings: Sequence[str]) -> None:
         console.print(f"* {UNRESOLVED}", highlight=False)
 
 
-def _print_end(console: Console, notes: Iterable[str], files: Iterable[Path], folded: str) -> None:
-    """Print notes, the files written, and what is folded."""
-    print_remarks(console, "note", notes)
+def _print_end(
+    console: Console,
+    result: Assessment | PartAssessment,
+    files: Iterable[Path],
+    folded: Sequence[str],
+    unfolded_by: str,
+) -> None:
+    """Print notes, the files written, and how much of what is folded."""
+    are_folded = bool(unfolded_by) and result.question.pair is not None
+    print_remarks(console, "note", [] if are_folded else result.notes)
     print_files(files)
-    if folded:
-        console.print(folded, highlight=False, soft_wrap=True)
+    counts = {"note": len(result.notes) if are_folded else 0}
+    if unfolded_by:
+        counts = {"further warning": len(result.warnings) - MOST_WARNINGS, **counts}
+    remarks = [f"{n} {name}{'' if n == 1 else 's'}" for name, n in counts.items() if n > 0]
+    if further := [*remarks, *folded]:
+        text = f"{listed(further)}: {unfolded_by} shows them"
+        console.print(text, highlight=False, soft_wrap=True)
 
 
 def _ends_of_curve(assessment: Assessment) -> str:
