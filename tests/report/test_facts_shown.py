@@ -11,8 +11,10 @@ from rich.console import Console
 import roughline as rl
 from known_facts import all_kinds, examples
 from roughline.facts.fact import LINE, kind
+from roughline.report.document import write_document
 from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
+from roughline.report.typeset import typeset
 
 FACTS = [examples(each)[0] for each in all_kinds().values()]
 
@@ -37,6 +39,30 @@ def test_python_the_terminal_and_json_tell_every_kind_in_the_same_words(answered
     assert sorted(found["notes"]) == sorted(map(str, FACTS))
     assert [each["in_full"] for each in found["facts"]] == list(map(str, FACTS))
     assert [each["kind"] for each in found["facts"]] == list(all_kinds())
+
+
+def test_a_report_begins_with_the_same_three_and_folds_all_below_what_they_concern(
+    answered, tmp_path
+):
+    key = "constriction_resistance"
+    facts = [FACTS[0].concerning(key), *FACTS[1:]]
+    write_document(replace(answered, facts=facts), tmp_path, "title", [], ["command"])
+    page = (tmp_path / "report.html").read_text("utf-8")
+    text = html.unescape(re.sub("<su[bp]>|</su[bp]>|<[^>]*>", "", page))
+    first, _, folded = text.partition(answered.question.materials[0].name.capitalize())
+    grave = [each.in_short for each in facts if each.is_grave][:3]
+    assert first.count("Warning: ") == 3
+    assert [each[1:] in first for each in grave] == [True] * 3
+    told = {line.strip().removeprefix("Warning: ").lower() for line in folded.splitlines()}
+    assert {f"{plain(each)}." for each in facts} <= told
+    under = re.search("<h2>Electrical</h2>.*?</details>", page, re.DOTALL)[0]
+    assert html.unescape(under).count("<li>") == 1
+
+
+def plain(fact):
+    """The words of a fact as a page has them, without what marks indices there."""
+    text = re.sub("<[^>]*>", "", html.unescape(str(typeset(str(fact)))))
+    return text.lower()
 
 
 def test_the_first_screen_has_three_warnings_of_a_line_each_and_counts_the_rest(answered, capsys):

@@ -28,6 +28,9 @@ UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surfac
 NO_MEAN = "-"
 """Written where maps have no common value."""
 
+MOST_WARNINGS = 3
+"""Warnings that a page or a screen begins with, a line each."""
+
 _MOST_FIGURES = 5  # that a page begins with, beside what was asked for
 _GIVEN_SCATTER = 1e-6  # scatter below which a quantity was given, and did not come out
 
@@ -101,7 +104,7 @@ def warnings_in_order(result: Assessment | PartAssessment) -> list[Fact]:
 
 
 def headline(result: Assessment | PartAssessment, write: Write = with_interval) -> Headline:
-    """The large figures at the largest load, warnings, and what else a page begins with."""
+    """The first warnings, the large figures at the largest load, and what stands below them."""
     leading = leading_keys(result)
     figures = [
         KeyFigure.of(each.name, quantity(each, result.largest, write))
@@ -114,7 +117,7 @@ def headline(result: Assessment | PartAssessment, write: Write = with_interval) 
         below.insert(0, f"places scatter by {scatter} in {answer.name}")
     return Headline(
         figures,
-        [sentence(str(each)) for each in warnings_in_order(result)],
+        [sentence(each.in_short) for each in warnings_in_order(result)[:MOST_WARNINGS]],
         " ".join(map(sentence, filter(None, below))),
     )
 

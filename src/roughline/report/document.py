@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from roughline._version import __version__
 from roughline.assessment.part import PartAssessment
+from roughline.facts.fact import Fact, grave_first
 from roughline.facts.listed import listed, listed_in_short
 from roughline.report.answers import (
     UNRESOLVED,
@@ -96,7 +97,7 @@ def _sections(
             tables=_many_loads(result),
         ),
         *_groups(result),
-        *([Section("Notes", notes=[*map(sentence, result.notes)])] if result.notes else []),
+        *_on_all_answers(result),
         *own,
         Section(
             "Formulas and sources",
@@ -149,10 +150,32 @@ def _groups(result: Assessment | PartAssessment) -> list[Section]:
                 )
                 for i in loads[::abreast]
             ],
+            notes=[
+                _in_full(fact) for fact in result.facts if not set(each.keys).isdisjoint(fact.of)
+            ],
             behind=answer_in_words(result, each.headline),
         )
         for each in groups(result)
     ]
+
+
+def _on_all_answers(result: Assessment | PartAssessment) -> list[Section]:
+    """Warnings and notes that concern all answers, folded behind how many there are."""
+    found = [
+        each for each in grave_first(result.facts) if result.answers.keys().isdisjoint(each.of)
+    ]
+    if not found:
+        return []
+    warnings = sum(each.is_warning for each in found)
+    counts = {"warning": warnings, "note": len(found) - warnings}
+    words = [f"{n} {name}{'' if n == 1 else 's'}" for name, n in counts.items() if n]
+    behind = f"{listed(words)} on all answers, in full"
+    return [Section("Warnings and notes", notes=[*map(_in_full, found)], behind=behind)]
+
+
+def _in_full(fact: Fact) -> str:
+    """A fact as a sentence, which says whether it is a warning."""
+    return sentence(f"warning: {fact}" if fact.is_warning else str(fact))
 
 
 def _assumptions(assessment: Assessment) -> list[str]:

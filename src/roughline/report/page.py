@@ -78,7 +78,7 @@ class KeyFigure:
 
 @dataclass(frozen=True)
 class Headline:
-    """What a page begins with: grave warnings, the answers that lead, and a remark below them."""
+    """What a page begins with: the first warnings, the answers that lead, a remark below them."""
 
     figures: Sequence[KeyFigure]
     warnings: Sequence[str] = ()

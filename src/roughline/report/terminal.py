@@ -15,6 +15,7 @@ from roughline.contact.curve import SurfaceCurve
 from roughline.contact.status import Status
 from roughline.facts.listed import listed
 from roughline.report.answers import (
+    MOST_WARNINGS,
     UNRESOLVED,
     answer_table,
     elastic_in_words,
@@ -36,9 +37,6 @@ from roughline.units import engineering
 
 MOST_PRINTED = 1000
 """Loads that are printed as a table, unless all are wanted."""
-
-MOST_WARNINGS = 3
-"""Warnings that are printed, a line each, unless all are wanted."""
 
 _MOST_ABREAST = 3  # loads of a body whose answers stand beside each other
 _MOST_PART_ABREAST = 2  # and of a part, whose answers have two columns
