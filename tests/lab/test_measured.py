@@ -710,7 +710,7 @@ def test_code_of_several_maps_of_which_one_is_refused_runs(page, part, run_code,
     for which in ("python", "command"):
         done = run_code(page.ask("code", said, which=which)[0]["text"], which, tmp_path)
         assert done.returncode == (0 if which == "python" else 1), done.stderr  # as it says itself
-        assert "broken.x3p is damaged" in " ".join((done.stdout + done.stderr).split())
+        assert "broken.x3p: this file is damaged" in " ".join((done.stdout + done.stderr).split())
     assert all(is_told(each, done.stdout) for each in figures)
 
 

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import attrs
 import numpy as np
@@ -126,7 +125,7 @@ def assess_part(
     KeyboardInterrupt
         On Ctrl-C before the first map was done.
     """
-    answer = answer or partial(assess_body, announce=announce, progress=progress)
+    answer = answer or partial(assess_map, announce=announce, progress=progress)
     _refuse_unlike(questions)
     done = _PressedMaps()
     todo = list(zip(names or _map_names(questions), questions, strict=True))
@@ -145,9 +144,22 @@ def assess_part(
         names_by_reason: dict[str, list[str]] = {}
         for name, why in done.refused.items():
             names_by_reason.setdefault(why, []).append(name)
-        reasons = "; ".join(_reason(", ".join(some), why) for why, some in names_by_reason.items())
+        reasons = "; ".join(f"{', '.join(some)}: {why}" for why, some in names_by_reason.items())
         raise InputError(f"none of the {len(todo)} maps can be pressed: {reasons}")
     return _combined(done)
+
+
+def assess_map(
+    question: Question, *, announce: Announce | None = None, progress: LoadProgress | None = None
+) -> Assessment:
+    """Answer a question of one of several maps, whose names stand beside what is said of them.
+
+    So messages call its file "this file".
+    """
+    asked = question
+    if isinstance(question.body, Path):
+        asked = attrs.evolve(question, reading=replace(question.reading, name="this file"))
+    return replace(assess_body(asked, announce=announce, progress=progress), question=question)
 
 
 def _map_names(questions: Sequence[Question]) -> list[str]:
@@ -171,7 +183,7 @@ def _press(
 ) -> bool:
     """Press one map; says whether it came to its end."""
     try:
-        result = answer(_named(question, name))
+        result = answer(question)
     except InputError as error:
         done.refused[name] = str(error)
         return True
@@ -185,15 +197,8 @@ def _press(
                 f"its heights are those of {other}, and each place counts only once"
             )
             return True
-    done.assessments[name] = replace(result, question=question)
+    done.assessments[name] = result
     return True
-
-
-def _named(question: Question, name: str) -> Question:
-    """The question with its file called as the map is, in messages."""
-    if not isinstance(question.body, Path) or question.reading.name is not None:
-        return question
-    return attrs.evolve(question, reading=replace(question.reading, name=name))
 
 
 def _combined(done: _PressedMaps) -> PartAssessment:
@@ -202,7 +207,7 @@ def _combined(done: _PressedMaps) -> PartAssessment:
     first = results[0].question
     behind = behind_maps(results)
     answers = _answers(results, behind)
-    missing = [refused(_reason(name, why)) for name, why in done.refused.items()]
+    missing = [refused(name, why) for name, why in done.refused.items()]
     missing += [not_pressed(tuple(done.left))] if done.left else []
     return PartAssessment(
         question=first,
@@ -283,8 +288,3 @@ def _refuse_unlike(questions: Sequence[Question]) -> None:
                 f"all maps of a part are asked the same question, but {item.name} differs between "
                 "them: give the same for all"
             )
-
-
-def _reason(name: str, why: Any) -> str:
-    """A map and why it was refused; many reasons begin with its name."""
-    return str(why) if str(why).startswith(name) else f"{name}: {why}"

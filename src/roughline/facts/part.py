@@ -9,9 +9,9 @@ from roughline.units import engineering
 
 
 @kind(LIMITS)
-def refused(why: str) -> Wording:
-    """A map that could not be pressed: its name, and why."""
-    return f"refused: {why}"
+def refused(name: str, why: str) -> Wording:
+    """A map that could not be pressed, and why."""
+    return f"refused: {name}: {why}"
 
 
 @kind(LIMITS)

@@ -11,7 +11,7 @@ import numpy as np
 from attrs import evolve
 
 from roughline.assessment.assess import assess_body
-from roughline.assessment.assess_part import assess_part
+from roughline.assessment.assess_part import assess_map, assess_part
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
@@ -133,7 +133,7 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
     def solve(question: Question) -> Assessment:
         assert isinstance(question.body, Path)
         asked = sorted({**texts, "file": keys[question.body]}.items())
-        made = partial(assess_body, question, progress=steps)
+        made = partial(assess_body if len(sources) == 1 else assess_map, question, progress=steps)
         return cached(session, "assessment", asked, made, most=len(sources))
 
     with at("answers"):
