@@ -271,7 +271,7 @@ def skewed(of: str, skewness: float, chance: float) -> Wording:
     """Heights of a map, or of one of its coarser selves, are skewed."""
     value, allowed = (in_words(each, None, 2) for each in (skewness, chance))
     return (
-        f"heights are skewed by {value}, by chance {allowed}",
+        f"not Gaussian, skewness {value}, by chance {allowed}",
         f"heights are not Gaussian: the skewness of {of} is {value}, and chance allows {allowed}",
     )
 
@@ -281,7 +281,7 @@ def long_tailed(of: str, kurtosis: float, chance: float) -> Wording:
     """Heights of a map, or of one of its coarser selves, have other tails."""
     value, allowed = (in_words(each, None, 2) for each in (kurtosis, chance))
     return (
-        f"heights have a kurtosis of {value}, by chance 3 ± {allowed}",
+        f"not Gaussian, kurtosis {value}, by chance 3 ± {allowed}",
         f"heights are not Gaussian: the kurtosis of {of} is {value}, and chance allows 3 with "
         f"{allowed} more or less",
     )
