@@ -21,8 +21,10 @@ from trials import (
 
 import roughline as rl
 from roughline.assessment.assumptions import broken
-from roughline.assessment.larger_surface import larger_surface, roll_offs_along_a_side
-from roughline.assessment.tiles import Extrapolation, TiledCurves, coarsened, cut_tiles
+from roughline.assessment.extrapolation import Extrapolation, roll_offs_along_a_side
+from roughline.margins.place import spread_of_differences
+from roughline.margins.spread import Values
+from roughline.margins.tiles import TiledCurves, coarsened, cut_tiles
 
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 COUNTS = (2, 3, 5, 10)
@@ -204,15 +206,15 @@ def _of_tiles(piece, whole, truth, press):
     k, area = curve.unloading_stiffness, curve.area_fraction_corrected
     coarse = coarsened(level)
     sizes = [coarse], cut_tiles(coarse, 2), cut_tiles(coarse, 4)
-    (of_map,), *of_tiles = ([press(each, rtol=1e-4) for each in some] for some in sizes)
-    tiled = TiledCurves(of_map, *of_tiles, coarse.heights.size)
-    tiles = tiled.stiffness_and_contact()
-    larger = larger_surface(curve, beyond, tiles, (k, k), (area, area))
+    (of_map,), *pressed_tiles = ([press(each, rtol=1e-4) for each in some] for some in sizes)
+    tiled = TiledCurves(of_map, *pressed_tiles, coarse.heights.size)
+    of_tiles = [each.extrapolated(beyond) for each in tiled.stiffness_and_contact()]
+    open_to = spread_of_differences(Values.of(curve), *of_tiles, {}, {})
     told = {
         "k_i": (truth.unloading_stiffness / whole.area, k / piece.area),
         "A": (truth.area_fraction_corrected, area),
     }
-    ends = {"k_i": np.array(larger.stiffness.ends) / piece.area, "A": np.array(larger.area)}
+    ends = {"k_i": np.array(open_to.unloading) / piece.area, "A": np.array(open_to.area)}
     said = ", ".join(each.assumption for each in broken("larger surface", piece))
     maps = round(math.sqrt(whole.area / piece.area))
     size = f"Gaussian, {maps} a side, roll-off {'seen' if beyond.roll_offs else 'not seen'}"

@@ -22,7 +22,10 @@ _NAMED = {  # what stands for a longer or a shorter text than most
     "load": ["10 N"],
     "loads": [("10 N",), ("1 N", "10 N")],
     "unit": ["m", None],
-    "causes": [(("grid", 12.0),), (("hardness", 4.0), ("piece", 3.0))],
+    "causes": [
+        (("the grid", "finer pixels", 12.0),),
+        (("the scatter", "a test", 4.0), ("one map", "many", 3.0)),
+    ],
     "material": ["titanium-nitride"],
     "fluid": ["helium"],
     "axis": ["x"],

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.uncertainty import loading_under_unloading
+from roughline.margins.spread import loading_under_unloading
 
 PAIR = "steel,copper"
 H = rl.material("copper").hardness

@@ -9,10 +9,13 @@ import pytest
 
 import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of, piece_of
-from roughline.assessment.larger_measure import LargerMeasure
-from roughline.assessment.larger_surface import larger_surface
-from roughline.assessment.tiles import Extrapolation, TiledCurves, Tiles
+from held_measures import held
+from roughline.assessment.extrapolation import Extrapolation
 from roughline.contact.measures import MEAN_GAP, Measured
+from roughline.margins.larger_measure import LargerMeasure
+from roughline.margins.place import spread_of_differences
+from roughline.margins.spread import Spread, Values
+from roughline.margins.tiles import TiledCurves, Tiles
 
 MATERIALS = "E=200 GPa nu=0.3, E=200 GPa nu=0.3"
 SEEN, NOT_SEEN = Extrapolation(6.0), Extrapolation(None)
@@ -67,8 +70,8 @@ def test_full_contact_of_a_tile_leaves_no_upper_end():
     assert np.isfinite(low).tolist() == [True, True, False]
 
 
-def measure_of(whole, halves, quarters, own=(0.9, 1.1)):
-    """A measure under one load, of a map, its halves and its quarters, with ends of the grid."""
+def measure_of(whole, halves, quarters):
+    """A measure under one load, of a map, its halves and its quarters."""
 
     def curve(value):
         return SimpleNamespace(
@@ -76,30 +79,34 @@ def measure_of(whole, halves, quarters, own=(0.9, 1.1)):
         )
 
     tiled = TiledCurves(curve(whole), list(map(curve, halves)), list(map(curve, quarters)), 64)
-    ends = [np.array([float(whole) * each]) for each in own]
-    return LargerMeasure.of(Measured(MEAN_GAP.quantity, np.array([float(whole)]), *ends), tiled)
+    return LargerMeasure.of(np.array([float(whole)]), "mean_gap", tiled)
+
+
+def with_grid(measure, of_grid=(0.9, 1.1)):
+    """Both ends of that of a larger surface, with those of the grid over the value."""
+    return held(measure, SEEN, tuple(measure.values * each for each in of_grid))
 
 
 def test_a_measure_scatters_as_its_tiles_do():
     """Tiles that are alike leave what the grid does; others are combined with that."""
-    alike = measure_of(2, [2] * 4, [2] * 16).with_larger_surface(SEEN)
-    assert [alike.low[0], alike.high[0]] == pytest.approx([1.8, 2.2])
+    low, high = with_grid(measure_of(2, [2] * 4, [2] * 16))
+    assert [low[0], high[0]] == pytest.approx([1.8, 2.2])
     rng = np.random.default_rng(6)
     quarters = 2 * np.exp(0.3 * rng.normal(size=16))
-    apart = measure_of(2, [1.8, 2.2, 2.0, 2.0], quarters).with_larger_surface(SEEN)
-    assert 0.5 < apart.low[0] < 1.8
-    assert 2.2 < apart.high[0] < 4
+    low, high = with_grid(measure_of(2, [1.8, 2.2, 2.0, 2.0], quarters))
+    assert 0.5 < low[0] < 1.8
+    assert 2.2 < high[0] < 4
 
 
 def test_sealed_tiles_open_an_interval_towards_zero_and_not_to_infinity():
-    some = measure_of(1, [1.2, 0.8, 1, 0], [0] * 6 + [1.5] * 10).with_larger_surface(SEEN)
-    assert 0 < some.low[0] < 0.5
-    assert 1.1 < some.high[0] < 20
-    most = measure_of(0.2, [1.2, 0, 0, 0], [0] * 12 + [1.5] * 4).with_larger_surface(SEEN)
-    assert most.low[0] == 0
-    sealed = measure_of(0, [0, 0.5, 0, 0], [0] * 10 + [0.4] * 6).with_larger_surface(SEEN)
-    assert sealed.low[0] == sealed.values[0] == 0
-    assert 0 < sealed.high[0] < 5
+    low, high = with_grid(measure_of(1, [1.2, 0.8, 1, 0], [0] * 6 + [1.5] * 10))
+    assert 0 < low[0] < 0.5
+    assert 1.1 < high[0] < 20
+    low, _ = with_grid(measure_of(0.2, [1.2, 0, 0, 0], [0] * 12 + [1.5] * 4))
+    assert low[0] == 0
+    low, high = with_grid(measure_of(0, [0, 0.5, 0, 0], [0] * 10 + [0.4] * 6))
+    assert low[0] == 0
+    assert 0 < high[0] < 5
 
 
 def test_without_a_roll_off_a_gap_may_go_on_to_either_side():
@@ -112,15 +119,8 @@ def test_without_a_roll_off_a_gap_may_go_on_to_either_side():
 
 def test_where_map_and_tiles_are_sealed_nothing_but_the_grid_leaves_it_open():
     closed = measure_of(0, [0] * 4, [0] * 16)
-    assert closed.with_larger_surface(SEEN).high[0] == 0
-    opened = replace(closed, of_map=replace(closed.of_map, high=np.array([0.3])))
-    assert opened.with_larger_surface(SEEN).high[0] == 0.3
-
-
-def test_a_measure_of_a_joint_too_large_to_be_told_of_has_no_interval():
-    found = measure_of(1, [1] * 4, [1] * 16)
-    assert found.with_larger_surface(Extrapolation(None, 5.0, "seal")).low is None
-    assert found.with_larger_surface(None).high is None
+    assert held(closed, SEEN)[1][0] == 0
+    assert held(closed, SEEN, (np.zeros(1), np.array([0.3])))[1][0] == pytest.approx(0.3)
 
 
 def test_a_map_without_roll_off_tells_of_joints_up_to_sixteen_times_as_long():
@@ -143,15 +143,15 @@ def test_both_uncertainties_are_combined(made):
     _, piece = made
     level = piece.detrended()
     curve = rl.press(level, E_star=1.0, forces=[0.02 * level.rms_slope * level.area], periodic=True)
-    tiles = (drawn(np.random.default_rng(4), loads=1),) * 2
-    k, a = curve.unloading_stiffness, curve.area_fraction_corrected
-    alone, with_own = (
-        larger_surface(curve, SEEN, tiles, (k / f, k * f), (a, a)).stiffness for f in (1.0, 10.0)
-    )
-    for end, wide in zip(alone.ends, with_own.ends, strict=True):
+    values, differences = Values.of(curve), drawn(np.random.default_rng(4), loads=1)
+    of_tiles = differences.extrapolated(SEEN)
+    of_place = spread_of_differences(values, of_tiles, of_tiles, {}, {})
+    k = values.unloading
+    of_grid = replace(of_place, unloading=(k / 10, k * 10))
+    alone, both = (Spread.together(values, each) for each in ([of_place], [of_place, of_grid]))
+    for end, wide in zip(alone.unloading, both.unloading, strict=True):
         own = math.hypot(math.log(10), abs(math.log(end[0] / k[0])))
         assert abs(np.log(wide / k)) == pytest.approx([own])
-    assert larger_surface(curve, SEEN, None, (k, k), (a, a)).stiffness.ends is None
 
 
 @pytest.mark.parametrize("points", [32, 64])

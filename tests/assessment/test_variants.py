@@ -6,7 +6,8 @@ import pytest
 import roughline as rl
 from roughline.assessment import loads as load_cases
 from roughline.assessment.case import Case
-from roughline.assessment.variants import Stopped, Way, list_variants, press_all
+from roughline.assessment.presses import list_presses
+from roughline.margins.variant import AS_ASKED, Stopped, press_all
 
 PAIR = "steel,copper"
 SURFACE = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4).surface(64, 7)
@@ -38,7 +39,7 @@ def pressed(monkeypatch):
 def test_no_body_is_pressed_more_often_than_the_list_says(pressed, asked):
     body, settings, most = ASKED[asked]
     question = rl.Question(body, loads=["5 MPa", "20 MPa"], **settings)
-    assert len(list_variants(Case.of(question))) == most
+    assert len(list_presses(Case.of(question))) == most
     steps = []
     rl.assess(question, progress=lambda *step: steps.append(step))
     assert 0 < len(pressed) <= most
@@ -50,7 +51,7 @@ def test_no_body_is_pressed_more_often_than_the_list_says(pressed, asked):
 def test_what_is_needless_is_not_pressed(pressed):
     """Under light loads nothing yields, so that elastic and harder bodies are no others."""
     question = rl.Question(SURFACE, "alumina,glass", loads="0.5 N")
-    assert len(list_variants(Case.of(question))) == 4
+    assert len(list_presses(Case.of(question))) == 4
     rl.assess(question)
     assert len(pressed) == 2  # as asked, and the softest
 
@@ -66,7 +67,7 @@ def test_an_interrupt_of_the_second_variant_carries_the_first(monkeypatch):
 
 def assert_done_is_carried(monkeypatch, stop_at):
     case = Case.of(rl.Question(MAP, PAIR, loads=["5 MPa", "20 MPa"], elastic=True))
-    variants, count, original = list_variants(case), [], load_cases.press
+    variants, count, original = list_presses(case), [], load_cases.press
 
     def press(body, *, progress, **named):
         count.append(body)
@@ -84,7 +85,7 @@ def assert_done_is_carried(monkeypatch, stop_at):
     assert list(curves.by_name) == [each.name for each in variants[: stop_at + 1]]
     assert curves.stopped == variants[stop_at].name
     assert curves.complete(curves.stopped) is None
-    assert curves.as_asked is curves.by_name[Way.AS_ASKED]
+    assert curves.as_asked is curves.by_name[AS_ASKED]
     assert curves.as_asked.converged.all() == (stop_at > 0)
     count.clear()
     result = rl.assess(case.question, progress=lambda done, total: None)

@@ -14,17 +14,21 @@ from roughline.assessment.films import hardness_ends
 from roughline.assessment.kinds import has_spectrum, nominal_area
 from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
 from roughline.assessment.question import Question
-from roughline.assessment.solution import Solution
+from roughline.assessment.solution import LeftOpen, Solution, combine_curves
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.selection import at_loads, first_fields
 from roughline.contact.status import Status
 from roughline.engineering.intervals import Ends, Intervals, taken
+from roughline.engineering.margin import Margin
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
 from roughline.facts.fact import Fact
+from roughline.margins.causes import HARDNESS, causes
+from roughline.margins.spread import measured_within
+from roughline.margins.variant import Curves
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Surface
 
@@ -68,6 +72,47 @@ def work_out_answers(
     return answers, left_out
 
 
+def margins_by_cause(
+    case: Case,
+    curves: Curves,
+    left_open: LeftOpen | None,
+    answers: Mapping[str, Answer],
+    scatter: Mapping[str, Ends],
+) -> Mapping[str, Sequence[Margin]]:
+    """How far each cause alone leaves each answer open.
+
+    An answer that is sought brings an interval of its own, of its half grid and its quarters.
+    """
+    found: dict[str, list[Margin]] = {key: [] for key in answers}
+    if left_open is not None:
+        own, _ = work_out_answers(case, combine_curves(case, curves, left_open.by("")))
+        for each in causes:
+            if each.is_bound:
+                continue
+            solution = combine_curves(case, curves, left_open.by(each.name))
+            alone, _ = work_out_answers(case, solution)
+            for key, answer in answers.items():
+                if (ends := _ends_alone(answer, alone.get(key), own.get(key))) is not None:
+                    found[key].append(Margin(each.name, each.title, each.remedy, *ends))
+    for key, (least, most) in scatter.items():
+        values = answers[key].values
+        low, high = (np.where(values == 0, 0.0, values * each) for each in (least, most))
+        found[key].append(Margin(HARDNESS.name, HARDNESS.title, HARDNESS.remedy, low, high))
+    return {key: [each for each in margins if each.matters] for key, margins in found.items()}
+
+
+def _ends_alone(answer: Answer, alone: Answer | None, own: Answer | None) -> Ends | None:
+    """Ends of an answer that one cause leaves open; None of one that has an interval of its own."""
+    if alone is None or own is None or answer.rule.is_given:
+        return None
+    if own.ends is not None and not all(
+        np.array_equal(each, own.values, equal_nan=True) for each in own.ends
+    ):
+        return None
+    unknown = np.full(answer.values.shape, np.nan)
+    return alone.ends or (None if answer.ends is None else (unknown, unknown))
+
+
 def ends_from_many(
     result: Assessment, further: Differences, *, with_grid: bool
 ) -> Mapping[str, Ends]:
@@ -78,22 +123,21 @@ def ends_from_many(
     larger, curve, pair = result.larger, result.curve_as_asked, result.question.pair
     if larger is None or pair is None or not isinstance(curve, SurfaceCurve):
         return {}
-    larger = larger.from_many(curve.area_fraction_corrected, further, with_grid=with_grid)
+    own = [each.name for each in causes if not each.is_bound and not each.is_of_larger]
+    larger = larger.from_many(further, own if with_grid else [])
     intervals = result.intervals_as_asked if with_grid else None
     if result.question.joint is not None:  # the map is pressed as a part of the larger one
-        known = curve if with_grid else replace(curve, stiffness_error=None)
-        intervals = larger.intervals(known)
+        intervals = larger.intervals
     body = result.body
     spectrum = moments(body) if has_spectrum(body) else None
-    interface = larger.stiffness
-    pressed = _pressed(result.question, pair, body, curve, interface, intervals, spectrum)
+    pressed = _pressed(result.question, pair, body, curve, larger.stiffness, intervals, spectrum)
     measured = dict(taken(result.measured, result.asked))
     if not with_grid:
         measured = {
             key: replace(each, low=each.values, high=each.values) for key, each in measured.items()
         }
-    for key, ends in further.measures.items():
-        measured[key] = larger.measures[key].widened(ends, with_grid=with_grid)
+    of_many = {key: measured[key] for key in further.measures}
+    measured |= measured_within(of_many, larger.spreads.values())
     found_answers, _ = rules.answers(
         replace(
             pressed, measured=measured, is_repeated=True, sought=result.sought, fields=result.fields

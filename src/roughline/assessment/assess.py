@@ -6,25 +6,35 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughline.assessment.answers import work_out_answers
+from roughline.assessment.answers import margins_by_cause, work_out_answers
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.bounds import elastic_answers, widen_by_scatter
 from roughline.assessment.case import Case
 from roughline.assessment.cost import Announce, announce_cost
 from roughline.assessment.doubts import collect_warnings
 from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.notes import collect_notes
+from roughline.assessment.presses import list_presses
 from roughline.assessment.question import Question
-from roughline.assessment.scatter import elastic_answers, widen_by_scatter
-from roughline.assessment.solution import Solution, combine_curves, fields_of_gap, solve_scan
+from roughline.assessment.slip import slip_at_largest_load
+from roughline.assessment.solution import (
+    LeftOpen,
+    Solution,
+    combine_curves,
+    fields_of_gap,
+    solve_scan,
+)
 from roughline.assessment.sought import find_sought
-from roughline.assessment.variants import Curves, Stopped, Way, list_variants, press_all
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
 from roughline.facts.intervals import without_answer
+from roughline.margins.causes import causes
+from roughline.margins.filling import force_on_filled
+from roughline.margins.variant import AS_ASKED, Curves, Stopped, press_all
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 
@@ -58,10 +68,11 @@ def assess_body(
         If a file cannot be read, or the question does not suit what the file holds.
     """
     case = Case.of(question)
-    curves, solution = _solved(case, announce, progress)
+    curves, left_open, solution = _solved(case, announce, progress)
     answers, left_out = work_out_answers(case, solution)
     theories, others = _theories(question, case.body, solution.curve)
-    scatter, answers, intervals = widen_by_scatter(case, curves, solution, answers)
+    scatter, widened, intervals = widen_by_scatter(case, curves, solution, answers)
+    margins = margins_by_cause(case, curves, left_open, answers, scatter)
     loads = case.loads.asked_loads(solution.curve)
     result = Assessment(
         question,
@@ -71,41 +82,43 @@ def assess_body(
         loads,
         intervals=intervals,
         interrupted=bool(curves.stopped),
-        answers=answers,
+        answers={key: replace(each, margins=margins[key]) for key, each in widened.items()},
         left_out=[*left_out, *others],
         elastic=elastic_answers(case, curves),
         hardness_scatter=scatter,
         larger=taken(solution.larger, loads),
         measured=solution.measured,
-        on_filled=solution.on_filled,
+        on_filled=force_on_filled(curves),
         fields_of_gap=fields_of_gap(case, curves),
         sought=solution.sought,
         theories=theories,
     )
     warnings = collect_warnings(result, case.moments, case.loads.grid_error)
-    return replace(result, facts=[*warnings, *collect_notes(result, solution.note)])
+    of_causes = [fact for each in causes for fact in each.facts(case, curves)]
+    return replace(result, facts=[*warnings, *collect_notes(result, of_causes)])
 
 
 def _solved(
     case: Case, announce: Announce | None, progress: LoadProgress | None
-) -> tuple[Curves, Solution]:
-    """Press a body, or a line scan through its spectrum."""
+) -> tuple[Curves, LeftOpen | None, Solution]:
+    """Press a body, or a line scan through its spectrum; with what causes leave open."""
     if case.scan is not None:
         solution = solve_scan(case, case.scan)
-        curves = Curves({Way.AS_ASKED: solution.curve})
-    else:
-        curves = _pressed(case, announce, progress)
-        solution = combine_curves(case, curves)
-        _refuse_all_at_the_hardness(case, solution.curve)
-    return curves, solution
+        return Curves({AS_ASKED: solution.curve}), None, solution
+    curves = _pressed(case, announce, progress)
+    left_open = LeftOpen.of(case, curves)
+    solution = combine_curves(case, curves, left_open)
+    sought = replace(solution.sought, slip=slip_at_largest_load(case, curves))
+    _refuse_all_at_the_hardness(case, solution.curve)
+    return curves, left_open, replace(solution, sought=sought)
 
 
 def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | None) -> Curves:
     """Press the body in all ways that are needed, until Ctrl-C comes."""
-    variants = list_variants(case)
-    announce_cost(case, variants, announce)
+    presses = list_presses(case)
+    announce_cost(case, presses, announce)
     try:
-        curves = press_all(variants, case.loads.count, progress)
+        curves = press_all(presses, case.loads.count, progress)
     except Stopped as stop:
         return stop.curves
     sought, is_stopped = find_sought(case, curves)

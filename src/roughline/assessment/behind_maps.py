@@ -30,14 +30,16 @@ import numpy as np
 
 from roughline.assessment.answers import ends_from_many
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.larger_measure import UNBOUNDED
-from roughline.assessment.larger_surface import Differences, LargerSurface, fitted_roll_offs
-from roughline.assessment.tiles import FEWEST_POINTS, MOST_DOUBLINGS, Extrapolation, Tiles, logit
+from roughline.assessment.extrapolation import MOST_DOUBLINGS, Extrapolation, fitted_roll_offs
+from roughline.assessment.larger_surface import Differences, LargerSurface
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.errors.words import called
+from roughline.margins.larger_measure import UNBOUNDED
+from roughline.margins.spread import logit
+from roughline.margins.tiles import FEWEST_POINTS, Tiles
 from roughline.spectra.fit import SelfAffineFit, nearest_law
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
 from roughline.spectra.longer_waves import long_shapes

@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from roughline.assessment.case import Case
-from roughline.assessment.variants import Purpose, Variant
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.arguments import yielding_law
 from roughline.contact.estimates import (
@@ -21,6 +20,8 @@ from roughline.contact.estimates import (
 )
 from roughline.contact.loads import Loads
 from roughline.errors.words import called
+from roughline.margins.causes import causes
+from roughline.margins.variant import Variant
 from roughline.topography.body import Surface
 
 Announce = Callable[[str], None]
@@ -71,12 +72,10 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
     costs = [(each, estimated(each)) for each in variants]
     memory = _most_memory(case, body, max(cost.memory for _, cost in costs))
 
-    def seconds(purpose: Purpose) -> float:
+    def seconds(purpose: str) -> float:
         return sum(each.share * cost.seconds for each, cost in costs if each.purpose == purpose)
 
     text = f"about {gigabytes(memory)} and {duration(seconds('as asked'))}"
-    if of_filling := seconds("filling"):
-        text += f", {duration(of_filling)} with missing points filled otherwise"
     if of_interface := seconds("interface"):
         text += f", then {duration(of_interface)} for the interface"
     if of_flow := _seconds_of_flow(case, variants):
@@ -84,14 +83,9 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
     if case.question.fluid is not None and case.question.fluid.closure:
         of_load = seconds("as asked") / case.loads.count
         text += f", {duration(_LOADS_TO_SEAL * of_load)} for the pressure that seals"
-    if of_larger := seconds("larger surface"):
-        text += f", and {duration(of_larger)} for the surface around the map"
-    of_one = sum(each.purpose in ("as asked", "interface") for each in variants)
-    if more := math.fsum(each.share for each in variants if each.purpose == "hardness") / of_one:
-        text += (
-            f"; where points yield, up to {more:g} times as long in addition, for elastic "
-            "bodies and for the scatter of the hardness"
-        )
+    for cause in causes:
+        if of_cause := seconds(cause.name):
+            text += f", {duration(of_cause)} {cause.takes}"
     announce(f"{body.shape[0]} x {body.shape[1]} points, {case.loads.count} loads: {text}")
 
 

@@ -28,7 +28,6 @@ from roughline.facts.fact import Fact
 from roughline.facts.hardness import summits_yield
 from roughline.facts.heights import steep
 from roughline.facts.intervals import (
-    Cause,
     WhyNot,
     departs,
     grid_error_unknown,
@@ -207,35 +206,21 @@ def _full_contact_warnings(result: Assessment) -> list[Fact]:
 
 def _wide_interval_warnings(result: Assessment) -> list[Fact]:
     """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
-    curve, points = result.curve_as_asked, result.body.heights.size
     rules = (INTERFACE_STIFFNESS, UNLOADING_STIFFNESS, CONTACT_STIFFNESS)
     answer = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
-    ends = None if answer is None else answer.ends
-    if answer is None or ends is None or not isinstance(curve, SurfaceCurve):
-        return []
-    error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
-    if error is None:
+    curve, points = result.curve_as_asked, result.body.heights.size
+    if answer is None or answer.ends is None or not isinstance(curve, SurfaceCurve):
         return []
     with np.errstate(divide="ignore", invalid="ignore"):
-        widths, of_grid = np.log(ends[1] / ends[0]), 2 * np.log1p(error / k)
-        scatter = result.hardness_scatter.get(answer.key)
-        of_hardness = 0 * widths if scatter is None else np.log(scatter[1] / scatter[0])
-        of_piece = np.sqrt(np.maximum((widths - of_hardness) ** 2 - of_grid**2, 0))
-    widths = np.where(np.isfinite(widths), widths, 0)
-    i = int(np.argmax(widths))
-    if widths[i] < np.log(_WIDE_RATIO):
+        factors = np.nan_to_num(answer.ends[1] / answer.ends[0], posinf=0.0)
+    load = int(np.argmax(factors))
+    causes = [each for each in answer.why(load) if each.factor > _COUNTED_RATIO]
+    if factors[load] < _WIDE_RATIO or not causes:
         return []
-    cells = round(float(curve.area_fraction[i]) * points)
-    causes: dict[Cause, float] = {"grid": of_grid[i], "hardness": of_hardness[i]}
-    if answer.rule is INTERFACE_STIFFNESS:
-        causes["piece"] = of_piece[i]
-    counted = {each: float(np.exp(width)) for each, width in causes.items()}
-    counted = {each: factor for each, factor in counted.items() if factor > _COUNTED_RATIO}
-    if not counted:
-        return []
-    largest_first = tuple(sorted(counted.items(), key=lambda each: -each[1]))
-    factor = float(np.exp(widths[i]))
-    fact = wide(answer.name, result.headings[i], factor, largest_first, cells, points)
+    found = tuple((each.title, each.remedy, each.factor) for each in causes)
+    cells = round(float(curve.area_fraction[load]) * points)
+    heading, factor = result.headings[load], float(factors[load])
+    fact = wide(answer.name, heading, factor, found, cells, points)
     return [fact.concerning(answer.key)]
 
 

@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 
-from roughline.assessment.larger_measure import LargerMeasure
-from roughline.assessment.tiles import MOST_DOUBLINGS, Extrapolation, Tiles, logit
-from roughline.assessment.uncertainty import (
-    area_fraction,
-    combined,
-    interval,
-    loading_under_unloading,
-    unloading_stiffness,
-    widened,
-)
-from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.assessment.extrapolation import MOST_DOUBLINGS, Extrapolation
+from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.contact.scaling import PUNCH_GRID_ERROR
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pressed import InterfaceStiffness
-from roughline.errors import InputError
 from roughline.facts.answers import (
     joint_in_reach,
     joint_out_of_reach,
@@ -36,13 +25,14 @@ from roughline.facts.answers import (
     some_larger_surface,
 )
 from roughline.facts.fact import Fact
-from roughline.spectra.fit import SelfAffineFit, fitted
+from roughline.margins.larger_measure import LargerMeasure
+from roughline.margins.place import spread_of_differences
+from roughline.margins.spread import Spread, Values, intervals_within
+from roughline.margins.tiles import Tiles
 from roughline.topography.body import Body, Line, Surface
 
 _PUNCH_MATTERS = 0.05
 """Share of 1 / k_s in 1 / k, up to which k_i of a piece is within 2 % of that of it repeated."""
-
-_LEAST_SHARE = 1e-9  # of the area that is in contact, or is not; less counts as this
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,76 +49,44 @@ class Differences:
 class LargerSurface:
     """The surface behind a piece, under the loads of the piece's curve."""
 
-    stiffness: InterfaceStiffness  # of as much of it as the piece is large [N / m]
-    area: Ends | None = None  # ends of its corrected area fraction [1]
-    of_grid: tuple[Ends | None, Ends | None] = (None, None)
-    """Ends of the piece's own stiffness [N / m] and area fraction [1], which the grid and filled
-    points leave open."""
-
+    values: Values  # of the piece in the periodic half-space
+    spreads: Mapping[str, Spread | None]  # what causes leave open of that surface, by their names
+    of_which: Fact  # which surface it is
     tiles: tuple[Tiles, Tiles] | None = None
     """Logarithms of the stiffness, and logits of the contact area fraction."""
 
     measures: Mapping[str, LargerMeasure] = field(default_factory=dict)
     """What a larger surface has as well, by names; empty without tiles."""
 
-    def from_many(self, area: Real, further: Differences, *, with_grid: bool) -> LargerSurface:
-        """Give it the intervals that many pieces leave open; `area` is the piece's area fraction.
+    @property
+    def intervals(self) -> Intervals | None:
+        """Intervals that hold the larger surface; None where the piece does not tell of that."""
+        found = intervals_within(self.values, self.spreads.values())
+        unknown = found is None or np.isnan(found.unloading).all()
+        return None if unknown else found
 
-        With the grid, `further` is combined with what that leaves open, as independent.
-        """
-        k, shares = self.of_grid if with_grid else (None, None)
-        values = self.stiffness.values
-        stiffness = replace(self.stiffness, ends=widened(values, k, further.stiffness))
-        share = _widened_share(area, shares or (area, area), further.area)
-        return LargerSurface(stiffness, share, measures=self.measures)
+    @property
+    def stiffness(self) -> InterfaceStiffness:
+        """Stiffness of as much of it as the piece is large."""
+        found = self.intervals
+        return InterfaceStiffness(
+            self.values.unloading,
+            None if found is None else found.unloading,
+            self.of_which,
+            "dF/dd of the map in a periodic half-space under the same force, on unloading",
+        )
 
-    def intervals(self, curve: SurfaceCurve) -> Intervals | None:
-        """Intervals of a periodic piece's curve that hold the larger surface as well.
-
-        There are none where the piece does not tell of that. The stiffness on loading keeps its
-        ratio to that on unloading. Where points yield, the error of its grid is combined with that,
-        as independent.
-        """
-        ends = self.stiffness.ends
-        if ends is None:
-            return None
-        with np.errstate(invalid="ignore"):  # bodies apart, and no upper end near full contact
-            share = curve.stiffness / unloading_stiffness(curve)
-            loading = share * ends[0], share * ends[1]
-            if curve.stiffness_error is not None:
-                further = (
-                    np.log(ends[0] / self.stiffness.values),
-                    np.log(ends[1] / self.stiffness.values),
-                )
-                own = interval(curve.stiffness, curve.stiffness_error)
-                yields = share < 1
-                with_own = loading_under_unloading(widened(curve.stiffness, own, further), ends)
-                loading = (
-                    np.where(yields, with_own[0], loading[0]),
-                    np.where(yields, with_own[1], loading[1]),
-                )
-        area = self.area
-        if area is not None and curve.hardness is not None:  # no area bears more than the hardness
-            area = np.maximum(area[0], curve.force / (curve.hardness * curve.length**2)), area[1]
-        return Intervals(loading, ends, area)
-
-
-def roll_offs_along_a_side(surface: Surface) -> float | None:
-    """Roll-off wavelengths along a side of a surface.
-
-    None if the fitted interval of the roll-off reaches the longest waves, so that there may be
-    none, or if there are too few points for a fit.
-    """
-    try:
-        _, fit = fitted(surface)
-    except InputError:
-        return None
-    return fitted_roll_offs(fit)
-
-
-def fitted_roll_offs(fit: SelfAffineFit) -> float | None:
-    """Roll-off wavelengths along a side of the surface that a law was fitted to."""
-    return fit.q_roll / fit.q_low if fit.q_roll and fit.shows_roll_off else None
+    def from_many(self, further: Differences, causes: Iterable[str]) -> LargerSurface:
+        """What many pieces leave open, beside some causes of each that are known of it."""
+        measures, floors = {}, {}
+        for name, ends in further.measures.items():
+            measures[name] = self.measures[name].moved(ends)
+            floors[name] = self.measures[name].floor
+        spreads = {name: self.spreads[name] for name in causes if self.spreads[name] is not None}
+        others = spread_of_differences(
+            self.values, further.stiffness, further.area, measures, floors
+        )
+        return replace(self, spreads={**spreads, "places": others})
 
 
 def stiffness_of_the_piece(
@@ -139,7 +97,7 @@ def stiffness_of_the_piece(
     Where the stiffness differs from the punch's by less than the grid's error of the punch, the
     upper end of the interval is infinite; `interval` is that of the stiffness on unloading. [N / m]
     """
-    k = unloading_stiffness(curve)
+    k = Values.of(curve).unloading
     if isinstance(body, Line):
         saturated, error, warned_from = curve.E_star * body.length, 0.0, 0.0
         place = reduced_line_alone()
@@ -170,38 +128,6 @@ def saturated_stiffness(surface: Surface, curve: Curve) -> float:
     return float(press(flat, half_space=curve.half_space, depths=[depth]).stiffness[0])
 
 
-def larger_surface(
-    curve: Curve,
-    extrapolation: Extrapolation,
-    tiles: tuple[Tiles, Tiles] | None,
-    stiffness: Ends | None = None,
-    area: Ends | None = None,
-) -> LargerSurface:
-    """Stiffness and area of the part of a large surface that a piece was cut out of.
-
-    The curve is that of the piece in the periodic half-space, with ends of its stiffness on
-    unloading [N / m] and of its corrected area fraction [1]. The intervals are those of the large
-    surface under the same mean pressure: they combine the curve's with what the piece's tiles say
-    of the large surface, as independent. Without tiles there are none.
-    """
-    touching, k = area_fraction(curve), unloading_stiffness(curve)
-    formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"
-    grid = stiffness, area
-    if tiles is None:
-        return LargerSurface(
-            InterfaceStiffness(k, None, which_surface(extrapolation), formula), of_grid=grid
-        )
-    of_stiffness, of_area = tiles
-    ends = widened(k, stiffness, of_stiffness.extrapolated(extrapolation))
-    interface = InterfaceStiffness(k, ends, which_surface(extrapolation), formula)
-    share = (
-        None
-        if area is None
-        else _widened_share(touching, area, of_area.extrapolated(extrapolation))
-    )
-    return LargerSurface(interface, share, grid, tiles)
-
-
 def which_surface(
     extrapolation: Extrapolation, of: Literal["stiffness", "gap"] = "stiffness"
 ) -> Fact:
@@ -214,14 +140,3 @@ def which_surface(
     if extrapolation.is_supported:
         return joint_in_reach(times, extrapolation.assembly)
     return joint_out_of_reach(times, extrapolation.assembly, 2**MOST_DOUBLINGS)
-
-
-def _widened_share(values: Real, ends: Ends, further: Ends) -> Ends:
-    """Widen shares of the area by ends of the differences of their logits."""
-    logits, *own = (
-        logit(np.clip(each, _LEAST_SHARE, 1 - _LEAST_SHARE)) for each in (values, *ends)
-    )
-    further = combined(further, (own[0] - logits, own[1] - logits))
-    with np.errstate(over="ignore"):
-        low, high = (1 / (1 + np.exp(-(logits + each))) for each in further)
-    return np.where(values == 0, 0.0, low), np.where(values == 0, 0.0, high)

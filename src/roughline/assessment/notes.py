@@ -75,7 +75,7 @@ ABOUT_THE_BODY = (step_changes, map_jumps_at_borders, border_carries)
 """What a curve says of its body and its borders, which is told of all bodies and loads."""
 
 
-def collect_notes(result: Assessment, filling: Fact | None) -> list[Fact]:
+def collect_notes(result: Assessment, of_causes: Sequence[Fact]) -> list[Fact]:
     """What is left out, what was filled, how the loads were meant, and what was cropped."""
     question, body, pair = result.question, result.body, result.question.pair
     notes = [*_yield_notes(result), *_without_pull_off(question)]
@@ -91,7 +91,7 @@ def collect_notes(result: Assessment, filling: Fact | None) -> list[Fact]:
             notes.append(no_area_of_line())
     notes += facts_on_each([each.body for each in result.topographies], _filled_and_effects)
     notes += [each for each in result.curve.facts if each.kind not in ABOUT_THE_BODY]
-    notes += [] if filling is None else [filling]
+    notes += of_causes
     notes += facts_on_loads(question, body)
     notes += repeated_border_jump(question, body)
     notes += _pressures(question)

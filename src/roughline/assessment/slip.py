@@ -6,9 +6,10 @@ import numpy as np
 
 from roughline.assessment.case import Case
 from roughline.assessment.kinds import nominal_area
-from roughline.assessment.variants import Curves, Way
+from roughline.assessment.presses import UNLOADED
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.slip import PartialSlip
+from roughline.margins.variant import Curves
 
 
 def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:
@@ -21,7 +22,7 @@ def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:
     largest = case.loads.largest
     if pair is None or friction is None or not curve.converged[largest]:
         return None
-    branch = curve if curve.hardness is None else curves.complete(Way.UNLOADED)
+    branch = curve if curve.hardness is None else curves.complete(UNLOADED)
     if branch is None:
         return None
     force = float(curve.force[largest])

@@ -7,7 +7,6 @@ from typing import Literal
 
 from roughline.assessment.case import Case
 from roughline.assessment.separation import draw_apart
-from roughline.assessment.variants import Curves, Way, periodic
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.press import press
 from roughline.engineering.pressed import Sought
@@ -15,9 +14,10 @@ from roughline.engineering.sealing import Closing
 from roughline.fluid.gap import Along
 from roughline.fluid.reopening import reopening
 from roughline.fluid.sealing_pressure import sealing_pressure
+from roughline.margins.hardness import WAYS
+from roughline.margins.variant import AS_ASKED, Curves, larger_name
 
 _RTOL = 0.02  # between both ends of a bracket
-_WAYS = (Way.AS_ASKED, Way.ELASTIC, Way.AS_HARD, Way.SOFTEST, Way.HARDEST)
 
 
 def find_sought(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]:
@@ -30,14 +30,14 @@ def find_sought(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]
         return found, False
     try:
         if case.loads.attraction is not None:
-            of_pull = curves.get(Way.AS_ASKED)
+            of_pull = curves.get(AS_ASKED)
             if of_pull is not None:
-                found[Way.AS_ASKED] = Sought(separation=draw_apart(case, of_pull))
+                found[AS_ASKED] = Sought(separation=draw_apart(case, of_pull))
         elif (fluid := case.question.fluid) is not None and fluid.closure:
-            for name in _WAYS:
-                curve = curves.get(periodic(name) if case.is_repeated_for_interface else name)
+            for name in (AS_ASKED, *WAYS):
+                curve = curves.get(larger_name(case, name))
                 if curve is not None:
-                    with_interval = name == Way.AS_ASKED
+                    with_interval = name == AS_ASKED
                     found[name] = Sought(closing=_closing(case, curve, fluid.along, with_interval))
     except KeyboardInterrupt:
         return found, True

@@ -12,6 +12,7 @@ from attrs import evolve
 
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
+from roughline.computing.arrays import Mask
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.topography.body import Body, Line, Surface, within
@@ -19,7 +20,7 @@ from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
 from roughline.topography.low_pass import inner_points
 from roughline.topography.missing import Filler, Filling
-from roughline.topography.preparation import Preparation, as_prepared
+from roughline.topography.preparation import Preparation, as_prepared, resampled
 from roughline.topography.provenance import MOUNTING
 from roughline.topography.trend import Trend
 from roughline.topography.two_bodies import facing
@@ -141,3 +142,17 @@ def pressed_body(bodies: Sequence[Body]) -> Body:
     ):
         return first
     raise InputError("two rough bodies must both be surfaces, or both line scans")
+
+
+def filled_points(topographies: Sequence[Topography]) -> Mask | None:
+    """Mark points of the pressed surface that were filled; None where that is not known."""
+    marks: list[Surface] = []
+    for each in topographies:
+        region = each.filled_region
+        if region is None and not each.is_filled and isinstance(each.body, Surface):
+            region = replace(each.body, heights=np.zeros_like(each.body.heights))
+        if region is None:
+            return None
+        points = None if each.preparation is None else each.preparation.points
+        marks.append(region if points is None else resampled(region, points))
+    return np.asarray(pressed_body(marks).heights > 0)

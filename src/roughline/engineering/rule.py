@@ -12,6 +12,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.contact.measures import Measure
 from roughline.engineering.intervals import Ends
+from roughline.engineering.margin import MATTERS, Margin, Reason
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.sealing import Fluid
@@ -275,6 +276,9 @@ class Answer:
         Whether it is what something was asked for beside the contact.
     facts : tuple of Fact
         What is to be said with it.
+    margins : sequence of Margin
+        How far each cause alone leaves it open: independent ones add in squares, and the scatter of
+        the hardness bounds what they leave.
     """
 
     rule: Rule = field(repr=False)
@@ -292,6 +296,39 @@ class Answer:
     leads: bool = False
     answers_question: bool = False
     facts: tuple[Fact, ...] = ()
+    margins: Sequence[Margin] = ()
+
+    def why(self, load: int = -1) -> list[Reason]:
+        """Say why it is not known better under a load: what leaves it open, the most first.
+
+        Parameters
+        ----------
+        load : int, optional
+            Number of the load among those that were asked for, from 0; negative ones count from the
+            last.
+
+        Returns
+        -------
+        list of Reason
+            Each with its ends over the value, as it alone leaves them open, and what would narrow
+            it; those that are not known first. Empty where nothing moves it.
+
+        Raises
+        ------
+        InputError
+            If there is no such load.
+        """
+        count = self.values.size
+        if not (isinstance(load, int) and -count <= load < count):
+            refuse("load", load, f"a number from 0 to {count - 1} is needed")
+        value = self.values[load]
+        found = []
+        for each in self.margins:
+            if not each.factor[load] <= MATTERS:
+                with np.errstate(divide="ignore", invalid="ignore"):
+                    ends = (1.0 if end[load] == value else end[load] / value for end in each.ends)
+                    found.append(Reason(each.cause, each.title, each.remedy, *map(float, ends)))
+        return sorted(found, key=lambda each: -np.nan_to_num(each.factor, nan=np.inf))
 
     @property
     def key(self) -> str:

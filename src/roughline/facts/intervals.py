@@ -85,34 +85,27 @@ def grid_error_unknown(why: WhyNot, points: int) -> Wording:
     )
 
 
-Cause = Literal["grid", "hardness", "piece"]
-"""What leaves an interval open."""
-
-
 @kind(INTERVALS)
 def wide(
     answer: str,
     load: str,
     factor: float,
-    causes: tuple[tuple[Cause, float], ...],
+    causes: tuple[tuple[str, str, float], ...],
     cells: int,
     points: int,
 ) -> Wording:
-    """Why an interval is wide: causes with their own factors, the largest first.
+    """Why an interval is wide: its causes, the largest first.
 
-    Of all the points of the grid, some cells are in contact.
+    Each has a title, a remedy, and the factor between both ends that it alone leaves open. Of all
+    the points of the grid, some cells are in contact.
     """
-    known: dict[Cause, tuple[str, str]] = {
-        "grid": (f"the grid, with {cells} of {points} points in contact", "finer pixels"),
-        "hardness": ("the scatter of the hardness", "a measured hardness"),
-        "piece": ("what one map does not show", "a larger map, or several maps"),
-    }
-    texts = [f"{known[cause][0]} (a factor of {decimal(of, 2)})" for cause, of in causes]
-    times, remedy = decimal(factor, 2), known[causes[0][0]][1]
+    texts = [f"{title} (a factor of {decimal(of, 2)})" for title, _, of in causes]
+    times, remedy = decimal(factor, 2), causes[0][1]
     return (
         f"{answer} is known to a factor of {times}: {remedy} helps most",
-        f"the {answer} under {load} is known to a factor of {times} between both ends; it is left "
-        f"open by {', then by '.join(texts)}: {remedy} would narrow it most",
+        f"the {answer} under {load}, with {cells} of {points} points in contact, is known to a "
+        f"factor of {times} between both ends; it is left open by {', then by '.join(texts)}: "
+        f"{remedy} would narrow it most",
     )
 
 

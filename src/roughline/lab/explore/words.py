@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.assessment.uncertainty import estimate_intervals
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.lab.explore.state import ExploreState, Item
+from roughline.margins.grid import intervals_of_grid
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
@@ -58,7 +58,7 @@ def contact_words(
 
 
 def _stiffness_and_area(pressed: rl.SurfaceCurve, state: ExploreState) -> list[Item]:
-    intervals, unsure = estimate_intervals(pressed), not pressed.resolved[0]
+    intervals, unsure = intervals_of_grid(pressed), not pressed.resolved[0]
     stiffness, area = float(pressed.stiffness[0]), float(pressed.area_fraction_corrected[0])
     of_k, of_area = (
         (first(intervals.stiffness), first(intervals.area)) if intervals else (None, None)

@@ -9,7 +9,6 @@ import numpy as np
 
 import roughline as rl
 from roughline.assessment.loading import UNLOADING
-from roughline.assessment.uncertainty import estimate_intervals
 from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.panels import BACK, selected_points
@@ -18,6 +17,7 @@ from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
 from roughline.lab.explore.words import first, item, load_rows
 from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
+from roughline.margins.grid import intervals_of_grid
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
@@ -88,7 +88,7 @@ class YieldingPhysics(Physics):
 
     def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
-        intervals, unloading = estimate_intervals(pressed), float(pressed.unloading_stiffness[0])
+        intervals, unloading = intervals_of_grid(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
         indentation = float(pressed.indentation[0])
         digits = supported_digits(unloading, ends, 3)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.uncertainty import estimate_intervals
+from roughline.margins.grid import intervals_of_grid
 
 YOUNG, POISSON, THICKNESS = 1.0, 0.3, 0.1
 CONFINED = YOUNG * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON))
@@ -32,10 +32,10 @@ def test_a_repeated_layer_on_a_rigid_base_is_as_stiff_as_that_lets_it_be(force):
     assert curve.stiffness[0] == pytest.approx(
         CONFINED / THICKNESS, rel=2e-3 if force < 1 else 1e-6
     )
-    for found in (estimate_intervals(curve), estimate_intervals(unsure)):
+    for found in (intervals_of_grid(curve), intervals_of_grid(unsure)):
         assert np.isfinite([found.stiffness, found.unloading]).all()
 
 
 def test_a_repeated_deep_body_may_be_rigid_near_full_contact():
     _, unsure = pressed(DEEP, 0.6)
-    assert estimate_intervals(unsure).stiffness[1] == np.inf
+    assert intervals_of_grid(unsure).stiffness[1] == np.inf

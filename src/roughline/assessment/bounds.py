@@ -1,4 +1,4 @@
-"""By how much the scatter of the hardness changes answers, and the answers without yield."""
+"""By how much the scatter of the hardness moves answers, and the answers without yield."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 
 from roughline.assessment.answers import work_out_answers
 from roughline.assessment.case import Case
-from roughline.assessment.solution import Solution, larger_behind, variant_measures
-from roughline.assessment.variants import Curves, Way, hardness_in, periodic
+from roughline.assessment.solution import Solution, combine_curves
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends, Intervals
-from roughline.engineering.pressed import Sought
 from roughline.engineering.rule import Answer, Limits, within
-from roughline.topography.body import Body
+from roughline.margins.causes import HARDNESS
+from roughline.margins.hardness import ELASTIC, OfHardness
+from roughline.margins.variant import Curves, periodic
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,9 +34,9 @@ intervals of the curve that include that."""
 
 def elastic_answers(case: Case, curves: Curves) -> Mapping[str, Answer]:
     """The answers of elastic bodies; none where nothing yields, and before they were pressed."""
-    if curves.stopped in (Way.ELASTIC, periodic(Way.ELASTIC)) or curves.get(Way.ELASTIC) is None:
+    if curves.stopped in (ELASTIC, periodic(ELASTIC)) or curves.get(ELASTIC) is None:
         return {}
-    return _answer_at_hardness(case, curves, Way.ELASTIC, case.body).answers
+    return _answer_at_hardness(case, curves, OfHardness(ELASTIC, case.body, None)).answers
 
 
 def widen_by_scatter(
@@ -56,22 +56,18 @@ def widen_by_scatter(
         return {}, answers, solution.intervals
     if curves.stopped:
         return {}, {key: each.without_interval for key, each in answers.items()}, None
-    pressed = case.scatter_body
-    moved = [_answer_at_hardness(case, curves, way, pressed) for way in (Way.SOFTEST, Way.HARDEST)]
+    moved = [_answer_at_hardness(case, curves, each) for each in HARDNESS.ends(case, curves)]
     nominal = _AtHardness(solution.curve, answers)
-    if pressed is not case.body:
-        nominal = _answer_at_hardness(case, curves, Way.AS_HARD, pressed)
+    if (compared := HARDNESS.nominal(case)) is not None:
+        nominal = _answer_at_hardness(case, curves, compared)
     return _widened(solution.intervals, answers, nominal, moved)
 
 
-def _answer_at_hardness(case: Case, curves: Curves, name: Way, pressed: Body) -> _AtHardness:
+def _answer_at_hardness(case: Case, curves: Curves, way: OfHardness) -> _AtHardness:
     """Answer the same of a body of another hardness, or elastic; without intervals."""
-    hardness = hardness_in(case, name, curves.as_asked)
-    curve = curves.by_name[name]
-    larger, measured = larger_behind(case, curves, name), variant_measures(case, curves, name)
-    sought = curves.sought.get(name, Sought())
-    solution = Solution(curve, None, larger, measured, sought=sought)
-    return _AtHardness(curve, work_out_answers(case, solution, body=pressed, hardness=hardness)[0])
+    solution = combine_curves(case, curves, None, way.variant)
+    answers, _ = work_out_answers(case, solution, body=way.body, hardness=way.hardness)
+    return _AtHardness(solution.curve, answers)
 
 
 def _widened(

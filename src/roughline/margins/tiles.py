@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
-from roughline.assessment.uncertainty import area_fraction, unloading_stiffness
+from roughline.assessment.extrapolation import Extrapolation
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.fluid.measures import names_at_border
+from roughline.margins.spread import FLOOR, logit
 from roughline.topography.body import Surface
 
 FEWEST_POINTS = 32
 """Points along the shorter side of a map, from which on it has tiles."""
-
-MOST_DOUBLINGS = 4
-"""From a map without a roll-off to the larger surface: maps a sixteenth as long were tried."""
-
-_USUAL_DOUBLINGS = 2.0  # doublings where the larger surface has no size
 
 POINTS_OF_TILES = 2**16
 """Points of a map whose tiles are pressed; a finer one is coarsened before."""
@@ -32,36 +26,6 @@ POINTS_OF_BORDER = 2**14
 
 _STUDENT = 2.131  # of 95 %, with the 15 degrees of freedom of sixteen tiles
 _DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a border's share
-_FLOOR = 0.3  # of a measure, added before its logarithm is taken: what is sealed has none
-
-
-Assembly = Literal["joint", "seal"]
-"""What a map is a piece of."""
-
-
-@dataclass(frozen=True)
-class Extrapolation:
-    """The larger surface that a map was cut out of."""
-
-    roll_offs: float | None  # wavelengths along a side of the map; None if it shows none
-    doublings: float = (
-        _USUAL_DOUBLINGS  # of the map's side until it is as long as the larger surface
-    )
-    assembly: Assembly | None = None  # what it is, if its area is known
-
-    @classmethod
-    def of(
-        cls, roll_offs: float | None, area: float, joint: float | None, assembly: Assembly = "joint"
-    ) -> Extrapolation:
-        """The larger surface behind a map of a nominal area [m²], a joint's whose area is known."""
-        if joint is None:
-            return cls(roll_offs)
-        return cls(roll_offs, max(0.0, math.log2(joint / area) / 2), assembly)
-
-    @property
-    def is_supported(self) -> bool:
-        """Whether a map's tiles tell of a surface as large as that."""
-        return self.roll_offs is not None or self.doublings <= MOST_DOUBLINGS
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,7 +152,7 @@ class TiledCurves:
         largest = np.fmax.reduce(means)
         if (border := self._at_border(name)) is not None:
             largest = np.where(largest == 0, np.nan_to_num(border.max(axis=0)), largest)
-        floor = _FLOOR * largest
+        floor = FLOOR * largest
         with np.errstate(divide="ignore"):
             of_map, halves, quarters = (
                 np.log(each + floor) for each in (values.of_map, values.halves, values.quarters)
@@ -227,18 +191,12 @@ class TiledCurves:
 def _stiffness(curve: SurfaceCurve, points: int) -> Real:
     """Logarithm of the stiffness on unloading per area."""
     with np.errstate(divide="ignore"):
-        return np.log(unloading_stiffness(curve) / curve.length**2)
+        return np.log(curve.unloading_stiffness / curve.length**2)
 
 
 def _contact(curve: SurfaceCurve, points: int) -> Real:
     """Logit of the contact area fraction; half a cell is left where all or none touch."""
-    return logit(np.clip(area_fraction(curve), 0.5 / points, 1 - 0.5 / points))
-
-
-def logit(share: Real) -> Real:
-    """Logarithm of a share over the rest."""
-    with np.errstate(divide="ignore"):
-        return np.log(share) - np.log1p(-share)
+    return logit(np.clip(curve.area_fraction_corrected, 0.5 / points, 1 - 0.5 / points))
 
 
 def coarse_shape(shape: tuple[int, int], points: int = POINTS_OF_TILES) -> tuple[int, int]:

@@ -1,0 +1,66 @@
+"""All that is pressed for a case: the body as asked, repeated, and what its causes need.
+
+The list is made before anything is pressed, and is an upper bound: what a variant needs is known
+from the curves before it, which may show that it is needless.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from roughline.assessment.case import Case
+from roughline.assessment.films import SPOT_RADIUS, find_film
+from roughline.assessment.loads import LoadCase
+from roughline.margins.causes import causes
+from roughline.margins.filling import force_on
+from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
+from roughline.topography.body import Surface
+
+UNLOADED = "unloaded"
+"""Name of the variant that is unloaded from the largest load, where bodies yield and slip."""
+
+_UNLOADING_LOADS = 16  # on the way back, which partial slip follows
+_LIGHTEST_SHARE = 1e-3  # of them, over the largest
+
+
+def list_presses(case: Case) -> list[Variant]:
+    """All that may be pressed for a case, in its order."""
+    first = [_as_asked(case)]
+    if case.is_repeated_for_interface:
+        first.append(repeated(case, first[0]))
+    listed = first + [
+        each for cause in causes for pressed in first for each in cause.presses(case, pressed)
+    ]
+    if case.question.friction is not None and case.hardness is not None:
+        share, needed = _UNLOADING_LOADS / case.loads.count, partial(_unloaded, case)
+        listed.append(replace(listed[0], name=UNLOADED, purpose="slip", needed=needed, share=share))
+    return listed
+
+
+def _as_asked(case: Case) -> Variant:
+    """The body as it was asked for, with the measures and fields that answers need of it."""
+    loads, body = case.loads, case.body
+    measures = [] if case.is_repeated_for_interface else list(case.measures)
+    if case.filled_points is not None:
+        measures.append(force_on(case.filled_points))
+    if find_film(case.question) is not None:
+        measures.append(SPOT_RADIUS)
+    if measures:
+        loads = replace(loads, measures=measures)
+    if case.question.fields:  # of the largest load asked for, or of one at three quarters of them
+        loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
+    shape = body.shape if isinstance(body, Surface) else (1, body.heights.size)
+    return Variant(AS_ASKED, "as asked", lambda _: loads, shape, loads.periodic)
+
+
+def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
+    """Press the surface that the largest load left, up to that load."""
+    curve, largest = curves.get(AS_ASKED), case.loads.largest
+    if curve is None or not curve.converged[largest]:
+        return None
+    forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST_SHARE, 1.0, _UNLOADING_LOADS)
+    left = curve.surface_after(largest)
+    return LoadCase(left, case.loads.half_space, forces.tolist(), [], None)

@@ -1,0 +1,82 @@
+"""A margin: how far one cause alone leaves an answer open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.engineering.intervals import Ends
+from roughline.units import decimal
+
+MATTERS = 1 + 1e-9  # upper over lower end of what a cause moves at all, to rounding
+
+
+@dataclass(frozen=True, eq=False)
+class Margin:
+    """How far one cause alone leaves an answer open, over the loads.
+
+    Attributes
+    ----------
+    cause : str
+        Name of the cause, such as "grid".
+    title : str
+        What pages call it, such as "the grid".
+    remedy : str
+        What would narrow it, such as "finer pixels".
+    low, high : ndarray, shape (loads,)
+        Both ends that it alone leaves open; NaN where that is not known. [unit of the answer]
+    """
+
+    cause: str
+    title: str
+    remedy: str
+    low: Real
+    high: Real
+
+    @property
+    def ends(self) -> Ends:
+        """Both ends. [unit of the answer]"""
+        return self.low, self.high
+
+    @property
+    def factor(self) -> Real:
+        """Upper over lower end, (loads,): 1 where it moves nothing, NaN where it is not known."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(self.high == self.low, 1.0, self.high / self.low)
+
+    @property
+    def matters(self) -> bool:
+        """Whether it moves the answer under some load, or may, as it is not known."""
+        return bool((~(self.factor <= MATTERS)).any())
+
+
+@dataclass(frozen=True)
+class Reason:
+    """Why an answer is not known better under one load; ``str`` says it in words.
+
+    Attributes
+    ----------
+    cause, title, remedy : str
+        As those of its :class:`Margin`.
+    low, high : float
+        Lower and upper end over the value; NaN where that is not known. [1]
+    """
+
+    cause: str
+    title: str
+    remedy: str
+    low: float
+    high: float
+
+    @property
+    def factor(self) -> float:
+        """Upper over lower end; NaN where that is not known. [1]"""
+        return self.high / self.low if self.low > 0 else float("inf")
+
+    def __str__(self) -> str:
+        if np.isnan([self.low, self.high]).any():
+            return f"{self.title}: not known; {self.remedy} would tell"
+        low, high = (decimal(each, 3) for each in (self.low, self.high))
+        return f"{self.title}: {low} to {high} times the value; {self.remedy} would narrow it"

@@ -1,0 +1,1 @@
+"""What leaves answers open: a file for each cause, and how they add up."""

@@ -1,0 +1,67 @@
+"""The grid: finer ones would have other stiffness and area, as coarser ones tell."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.assessment.assumptions import broken
+from roughline.assessment.case import Case
+from roughline.computing.arrays import Mask, Real
+from roughline.contact.curve import SurfaceCurve
+from roughline.engineering.intervals import Ends, Intervals
+from roughline.margins.cause import Cause
+from roughline.margins.spread import Spread, Values, intervals_within
+from roughline.margins.variant import Curves
+
+_UNSURE_RATIO = 5.0  # of both ends; above, a stiffness near full contact may be infinite
+
+
+class FinerGrid(Cause):
+    """A finer grid would show shorter waves; coarser ones are pressed with the body itself."""
+
+    name = "grid"
+    title = "the grid"
+    remedy = "finer pixels"
+
+    def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
+        """Both ends that finer grids leave open; None where their errors were not estimated."""
+        curve = curves.get(variant)
+        return None if curve is None or broken("grid", case.body) else spread_of_grid(curve)
+
+
+def spread_of_grid(curve: SurfaceCurve) -> Spread | None:
+    """Both ends that finer grids leave open of a curve; None where that was not estimated."""
+    area, of_area = curve.area_fraction_corrected, curve.area_fraction_error
+    k, of_k = curve.stiffness, curve.stiffness_error
+    k_u, of_k_u = curve.unloading_stiffness, curve.unloading_stiffness_error
+    if of_area is None or of_k is None or of_k_u is None:
+        return None
+    low, high = _interval(area, of_area)
+    stiffness, unloading = _interval(k, of_k), _interval(k_u, of_k_u)
+    if curve.half_space.mean_is_free:  # a full contact is infinitely stiff
+        stiffness, unloading = (_open(ends, high >= 1) for ends in (stiffness, unloading))
+    # whole cells overstate an area under summits, and finer waves take away from it
+    most = curve.area_fraction_most
+    measures = {
+        name: (each.low, each.high)
+        for name, each in curve.measured.items()
+        if each.low is not None and each.high is not None
+    }
+    return Spread(stiffness, unloading, (low, np.minimum(high, most)), measures)
+
+
+def intervals_of_grid(curve: SurfaceCurve) -> Intervals | None:
+    """Intervals of a curve that its grid leaves open; None where that was not estimated."""
+    return intervals_within(Values.of(curve), [spread_of_grid(curve)])
+
+
+def _interval(value: Real, error: Real) -> Ends:
+    """Both ends of an interval, v / (1 + e / v) and v + e: nothing positive gets below zero."""
+    with np.errstate(invalid="ignore"):
+        return np.where(value == 0, 0.0, value / (1 + error / value)), value + error
+
+
+def _open(ends: Ends, may_be_full: Mask) -> Ends:
+    """Ends of a stiffness, without an upper one where contact may be full and little is known."""
+    unsure = ends[1] > _UNSURE_RATIO * ends[0]
+    return ends[0], np.where(may_be_full & unsure, np.inf, ends[1])

@@ -1,0 +1,135 @@
+"""The hardness: materials scatter, so that the body may be softer or harder; and one without yield.
+
+It bounds answers: what the softest and the hardest body would give is within their intervals, and
+is not independent of what else leaves them open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from roughline.assessment.case import Case
+from roughline.assessment.films import hardness_ends
+from roughline.assessment.kinds import nominal_area
+from roughline.assessment.loads import LoadCase
+from roughline.computing.arrays import Mask
+from roughline.contact.arguments import yielding_law
+from roughline.contact.curve import Curve
+from roughline.contact.selection import among_loads, at_loads
+from roughline.engineering.pressed import yields
+from roughline.margins.cause import Cause
+from roughline.margins.spread import Spread
+from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
+from roughline.topography.body import Body, Surface
+
+ELASTIC = "elastic"
+SOFTEST = "softest"
+HARDEST = "hardest"
+AS_HARD = "as hard on half as many points a side"  # as the softest and hardest of large bodies are
+
+WAYS = (ELASTIC, AS_HARD, SOFTEST, HARDEST)
+"""Names of variants of another hardness, or on another grid to compare these with."""
+
+
+@dataclass(frozen=True)
+class OfHardness:
+    """A variant of another hardness, of which the same is answered."""
+
+    variant: str
+    body: Body
+    hardness: float | None  # None where nothing yields [Pa]
+
+
+class HardnessScatter(Cause):
+    """The softer body may be softer or harder than its material's hardness says."""
+
+    name = "hardness"
+    title = "the scatter of the hardness"
+    remedy = "a measured hardness"
+    takes = "for elastic bodies and the scatter of the hardness if points yield"
+    is_bound = True
+
+    def presses(self, case: Case, pressed: Variant) -> Sequence[Variant]:
+        """The body without yield, and as soft and as hard as it may be, repeated as well."""
+        hardness, body = case.hardness, case.body
+        if hardness is None or case.pair is None or not isinstance(body, Surface):
+            return ()
+        if pressed.name != AS_ASKED:
+            return ()
+        ways: list[tuple[str, Body]] = [(ELASTIC, body)]
+        if hardness.factor != 1:
+            ways += [(AS_HARD, case.scatter_body)] if case.scatter_body is not body else []
+            ways += [(SOFTEST, case.scatter_body), (HARDEST, case.scatter_body)]
+        listed = []
+        for name, other in ways:
+            needed = partial(_as_hard, case, name, other)
+            share = other.heights.size / body.heights.size
+            variant = Variant(name, self.name, needed, body.shape, case.loads.periodic, share)
+            listed += [
+                variant,
+                *([repeated(case, variant)] if case.is_repeated_for_interface else []),
+            ]
+        return listed
+
+    def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
+        """None: it bounds what others leave open."""
+        return None
+
+    def nominal(self, case: Case) -> OfHardness | None:
+        """What the ends are compared with, if it is not the body as asked: on a coarser grid."""
+        if case.hardness is None or case.scatter_body is case.body:
+            return None
+        return OfHardness(AS_HARD, case.scatter_body, case.hardness.value)
+
+    def ends(self, case: Case, curves: Curves) -> Sequence[OfHardness]:
+        """The softest body and the hardest; none where the hardness is taken as exact."""
+        if case.hardness is None or case.hardness.factor == 1:
+            return ()
+        body, as_asked = case.scatter_body, curves.as_asked
+        return [
+            OfHardness(way, body, _hardness_in(case, way, as_asked)) for way in (SOFTEST, HARDEST)
+        ]
+
+
+def _hardness_in(case: Case, way: str, curve: Curve) -> float | None:
+    """The hardness in a way, from the curve as asked; None if bodies are elastic. [Pa]"""
+    ends = hardness_ends(case.question, curve)
+    if ends is None or case.hardness is None or way == ELASTIC:
+        return None
+    return {AS_HARD: case.hardness.value, SOFTEST: ends[0], HARDEST: ends[1]}[way]
+
+
+def _as_hard(case: Case, way: str, body: Body, curves: Curves) -> LoadCase | Curve | None:
+    """Press the body with another hardness, under the loads that it bears then.
+
+    As long as nothing yields, the curve as asked is that of a harder body as well.
+    """
+    curve = curves.as_asked
+    hardness = _hardness_in(case, way, curve)
+    if not yields(curve):
+        if hardness is None:
+            return None
+        if body is case.body and hardness >= (curve.hardness or 0):
+            settings = {**curve.settings, "hardness": hardness}
+            return replace(curve, law=yielding_law(hardness), settings=settings)
+    loads = _loads_below(case, curve, hardness)
+    if not loads.any():
+        return among_loads(at_loads(curve, np.flatnonzero(loads)), loads)
+    measures = () if case.is_repeated_for_interface else case.measures
+    of_hardness = case.loads.with_hardness(hardness, loads, curve)
+    return replace(of_hardness, body=body, measures=measures)
+
+
+def _loads_below(case: Case, curve: Curve, hardness: float | None) -> Mask:
+    """Which loads of the curve as asked were solved, and are borne by a body of a hardness.
+
+    What a load leaves that is too large is not known, nor are those after it.
+    """
+    if hardness is None or case.loads.depths:
+        return curve.converged
+    largest = np.maximum.accumulate(np.nan_to_num(curve.force))
+    return curve.converged & (largest < hardness * nominal_area(case.body))

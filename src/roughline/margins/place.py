@@ -1,0 +1,186 @@
+"""The place: a map is one piece of a larger surface, and its tiles tell how such pieces differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import cache, partial
+
+import numpy as np
+
+from roughline.assessment.assumptions import broken
+from roughline.assessment.case import Case
+from roughline.assessment.kinds import nominal_area
+from roughline.assessment.loads import LoadCase
+from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.contact.measures import Measure
+from roughline.engineering.intervals import Ends
+from roughline.margins.cause import Cause
+from roughline.margins.larger_measure import LargerMeasure
+from roughline.margins.spread import LOGARITHM, LOGIT, Spread, Values
+from roughline.margins.tiles import (
+    FEWEST_POINTS,
+    POINTS_OF_BORDER,
+    TiledCurves,
+    coarse_shape,
+    coarsened,
+    cut_tiles,
+)
+from roughline.margins.variant import AS_ASKED, Curves, Variant, larger_name
+from roughline.topography.body import Surface
+
+_COARSE = "coarse map"  # of which the tiles are, where the map has many points
+_BORDER = "coarser map"  # that tells what its border does to what flows
+_RTOL = 1e-4  # of tiles, whose scatter need not be known better
+
+
+class OtherPlaces(Cause):
+    """Other places of the surface that a map was cut out of are other, and it has longer waves."""
+
+    name = "place"
+    title = "what one map does not show"
+    remedy = "a larger map, or several maps"
+    takes = "for the surface around the map"
+    is_of_larger = True
+
+    def presses(self, case: Case, pressed: Variant) -> Sequence[Variant]:
+        """The map on fewer points, and its tiles, under the mean pressures of its curve."""
+        body = case.map
+        if body is None or pressed.name != larger_name(case, AS_ASKED) or case.question.coated:
+            return ()
+        if not case.loads.grid_error or min(body.shape) < FEWEST_POINTS:
+            return ()
+        return _tiles(case, pressed.name, body, self.name)
+
+    def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
+        """Both ends that the rest of the surface leaves open; None if the map tells of none."""
+        curve, tiled = curves.get(variant), tiled_curves(case, curves, variant)
+        if curve is None or tiled is None or not case.tells_of_larger:
+            return None
+        unknown = (np.full_like(curve.force, np.nan),) * 2
+        of_stiffness, of_area = (
+            each.extrapolated(case.extrapolation) if case.extrapolation.is_supported else unknown
+            for each in tiled.stiffness_and_contact()
+        )
+        of_gap = case.gap_extrapolation
+        measures = measures_of_tiles(case, curve, tiled)
+        return spread_of_differences(
+            Values.of(curve),
+            of_stiffness,
+            of_area,
+            {
+                name: each.ends(of_gap) if of_gap.is_supported else unknown
+                for name, each in measures.items()
+            },
+            {name: each.floor for name, each in measures.items()},
+        )
+
+
+def spread_of_differences(
+    values: Values,
+    of_stiffness: Ends,
+    of_area: Ends,
+    measures: dict[str, Ends],
+    floors: dict[str, Real],
+) -> Spread:
+    """Ends of values from those of differences of a stiffness's logarithm and an area's logit.
+
+    The stiffness on loading keeps its ratio to that on unloading.
+    """
+    return Spread(
+        LOGARITHM.moved(values.stiffness, of_stiffness),
+        LOGARITHM.moved(values.unloading, of_stiffness),
+        LOGIT.moved(values.area, of_area),
+        measures,
+        floors,
+    )
+
+
+def measures_of_tiles(
+    case: Case, curve: SurfaceCurve, tiled: TiledCurves
+) -> dict[str, LargerMeasure]:
+    """What tiles tell of each measure that comes to a number as a surface grows."""
+    names = [each.name for each in case.measures if each.intensive]
+    return {name: LargerMeasure.of(curve.measured[name].values, name, tiled) for name in names}
+
+
+def tiled_curves(case: Case, curves: Curves, variant: str) -> TiledCurves | None:
+    """Curves of a map and of its tiles, from its periodic curve; None if one is not known."""
+    body, of_map = case.map, curves.get(variant)
+    if body is None or not case.loads.grid_error:
+        return None
+    shape = coarse_shape(body.shape)
+    if shape != body.shape:
+        of_map = curves.complete(_COARSE)
+    halves, quarters = (
+        [each for i in range(count**2) if (each := curves.complete(_tile(count, i))) is not None]
+        for count in (2, 4)
+    )
+    if of_map is None or len(halves) < 4 or len(quarters) < 16:
+        return None
+    border = curves.complete(_BORDER)
+    return TiledCurves(of_map, halves, quarters, shape[0] * shape[1], border)
+
+
+def _tile(count: int, i: int) -> str:
+    """Name of a tile of a map that is cut into so many along each side."""
+    return f"tile {i + 1} of {count} x {count}"
+
+
+def _tiles(case: Case, map_name: str, body: Surface, purpose: str) -> list[Variant]:
+    """The map on fewer points, its tiles, and what tells what its border does."""
+    shape = coarse_shape(body.shape)
+    measures = [each for each in case.measures if each.intensive]
+
+    @cache
+    def pieces(count: int) -> list[Surface]:
+        return cut_tiles(pieces(1)[0], count) if count > 1 else [coarsened(body.detrended())]
+
+    def needed(count: int, i: int, curves: Curves) -> LoadCase | Curve | None:
+        return _press_piece(case, curves.get(map_name), lambda: pieces(count)[i], measures)
+
+    def needed_for_border(curves: Curves) -> LoadCase | Curve | None:
+        taken = [*measures, *case.measures_at_border]
+        return _press_piece(
+            case, curves.get(map_name), lambda: coarsened(pieces(1)[0], POINTS_OF_BORDER), taken
+        )
+
+    listed = [
+        Variant(
+            _tile(count, i) if count > 1 else _COARSE,
+            purpose,
+            partial(needed, count, i),
+            shape,
+            periodic=True,
+            share=1 / count**2,
+        )
+        for count in ((2, 4) if shape == body.shape else (1, 2, 4))
+        for i in range(count**2)
+    ]
+    if case.measures_at_border:
+        coarser = coarse_shape(body.shape, POINTS_OF_BORDER)
+        listed.append(Variant(_BORDER, purpose, needed_for_border, coarser, True))
+    return listed
+
+
+def _press_piece(
+    case: Case,
+    curve: SurfaceCurve | None,
+    piece: Callable[[], Surface],
+    measures: Sequence[Measure],
+) -> LoadCase | None:
+    """Press a piece, or the map on fewer points, periodically as the map was: no better known."""
+    body = case.body
+    if curve is None or curve.stiffness_error is None or broken("grid", body):
+        return None
+    loads = case.loads.under_forces_from(curve)
+    if not loads.forces:
+        return None
+    pressed, attraction = piece(), loads.attraction
+    if attraction and not attraction.is_resolved(max(pressed.spacing), loads.half_space.softest):
+        return None
+    forces = (np.array(loads.forces) / nominal_area(body) * pressed.area).tolist()
+    loads = replace(loads, body=pressed, forces=forces, half_space=loads.half_space.interface)
+    loads = replace(loads, measures=measures, rtol=_RTOL)
+    return replace(loads, levelled=False, grid_error=False)

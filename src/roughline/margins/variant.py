@@ -1,0 +1,142 @@
+"""A variant of a case: one body that is pressed, why, and the curves of all that were."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Literal
+
+from roughline.assessment.case import Case
+from roughline.assessment.loads import LoadCase, LoadProgress
+from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.engineering.pressed import Sought
+from roughline.errors import Interrupted
+
+AS_ASKED = "as asked"
+"""Name of the variant that is pressed as it was asked for; those of others begin so."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Curves of the variants that were pressed, by their names, over the loads of the case."""
+
+    by_name: Mapping[str, Curve]  # without the variants that proved needless
+    sought: Mapping[str, Sought] = field(default_factory=dict)  # beyond the loads, if asked for
+    stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
+
+    @property
+    def as_asked(self) -> Curve:
+        """Curve of the body as it was asked for."""
+        return self.by_name[AS_ASKED]
+
+    def get(self, name: str) -> SurfaceCurve | None:
+        """The curve of a surface in a variant, whole or as far as it came; None of a line."""
+        curve = self.by_name.get(name)
+        return curve if isinstance(curve, SurfaceCurve) else None
+
+    def complete(self, name: str) -> SurfaceCurve | None:
+        """The curve of a surface in a variant; None if it is not whole."""
+        return None if name == self.stopped else self.get(name)
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """One body that is pressed, for the answers or for a cause that leaves them open."""
+
+    name: str
+    purpose: str  # "as asked", "interface", "slip", or the name of a cause
+    needed: Callable[[Curves], LoadCase | Curve | None]
+    """From the curves before it: what is pressed, the curve where it is known without that, or None
+    where it is needless."""
+
+    shape: tuple[int, int]  # points along the sides of a surface, of whose time it takes a share
+    periodic: bool | Literal["x", "y"]
+    share: float = 1.0
+
+
+class Stopped(KeyboardInterrupt):
+    """Ctrl-C came while variants were pressed: with curves that are done, and one not whole."""
+
+    def __init__(self, curves: Curves) -> None:
+        super().__init__(curves.stopped)
+        self.curves = curves
+
+
+def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | None) -> Curves:
+    """Press all variants that are needed, in their order, under so many loads.
+
+    Progress is told as (loads done, loads in all), over all variants; those that take a part of the
+    time count as that part. Ctrl-C raises Stopped.
+    """
+    done: dict[str, Curve] = {}
+    points = max(math.prod(each.shape) for each in variants)
+    steps = [math.ceil(loads * each.share * math.prod(each.shape) / points) for each in variants]
+    before, total = 0, sum(steps)
+    for variant, here in zip(variants, steps, strict=True):
+        curve = variant.needed(Curves(done))
+        if isinstance(curve, LoadCase):
+            case = curve
+            report = partial(_report, progress, before, here, total) if progress else None
+            try:
+                curve = case.spread(case.press(report))
+            except Interrupted as stop:
+                curves = {**done, variant.name: case.spread(stop.curve)}
+                raise Stopped(Curves(curves, stopped=variant.name)) from stop
+        if curve is not None:
+            if done and isinstance(curve, SurfaceCurve):
+                curve = replace(curve, dents=())  # large, and only those of the first are looked at
+            done[variant.name] = curve
+        before += here
+    if progress is not None:
+        progress(total, total)
+    return Curves(done)
+
+
+def _report(progress: LoadProgress, before: int, here: int, total: int, done: int, of: int) -> None:
+    """Tell of the loads of one variant, which counts as so many here."""
+    progress(before + here * done // max(of, 1), total)
+
+
+def periodic(name: str) -> str:
+    """Name of the variant that is pressed as another, but into a periodic half-space."""
+    return f"{name}, periodic"
+
+
+def larger_name(case: Case, name: str) -> str:
+    """Name of the variant that tells of the surface that a map was cut out of: it repeated."""
+    return periodic(name) if case.is_repeated_for_interface else name
+
+
+def repeated(case: Case, variant: Variant) -> Variant:
+    """A variant that is pressed into a periodic half-space, under the forces that it bears."""
+    purpose = "interface" if variant.name == AS_ASKED else variant.purpose
+    return replace(
+        variant,
+        name=periodic(variant.name),
+        purpose=purpose,
+        needed=partial(_repeated, case, variant),
+        periodic=True,
+    )
+
+
+def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve | None:
+    """Press the same body periodically, under the forces that it bears."""
+    first, curve = variant.needed(curves), curves.get(variant.name)
+    if isinstance(first, Curve):  # as asked, or under no load
+        return curves.get(periodic(AS_ASKED)) if first.converged.any() else None
+    if first is None or curve is None:
+        return None
+    if first.lifted is not None and first.lifted.all():  # what seals is known nevertheless
+        interface = first.half_space.interface
+        return replace(
+            first, half_space=interface, levelled=True, fields=(), measures=case.measures
+        )
+    if not first.solved_loads(curve).any():
+        return None
+    under = first.under_forces_from(curve)
+    loads = replace(under, half_space=under.half_space.interface, levelled=True)
+    if case.question.sealing is None:
+        loads = replace(loads, fields=())  # nobody looks into its gap
+    return replace(loads, measures=case.measures)
