@@ -11,9 +11,7 @@ from attrs import evolve
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.films import hardness_ends
-from roughline.assessment.kinds import has_spectrum, nominal_area
 from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
-from roughline.assessment.question import Question
 from roughline.assessment.solution import LeftOpen, Solution, combine_curves
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -29,6 +27,8 @@ from roughline.facts.fact import Fact
 from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.spread import measured_within
 from roughline.margins.variant import Curves
+from roughline.question.kinds import has_spectrum, nominal_area
+from roughline.question.question import Question
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Surface
 

@@ -40,9 +40,9 @@ from roughline.errors.words import called
 from roughline.margins.larger_measure import UNBOUNDED
 from roughline.margins.spread import logit
 from roughline.margins.tiles import FEWEST_POINTS, Tiles
-from roughline.spectra.fit import SelfAffineFit, nearest_law
+from roughline.measurement.fit import SelfAffineFit, nearest_law
+from roughline.measurement.longer_waves import long_shapes
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
-from roughline.spectra.longer_waves import long_shapes
 from roughline.statistics.places import Agreement, agreement
 from roughline.topography.body import Surface
 from roughline.units import engineering

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from roughline.errors import InputError
-from roughline.spectra.fit import SelfAffineFit, fitted
+from roughline.measurement.fit import SelfAffineFit, fitted
 from roughline.topography.body import Surface
 
 MOST_DOUBLINGS = 4

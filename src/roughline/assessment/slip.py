@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.assessment.case import Case
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.presses import UNLOADED
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.slip import PartialSlip
 from roughline.margins.variant import Curves
+from roughline.question.kinds import nominal_area
 
 
 def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:

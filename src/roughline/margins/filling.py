@@ -11,7 +11,6 @@ import numpy as np
 
 from roughline.assessment.case import Case
 from roughline.assessment.loads import LoadCase
-from roughline.assessment.source import pressed_body
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
@@ -21,6 +20,7 @@ from roughline.facts.intervals import filled_before, filling_matters, no_filled_
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread, Values
 from roughline.margins.variant import AS_ASKED, Curves, Variant
+from roughline.question.source import pressed_body
 from roughline.topography.body import Surface
 
 _ON_FILLED = "force_on_filled"  # name of the measure, among those of the curve as asked

@@ -14,7 +14,6 @@ import numpy as np
 
 from roughline.assessment.case import Case
 from roughline.assessment.films import hardness_ends
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase
 from roughline.computing.arrays import Mask
 from roughline.contact.arguments import yielding_law
@@ -24,6 +23,7 @@ from roughline.engineering.pressed import yields
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread
 from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
+from roughline.question.kinds import nominal_area
 from roughline.topography.body import Body, Surface
 
 ELASTIC = "elastic"

@@ -10,7 +10,6 @@ import numpy as np
 
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -28,6 +27,7 @@ from roughline.margins.tiles import (
     cut_tiles,
 )
 from roughline.margins.variant import AS_ASKED, Curves, Variant, larger_name
+from roughline.question.kinds import nominal_area
 from roughline.topography.body import Surface
 
 _COARSE = "coarse map"  # of which the tiles are, where the map has many points

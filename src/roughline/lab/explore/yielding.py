@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 
 import roughline as rl
-from roughline.assessment.loading import UNLOADING
 from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.panels import BACK, selected_points
@@ -18,6 +17,7 @@ from roughline.lab.explore.words import first, item, load_rows
 from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
 from roughline.margins.grid import intervals_of_grid
+from roughline.question.loading import UNLOADING
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
