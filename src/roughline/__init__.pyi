@@ -76,11 +76,11 @@ from roughline.halfspace.laws.jkr import JKR as JKR
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral as Unilateral
 from roughline.halfspace.laws.yielding import Yielding as Yielding
+from roughline.measurement.fit import fit_self_affine as fit_self_affine
+from roughline.measurement.roughness import roughness as roughness
 from roughline.report.finite_elements import export_table as export_table
-from roughline.spectra.fit import fit_self_affine as fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum as isotropic_spectrum
 from roughline.spectra.profile import profile_spectrum as profile_spectrum
-from roughline.spectra.roughness import roughness as roughness
 from roughline.spectra.self_affine import SelfAffine as SelfAffine
 from roughline.statistics.averages import average as average
 from roughline.statistics.averages import relative_difference as relative_difference

@@ -33,6 +33,6 @@ def test_a_press_without_materials_fits_no_spectrum(monkeypatch):
     def fitted(body):
         raise AssertionError("no answer to this question rests on the spectrum's law")
 
-    monkeypatch.setattr("roughline.spectra.departures.fitted", fitted)
+    monkeypatch.setattr("roughline.measurement.departures.fitted", fitted)
     result = rl.assess(rl.Question(wavy_map(), E_star="100 GPa", loads=["1 MPa"], grid_error=True))
     assert result.intervals is not None

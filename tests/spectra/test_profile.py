@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.measurement.scan_bins import ScanBins
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.leakage import map_leakage
 from roughline.spectra.profile import profile_spectrum
-from roughline.spectra.scan_bins import ScanBins
 
 Q_0 = 2 * math.pi
 

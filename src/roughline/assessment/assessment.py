@@ -27,7 +27,7 @@ from roughline.engineering.rule import Answer
 from roughline.engineering.slip import PartialSlip
 from roughline.facts.fact import Fact
 from roughline.fluid.flow import Flow, flow
-from roughline.spectra.roughness import Roughness, roughness
+from roughline.measurement.roughness import Roughness, roughness
 from roughline.texture.iso import IsoParameters, iso
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface

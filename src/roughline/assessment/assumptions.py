@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Literal
 
-from roughline.spectra.departures import FIT_RESTS_ON, Assumption, Departure, departures
+from roughline.measurement.departures import FIT_RESTS_ON, Assumption, Departure, departures
 from roughline.topography.body import Body
 
 Prediction = Literal["line scan", "larger surface", "part", "theories", "grid", "fit"]

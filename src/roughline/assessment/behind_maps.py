@@ -38,9 +38,9 @@ from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.errors.words import called
-from roughline.spectra.fit import SelfAffineFit, nearest_law
+from roughline.measurement.fit import SelfAffineFit, nearest_law
+from roughline.measurement.longer_waves import long_shapes
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
-from roughline.spectra.longer_waves import long_shapes
 from roughline.statistics.places import Agreement, agreement
 from roughline.topography.body import Surface
 from roughline.units import engineering

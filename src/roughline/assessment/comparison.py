@@ -10,7 +10,7 @@ from roughline.contact.comparison.models import Comparison, compare
 from roughline.contact.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
-from roughline.spectra.homogeneity import ISOTROPIC_FROM
+from roughline.measurement.homogeneity import ISOTROPIC_FROM
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict

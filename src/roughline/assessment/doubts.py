@@ -38,7 +38,7 @@ from roughline.facts.intervals import (
 )
 from roughline.facts.layers import layers_are_strained
 from roughline.facts.loads import Stands, all_touch, nearly_all_touch, on_filled_points
-from roughline.spectra.homogeneity import ISOTROPIC_FROM
+from roughline.measurement.homogeneity import ISOTROPIC_FROM
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface

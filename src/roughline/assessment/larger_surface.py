@@ -36,7 +36,7 @@ from roughline.facts.answers import (
     some_larger_surface,
 )
 from roughline.facts.fact import Fact
-from roughline.spectra.fit import SelfAffineFit, fitted
+from roughline.measurement.fit import SelfAffineFit, fitted
 from roughline.topography.body import Body, Line, Surface
 
 _PUNCH_MATTERS = 0.05

@@ -22,10 +22,10 @@ from roughline.facts.fact import Fact
 from roughline.facts.intervals import line_stands_for_surface
 from roughline.facts.own_words import on_body
 from roughline.facts.pressed import few_heights, one_line_only, stiff_heights
-from roughline.spectra.coarser_selves import coarser_selves
+from roughline.measurement.coarser_selves import coarser_selves
+from roughline.measurement.scan_bins import ScanBins
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
-from roughline.spectra.scan_bins import ScanBins
 from roughline.topography.body import Line
 from roughline.topography.settings import as_body
 

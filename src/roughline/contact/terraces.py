@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.spectra.departures import HEIGHT_ROUNDING, in_line, levelled
+from roughline.measurement.departures import HEIGHT_ROUNDING, in_line, levelled
 from roughline.topography.body import Surface, with_heights
 
 _SMALLEST_SHARE = 0.01  # share of heights on plateaus that matters

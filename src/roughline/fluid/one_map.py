@@ -12,7 +12,7 @@ from roughline.contact.grid_error import field_on, halved
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
-from roughline.spectra.fit import fitted
+from roughline.measurement.fit import fitted
 from roughline.topography.body import Surface
 
 _FEWEST_WAVES = 3.0  # of the roll-off along a side of a piece that tells of its whole

@@ -8,11 +8,11 @@ from numpy.typing import ArrayLike
 
 from roughline.errors import InputError
 from roughline.errors.public import public
+from roughline.measurement.roughness import Roughness, roughness
 from roughline.plot.curves import quantity_name
 from roughline.plot.style import SHADE, drawing_on, in_unit, label_decades, say
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import ProfileSpectrum
-from roughline.spectra.roughness import Roughness, roughness
 from roughline.statistics.power_law import PowerLaw
 from roughline.topography.body import Body
 

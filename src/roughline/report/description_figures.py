@@ -23,7 +23,7 @@ from roughline.units import metres_per
 
 if TYPE_CHECKING:
     from roughline.assessment.description import Description
-    from roughline.spectra.roughness import Roughness
+    from roughline.measurement.roughness import Roughness
     from roughline.topography.files.measurement import Measurement
     from roughline.topography.missing import MissingPattern
 

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from roughline.assessment.description import Description
-    from roughline.spectra.departures import Departure
-    from roughline.spectra.fit import SelfAffineFit
-    from roughline.spectra.roughness import Roughness
+    from roughline.measurement.departures import Departure
+    from roughline.measurement.fit import SelfAffineFit
+    from roughline.measurement.roughness import Roughness
 
 _MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
 _SHADES = ".+#"

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from roughline.assessment.description import Description
     from roughline.assessment.part import PartAssessment
     from roughline.contact.measures import Measured
-    from roughline.spectra.fit import SelfAffineFit
+    from roughline.measurement.fit import SelfAffineFit
 
 
 def to_json(content: Mapping[str, Any]) -> str:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.spectra.gaussian_heights import skewness_and_kurtosis
+from roughline.measurement.gaussian_heights import skewness_and_kurtosis
 from roughline.texture.found import Found
 from roughline.topography.heights import rms_deviation
 

@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from benchmarks.made_surfaces import KINDS, SIDE, Make, measured, parent_of, piece_of
-from roughline.spectra.departures import departures
+from roughline.measurement.departures import departures
 
 HEIGHTS = (rl.SelfAffine(hurst=0.8, length=4.0, rms_height=1.0, q_roll=25.0)).surface(256, 7)
 HEIGHTS = HEIGHTS.heights[:64, :64]

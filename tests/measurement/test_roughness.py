@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 import roughline as rl
-from roughline.spectra.roughness import roughness
+from roughline.measurement.roughness import roughness
 
 ROUGH = rl.SelfAffine(hurst=0.7, rms_height=1e-6, length=1e-3, q_roll=3e4).surface(128, 3)
 

@@ -26,16 +26,16 @@ from roughline.facts.heights import (
     no_roll_off,
     tilted,
 )
-from roughline.spectra.chance import Finding
-from roughline.spectra.coarser_selves import coarser_selves
-from roughline.spectra.fit import SelfAffineFit, fitted
-from roughline.spectra.gaussian_heights import shapes_on_every_scale
-from roughline.spectra.homogeneity import (
+from roughline.measurement.chance import Finding
+from roughline.measurement.coarser_selves import coarser_selves
+from roughline.measurement.fit import SelfAffineFit, fitted
+from roughline.measurement.gaussian_heights import shapes_on_every_scale
+from roughline.measurement.homogeneity import (
     drift_along_sides,
     scatter_between_places,
     slopes_by_direction,
 )
-from roughline.spectra.longer_waves import LongShape, known_tilt, long_shapes
+from roughline.measurement.longer_waves import LongShape, known_tilt, long_shapes
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import outliers
 from roughline.units import in_words

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.spectra.chance import MOST_CELLS, Chance
+from roughline.measurement.chance import MOST_CELLS, Chance
 from roughline.topography.body import Body
 
 _FEWEST_CELLS = 8  # along the shortest side of a coarser self

@@ -14,12 +14,12 @@ from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
+from roughline.measurement.law_search import Corner, Law, LikelyLaws, Observed, power_law
+from roughline.measurement.map_rings import MapRings
+from roughline.measurement.means import FEWEST_MEANS
+from roughline.measurement.scan_bins import ScanBins
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
-from roughline.spectra.law_search import Corner, Law, LikelyLaws, Observed, power_law
-from roughline.spectra.map_rings import MapRings
-from roughline.spectra.means import FEWEST_MEANS
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
-from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
 from roughline.topography.body import Body, Surface
 from roughline.topography.provenance import UNKNOWN

@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.spectra.fit import SelfAffineFit
+from roughline.measurement.fit import SelfAffineFit
 from roughline.topography.body import Body, Line, point_spacings, side_lengths
 from roughline.topography.trend import polynomials, slopes_of_plane
 

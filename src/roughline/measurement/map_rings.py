@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.measurement.law_search import Corner, Law, LawEnds, Observed, power_law
+from roughline.measurement.means import FEWEST_MEANS, Means
 from roughline.spectra.isotropic import IsotropicSpectrum
-from roughline.spectra.law_search import Corner, Law, LawEnds, Observed, power_law
 from roughline.spectra.leakage import LONGER_WAVES, map_leakage, power_inside
-from roughline.spectra.means import FEWEST_MEANS, Means
 
 _CORRELATED_MODES = 2.4  # modes of a ring that vary together under a Hann window
 _ROLLS_PER_DECADE = 40

@@ -9,8 +9,8 @@ import pytest
 
 import roughline as rl
 from benchmarks.made_surfaces import GAUSSIAN, SIDE, Make, parent_of, piece_of
-from roughline.spectra.coarser_selves import coarser_selves
-from roughline.spectra.departures import departures
+from roughline.measurement.coarser_selves import coarser_selves
+from roughline.measurement.departures import departures
 from roughline.topography.provenance import Provenance, Tilt
 
 

@@ -11,9 +11,9 @@ from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.spectra.departures import checked_fit, departures
-from roughline.spectra.fit import SelfAffineFit, fitted
-from roughline.spectra.gaussian_heights import skewness_and_kurtosis
+from roughline.measurement.departures import checked_fit, departures
+from roughline.measurement.fit import SelfAffineFit, fitted
+from roughline.measurement.gaussian_heights import skewness_and_kurtosis
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropy
 from roughline.spectra.profile import ProfileSpectrum
 from roughline.topography.body import Body, Line, Surface

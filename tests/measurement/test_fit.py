@@ -9,7 +9,7 @@ from scipy import ndimage
 
 import roughline as rl
 from benchmarks.made_surfaces import Make, measured, parent_of, piece_of
-from roughline.spectra.fit import fit_self_affine
+from roughline.measurement.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.profile import profile_spectrum
 from roughline.topography.provenance import Instrument, Provenance

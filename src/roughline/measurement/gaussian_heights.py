@@ -10,8 +10,8 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.facts.fact import Fact
 from roughline.facts.heights import long_tailed, skewed, slopes_differ_by_height
-from roughline.spectra.chance import Chance, Finding, score_of_square
-from roughline.spectra.coarser_selves import CoarserSelf
+from roughline.measurement.chance import Chance, Finding, score_of_square
+from roughline.measurement.coarser_selves import CoarserSelf
 from roughline.topography.body import Body, point_spacings
 from roughline.units import in_words
 

@@ -10,8 +10,8 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.facts.fact import Fact
 from roughline.facts.heights import differs_between_places, drifts, slopes_differ_by_direction
-from roughline.spectra.chance import Finding, score_of_square
-from roughline.spectra.coarser_selves import CoarserSelf
+from roughline.measurement.chance import Finding, score_of_square
+from roughline.measurement.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
 
 ISOTROPIC_FROM = 0.7  # least over largest slope, from which on a surface counts as isotropic

@@ -11,10 +11,10 @@ from itertools import pairwise
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.spectra.law_search import IMPOSSIBLE, Corner, Law, LawEnds, Observed, power_law
+from roughline.measurement.law_search import IMPOSSIBLE, Corner, Law, LawEnds, Observed, power_law
+from roughline.measurement.map_rings import modes_of_surface
+from roughline.measurement.means import FEWEST_MEANS, Means
 from roughline.spectra.leakage import LONG_WAVES, LONGER_WAVES, map_leakage, scan_leakage
-from roughline.spectra.map_rings import modes_of_surface
-from roughline.spectra.means import FEWEST_MEANS, Means
 from roughline.spectra.profile import ProfileSpectrum
 
 _POWER_FLOOR = 1e-300  # replaces a power of zero where logarithms are taken

@@ -16,8 +16,8 @@ import numpy as np
 
 from roughline.computing import linear_algebra
 from roughline.computing.arrays import Indices, Mask, Real
-from roughline.spectra.means import Means
-from roughline.spectra.response import Responses
+from roughline.measurement.means import Means
+from roughline.measurement.response import Responses
 from roughline.topography.provenance import Instrument
 
 Corner = Literal["sharp", "smooth"]

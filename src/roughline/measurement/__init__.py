@@ -1,0 +1,1 @@
+"""What is inferred from a measured surface: its law, departures, roughness."""
