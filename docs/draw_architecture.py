@@ -27,6 +27,7 @@ PLACES = {
     "paper": 7.6,
     "report": 4.0,
     "assessment": 4.0,
+    "question": 2.4,
     "campaign": 7.2,
     "plot": 1.1,
     "engineering": 1.1,
@@ -69,6 +70,7 @@ ONE_BODY = (
     Step("reduction", "contact", "contact"),
     Step("contact", "assessment", "assessment", "Curve"),
     Step("engineering", "assessment", "assessment", "Answer"),
+    Step("question", "assessment", "assessment", "Question"),
     Step("assessment", "report", "report", "Assessment"),
     Step("report", "cli", "cli", "page, JSON"),
 )

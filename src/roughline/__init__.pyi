@@ -2,19 +2,12 @@
 
 from roughline import plot as plot
 from roughline._version import __version__ as __version__
-from roughline.assessment.asked import Adhesion as Adhesion
-from roughline.assessment.asked import Friction as Friction
-from roughline.assessment.asked import Joint as Joint
-from roughline.assessment.asked import Theories as Theories
-from roughline.assessment.asked import Ultrasound as Ultrasound
 from roughline.assessment.assess import assess_body as assess_body
 from roughline.assessment.assess_part import assess as assess
 from roughline.assessment.assess_part import assess_part as assess_part
 from roughline.assessment.assessment import Assessment as Assessment
 from roughline.assessment.line_scan import press_scan as press_scan
 from roughline.assessment.part import PartAssessment as PartAssessment
-from roughline.assessment.question import Question as Question
-from roughline.assessment.reading import Reading as Reading
 from roughline.computing.fft import set_threads as set_threads
 from roughline.contact.comparison.models import Comparison as Comparison
 from roughline.contact.comparison.models import compare as compare
@@ -78,6 +71,13 @@ from roughline.halfspace.laws.unilateral import Unilateral as Unilateral
 from roughline.halfspace.laws.yielding import Yielding as Yielding
 from roughline.measurement.fit import fit_self_affine as fit_self_affine
 from roughline.measurement.roughness import roughness as roughness
+from roughline.question.asked import Adhesion as Adhesion
+from roughline.question.asked import Friction as Friction
+from roughline.question.asked import Joint as Joint
+from roughline.question.asked import Theories as Theories
+from roughline.question.asked import Ultrasound as Ultrasound
+from roughline.question.question import Question as Question
+from roughline.question.reading import Reading as Reading
 from roughline.report.finite_elements import export_table as export_table
 from roughline.spectra.isotropic import isotropic_spectrum as isotropic_spectrum
 from roughline.spectra.profile import profile_spectrum as profile_spectrum

@@ -101,7 +101,7 @@ def test_python_and_the_command_line_give_the_same_numbers(topographies, invoke,
     "asked", [{"elastic": True, "grid_error": False, "fields": False}, {}], ids=["little", "all"]
 )
 def test_a_file_with_missing_points_is_read_once(holed, monkeypatch, asked):
-    from roughline.assessment import source
+    from roughline.question import source
 
     file, *_ = holed
     read = []

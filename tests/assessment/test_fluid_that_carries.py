@@ -8,10 +8,10 @@ from scipy.integrate import quad
 from typer.testing import CliRunner
 
 import roughline as rl
-from roughline.assessment.from_fields import build_question
 from roughline.cli import app
 from roughline.engineering.sealing import ATMOSPHERE
 from roughline.facts.fluid import fluid_lifts
+from roughline.question.from_fields import build_question
 from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 

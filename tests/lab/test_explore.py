@@ -17,7 +17,6 @@ from matplotlib.figure import Figure
 
 import roughline as rl
 from lab.unpacked import unpacked
-from roughline.assessment.loading import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, physics, pictures
 from roughline.lab.explore.panels import BACK
@@ -25,6 +24,7 @@ from roughline.lab.explore.reading import read_state
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.maps import height_map
+from roughline.question.loading import UNLOADING
 from roughline.units import supported_digits
 from seen import is_upright, lay_of_45_degrees, seen
 

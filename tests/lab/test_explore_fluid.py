@@ -20,11 +20,11 @@ from lab.test_explore import (
     saved_is_shown,
 )
 from lab.unpacked import unpacked
-from roughline.assessment.loading import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.reading import read_state
 from roughline.plot import style
+from roughline.question.loading import UNLOADING
 
 SCALE = E_STAR * HEIGHT * LENGTH
 FLOWS = {**SMALL, "fluid": "x"}

@@ -22,7 +22,6 @@ from gwyddion_files import field, gwy
 from lab.unpacked import unpacked
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.description import describe
-from roughline.assessment.source import Topography
 from roughline.errors.words import speaking
 from roughline.lab.measured import documents
 from roughline.lab.measured.answers import assessed
@@ -31,6 +30,7 @@ from roughline.lab.measured.examples import EXAMPLES, write_example
 from roughline.lab.measured.state import CONTROLS, control_texts, first_source, page_question
 from roughline.lab.server.tasks import run_task
 from roughline.lab.site import TASKS
+from roughline.question.source import Topography
 from roughline.report.answers import answer_table
 from roughline.report.comparison import comparison_table, verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table

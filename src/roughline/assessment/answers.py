@@ -11,9 +11,7 @@ from attrs import evolve
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.films import hardness_ends
-from roughline.assessment.kinds import has_spectrum, nominal_area
 from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
-from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -25,6 +23,8 @@ from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
 from roughline.facts.fact import Fact
+from roughline.question.kinds import has_spectrum, nominal_area
+from roughline.question.question import Question
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Surface
 

@@ -11,10 +11,8 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.cost import Announce, announce_cost
 from roughline.assessment.doubts import collect_warnings
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.notes import collect_notes
-from roughline.assessment.question import Question
 from roughline.assessment.scatter import elastic_answers, widen_by_scatter
 from roughline.assessment.solution import Solution, combine_curves, fields_of_gap, solve_scan
 from roughline.assessment.sought import find_sought
@@ -25,6 +23,8 @@ from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
 from roughline.facts.intervals import without_answer
+from roughline.question.kinds import nominal_area
+from roughline.question.question import Question
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 

@@ -11,7 +11,6 @@ from pathlib import Path
 import attrs
 import numpy as np
 
-from roughline.assessment.arguments import has_forces
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import broken
@@ -20,11 +19,12 @@ from roughline.assessment.cost import Announce
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.part_remarks import differ_in_size, facts_of_part
-from roughline.assessment.question import Question
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
 from roughline.facts.part import not_pressed, refused
+from roughline.question.arguments import has_forces
+from roughline.question.question import Question
 
 _MapProgress = Callable[[int, int], None]
 """Called with (maps done, maps in all)."""

@@ -9,10 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.larger_surface import LargerSurface
-from roughline.assessment.question import Question
-from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
@@ -28,6 +25,9 @@ from roughline.engineering.slip import PartialSlip
 from roughline.facts.fact import Fact
 from roughline.fluid.flow import Flow, flow
 from roughline.measurement.roughness import Roughness, roughness
+from roughline.question.kinds import nominal_area
+from roughline.question.question import Question
+from roughline.question.source import Topography
 from roughline.texture.iso import IsoParameters, iso
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface

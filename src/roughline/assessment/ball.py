@@ -10,13 +10,6 @@ from typing import NoReturn
 import numpy as np
 from attrs import field, frozen
 
-from roughline.assessment.arguments import (
-    modulus,
-    quantities,
-    quantity,
-    read_pair,
-    refuse_unless_one_modulus,
-)
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
@@ -28,6 +21,13 @@ from roughline.errors import InputError, UnitWarning
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
 from roughline.halfspace.laws.jkr import JKR
+from roughline.question.arguments import (
+    modulus,
+    quantities,
+    quantity,
+    read_pair,
+    refuse_unless_one_modulus,
+)
 from roughline.topography.profile import Profile
 from roughline.units import as_si, decimal, engineering
 

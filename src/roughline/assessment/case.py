@@ -8,17 +8,17 @@ from functools import cached_property
 
 from roughline.assessment.assumptions import broken
 from roughline.assessment.filled import filled_points
-from roughline.assessment.kinds import has_spectrum, is_map, nominal_area
 from roughline.assessment.larger_surface import roll_offs_along_a_side
 from roughline.assessment.loads import Hardness, LoadCase, find_hardness
-from roughline.assessment.question import Question
-from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.tiles import Extrapolation
 from roughline.computing.arrays import Mask
 from roughline.contact.measures import Measure
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.rules import rules
 from roughline.fluid.measures import measures_at_border
+from roughline.question.kinds import has_spectrum, is_map, nominal_area
+from roughline.question.question import Question
+from roughline.question.source import Topography, pressed_body, topographies
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Line, Surface
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from roughline.assessment.source import Topography
 from roughline.contact.comparison.models import Comparison, compare
 from roughline.contact.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.measurement.homogeneity import ISOTROPIC_FROM
+from roughline.question.source import Topography
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict

@@ -11,18 +11,7 @@ from pathlib import Path
 import numpy as np
 from attrs import field, frozen
 
-from roughline.assessment.arguments import (
-    modulus,
-    one_body,
-    quantities,
-    read_pair,
-    refuse_unless_one_modulus,
-    several,
-)
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.notes import what_was_prepared
-from roughline.assessment.reading import Reading
-from roughline.assessment.source import Topography
 from roughline.contact.arguments import LARGEST_NUMBER, given_half_space
 from roughline.contact.creep import Creep
 from roughline.contact.press_creep import CreepCurve, press_creep
@@ -33,6 +22,17 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called, speaking
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.question.arguments import (
+    modulus,
+    one_body,
+    quantities,
+    read_pair,
+    refuse_unless_one_modulus,
+    several,
+)
+from roughline.question.kinds import nominal_area
+from roughline.question.reading import Reading
+from roughline.question.source import Topography
 from roughline.topography.body import Body, Line, side_lengths
 from roughline.topography.effects import grave_effects
 from roughline.topography.files.read import suspicions

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from roughline.assessment.notes import what_was_prepared
-from roughline.assessment.reading import Reading
-from roughline.assessment.source import crop_first, measured_body
 from roughline.errors import InputError
 from roughline.measurement.roughness import Roughness, roughness
+from roughline.question.reading import Reading
+from roughline.question.source import crop_first, measured_body
 from roughline.texture.iso import IsoParameters, iso
 from roughline.topography.body import Body
 from roughline.topography.files.measurement import Measurement

@@ -7,14 +7,12 @@ import numpy as np
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import Prediction, departures_behind, takes_down
 from roughline.assessment.case import COARSENED_FROM
-from roughline.assessment.kinds import is_map
 from roughline.assessment.notes import (
     ABOUT_THE_BODY,
     facts_on_each,
     line_scan_limits,
     repeated_border_jump,
 )
-from roughline.assessment.question import Question
 from roughline.contact.borders import border_warnings
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.quantities import RESOLVED_FROM
@@ -39,6 +37,8 @@ from roughline.facts.intervals import (
 from roughline.facts.layers import layers_are_strained
 from roughline.facts.loads import Stands, all_touch, nearly_all_touch, on_filled_points
 from roughline.measurement.homogeneity import ISOTROPIC_FROM
+from roughline.question.kinds import is_map
+from roughline.question.question import Question
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface

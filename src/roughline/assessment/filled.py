@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughline.assessment.source import Topography, pressed_body
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
+from roughline.question.source import Topography, pressed_body
 from roughline.topography.body import Surface
 from roughline.topography.preparation import resampled
 

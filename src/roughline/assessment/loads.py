@@ -7,9 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.kinds import is_map, nominal_area
-from roughline.assessment.loading import DEFAULT_LOADS
-from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.arguments import sticking_law, yielding_law
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -22,6 +19,9 @@ from roughline.engineering.attraction import Attraction
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.question.kinds import is_map, nominal_area
+from roughline.question.loading import DEFAULT_LOADS
+from roughline.question.question import Question
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 

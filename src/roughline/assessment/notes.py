@@ -7,13 +7,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from roughline.assessment.arguments import has_forces, several
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.border_of_flow import what_borders_do
 from roughline.assessment.films import film_that_spots_exceed
-from roughline.assessment.kinds import is_map, nominal_area
 from roughline.assessment.loads import find_hardness
-from roughline.assessment.question import Question
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
@@ -65,6 +62,9 @@ from roughline.facts.loads import (
     load_on_joint,
 )
 from roughline.facts.own_words import in_own_words, on_body
+from roughline.question.arguments import has_forces, several
+from roughline.question.kinds import is_map, nominal_area
+from roughline.question.question import Question
 from roughline.topography.body import Body, Line, Surface, side_lengths
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump

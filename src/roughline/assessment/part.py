@@ -9,13 +9,13 @@ from functools import reduce
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
 from roughline.engineering.intervals import Ends
 from roughline.engineering.rule import Answer, Rule, within
 from roughline.facts.fact import Fact
+from roughline.question.question import Question
 from roughline.statistics.places import average_of_places
 
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.behind_maps import BehindMaps
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.part import PartAnswer
 from roughline.facts.fact import Fact
 from roughline.facts.heights import (
@@ -37,6 +36,7 @@ from roughline.facts.part import (
     some_are_scans,
     some_without_interval,
 )
+from roughline.question.kinds import nominal_area
 from roughline.topography.body import Body, Surface
 
 _JUDGED_TOGETHER = (

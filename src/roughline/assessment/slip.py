@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.assessment.case import Case
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.variants import Curves, Way
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.slip import PartialSlip
+from roughline.question.kinds import nominal_area
 
 
 def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:

@@ -15,7 +15,6 @@ from roughline.assessment.larger_surface import LargerSurface, larger_surface, w
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.notes import line_scan_limits
 from roughline.assessment.slip import slip_at_largest_load
-from roughline.assessment.source import Topography
 from roughline.assessment.tiles import TiledCurves, coarse_shape
 from roughline.assessment.uncertainty import change, estimate_intervals
 from roughline.assessment.variants import Curves, Way, filled_otherwise, periodic, tile
@@ -28,6 +27,7 @@ from roughline.engineering.intervals import Intervals
 from roughline.engineering.pressed import Sought
 from roughline.facts.fact import Fact
 from roughline.facts.intervals import filled_before, filling_matters, no_filled_point_left
+from roughline.question.source import Topography
 from roughline.topography.body import Body, Line, Surface
 
 _SMALLEST_CHANGE = 0.001  # changes below this are reported as less than this [%]

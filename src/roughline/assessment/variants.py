@@ -19,9 +19,7 @@ from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
 from roughline.assessment.filled import force_on
 from roughline.assessment.films import SPOT_RADIUS, find_film, hardness_ends
-from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase, LoadProgress
-from roughline.assessment.source import pressed_body
 from roughline.assessment.tiles import (
     FEWEST_POINTS,
     POINTS_OF_BORDER,
@@ -36,6 +34,8 @@ from roughline.contact.measures import Measure
 from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.pressed import Sought, yields
 from roughline.errors import Interrupted
+from roughline.question.kinds import nominal_area
+from roughline.question.source import pressed_body
 from roughline.topography.body import Body, Surface
 
 

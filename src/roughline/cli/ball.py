@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
-from roughline.assessment.fields import BODIES, LOADS
 from roughline.cli import options
 from roughline.cli.options import print_json, writable_file
+from roughline.question.fields import BODIES, LOADS
 
 
 def ball_command(

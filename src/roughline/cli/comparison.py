@@ -8,10 +8,10 @@ from typing import Annotated, Any
 
 import typer
 
-from roughline.assessment.fields import FILE, FieldValues
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable
 from roughline.errors.checks import refuse
+from roughline.question.fields import FILE, FieldValues
 
 
 @options.with_fields(FILE)
@@ -51,8 +51,8 @@ def compare_command(
     spectrum are pressed.
     """
     from roughline.assessment.comparison import compare_models
-    from roughline.assessment.from_fields import build_reading
-    from roughline.assessment.source import Topography
+    from roughline.question.from_fields import build_reading
+    from roughline.question.source import Topography
     from roughline.report.comparison import print_comparison, write_comparison
     from roughline.report.json_output import comparison_json
     from roughline.report.progress import load_progress

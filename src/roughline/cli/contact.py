@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import roughline as rl
-from roughline.assessment.fields import ANSWERS, BODIES, FILE, LOADS, PREPARATION, FieldValues
 from roughline.cli import options
 from roughline.cli.options import end_interrupted, interruptible, print_json, writable
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
+from roughline.question.fields import ANSWERS, BODIES, FILE, LOADS, PREPARATION, FieldValues
 
 if TYPE_CHECKING:
-    from roughline.assessment.question import Question
+    from roughline.question.question import Question
 
 
 @options.with_fields(BODIES, LOADS, ANSWERS, FILE, PREPARATION)
@@ -113,8 +113,8 @@ def press_command(
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.from_fields import build_question
     from roughline.computing.fft import set_threads
+    from roughline.question.from_fields import build_question
 
     if threads is not None:
         set_threads(threads)

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from roughline.assessment.fields import BODIES, FILE, LOADS, PREPARATION, FieldValues
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable_file
+from roughline.question.fields import BODIES, FILE, LOADS, PREPARATION, FieldValues
 
 
 @options.with_fields(FILE, PREPARATION)
@@ -80,7 +80,7 @@ def creep_command(
     --load "0 N" --load "1 N" --load "1 N" --out creep.nc
     """
     from roughline.assessment.creep import CreepQuestion, press_with_creep
-    from roughline.assessment.from_fields import build_preparation, build_reading
+    from roughline.question.from_fields import build_preparation, build_reading
     from roughline.report.creep import creep_json, print_creep
 
     question = CreepQuestion(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import shlex
 
-from roughline.assessment.fields import names_by
 from roughline.errors.words import Words
+from roughline.question.fields import names_by
 
 _SPELLED = (
     *("hurst", "fractal_dimension", "length", "rms_height", "surfaces", "tolerance", "threads"),

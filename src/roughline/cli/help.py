@@ -28,8 +28,8 @@ class PanelsFirst(TyperCommand):
 
     def fill_lists(self) -> None:
         """Fill the lists into the texts."""
-        from roughline.assessment.asked import known_theories
         from roughline.engineering.materials import materials
+        from roughline.question.asked import known_theories
 
         theories = _either(known_theories())
         lists = {"{materials}": ", ".join(sorted(materials())), "{theories}": theories}

@@ -13,10 +13,10 @@ from typing import Annotated, Any, Literal, NoReturn
 import typer
 
 import roughline as rl
-from roughline.assessment.fields import ANSWERS, BODIES, FIELDS, Field
 from roughline.cli import garbage
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
+from roughline.question.fields import ANSWERS, BODIES, FIELDS, Field
 
 
 def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., None]]:

@@ -8,10 +8,10 @@ from typing import Annotated
 
 import typer
 
-from roughline.assessment.fields import FILE, PREPARATION, FieldValues
 from roughline.cli import options
 from roughline.cli.options import print_json, writable
 from roughline.errors import InputError
+from roughline.question.fields import FILE, PREPARATION, FieldValues
 
 
 @options.with_fields(FILE, PREPARATION)
@@ -56,7 +56,7 @@ def info(
     the spectrum.
     """
     from roughline.assessment.description import describe, with_texture
-    from roughline.assessment.from_fields import build_preparation, build_reading
+    from roughline.question.from_fields import build_preparation, build_reading
     from roughline.report.curve_file import as_json, print_curve_file
     from roughline.report.description_table import print_description
     from roughline.report.json_output import description_json

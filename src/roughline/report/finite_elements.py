@@ -25,8 +25,8 @@ from roughline.topography.body import Line, Surface
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
-    from roughline.assessment.question import Question
     from roughline.computing.arrays import Real
+    from roughline.question.question import Question
 
 _COMMENT_WIDTH = 96  # letters of a line of comments
 _LEAST_OVERCLOSURE_STEP = 1e-10  # that CalculiX tells apart, in the unit of its model

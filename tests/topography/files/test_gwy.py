@@ -10,7 +10,7 @@ from gwyddion_files import gwy
 from mutated_heads import assert_each_is_read_or_refused_in_one_line
 from random_cases import seeds
 from roughline.assessment.description import describe
-from roughline.assessment.reading import Reading
+from roughline.question.reading import Reading
 from roughline.topography.files.read import measurement
 
 NX, NY, SIDES = 24, 20, (2.4e-6, 4e-6)

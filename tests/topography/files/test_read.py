@@ -19,7 +19,7 @@ import zstandard
 
 import roughline as rl
 from roughline.assessment.description import describe
-from roughline.assessment.source import topographies
+from roughline.question.source import topographies
 from roughline.topography.files.curves import curve_in
 from roughline.topography.files.instrument import _refuse_long_arrays
 from roughline.topography.files.read import measurement, suspicions

@@ -5,12 +5,12 @@ from __future__ import annotations
 import shlex
 from itertools import chain
 
-from roughline.assessment.fields import FIELDS
 from roughline.lab.controls import as_code
 from roughline.lab.explore.reading import state_in
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Arguments, Progress
+from roughline.question.fields import FIELDS
 
 _FLAGS = {each.name: each.first_flag for each in FIELDS}
 

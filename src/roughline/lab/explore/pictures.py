@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.assessment.loading import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES
@@ -32,6 +31,7 @@ from roughline.lab.frames import drawn
 from roughline.lab.maps import Map, contact_maps, height_map
 from roughline.lab.panels import PanelContent, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
+from roughline.question.loading import UNLOADING
 from roughline.report.shading import shaded
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 

@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 
 import roughline as rl
-from roughline.assessment.loading import UNLOADING
 from roughline.assessment.uncertainty import estimate_intervals
 from roughline.lab.controls import as_code
 from roughline.lab.explore.controls import ScaledControl
@@ -18,6 +17,7 @@ from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
 from roughline.lab.explore.words import first, item, load_rows
 from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
+from roughline.question.loading import UNLOADING
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 

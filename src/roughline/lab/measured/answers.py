@@ -15,8 +15,6 @@ from roughline.assessment.assess_part import assess_map, assess_part
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
-from roughline.assessment.question import Question
-from roughline.assessment.source import Topography
 from roughline.errors.words import speaking
 from roughline.facts.fact import DATA, INTERVALS, LIMITS
 from roughline.facts.own_words import in_own_words
@@ -34,6 +32,8 @@ from roughline.lab.measured.state import (
     page_sources,
 )
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
+from roughline.question.question import Question
+from roughline.question.source import Topography
 from roughline.report.answers import (
     IF_ELASTIC,
     UNRESOLVED,

@@ -11,12 +11,8 @@ from typing import Any
 import numpy as np
 from attrs import evolve
 
-from roughline.assessment.asked import Theories
-from roughline.assessment.loading import DEFAULT_LOADS
 from roughline.assessment.loads import Hardness, find_hardness
 from roughline.assessment.notes import facts_on_loads, unknown_hardness_notes
-from roughline.assessment.question import Question
-from roughline.assessment.reading import Reading
 from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
 from roughline.lab.controls import STRANGE, ControlError
@@ -25,6 +21,10 @@ from roughline.lab.frames import frame
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.state import CONTROLS, ControlTexts, Source, at, page_question, used_in
 from roughline.lab.server.tasks import Arguments, Progress
+from roughline.question.asked import Theories
+from roughline.question.loading import DEFAULT_LOADS
+from roughline.question.question import Question
+from roughline.question.reading import Reading
 from roughline.report.contact_tables import solid_in_words
 from roughline.report.values import up_to_three_digits
 from roughline.topography.body import Body, Line, Surface

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from roughline.assessment.fields import FIELDS, FILE, PREPARATION
 from roughline.lab.controls import Choice
+from roughline.question.fields import FIELDS, FILE, PREPARATION
 
 MOST_POINTS = 4096
 """Most points along a side that are resampled to."""

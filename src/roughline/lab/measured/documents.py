@@ -11,10 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.fields import FIELDS, asked_in
-from roughline.assessment.from_fields import arguments_for
 from roughline.assessment.part import PartAssessment
-from roughline.assessment.reading import Reading
 from roughline.errors.words import speaking
 from roughline.lab.controls import is_number
 from roughline.lab.frames import frame
@@ -31,6 +28,9 @@ from roughline.lab.measured.state import (
     typed_loads,
 )
 from roughline.lab.server.tasks import Arguments, Progress
+from roughline.question.fields import FIELDS, asked_in
+from roughline.question.from_fields import arguments_for
+from roughline.question.reading import Reading
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import write_contact_report
 from roughline.report.part_report import write_part_report

@@ -7,8 +7,6 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from roughline.assessment.description import Description, describe_measurement
-from roughline.assessment.reading import Reading
-from roughline.assessment.source import measured_body
 from roughline.errors.words import speaking
 from roughline.lab.frames import drawn
 from roughline.lab.measured.cache import cached
@@ -25,6 +23,8 @@ from roughline.lab.measured.state import (
     used_in,
 )
 from roughline.lab.server.tasks import Arguments, Progress
+from roughline.question.reading import Reading
+from roughline.question.source import measured_body
 from roughline.report.description_table import description_table
 from roughline.report.values import up_to_three_digits
 from roughline.topography.body import Body, Surface, point_spacings, side_lengths

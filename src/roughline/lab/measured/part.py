@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.assessment.source import Topography
 from roughline.errors.checks import shortened
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
@@ -24,6 +23,7 @@ from roughline.lab.measured.state import (
 )
 from roughline.lab.panels import PanelContent, Points
 from roughline.lab.server.tasks import Arguments, Progress, without_paths
+from roughline.question.source import Topography
 from roughline.report.answers import leading_keys, written_unit
 from roughline.report.part_tables import body_in_words, leading_table, maps_table
 from roughline.report.values import figure, up_to_three_digits, written_scale

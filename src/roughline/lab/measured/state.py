@@ -10,17 +10,17 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import roughline as rl
-from roughline.assessment import from_fields
-from roughline.assessment.fields import FILE, LOADS, PREPARATION, names_by
-from roughline.assessment.from_fields import refuse_alone
-from roughline.assessment.question import Question
-from roughline.assessment.reading import Reading
 from roughline.engineering.materials import material
 from roughline.errors.words import Words
 from roughline.lab.controls import ControlError, refuse_strange, sent_texts, usable
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import EXAMPLES, write_example
 from roughline.lab.server.tasks import Arguments
+from roughline.question import from_fields
+from roughline.question.fields import FILE, LOADS, PREPARATION, names_by
+from roughline.question.from_fields import refuse_alone
+from roughline.question.question import Question
+from roughline.question.reading import Reading
 from roughline.topography.preparation import Preparation
 
 _FILES = ("file", "example")

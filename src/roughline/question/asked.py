@@ -8,8 +8,6 @@ from typing import Any, get_args
 
 from attrs import field, frozen
 
-from roughline.assessment.arguments import quantity, several
-from roughline.assessment.fields import asked_in
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated
 from roughline.engineering.sealing import Fluid
@@ -19,6 +17,8 @@ from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.halfspace.laws.dugdale import Dugdale
 from roughline.halfspace.laws.exponential import Exponential
+from roughline.question.arguments import quantity, several
+from roughline.question.fields import asked_in
 from roughline.units import engineering
 
 _MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4

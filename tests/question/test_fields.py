@@ -9,12 +9,12 @@ import typer
 from typer.testing import CliRunner
 
 import roughline as rl
-from roughline.assessment import fields
-from roughline.assessment.asked import KINDS, asked_for
-from roughline.assessment.fields import FIELDS, LOADS, Field, names_by
 from roughline.cli.flags import FLAGS
 from roughline.cli.options import with_fields
 from roughline.errors.words import Words, called, speaking
+from roughline.question import fields
+from roughline.question.asked import KINDS, asked_for
+from roughline.question.fields import FIELDS, LOADS, Field, names_by
 
 TEMPERATURE = Field(
     name="temperature",
@@ -54,8 +54,8 @@ def test_an_entry_of_the_table_has_a_name_in_messages(monkeypatch):
 
 
 FOREIGN = """
-from roughline.assessment import fields
-from roughline.assessment.asked import KINDS, asked_for
+from roughline.question import fields
+from roughline.question.asked import KINDS, asked_for
 
 fields.FIELDS += (
     fields.Field(

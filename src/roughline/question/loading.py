@@ -9,13 +9,13 @@ from collections.abc import Sequence
 import numpy as np
 from attrs import frozen
 
-from roughline.assessment.kinds import nominal_area
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole_number
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
 from roughline.facts.loads import Strains, strained
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.question.kinds import nominal_area
 from roughline.topography.body import Body, side_lengths
 from roughline.units import as_si, engineering, load_in_newtons
 

@@ -10,29 +10,6 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 import numpy as np
 from attrs import evolve, field, frozen
 
-from roughline.assessment.arguments import (
-    bodies,
-    modulus,
-    opposite,
-    quantities,
-    read_pair,
-    refuse_unless_one_modulus,
-)
-from roughline.assessment.asked import (
-    Adhesion,
-    Asked,
-    Friction,
-    Joint,
-    Theories,
-    Ultrasound,
-    asked,
-    refuse_on_line,
-    refuse_on_strip,
-    refuse_without_materials,
-)
-from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
-from roughline.assessment.loading import Loading
-from roughline.assessment.reading import Reading
 from roughline.contact.arguments import given_half_space
 from roughline.contact.strain import LARGEST_STRAIN, LINEARITY
 from roughline.engineering.attraction import Attraction
@@ -47,6 +24,29 @@ from roughline.errors.words import called
 from roughline.facts.fact import Fact
 from roughline.facts.loads import how_far_strained
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.question.arguments import (
+    bodies,
+    modulus,
+    opposite,
+    quantities,
+    read_pair,
+    refuse_unless_one_modulus,
+)
+from roughline.question.asked import (
+    Adhesion,
+    Asked,
+    Friction,
+    Joint,
+    Theories,
+    Ultrasound,
+    asked,
+    refuse_on_line,
+    refuse_on_strip,
+    refuse_without_materials,
+)
+from roughline.question.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
+from roughline.question.loading import Loading
+from roughline.question.reading import Reading
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import Preparation
 from roughline.units import as_si

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 from attrs import evolve
 
-from roughline.assessment.question import Question
-from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
+from roughline.question.question import Question
+from roughline.question.reading import Reading
 from roughline.topography.body import Body, Line, Surface, within
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement

@@ -6,13 +6,13 @@ from typing import Any
 
 import attrs
 
-from roughline.assessment.arguments import several
-from roughline.assessment.asked import KINDS, asked_for
-from roughline.assessment.fields import FIELDS, Field, FieldValues
-from roughline.assessment.question import Question
-from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.errors.words import called
+from roughline.question.arguments import several
+from roughline.question.asked import KINDS, asked_for
+from roughline.question.fields import FIELDS, Field, FieldValues
+from roughline.question.question import Question
+from roughline.question.reading import Reading
 from roughline.topography.missing import Missing
 from roughline.topography.preparation import Preparation
 

@@ -1,0 +1,1 @@
+"""What is asked: a question, its fields and topographies, before anything is pressed."""
