@@ -29,7 +29,7 @@ MAY_HAVE_MORE = {
 }
 MAY_BE_LONGER = {
     "contact/press.py, press": "its docstring says what each of its parameters is",
-    "contact/press_creep.py, press_creep": "its docstring says on which principle it rests",
+    "creep/press_creep.py, press_creep": "its docstring says on which principle it rests",
 }
 """Functions that are over a limit, and why."""
 

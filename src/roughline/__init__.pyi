@@ -12,7 +12,6 @@ from roughline.computing.fft import set_threads as set_threads
 from roughline.contact.comparison.models import Comparison as Comparison
 from roughline.contact.comparison.models import compare as compare
 from roughline.contact.comparison.trust import trust_map as trust_map
-from roughline.contact.creep import Creep as Creep
 from roughline.contact.curve import Curve as Curve
 from roughline.contact.curve import LineCurve as LineCurve
 from roughline.contact.curve import SurfaceCurve as SurfaceCurve
@@ -24,12 +23,13 @@ from roughline.contact.measures import MEAN_GAP as MEAN_GAP
 from roughline.contact.measures import Measure as Measure
 from roughline.contact.patches import Patches as Patches
 from roughline.contact.press import press as press
-from roughline.contact.press_creep import CreepCurve as CreepCurve
-from roughline.contact.press_creep import press_creep as press_creep
 from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
 from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
 from roughline.contact.solver import Solver as Solver
 from roughline.contact.status import Status as Status
+from roughline.creep.creep import Creep as Creep
+from roughline.creep.press_creep import CreepCurve as CreepCurve
+from roughline.creep.press_creep import press_creep as press_creep
 from roughline.engineering.coated import Coated as Coated
 from roughline.engineering.fluids import Gas as Gas
 from roughline.engineering.fluids import Liquid as Liquid

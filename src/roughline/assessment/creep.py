@@ -13,9 +13,9 @@ from attrs import field, frozen
 
 from roughline.assessment.notes import what_was_prepared
 from roughline.contact.arguments import LARGEST_NUMBER, given_half_space
-from roughline.contact.creep import Creep
-from roughline.contact.press_creep import CreepCurve, press_creep
 from roughline.contact.strain import LARGEST_STRAIN, LINEARITY
+from roughline.creep.creep import Creep
+from roughline.creep.press_creep import CreepCurve, press_creep
 from roughline.engineering.coated import Solid
 from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError

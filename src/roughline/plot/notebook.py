@@ -14,9 +14,9 @@ from roughline.computing.arrays import Real
 from roughline.computing.notebook import in_notebook
 from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.fields import Fields
-from roughline.contact.press_creep import CreepCurve
 from roughline.contact.quantities import unit_name
 from roughline.contact.status import Status
+from roughline.creep.press_creep import CreepCurve
 from roughline.fluid.flow import Flow
 from roughline.fluid.reopening import Reopening
 from roughline.fluid.sealing_pressure import SealingPressure

@@ -16,8 +16,8 @@ from halfspace.dense_contact import BodyOn, DenseContact
 from halfspace.test_foreign_half_space import OnRigidBase
 from random_cases import cases
 from random_problems import E_STAR, random_problem
-from roughline.contact.creep import memory_of_stress
-from roughline.contact.fading_memory import FadingMemory
+from roughline.creep.creep import memory_of_stress
+from roughline.creep.fading_memory import FadingMemory
 from roughline.exact import indenters
 
 ROUNDING = 1e-12

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
-from roughline.contact.fading_memory import FadingMemory
+from roughline.creep.fading_memory import FadingMemory
 from roughline.errors import InputError
 from roughline.errors.checks import between, refuse, several
 from roughline.errors.public import public

@@ -27,14 +27,14 @@ from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import LARGEST_NUMBER, checked_half_space
-from roughline.contact.creep import Creep, memory_of_strain, memory_of_stress
 from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.curve_files import checked_name, write_curve
-from roughline.contact.fading_memory import FadingMemory
 from roughline.contact.loads import checked_numbers, comes_nearer
 from roughline.contact.press import press
 from roughline.contact.quantities import QUANTITIES, Quantity
 from roughline.contact.selection import at_loads, loads_with_fields
+from roughline.creep.creep import Creep, memory_of_strain, memory_of_stress
+from roughline.creep.fading_memory import FadingMemory
 from roughline.errors import InputError
 from roughline.errors.checks import between, refuse
 from roughline.errors.public import public_names

@@ -1,0 +1,1 @@
+"""Bodies that creep: their laws, their memory, and how they are pressed over time."""
