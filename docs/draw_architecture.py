@@ -30,6 +30,7 @@ PLACES = {
     "question": 2.4,
     "campaign": 7.2,
     "plot": 1.1,
+    "comparison": 6.2,
     "creep": 2.75,
     "engineering": 1.1,
     "theories": 7.9,

@@ -8,10 +8,10 @@ from roughline.assessment.assess_part import assess_part as assess_part
 from roughline.assessment.assessment import Assessment as Assessment
 from roughline.assessment.line_scan import press_scan as press_scan
 from roughline.assessment.part import PartAssessment as PartAssessment
+from roughline.comparison.models import Comparison as Comparison
+from roughline.comparison.models import compare as compare
+from roughline.comparison.trust import trust_map as trust_map
 from roughline.computing.fft import set_threads as set_threads
-from roughline.contact.comparison.models import Comparison as Comparison
-from roughline.contact.comparison.models import compare as compare
-from roughline.contact.comparison.trust import trust_map as trust_map
 from roughline.contact.curve import Curve as Curve
 from roughline.contact.curve import LineCurve as LineCurve
 from roughline.contact.curve import SurfaceCurve as SurfaceCurve

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import to_hex
 
+from roughline.comparison.trust import TrustMap, trust_map
 from roughline.contact import scaling
-from roughline.contact.comparison.trust import TrustMap, trust_map
 from roughline.paper.contact_area import mean_area
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import PaperResults

@@ -19,7 +19,7 @@ from roughline import campaign
 from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
 from roughline.campaign.run import log_path
-from roughline.contact.comparison.trust import COLUMNS, TrustMap
+from roughline.comparison.trust import COLUMNS, TrustMap
 from roughline.paper.laws import exponent_table
 from roughline.paper.page import compose
 from roughline.paper.results import (

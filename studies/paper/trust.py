@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from roughline.contact.comparison.trust import TrustMap
+from roughline.comparison.trust import TrustMap
 from roughline.paper.tables import trust_cell
 from roughline.plot.models import add_bar, draw_trust
 from roughline.plot.style import PAGE, new_figure

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from roughline.contact.comparison.models import Comparison, compare
-from roughline.contact.comparison.trust import Difference, trust_map
+from roughline.comparison.models import Comparison, compare
+from roughline.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.measurement.homogeneity import ISOTROPIC_FROM

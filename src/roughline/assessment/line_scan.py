@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from roughline._version import __version__
 from roughline.assessment.assumptions import broken
+from roughline.comparison.median_ratio import median_ratio
+from roughline.comparison.trust import trust_map
 from roughline.computing.arrays import Real
-from roughline.contact.comparison.median_ratio import median_ratio
-from roughline.contact.comparison.trust import trust_map
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors.checks import flag

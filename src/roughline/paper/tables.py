@@ -13,7 +13,7 @@ from roughline.report.page import Table
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 
 if TYPE_CHECKING:
-    from roughline.contact.comparison.trust import Difference
+    from roughline.comparison.trust import Difference
     from roughline.paper.laws import DimensionLaws
     from roughline.statistics.bootstrap import IntervalEstimate
 

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.ticker import PercentFormatter
 
+from roughline.comparison.models import Comparison
+from roughline.comparison.trust import TrustMap
+from roughline.comparison.trust import trust_map as published_map
 from roughline.computing.arrays import Real
-from roughline.contact.comparison.models import Comparison
-from roughline.contact.comparison.trust import TrustMap
-from roughline.contact.comparison.trust import trust_map as published_map
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.style import FORCE_LABEL, OPEN, SHADE, colours, drawing_on

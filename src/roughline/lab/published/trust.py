@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roughline.contact.comparison.trust import trust_map
+from roughline.comparison.trust import trust_map
 from roughline.lab.frames import frame
 from roughline.lab.published.ensembles import usable_state
 from roughline.lab.server.tasks import Arguments, Progress

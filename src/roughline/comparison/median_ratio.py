@@ -35,11 +35,7 @@ def median_ratio(fractal_dimension: float, force_bars: Real, roll_off_ratio: flo
 @cache
 def _table() -> tuple[list[Real], Real]:
     """Axes of the table, and its ratios over roll-offs, dimensions and loads."""
-    with (
-        files("roughline.contact.comparison")
-        .joinpath("median_ratio.csv")
-        .open(encoding="utf-8") as file
-    ):
+    with files("roughline.comparison").joinpath("median_ratio.csv").open(encoding="utf-8") as file:
         rows = np.loadtxt(file, delimiter=",", skiprows=1)
     axes = [np.unique(rows[:, i]) for i in range(3)]
     rows = rows[np.lexsort(rows[:, 2::-1].T)]

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughline.comparison.trust import Difference
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
-from roughline.contact.comparison.trust import Difference
 from roughline.contact.press import press
 from roughline.errors.checks import refuse, refuse_other_seeds, whole_number
 from roughline.errors.public import public

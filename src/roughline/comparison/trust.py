@@ -154,9 +154,5 @@ class TrustMap:
 @cache
 def trust_map() -> TrustMap:
     """Return the map that comes with the package."""
-    with (
-        files("roughline.contact.comparison")
-        .joinpath("trust_map.csv")
-        .open(encoding="utf-8") as file
-    ):
+    with files("roughline.comparison").joinpath("trust_map.csv").open(encoding="utf-8") as file:
         return TrustMap.from_rows(np.loadtxt(file, delimiter=",", skiprows=1))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.contact.comparison.trust import COLUMNS, Difference, TrustMap
+from roughline.comparison.trust import COLUMNS, Difference, TrustMap
 from roughline.statistics.verdict import Verdict
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.contact.comparison.median_ratio import median_ratio
+from roughline.comparison.median_ratio import median_ratio
 
 LOADS = np.array([0.01, 0.1, 1.0])  # F / (E* h L)
 SCATTER = 0.35  # of a stiffness's logarithm, at most, under these loads

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughline.contact.comparison.models import difference_of_one, scatter_of_surfaces
+from roughline.comparison.models import difference_of_one, scatter_of_surfaces
 
 
 def test_the_interval_beside_one_surface_holds_its_scatter(published_results):
