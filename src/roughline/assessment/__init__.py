@@ -1,1 +1,1 @@
-"""From a question to an assessment: one body, its materials and loads."""
+"""From a question to an assessment: its body pressed, answers and their intervals."""

@@ -1,1 +1,1 @@
-"""Spectra: self-affine laws, synthesis, measured spectra, fits, roughness parameters."""
+"""Spectra: self-affine laws, bodies made of them, spectra of bodies and their moments."""
