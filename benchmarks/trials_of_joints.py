@@ -20,11 +20,11 @@ from trials import (
 )
 
 import roughline as rl
-from roughline.assessment.assumptions import broken
-from roughline.assessment.extrapolation import Extrapolation, roll_offs_along_a_side
 from roughline.margins.place import spread_of_differences
 from roughline.margins.spread import Values
 from roughline.margins.tiles import TiledCurves, coarsened, cut_tiles
+from roughline.question.assumptions import broken
+from roughline.question.extrapolation import Extrapolation, roll_offs_along_a_side
 
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 COUNTS = (2, 3, 5, 10)

@@ -69,6 +69,10 @@ from roughline.halfspace.laws.jkr import JKR as JKR
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral as Unilateral
 from roughline.halfspace.laws.yielding import Yielding as Yielding
+from roughline.margins.cause import Cause as Cause
+from roughline.margins.cause import OtherBodies as OtherBodies
+from roughline.margins.causes import causes as causes
+from roughline.margins.spread import Spread as Spread
 from roughline.measurement.fit import fit_self_affine as fit_self_affine
 from roughline.measurement.roughness import roughness as roughness
 from roughline.question.asked import Adhesion as Adhesion

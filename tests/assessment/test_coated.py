@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.loads import LoadCase
 from roughline.contact.conduction import conductance
+from roughline.margins import variant as variants
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4)
 SURFACE = SPECTRUM.surface(64, rng=7)
@@ -34,9 +34,9 @@ def assessed(materials, loads=("0.1 N", "1 N"), body=SURFACE, **others):
 @pytest.fixture
 def _to_rounding(monkeypatch):
     """Press so closely that no solution is farther from another than its tolerance."""
-    press = LoadCase.press
+    press = variants.press
     monkeypatch.setattr(
-        LoadCase, "press", lambda case, progress=None: press(replace(case, rtol=RTOL), progress)
+        variants, "press", lambda body, **given: press(body, **{**given, "rtol": RTOL})
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment import loads as load_cases
+from roughline.margins import variant as variants
 
 # harder than any contact pressure here, so that nothing yields
 FIRST = "E=210 GPa nu=0.3 hardness=1000 GPa resistivity=1e-7 ohm m conductivity=50 W/m/K"
@@ -112,14 +112,14 @@ def test_a_single_map_gives_no_interval_of_the_part(maps):
 
 def test_interrupted_the_maps_that_were_done_are_kept(maps, monkeypatch):
     stop_at = maps[2]
-    original = load_cases.press
+    original = variants.press
 
     def press(body, **named):
         if np.array_equal(body.heights, stop_at.heights):
             raise KeyboardInterrupt
         return original(body, **named)
 
-    monkeypatch.setattr(load_cases, "press", press)
+    monkeypatch.setattr(variants, "press", press)
     part = pressed(maps)
     assert part.interrupted
     assert (part.names, part.left) == (["map 1", "map 2"], ["map 3", "map 4"])

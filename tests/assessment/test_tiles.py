@@ -10,12 +10,12 @@ import pytest
 import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of, piece_of
 from held_measures import held
-from roughline.assessment.extrapolation import Extrapolation
 from roughline.contact.measures import MEAN_GAP, Measured
 from roughline.margins.larger_measure import LargerMeasure
 from roughline.margins.place import spread_of_differences
 from roughline.margins.spread import Spread, Values
 from roughline.margins.tiles import TiledCurves, Tiles
+from roughline.question.extrapolation import Extrapolation
 
 MATERIALS = "E=200 GPa nu=0.3, E=200 GPa nu=0.3"
 SEEN, NOT_SEEN = Extrapolation(6.0), Extrapolation(None)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment import loads as load_cases
-from roughline.assessment.case import Case
 from roughline.assessment.presses import list_presses
+from roughline.margins import variant as variants_of_case
 from roughline.margins.variant import AS_ASKED, Stopped, press_all
+from roughline.question.case import Case
 
 PAIR = "steel,copper"
 SURFACE = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4).surface(64, 7)
@@ -28,9 +28,9 @@ ASKED = {
 @pytest.fixture
 def pressed(monkeypatch):
     """What was pressed, in its order."""
-    done, original = [], load_cases.press
+    done, original = [], variants_of_case.press
     monkeypatch.setattr(
-        load_cases, "press", lambda body, **k: done.append(body.shape) or original(body, **k)
+        variants_of_case, "press", lambda body, **k: done.append(body.shape) or original(body, **k)
     )
     return done
 
@@ -67,7 +67,7 @@ def test_an_interrupt_of_the_second_variant_carries_the_first(monkeypatch):
 
 def assert_done_is_carried(monkeypatch, stop_at):
     case = Case.of(rl.Question(MAP, PAIR, loads=["5 MPa", "20 MPa"], elastic=True))
-    variants, count, original = list_presses(case), [], load_cases.press
+    variants, count, original = list_presses(case), [], variants_of_case.press
 
     def press(body, *, progress, **named):
         count.append(body)
@@ -78,7 +78,7 @@ def assert_done_is_carried(monkeypatch, stop_at):
 
         return original(body, progress=stop, **named)
 
-    monkeypatch.setattr(load_cases, "press", press)
+    monkeypatch.setattr(variants_of_case, "press", press)
     with pytest.raises(Stopped) as stop:
         press_all(variants, case.loads.count, lambda done, total: None)
     curves = stop.value.curves

@@ -9,11 +9,11 @@ import pytest
 from attrs import evolve
 
 import roughline as rl
-from roughline.assessment import case as cases
-from roughline.assessment import loads as load_cases
 from roughline.assessment.behind_maps import BehindMaps, ends_in_common
 from roughline.assessment.larger_surface import Differences
 from roughline.engineering.formulas import electrical_resistance, partial_slip
+from roughline.margins import variant as variants
+from roughline.question import case as cases
 from roughline.report.answers import answer_table, elastic_in_words
 
 PAIR = "steel,copper"
@@ -110,8 +110,8 @@ def test_the_answers_of_elastic_bodies_stand_beside(surface, pressed):
 
 def test_ceramics_that_do_not_yield_have_no_other_answers(surface, monkeypatch):
     solved = []
-    original = load_cases.press
-    monkeypatch.setattr(load_cases, "press", lambda *a, **k: solved.append(k) or original(*a, **k))
+    original = variants.press
+    monkeypatch.setattr(variants, "press", lambda *a, **k: solved.append(k) or original(*a, **k))
     result = rl.assess(rl.Question(surface, "alumina,glass", loads="0.5 N"))
     assert [case["hardness"] for case in solved] == [5.5e9, 5.5e9 / FACTOR]  # none harder
     assert result.elastic == {}
@@ -285,7 +285,7 @@ def test_interrupted_in_the_variants_the_answers_stay_and_lose_their_intervals(
     surface, monkeypatch, solved
 ):
     """Of what the scatter leaves open nothing is known, so narrower intervals are not shown."""
-    original, count = load_cases.press, []
+    original, count = variants.press, []
 
     def press(*arguments, progress, **named):
         count.append(named["hardness"])
@@ -296,7 +296,7 @@ def test_interrupted_in_the_variants_the_answers_stay_and_lose_their_intervals(
 
         return original(*arguments, progress=stop, **named)
 
-    monkeypatch.setattr(load_cases, "press", press)
+    monkeypatch.setattr(variants, "press", press)
     result = rl.assess(rl.Question(surface, PAIR, loads=["2 N", "20 N"]))
     assert result.interrupted
     assert result.curve.converged.all()
@@ -408,9 +408,9 @@ def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch, n):
     on_all = rl.assess(question)
     monkeypatch.setattr(cases, "HALVED_FROM", n**2)
     solved = []
-    original = load_cases.press
+    original = variants.press
     monkeypatch.setattr(
-        load_cases, "press", lambda body, **k: solved.append(body.shape) or original(body, **k)
+        variants, "press", lambda body, **k: solved.append(body.shape) or original(body, **k)
     )
     on_half = rl.assess(question)
     half = n // 2

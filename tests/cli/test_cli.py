@@ -12,9 +12,9 @@ from typer.testing import CliRunner
 
 import roughline as rl
 from roughline import cli
-from roughline.assessment import loads as load_cases
 from roughline.assessment.assessment import Assessment
 from roughline.engineering.materials import materials
+from roughline.margins import variant as variants
 from roughline.report.contact_figures import write_contact
 
 
@@ -237,9 +237,9 @@ def test_a_wrong_call_is_exit_2(arguments):
 
 
 def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
-    original = load_cases.press
+    original = variants.press
     monkeypatch.setattr(
-        load_cases, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=2))
+        variants, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=2))
     )
     code, out, _ = invoke("press", surface_file, "--modulus", "1 GPa", "--loads", 6)
     assert code == 1
@@ -251,7 +251,7 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
     surface_file, invoke, only_drawn, monkeypatch, tmp_path, where
 ):
     only_drawn()
-    original = load_cases.press
+    original = variants.press
 
     def press(*arguments, progress, **named):
         def stop(done, total):
@@ -261,7 +261,7 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
 
         return original(*arguments, progress=stop, **named)
 
-    monkeypatch.setattr(load_cases, "press", press)
+    monkeypatch.setattr(variants, "press", press)
     folder = tmp_path / "pressed"
     code, out, err = invoke(
         "press",
@@ -288,9 +288,9 @@ def test_a_report_with_loads_that_failed_says_so(
     surface_file, invoke, only_drawn, monkeypatch, tmp_path
 ):
     only_drawn()
-    original = load_cases.press
+    original = variants.press
     monkeypatch.setattr(
-        load_cases, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=1))
+        variants, "press", lambda *a, **k: original(*a, **k, solver=rl.Solver(max_iterations=1))
     )
     code, out, err = invoke(
         "press",

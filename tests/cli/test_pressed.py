@@ -9,9 +9,10 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.assessment import case, doubts
-from roughline.assessment import loads as load_cases
+from roughline.assessment import doubts
 from roughline.facts.listed import listed
+from roughline.margins import variant as variants
+from roughline.question import case
 from roughline.report.values import written_scale
 from roughline.units import decimal, engineering
 
@@ -30,13 +31,13 @@ def table_lines(out):
 
 def test_loads_keep_their_order_and_words_and_are_solved_once(rough, invoke, monkeypatch):
     solved = []
-    original = load_cases.press
+    original = variants.press
 
     def press(*arguments, **named):
         solved.append(named["forces"])
         return original(*arguments, **named)
 
-    monkeypatch.setattr(load_cases, "press", press)
+    monkeypatch.setattr(variants, "press", press)
     loads = ("--load", "10 N", "--load", "2 N", "--load", "2000 mN")
     code, out, errors = invoke("press", rough, *PAIR, *loads, "--json")
     assert code == 0, errors
@@ -78,13 +79,13 @@ def test_filling_alone_makes_no_interval(holed, invoke):
 
 def test_the_other_filling_is_pressed_under_the_same_loads(holed, invoke, monkeypatch):
     pressed = []
-    original = load_cases.press
+    original = variants.press
 
     def press(*arguments, **named):
         pressed.append(original(*arguments, **named))
         return pressed[-1]
 
-    monkeypatch.setattr(load_cases, "press", press)
+    monkeypatch.setattr(variants, "press", press)
     code, _, errors = invoke("press", *holed, "--modulus", "100 GPa", "--loads", "3")
     assert code == 0, errors
     first, other = (curve.force.tolist() for curve in pressed)

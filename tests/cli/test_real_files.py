@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment import loads as load_cases
+from roughline.margins import variant as variants
 
 PRESS = ("--materials", "steel,copper", "--load", "10 uN")  # more than copper bears at 90 µN
 
@@ -299,7 +299,7 @@ def test_without_the_periodic_half_space_the_interface_is_not_known(
     tmp_path, invoke, monkeypatch, half
 ):
     """Ctrl-C in either half keeps what was solved, and no free stiffness stands for the other."""
-    original = load_cases.press
+    original = variants.press
 
     def press(*arguments, progress, **named):
         def stop(done, total):
@@ -309,7 +309,7 @@ def test_without_the_periodic_half_space_the_interface_is_not_known(
 
         return original(*arguments, progress=stop, **named)
 
-    monkeypatch.setattr(load_cases, "press", press)
+    monkeypatch.setattr(variants, "press", press)
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
     np.save(tmp_path / "map.npy", surface.heights)
     code, out, _ = invoke(
@@ -461,7 +461,7 @@ def test_nothing_is_refused_after_the_work(tmp_path, invoke, monkeypatch, argume
 
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
     rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "map.nc")
-    monkeypatch.setattr("roughline.assessment.loads.press", not_yet)
+    monkeypatch.setattr("roughline.margins.variant.press", not_yet)
     code, _, _ = invoke(
         "press", tmp_path / "map.nc", "--materials", "steel,rigid", "--load", "1 N", *arguments
     )

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.films import SPOT_RADIUS
 from roughline.fluid.measures import (
     LIQUID,
     equivalent_aperture,
@@ -22,6 +21,7 @@ from roughline.fluid.measures import (
 )
 from roughline.fluid.rarefied import Rarefied
 from roughline.fluid.sealing_pressure import OPEN
+from roughline.question.films import SPOT_RADIUS
 
 SAME = 1e-9
 SHAPE, SIZES = (24, 18), (4.0, 3.0)

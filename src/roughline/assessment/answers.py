@@ -9,8 +9,6 @@ import numpy as np
 from attrs import evolve
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.case import Case
-from roughline.assessment.films import hardness_ends
 from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
 from roughline.assessment.solution import LeftOpen, Solution, combine_curves
 from roughline.computing.arrays import Real
@@ -27,6 +25,8 @@ from roughline.facts.fact import Fact
 from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.spread import measured_within
 from roughline.margins.variant import Curves
+from roughline.question.case import Case
+from roughline.question.films import hardness_ends
 from roughline.question.kinds import has_spectrum, nominal_area
 from roughline.question.question import Question
 from roughline.spectra.moments import Moments, moments

@@ -9,10 +9,8 @@ import numpy as np
 from roughline.assessment.answers import margins_by_cause, work_out_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.bounds import elastic_answers, widen_by_scatter
-from roughline.assessment.case import Case
 from roughline.assessment.cost import Announce, announce_cost
 from roughline.assessment.doubts import collect_warnings
-from roughline.assessment.loads import LoadProgress
 from roughline.assessment.notes import collect_notes
 from roughline.assessment.presses import list_presses
 from roughline.assessment.slip import slip_at_largest_load
@@ -33,7 +31,9 @@ from roughline.facts.intervals import without_answer
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on_filled
 from roughline.margins.variant import AS_ASKED, Curves, Stopped, press_all
+from roughline.question.case import Case
 from roughline.question.kinds import nominal_area
+from roughline.question.loads import LoadProgress
 from roughline.question.question import Question
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface

@@ -13,10 +13,8 @@ import numpy as np
 
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import broken
 from roughline.assessment.behind_maps import BehindMaps, behind_maps, ends_in_common
 from roughline.assessment.cost import Announce
-from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.part_remarks import differ_in_size, facts_of_part
 from roughline.errors import InputError
@@ -24,6 +22,8 @@ from roughline.errors.checks import refuse
 from roughline.errors.public import public
 from roughline.facts.part import not_pressed, refused
 from roughline.question.arguments import has_forces
+from roughline.question.assumptions import broken
+from roughline.question.loads import LoadProgress
 from roughline.question.question import Question
 
 _MapProgress = Callable[[int, int], None]

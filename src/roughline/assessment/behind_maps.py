@@ -30,7 +30,6 @@ import numpy as np
 
 from roughline.assessment.answers import ends_from_many
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.extrapolation import MOST_DOUBLINGS, Extrapolation, fitted_roll_offs
 from roughline.assessment.larger_surface import Differences, LargerSurface
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
@@ -42,6 +41,7 @@ from roughline.margins.spread import logit
 from roughline.margins.tiles import FEWEST_POINTS, Tiles
 from roughline.measurement.fit import SelfAffineFit, nearest_law
 from roughline.measurement.longer_waves import long_shapes
+from roughline.question.extrapolation import MOST_DOUBLINGS, Extrapolation, fitted_roll_offs
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
 from roughline.statistics.places import Agreement, agreement
 from roughline.topography.body import Surface

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.assessment.answers import work_out_answers
-from roughline.assessment.case import Case
 from roughline.assessment.solution import Solution, combine_curves
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
@@ -17,6 +16,7 @@ from roughline.engineering.rule import Answer, Limits, within
 from roughline.margins.causes import HARDNESS
 from roughline.margins.hardness import ELASTIC, OfHardness
 from roughline.margins.variant import Curves, periodic
+from roughline.question.case import Case
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from roughline.assessment.case import Case
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.arguments import yielding_law
 from roughline.contact.estimates import (
@@ -22,6 +21,7 @@ from roughline.contact.loads import Loads
 from roughline.errors.words import called
 from roughline.margins.causes import causes
 from roughline.margins.variant import Variant
+from roughline.question.case import Case
 from roughline.topography.body import Surface
 
 Announce = Callable[[str], None]

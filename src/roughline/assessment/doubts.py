@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import Prediction, departures_behind, takes_down
-from roughline.assessment.case import COARSENED_FROM
 from roughline.assessment.notes import (
     ABOUT_THE_BODY,
     facts_on_each,
@@ -36,6 +34,8 @@ from roughline.facts.intervals import (
 from roughline.facts.layers import layers_are_strained
 from roughline.facts.loads import Stands, all_touch, nearly_all_touch, on_filled_points
 from roughline.measurement.homogeneity import ISOTROPIC_FROM
+from roughline.question.assumptions import Prediction, departures_behind, takes_down
+from roughline.question.case import COARSENED_FROM
 from roughline.question.kinds import is_map
 from roughline.question.question import Question
 from roughline.spectra.isotropic import isotropy

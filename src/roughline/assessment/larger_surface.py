@@ -9,7 +9,6 @@ from typing import Literal
 
 import numpy as np
 
-from roughline.assessment.extrapolation import MOST_DOUBLINGS, Extrapolation
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.contact.scaling import PUNCH_GRID_ERROR
@@ -29,6 +28,7 @@ from roughline.margins.larger_measure import LargerMeasure
 from roughline.margins.place import spread_of_differences
 from roughline.margins.spread import Spread, Values, intervals_within
 from roughline.margins.tiles import Tiles
+from roughline.question.extrapolation import MOST_DOUBLINGS, Extrapolation
 from roughline.topography.body import Body, Line, Surface
 
 _PUNCH_MATTERS = 0.05

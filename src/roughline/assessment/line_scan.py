@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline._version import __version__
-from roughline.assessment.assumptions import broken
 from roughline.comparison.median_ratio import median_ratio
 from roughline.comparison.trust import trust_map
 from roughline.computing.arrays import Real
@@ -24,6 +23,7 @@ from roughline.facts.own_words import on_body
 from roughline.facts.pressed import few_heights, one_line_only, stiff_heights
 from roughline.measurement.coarser_selves import coarser_selves
 from roughline.measurement.scan_bins import ScanBins
+from roughline.question.assumptions import broken
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
 from roughline.topography.body import Line

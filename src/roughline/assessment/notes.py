@@ -9,8 +9,6 @@ import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.border_of_flow import what_borders_do
-from roughline.assessment.films import film_that_spots_exceed
-from roughline.assessment.loads import find_hardness
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.coated import Coated
 from roughline.engineering.formulas import ELASTIC_UP_TO
@@ -63,7 +61,9 @@ from roughline.facts.loads import (
 )
 from roughline.facts.own_words import in_own_words, on_body
 from roughline.question.arguments import has_forces, several
+from roughline.question.films import film_that_spots_exceed
 from roughline.question.kinds import is_map, nominal_area
+from roughline.question.loads import find_hardness
 from roughline.question.question import Question
 from roughline.topography.body import Body, Line, Surface, side_lengths
 from roughline.topography.effects import effects, grave_effects

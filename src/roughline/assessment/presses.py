@@ -11,12 +11,12 @@ from functools import partial
 
 import numpy as np
 
-from roughline.assessment.case import Case
-from roughline.assessment.films import SPOT_RADIUS, find_film
-from roughline.assessment.loads import LoadCase
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on
 from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
+from roughline.question.case import Case
+from roughline.question.films import SPOT_RADIUS, find_film
+from roughline.question.loads import LoadCase
 from roughline.topography.body import Surface
 
 UNLOADED = "unloaded"

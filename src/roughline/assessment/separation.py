@@ -8,13 +8,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from roughline.assessment.case import Case
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.loads import separation_depth, unbearable_pull
 from roughline.contact.press import press
 from roughline.contact.status import Status
 from roughline.engineering.attraction import Separation
+from roughline.question.case import Case
 from roughline.topography.body import Surface
 from roughline.units import engineering
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.assessment.case import Case
 from roughline.assessment.presses import UNLOADED
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.slip import PartialSlip
 from roughline.margins.variant import Curves
+from roughline.question.case import Case
 from roughline.question.kinds import nominal_area
 
 

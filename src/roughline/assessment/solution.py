@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from roughline.assessment.case import Case
 from roughline.assessment.larger_surface import LargerSurface, which_surface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.notes import line_scan_limits
@@ -23,6 +22,7 @@ from roughline.margins.causes import causes
 from roughline.margins.place import measures_of_tiles, tiled_curves
 from roughline.margins.spread import Spread, Values, intervals_within, measured_within
 from roughline.margins.variant import AS_ASKED, Curves, larger_name
+from roughline.question.case import Case
 from roughline.topography.body import Line
 
 

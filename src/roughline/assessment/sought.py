@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
-from roughline.assessment.case import Case
 from roughline.assessment.separation import draw_apart
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.press import press
@@ -16,6 +15,7 @@ from roughline.fluid.reopening import reopening
 from roughline.fluid.sealing_pressure import sealing_pressure
 from roughline.margins.hardness import WAYS
 from roughline.margins.variant import AS_ASKED, Curves, larger_name
+from roughline.question.case import Case
 
 _RTOL = 0.02  # between both ends of a bracket
 

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
 from typing import ClassVar
 
-from roughline.assessment.case import Case
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.contact.curve import SurfaceCurve
 from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice, refuse, shown
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
-from roughline.margins.spread import Spread
+from roughline.margins.spread import Spread, Values
 from roughline.margins.variant import Curves, Variant
+from roughline.question.case import Case
+from roughline.question.loads import LoadCase
+from roughline.topography.body import Surface
 
 
 @public
@@ -58,6 +66,80 @@ class Cause(ABC):
     def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
         """What is worth telling of it: where it is wide, absent or grave."""
         return ()
+
+
+@public
+class OtherBodies(Cause):
+    """A cause that is learnt from other bodies, as good as the one asked about, pressed as it is.
+
+    What it leaves open reaches as far to either side as these are away, by the root of the mean
+    square, times `times`. One whose load does not converge leaves the ends under that load unknown.
+
+    Attributes
+    ----------
+    count : int
+        How many there are; default: 1.
+    times : float
+        Of the root mean square of their distances, on the scale of each quantity; default: 1.
+    """
+
+    count: ClassVar[int] = 1
+    times: ClassVar[float] = 1.0
+
+    @abstractmethod
+    def body(self, case: Case, i: int) -> Surface:
+        """The i-th other body, from 0; one with the heights of `case.body` is not pressed. [m]"""
+
+    def presses(self, case: Case, pressed: Variant) -> Sequence[Variant]:
+        """Each of the bodies, under the same loads."""
+        if not isinstance(case.body, Surface):
+            return ()
+        return [
+            replace(
+                pressed,
+                name=self._name(pressed.name, i),
+                purpose=self.name,
+                needed=partial(_other_body, case, pressed, partial(self.body, case, i)),
+            )
+            for i in range(self.count)
+        ]
+
+    def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
+        """How far their curves are away from that of a variant."""
+        found = self.pressed(curves, variant)
+        curve = curves.get(variant)
+        if curve is None or (curves.stopped and not found):
+            return None
+        values = Values.of(curve)
+        others = [Values.of(each) for each in found] or [values]
+        return Spread.between(values, others, times=self.times, more=self.more(curves))
+
+    def more(self, curves: Curves) -> Real | float:
+        """By which share values may be larger or smaller besides. [1]"""
+        return 0.0
+
+    def pressed(self, curves: Curves, variant: str) -> list[SurfaceCurve]:
+        """Curves of the bodies that were pressed as a variant was."""
+        found = (curves.get(self._name(variant, i)) for i in range(self.count))
+        return [each for each in found if each is not None]
+
+    def _name(self, variant: str, i: int) -> str:
+        return f"{variant}, {self.name} {i + 1}"
+
+
+def _other_body(
+    case: Case, variant: Variant, other: Callable[[], Surface], curves: Curves
+) -> LoadCase | None:
+    """Press another body under the loads of a variant, if that was pressed, and it differs."""
+    first, curve = variant.needed(curves), curves.get(variant.name)
+    if not isinstance(first, LoadCase) or curve is None:
+        return None
+    body = other()
+    if np.array_equal(body.heights, case.body.heights):
+        return None
+    if first.n_loads is not None and curve.converged.all():
+        first = first.under_forces_from(curve)  # the same forces, not new ones
+    return replace(first, body=body, fields=(), grid_error=False)
 
 
 @public

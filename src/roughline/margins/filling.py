@@ -4,22 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
-from roughline.assessment.case import Case
-from roughline.assessment.loads import LoadCase
 from roughline.computing.arrays import Indices, Mask, Real
-from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.facts.fact import Fact
 from roughline.facts.intervals import filled_before, filling_matters, no_filled_point_left
-from roughline.margins.cause import Cause
-from roughline.margins.spread import Spread, Values
+from roughline.margins.cause import OtherBodies
 from roughline.margins.variant import AS_ASKED, Curves, Variant
+from roughline.question.case import Case
 from roughline.question.source import pressed_body
 from roughline.topography.body import Surface
 
@@ -28,7 +23,7 @@ _SHARE_IN_INTERVALS = 0.1  # of the force, from which on intervals hold that it 
 _SMALLEST_CHANGE = 0.001  # changes below this are reported as less than this [%]
 
 
-class FilledPoints(Cause):
+class FilledPoints(OtherBodies):
     """Missing points may be filled otherwise, and nobody measured what stands on them."""
 
     name = "filling"
@@ -37,35 +32,33 @@ class FilledPoints(Cause):
     takes = "with missing points filled otherwise"
 
     def presses(self, case: Case, pressed: Variant) -> Sequence[Variant]:
-        """The same body with missing points filled by the other method."""
-        if not case.filled or not isinstance(case.body, Surface):
-            return ()
-        needed = partial(_filled_otherwise, case, pressed)
-        name = _filled(pressed.name)
-        return [replace(pressed, name=name, purpose=self.name, needed=needed)]
+        """The same body filled otherwise, if points of it were missing."""
+        return super().presses(case, pressed) if case.filled else ()
 
-    def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
-        """How far the other filling is away, and what force on filled points leaves open."""
-        curve, other = curves.get(variant), curves.get(_filled(variant))
-        if curve is None:
-            return None
-        share, values = force_on_filled(curves), Values.of(curve)
-        more = 0.0 if share is None else _relative_error(share)
-        return Spread.between(values, [values if other is None else Values.of(other)], more=more)
+    def body(self, case: Case, i: int) -> Surface:
+        """The same body with missing points filled by the other method."""
+        method = case.parts[0].reading.missing.other
+        found = pressed_body([each.filled_by(method) for each in case.filled])
+        assert isinstance(found, Surface)
+        return found
+
+    def more(self, curves: Curves) -> Real | float:
+        """What force that stands on filled points leaves open, relative to the values. [1]"""
+        share = force_on_filled(curves)
+        return 0.0 if share is None else _relative_error(share)
 
     def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
         """What the other filling changes, or why that is not known."""
-        curve, other = curves.get(AS_ASKED), curves.get(_filled(AS_ASKED))
-        if curve is not None and other is not None:
-            loads = case.loads.asked_loads(curve)
-            stiffness = _most_changed(curve.stiffness, other.stiffness, loads)
-            area = _most_changed(
-                curve.area_fraction_corrected, other.area_fraction_corrected, loads
-            )
-            method = case.parts[0].reading.missing.other
-            return [filling_matters(method, stiffness, area, _SMALLEST_CHANGE)]
+        curve, others = curves.get(AS_ASKED), self.pressed(curves, AS_ASKED)
         if curve is None or not case.filled or curves.stopped == AS_ASKED:
             return ()
+        if others:
+            method, loads = case.parts[0].reading.missing.other, case.loads.asked_loads(curve)
+            stiffness, area = (
+                _most_changed(getattr(curve, name), getattr(others[0], name), loads)
+                for name in ("stiffness", "area_fraction_corrected")
+            )
+            return [filling_matters(method, stiffness, area, _SMALLEST_CHANGE)]
         if all(each.measurement is not None for each in case.parts if each.is_filled):
             return [no_filled_point_left()]
         return [filled_before(is_of_file=bool(case.parts[0].file))]
@@ -88,25 +81,6 @@ def force_on_filled(curves: Curves) -> Real | None:
     curve = curves.get(AS_ASKED)
     filled = None if curve is None else curve.measured.get(_ON_FILLED)
     return None if filled is None else filled.values
-
-
-def _filled(name: str) -> str:
-    """Name of the variant that is pressed as another, but with missing points filled otherwise."""
-    return f"{name}, filled otherwise"
-
-
-def _filled_otherwise(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve | None:
-    """Press with missing points filled by the other method, if that changes something."""
-    first, curve = variant.needed(curves), curves.get(variant.name)
-    if not isinstance(first, LoadCase) or curve is None:
-        return None
-    method = case.parts[0].reading.missing.other
-    other = pressed_body([each.filled_by(method) for each in case.filled])
-    if np.array_equal(other.heights, case.body.heights):
-        return None
-    if first.n_loads is not None and curve.converged.all():
-        first = first.under_forces_from(curve)  # the same forces, not new ones
-    return replace(first, body=other, fields=(), grid_error=False)
 
 
 def _relative_error(share: Real) -> Real:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.assessment.assumptions import broken
-from roughline.assessment.case import Case
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread, Values, intervals_within
 from roughline.margins.variant import Curves
+from roughline.question.assumptions import broken
+from roughline.question.case import Case
 
 _UNSURE_RATIO = 5.0  # of both ends; above, a stiffness near full contact may be infinite
 

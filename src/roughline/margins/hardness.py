@@ -12,9 +12,6 @@ from functools import partial
 
 import numpy as np
 
-from roughline.assessment.case import Case
-from roughline.assessment.films import hardness_ends
-from roughline.assessment.loads import LoadCase
 from roughline.computing.arrays import Mask
 from roughline.contact.arguments import yielding_law
 from roughline.contact.curve import Curve
@@ -23,7 +20,10 @@ from roughline.engineering.pressed import yields
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread
 from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
+from roughline.question.case import Case
+from roughline.question.films import hardness_ends
 from roughline.question.kinds import nominal_area
+from roughline.question.loads import LoadCase
 from roughline.topography.body import Body, Surface
 
 ELASTIC = "elastic"

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.assessment.extrapolation import Extrapolation
 from roughline.computing.arrays import Real
 from roughline.engineering.intervals import Ends
 from roughline.margins.spread import with_floor
 from roughline.margins.tiles import TiledCurves, Tiles
+from roughline.question.extrapolation import Extrapolation
 
 UNBOUNDED: Ends = (np.array(-np.inf), np.array(np.inf))
 """Ends of a difference from a larger surface that a map does not tell of."""

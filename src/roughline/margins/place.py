@@ -8,9 +8,6 @@ from functools import cache, partial
 
 import numpy as np
 
-from roughline.assessment.assumptions import broken
-from roughline.assessment.case import Case
-from roughline.assessment.loads import LoadCase
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.measures import Measure
@@ -27,7 +24,10 @@ from roughline.margins.tiles import (
     cut_tiles,
 )
 from roughline.margins.variant import AS_ASKED, Curves, Variant, larger_name
+from roughline.question.assumptions import broken
+from roughline.question.case import Case
 from roughline.question.kinds import nominal_area
+from roughline.question.loads import LoadCase
 from roughline.topography.body import Surface
 
 _COARSE = "coarse map"  # of which the tiles are, where the map has many points

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.assessment.extrapolation import Extrapolation
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.fluid.measures import names_at_border
 from roughline.margins.spread import FLOOR, logit
+from roughline.question.extrapolation import Extrapolation
 from roughline.topography.body import Surface
 
 FEWEST_POINTS = 32

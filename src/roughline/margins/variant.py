@@ -8,11 +8,14 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Literal
 
-from roughline.assessment.case import Case
-from roughline.assessment.loads import LoadCase, LoadProgress
+from roughline.contact.arguments import sticking_law
 from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.contact.press import press
 from roughline.engineering.pressed import Sought
 from roughline.errors import Interrupted
+from roughline.question.case import Case
+from roughline.question.loads import LoadCase, LoadProgress
+from roughline.topography.body import Surface
 
 AS_ASKED = "as asked"
 """Name of the variant that is pressed as it was asked for; those of others begin so."""
@@ -80,7 +83,7 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
             case = curve
             report = partial(_report, progress, before, here, total) if progress else None
             try:
-                curve = case.spread(case.press(report))
+                curve = case.spread(_pressed(case, report))
             except Interrupted as stop:
                 curves = {**done, variant.name: case.spread(stop.curve)}
                 raise Stopped(Curves(curves, stopped=variant.name)) from stop
@@ -92,6 +95,33 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
     if progress is not None:
         progress(total, total)
     return Curves(done)
+
+
+def _pressed(loads: LoadCase, progress: LoadProgress | None) -> Curve:
+    """Press a body under the loads that press it; loads that fail are marked.
+
+    Ctrl-C raises Interrupted.
+    """
+    if loads.lifted is not None:
+        loads = loads.beside_lifted(loads.lifted)
+    pull, law = loads.attraction, None
+    if pull is not None and pull.range is not None:
+        law = sticking_law(pull.law, pull.work, pull.range)
+    return press(
+        loads.body.detrended() if loads.levelled else loads.body,
+        half_space=loads.half_space,
+        hardness=loads.hardness,
+        law=law,
+        n_loads=loads.n_loads,
+        forces=loads.forces or None,
+        depths=loads.depths or None,
+        fields=loads.fields if isinstance(loads.body, Surface) else False,
+        measures=loads.measures,
+        grid_error=loads.grid_error,
+        rtol=loads.rtol,
+        throw=False,
+        progress=progress,
+    )
 
 
 def _report(progress: LoadProgress, before: int, here: int, total: int, done: int, of: int) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from rich.console import Console
 
-from roughline.assessment.assumptions import broken
+from roughline.question.assumptions import broken
 from roughline.report.terminal import print_files, print_remarks, print_rows
 from roughline.report.texture_table import standard_title, texture_rows
 from roughline.report.values import Write, figure, with_interval

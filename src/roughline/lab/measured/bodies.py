@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from attrs import evolve
 
-from roughline.assessment.loads import Hardness, find_hardness
 from roughline.assessment.notes import facts_on_loads, unknown_hardness_notes
 from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
@@ -23,6 +22,7 @@ from roughline.lab.measured.state import CONTROLS, ControlTexts, Source, at, pag
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.question.asked import Theories
 from roughline.question.loading import DEFAULT_LOADS
+from roughline.question.loads import Hardness, find_hardness
 from roughline.question.question import Question
 from roughline.question.reading import Reading
 from roughline.report.contact_tables import solid_in_words

@@ -6,7 +6,7 @@ import numpy as np
 
 import roughline as rl
 from benchmarks.made_surfaces import Make, parent_of, piece_of
-from roughline.assessment.assumptions import broken
+from roughline.question.assumptions import broken
 
 
 def wavy_map() -> rl.Surface:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.assessment.loads import find_hardness
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.engineering.coated import Coated
 from roughline.engineering.material import Material
+from roughline.question.loads import find_hardness
 from roughline.question.question import Question
 
 

@@ -6,15 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from roughline.assessment.assumptions import broken
-from roughline.assessment.extrapolation import Extrapolation, roll_offs_along_a_side
-from roughline.assessment.loads import Hardness, LoadCase, find_hardness
 from roughline.computing.arrays import Mask
 from roughline.contact.measures import Measure
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.rules import rules
 from roughline.fluid.measures import measures_at_border
+from roughline.question.assumptions import broken
+from roughline.question.extrapolation import Extrapolation, roll_offs_along_a_side
 from roughline.question.kinds import has_spectrum, is_map, nominal_area
+from roughline.question.loads import Hardness, LoadCase, find_hardness
 from roughline.question.question import Question
 from roughline.question.source import Topography, filled_points, pressed_body, topographies
 from roughline.spectra.moments import Moments, moments

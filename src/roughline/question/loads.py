@@ -8,11 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
-from roughline.contact.arguments import sticking_law, yielding_law
+from roughline.contact.arguments import yielding_law
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.measures import Measure
-from roughline.contact.press import press
 from roughline.contact.selection import among_loads, at_loads
 from roughline.contact.status import Status
 from roughline.engineering.attraction import Attraction
@@ -162,39 +161,13 @@ class LoadCase:
             curve = among_loads(curve, ~self.lifted, Status.LIFTED)
         return curve if self.among is None else among_loads(curve, self.among)
 
-    def _beside_lifted(self, lifted: Mask) -> LoadCase:
+    def beside_lifted(self, lifted: Mask) -> LoadCase:
         """The loads that press, or a light one where there is none, as a curve has one."""
         numbers = np.flatnonzero(~lifted).tolist()
         fields = [numbers.index(load) for load in self.fields if not lifted[load]]
         light = _LIGHT_PRESSURE * self.half_space.softest * nominal_area(self.body)
         forces = [self.forces[load] for load in numbers] or [light]
         return replace(self, forces=forces, fields=fields, lifted=None)
-
-    def press(self, progress: LoadProgress | None = None) -> Curve:
-        """Press the body; loads that fail are marked, and Ctrl-C raises Interrupted.
-
-        A curve is over the loads that press the bodies together: `spread` adds the others.
-        """
-        if self.lifted is not None:
-            return self._beside_lifted(self.lifted).press(progress)
-        pull, law = self.attraction, None
-        if pull is not None and pull.range is not None:
-            law = sticking_law(pull.law, pull.work, pull.range)
-        return press(
-            self.body.detrended() if self.levelled else self.body,
-            half_space=self.half_space,
-            hardness=self.hardness,
-            law=law,
-            n_loads=self.n_loads,
-            forces=self.forces or None,
-            depths=self.depths or None,
-            fields=self.fields if isinstance(self.body, Surface) else False,
-            measures=self.measures,
-            grid_error=self.grid_error,
-            rtol=self.rtol,
-            throw=False,
-            progress=progress,
-        )
 
 
 def _lifted(question: Question, forces: Sequence[float]) -> Mask | None:
