@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.measures import Measure
 from roughline.engineering.intervals import Ends
 from roughline.margins.cause import Cause
@@ -18,12 +18,13 @@ from roughline.margins.spread import LOGARITHM, LOGIT, Spread, Values
 from roughline.margins.tiles import (
     FEWEST_POINTS,
     POINTS_OF_BORDER,
+    POINTS_OF_TILES,
     TiledCurves,
     coarse_shape,
     coarsened,
     cut_tiles,
 )
-from roughline.margins.variant import AS_ASKED, Curves, Variant, larger_name
+from roughline.margins.variant import AS_ASKED, Curves, Pressable, Variant, larger_name
 from roughline.question.assumptions import broken
 from roughline.question.case import Case
 from roughline.question.kinds import nominal_area
@@ -51,7 +52,7 @@ class OtherPlaces(Cause):
             return ()
         if not case.loads.grid_error or min(body.shape) < FEWEST_POINTS:
             return ()
-        return _tiles(case, pressed.name, body, self.name)
+        return _listed(case, pressed.name, body, self.name)
 
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """Both ends that the rest of the surface leaves open; None if the map tells of none."""
@@ -113,74 +114,68 @@ def tiled_curves(case: Case, curves: Curves, variant: str) -> TiledCurves | None
     shape = coarse_shape(body.shape)
     if shape != body.shape:
         of_map = curves.complete(_COARSE)
-    halves, quarters = (
-        [each for i in range(count**2) if (each := curves.complete(_tile(count, i))) is not None]
-        for count in (2, 4)
-    )
+    halves, quarters = (curves.of_pieces.get(_tiled(count), ()) for count in (2, 4))
     if of_map is None or len(halves) < 4 or len(quarters) < 16:
         return None
     border = curves.complete(_BORDER)
     return TiledCurves(of_map, halves, quarters, shape[0] * shape[1], border)
 
 
-def _tile(count: int, i: int) -> str:
-    """Name of a tile of a map that is cut into so many along each side."""
-    return f"tile {i + 1} of {count} x {count}"
+def _tiled(count: int) -> str:
+    """Name of the tiles of a map that is cut into so many along each side."""
+    return f"{count} x {count} tiles"
 
 
-def _tiles(case: Case, map_name: str, body: Surface, purpose: str) -> list[Variant]:
+def _listed(case: Case, map_name: str, body: Surface, purpose: str) -> list[Variant]:
     """The map on fewer points, its tiles, and what tells what its border does."""
     shape = coarse_shape(body.shape)
     measures = [each for each in case.measures if each.intensive]
 
     @cache
-    def pieces(count: int) -> list[Surface]:
-        return cut_tiles(pieces(1)[0], count) if count > 1 else [coarsened(body.detrended())]
+    def coarse(points: int = POINTS_OF_TILES) -> Surface:
+        return coarsened(body.detrended(), points)
 
-    def needed(count: int, i: int, curves: Curves) -> LoadCase | Curve | None:
-        return _press_piece(case, curves.get(map_name), lambda: pieces(count)[i], measures)
+    def whole(points: int, taken: Sequence[Measure], curves: Curves) -> Pressable:
+        loads = _loads_of_pieces(case, curves.get(map_name), taken)
+        return None if loads is None else _on_piece(loads, coarse(points))
 
-    def needed_for_border(curves: Curves) -> LoadCase | Curve | None:
-        taken = [*measures, *case.measures_at_border]
-        return _press_piece(
-            case, curves.get(map_name), lambda: coarsened(pieces(1)[0], POINTS_OF_BORDER), taken
-        )
+    def tiles(count: int, curves: Curves) -> Pressable:
+        if (loads := _loads_of_pieces(case, curves.get(map_name), measures)) is None:
+            return None
+        pressed = [_on_piece(loads, each) for each in cut_tiles(coarse(), count)]
+        return [each for each in pressed if each is not None]
 
-    listed = [
-        Variant(
-            _tile(count, i) if count > 1 else _COARSE,
-            purpose,
-            partial(needed, count, i),
-            shape,
-            periodic=True,
-            share=1 / count**2,
-        )
-        for count in ((2, 4) if shape == body.shape else (1, 2, 4))
-        for i in range(count**2)
+    found = [Variant(_COARSE, purpose, partial(whole, POINTS_OF_TILES, measures), shape, True)]
+    if shape == body.shape:
+        found.clear()
+    found += [
+        Variant(_tiled(count), purpose, partial(tiles, count), shape, True) for count in (2, 4)
     ]
     if case.measures_at_border:
         coarser = coarse_shape(body.shape, POINTS_OF_BORDER)
-        listed.append(Variant(_BORDER, purpose, needed_for_border, coarser, True))
-    return listed
+        taken = [*measures, *case.measures_at_border]
+        needed = partial(whole, POINTS_OF_BORDER, taken)
+        found.append(Variant(_BORDER, purpose, needed, coarser, True))
+    return found
 
 
-def _press_piece(
-    case: Case,
-    curve: SurfaceCurve | None,
-    piece: Callable[[], Surface],
-    measures: Sequence[Measure],
+def _loads_of_pieces(
+    case: Case, curve: SurfaceCurve | None, measures: Sequence[Measure]
 ) -> LoadCase | None:
-    """Press a piece, or the map on fewer points, periodically as the map was: no better known."""
-    body = case.body
-    if curve is None or curve.stiffness_error is None or broken("grid", body):
+    """The map under the forces of its periodic curve, in a periodic half-space, no better known."""
+    if curve is None or curve.stiffness_error is None or broken("grid", case.body):
         return None
     loads = case.loads.under_forces_from(curve)
     if not loads.forces:
         return None
-    pressed, attraction = piece(), loads.attraction
-    if attraction and not attraction.is_resolved(max(pressed.spacing), loads.half_space.softest):
+    repeated = replace(loads, half_space=loads.half_space.interface, measures=measures, rtol=_RTOL)
+    return replace(repeated, levelled=False, grid_error=False)
+
+
+def _on_piece(loads: LoadCase, piece: Surface) -> LoadCase | None:
+    """The same mean pressures on a piece; None if its grid does not resolve the attraction."""
+    pull = loads.attraction
+    if pull and not pull.is_resolved(max(piece.spacing), loads.half_space.softest):
         return None
-    forces = (np.array(loads.forces) / nominal_area(body) * pressed.area).tolist()
-    loads = replace(loads, body=pressed, forces=forces, half_space=loads.half_space.interface)
-    loads = replace(loads, measures=measures, rtol=_RTOL)
-    return replace(loads, levelled=False, grid_error=False)
+    share = piece.area / nominal_area(loads.body)
+    return replace(loads, body=piece, forces=[share * each for each in loads.forces])

@@ -26,6 +26,9 @@ class Curves:
     """Curves of the variants that were pressed, by their names, over the loads of the case."""
 
     by_name: Mapping[str, Curve]  # without the variants that proved needless
+    of_pieces: Mapping[str, Sequence[SurfaceCurve]] = field(default_factory=dict)
+    """Those of pieces of one shape, which are one variant; only where all of them are done."""
+
     sought: Mapping[str, Sought] = field(default_factory=dict)  # beyond the loads, if asked for
     stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
 
@@ -44,15 +47,19 @@ class Curves:
         return None if name == self.stopped else self.get(name)
 
 
+Pressable = LoadCase | Sequence[LoadCase] | Curve | None
+"""What is pressed: a body, or pieces of one shape; the curve where it is known without that; or
+None where it is needless."""
+
+
 @dataclass(frozen=True, eq=False)
 class Variant:
     """One body that is pressed, for the answers or for a cause that leaves them open."""
 
     name: str
     purpose: str  # "as asked", "interface", "slip", or the name of a cause
-    needed: Callable[[Curves], LoadCase | Curve | None]
-    """From the curves before it: what is pressed, the curve where it is known without that, or None
-    where it is needless."""
+    needed: Callable[[Curves], Pressable]
+    """From the curves before it: what is pressed."""
 
     shape: tuple[int, int]  # points along the sides of a surface, of whose time it takes a share
     periodic: bool | Literal["x", "y"]
@@ -74,27 +81,39 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
     time count as that part. Ctrl-C raises Stopped.
     """
     done: dict[str, Curve] = {}
+    pieces: dict[str, Sequence[SurfaceCurve]] = {}
     points = max(math.prod(each.shape) for each in variants)
     steps = [math.ceil(loads * each.share * math.prod(each.shape) / points) for each in variants]
     before, total = 0, sum(steps)
     for variant, here in zip(variants, steps, strict=True):
-        curve = variant.needed(Curves(done))
-        if isinstance(curve, LoadCase):
-            case = curve
-            report = partial(_report, progress, before, here, total) if progress else None
-            try:
-                curve = case.spread(_pressed(case, report))
-            except Interrupted as stop:
-                curves = {**done, variant.name: case.spread(stop.curve)}
-                raise Stopped(Curves(curves, stopped=variant.name)) from stop
-        if curve is not None:
-            if done and isinstance(curve, SurfaceCurve):
-                curve = replace(curve, dents=())  # large, and only those of the first are looked at
-            done[variant.name] = curve
+        found = variant.needed(Curves(done, pieces))
+        report = partial(_report, progress, before, here, total) if progress else None
+        try:
+            if isinstance(found, LoadCase):
+                found = found.spread(_pressed(found, report))
+            elif isinstance(found, Sequence):
+                pieces[variant.name] = _all_pieces(found, report)
+        except Interrupted as stop:
+            if isinstance(found, LoadCase):
+                done[variant.name] = found.spread(stop.curve)
+            raise Stopped(Curves(done, pieces, stopped=variant.name)) from stop
+        if isinstance(found, Curve):
+            if done and isinstance(found, SurfaceCurve):
+                found = replace(found, dents=())  # large, and only those of the first are looked at
+            done[variant.name] = found
         before += here
     if progress is not None:
         progress(total, total)
-    return Curves(done)
+    return Curves(done, pieces)
+
+
+def _all_pieces(cases: Sequence[LoadCase], progress: LoadProgress | None) -> list[SurfaceCurve]:
+    """Press pieces of one shape, one after the other."""
+    curves = [
+        each.spread(_pressed(each, progress and partial(_report, progress, i, 1, len(cases))))
+        for i, each in enumerate(cases)
+    ]
+    return [each for each in curves if isinstance(each, SurfaceCurve)]
 
 
 def _pressed(loads: LoadCase, progress: LoadProgress | None) -> Curve:
@@ -156,7 +175,7 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
     first, curve = variant.needed(curves), curves.get(variant.name)
     if isinstance(first, Curve):  # as asked, or under no load
         return curves.get(periodic(AS_ASKED)) if first.converged.any() else None
-    if first is None or curve is None:
+    if not isinstance(first, LoadCase) or curve is None:
         return None
     if first.lifted is not None and first.lifted.all():  # what seals is known nevertheless
         interface = first.half_space.interface
