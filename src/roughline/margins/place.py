@@ -41,7 +41,7 @@ class OtherPlaces(Cause):
 
     name = "place"
     title = "what one map does not show"
-    remedy = "a larger map, or several maps"
+    remedy = "a larger map"
     takes = "for the surface around the map"
     is_of_larger = True
 
