@@ -6,7 +6,6 @@ from roughline.assessment.assess import assess_body as assess_body
 from roughline.assessment.assess_part import assess as assess
 from roughline.assessment.assess_part import assess_part as assess_part
 from roughline.assessment.assessment import Assessment as Assessment
-from roughline.assessment.line_scan import press_scan as press_scan
 from roughline.assessment.part import PartAssessment as PartAssessment
 from roughline.comparison.models import Comparison as Comparison
 from roughline.comparison.models import compare as compare
@@ -72,6 +71,7 @@ from roughline.halfspace.laws.yielding import Yielding as Yielding
 from roughline.margins.cause import Cause as Cause
 from roughline.margins.cause import OtherBodies as OtherBodies
 from roughline.margins.causes import causes as causes
+from roughline.margins.scans import press_scan as press_scan
 from roughline.margins.spread import Spread as Spread
 from roughline.measurement.fit import fit_self_affine as fit_self_affine
 from roughline.measurement.roughness import roughness as roughness

@@ -7,7 +7,6 @@ import pytest
 from scipy import special
 
 import roughline as rl
-from roughline.assessment.larger_surface import saturated_stiffness, stiffness_of_the_piece
 from roughline.engineering.formulas import (
     electrical_resistance,
     interface_stiffness,
@@ -18,6 +17,7 @@ from roughline.engineering.intervals import Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rules import rules
+from roughline.margins.larger_surface import saturated_stiffness, stiffness_of_the_piece
 
 PAIR = MaterialPair(rl.material("steel"), rl.material("copper"))
 

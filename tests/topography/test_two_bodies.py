@@ -97,7 +97,7 @@ def test_the_share_of_missing_points_is_that_of_the_body_that_lacks_most():
 def lines(request, monkeypatch):
     """Let a scan be pressed as some lines, and be compared with as many cuts."""
     for name in ("_SCAN_LINES", "_CUTS"):
-        monkeypatch.setattr(f"roughline.assessment.line_scan.{name}", request.param)
+        monkeypatch.setattr(f"roughline.margins.scans.{name}", request.param)
     return request.param
 
 

@@ -9,7 +9,6 @@ import numpy as np
 from attrs import evolve
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.larger_surface import Differences, stiffness_of_the_piece
 from roughline.assessment.solution import LeftOpen, Solution, combine_curves
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -23,6 +22,7 @@ from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
 from roughline.facts.fact import Fact
 from roughline.margins.causes import HARDNESS, causes
+from roughline.margins.larger_surface import Differences, stiffness_of_the_piece
 from roughline.margins.spread import measured_within
 from roughline.margins.variant import Curves
 from roughline.question.case import Case

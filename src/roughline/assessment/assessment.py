@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughline.assessment.larger_surface import LargerSurface
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
@@ -24,6 +23,7 @@ from roughline.engineering.rule import Answer
 from roughline.engineering.slip import PartialSlip
 from roughline.facts.fact import Fact
 from roughline.fluid.flow import Flow, flow
+from roughline.margins.larger_surface import LargerSurface
 from roughline.measurement.roughness import Roughness, roughness
 from roughline.question.kinds import nominal_area
 from roughline.question.question import Question

@@ -30,13 +30,13 @@ import numpy as np
 
 from roughline.assessment.answers import ends_from_many
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.larger_surface import Differences, LargerSurface
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.margins.larger_measure import UNBOUNDED
+from roughline.margins.larger_surface import Differences, LargerSurface
 from roughline.margins.spread import logit
 from roughline.margins.tiles import FEWEST_POINTS, Tiles
 from roughline.measurement.fit import SelfAffineFit, nearest_law

@@ -7,8 +7,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from roughline.assessment.larger_surface import LargerSurface, which_surface
-from roughline.assessment.line_scan import press_scan
 from roughline.assessment.notes import line_scan_limits
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -19,7 +17,9 @@ from roughline.engineering.intervals import Intervals
 from roughline.engineering.pressed import Sought
 from roughline.facts.fact import Fact
 from roughline.margins.causes import causes
+from roughline.margins.larger_surface import LargerSurface, which_surface
 from roughline.margins.place import measures_of_tiles, tiled_curves
+from roughline.margins.scans import press_scan
 from roughline.margins.spread import Spread, Values, intervals_within, measured_within
 from roughline.margins.variant import AS_ASKED, Curves, larger_name
 from roughline.question.case import Case

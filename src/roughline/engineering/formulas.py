@@ -31,7 +31,7 @@ def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
     A free surface in full contact is as stiff as the flat punch of its outline on the same grid,
     k_s, the saturated stiffness. That compliance belongs to the bodies, and the rest to the
     roughness. This is exact under a uniform mean pressure, which a punch does not have: see
-    :mod:`roughline.assessment.larger_surface` for a piece of a larger surface. It is infinite in
+    :mod:`roughline.margins.larger_surface` for a piece of a larger surface. It is infinite in
     full contact, where k is k_s to one part in a million.
     """
     k = np.asarray(stiffness, dtype=np.float64)

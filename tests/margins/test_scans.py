@@ -10,7 +10,7 @@ import pytest
 
 import roughline as rl
 from benchmarks.made_surfaces import SIDE, Make, parent_of, piece_of
-from roughline.assessment.line_scan import independent_heights
+from roughline.margins.scans import independent_heights
 
 LOADS = np.array([0.01, 0.1, 1.0])  # F / (E* h L)
 
