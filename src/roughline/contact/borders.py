@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.facts.borders import border_carries
 from roughline.facts.fact import Fact
 from roughline.halfspace.search.problem import Contact
 from roughline.topography.body import Surface
@@ -40,6 +39,8 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[Fact, 
     heavy = np.flatnonzero(shares > _LARGEST_SHARE)
     if not surface.is_cut_out or not heavy.size:
         return ()
-    least, most, share = force[heavy].min(), force[heavy].max(), float(shares[heavy].max())
-    fact = border_carries(float(least), float(most), share, surface.unit, _FRAME)
+    least, most = float(force[heavy].min()), float(force[heavy].max())
+    share, unit = float(shares[heavy].max()), "N" if surface.unit == "m" else None
+    ends = {"least": least if least < most else None, "most": most}
+    fact = Fact("border_carries", **ends, share=share, unit=unit, frame=_FRAME)
     return (fact.grave(share > _DECISIVE_SHARE),)

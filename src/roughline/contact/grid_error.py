@@ -17,7 +17,7 @@ from roughline.contact.measures import Measured
 from roughline.contact.selection import among_loads
 from roughline.contact.terraces import with_whole_plateaus
 from roughline.errors import InputError
-from roughline.facts.pressed import no_grid_error
+from roughline.facts.fact import Fact
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface, with_heights
@@ -172,7 +172,7 @@ def _unknown(curve: SurfaceCurve, error: InputError) -> SurfaceCurve:
     unknown = np.full(curve.depth.shape, np.nan)
     return replace(
         curve,
-        facts=(*curve.facts, no_grid_error(str(error))),
+        facts=(*curve.facts, Fact("no_grid_error", why=str(error))),
         stiffness_error=unknown,
         unloading_stiffness_error=unknown,
         area_fraction_error=unknown,

@@ -10,7 +10,6 @@ from roughline.contact.loads import GivenLoads, comes_nearer, line_loads
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.facts.fact import Fact
-from roughline.facts.pressed import ends_do_not_meet
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Line
@@ -63,4 +62,4 @@ def _end_facts(line: Line) -> tuple[Fact, ...]:
     borders = decided(line)
     if borders is None or not borders.jump:
         return ()
-    return (ends_do_not_meet(borders.step),)
+    return (Fact("ends_do_not_meet", steps=borders.step),)

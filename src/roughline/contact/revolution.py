@@ -14,7 +14,6 @@ from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.facts.fact import Fact
-from roughline.facts.pressed import all_of_profile_touches
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.jkr import JKR
 from roughline.reduction.revolution import Moved, Revolution
@@ -99,4 +98,4 @@ def _works(body: Revolution, moves: list[Moved], depth: Real) -> tuple[Real, Rea
 def _facts(body: Revolution, radius: Real, depth: Real) -> tuple[Fact, ...]:
     """Say under which loads all of the body touches."""
     ended = (radius == body.radii[-1]) & (depth > body.table[1][-1] * (1 + 1e-9))
-    return (all_of_profile_touches(float(depth[ended].min())),) if ended.any() else ()
+    return (Fact("all_of_profile_touches", depth=float(depth[ended].min())),) if ended.any() else ()

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.errors import UnitWarning
+from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.topography.body import Body, Surface, side_lengths
 from roughline.topography.profile import Profile
-from roughline.units import decimal
 
 if TYPE_CHECKING:
     from roughline.contact.curve import Curve
@@ -39,17 +39,13 @@ def warn_of_strain(body: Body | Profile, curve: Curve) -> None:
         area = body.area if isinstance(body, Surface) else side**2
     if not curve.converged.any() or not 0 < body.rms_height <= _ONE_UNIT_ROUGHNESS * side:
         return
-    found = [(0.0, "", "")]
+    found = [(0.0, "")]
     if curve.control == "depths":  # under a force, a soft base gives way as deep as it is soft
         depth = float(np.nanmax(curve.depth))
-        found.append((depth / side, "depth", "the shorter side of the body"))
+        found.append((depth / side, "depth"))
     if isinstance(curve.half_space, Homogeneous):
         pressure = float(np.nanmax(curve.force)) / area
-        found.append((pressure / curve.E_star, "mean pressure", "the contact modulus"))
-    ratio, what, of = max(found)
+        found.append((pressure / curve.E_star, "pressure"))
+    ratio, of = max(found)
     if ratio > _WRONG_UNIT_STRAIN:
-        text = (
-            f"the largest {what} is {decimal(ratio, 2)} times {of}, and {LINEARITY}: check the "
-            "units of loads, sizes and E_star"
-        )
-        warnings.warn(text, UnitWarning, stacklevel=5)
+        warnings.warn(str(Fact("wrong_unit", ratio=ratio, of=of)), UnitWarning, stacklevel=5)

@@ -15,7 +15,6 @@ from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice
 from roughline.errors.public import public_names
 from roughline.facts.fact import Fact
-from roughline.facts.fluid import gap_is_steep
 from roughline.fluid.gap import REPEATS, Along, Gap, Sides
 
 _FLOW_AGREEMENT = 1e-8  # of inflow, outflow and dissipation, relative to the inflow
@@ -293,7 +292,7 @@ class Flow:
 
 def too_steep(slope: float) -> Fact | None:
     """Say why Reynolds' equation is not good for a gap of such a slope; None where it is."""
-    return gap_is_steep(slope) if slope > _STEEPEST_GAP else None
+    return Fact("gap_is_steep", slope=slope) if slope > _STEEPEST_GAP else None
 
 
 @overload

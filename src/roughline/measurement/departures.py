@@ -14,18 +14,6 @@ from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
-from roughline.facts.heights import (
-    beyond_chance,
-    bowed,
-    heights_in_steps,
-    heights_on_a_level,
-    levelled_before,
-    levelled_by_lines,
-    many_filled,
-    map_jumps,
-    no_roll_off,
-    tilted,
-)
 from roughline.measurement.chance import Finding
 from roughline.measurement.coarser_selves import coarser_selves
 from roughline.measurement.fit import SelfAffineFit, fitted
@@ -140,17 +128,17 @@ def _find_steps(body: Body) -> Iterator[Departure]:
     share = _share_on_lines(body.heights)
     if share <= _STEPPED_SHARE:
         return
-    yield Departure("resolution", heights_in_steps(share), share / _STEPPED_SHARE)
+    yield Departure("resolution", Fact("heights_in_steps", share=share), share / _STEPPED_SHARE)
 
 
 def _find_faults(body: Body) -> Iterator[Departure]:
     """Say where heights are not the surface's, so that no answer holds."""
     if (share := body.provenance.missing_share) > _FILLED_SHARE:
-        yield Departure("measured", many_filled(share), share / _FILLED_SHARE)
+        yield Departure("measured", Fact("many_filled", share=share), share / _FILLED_SHARE)
     if not body.is_cut_out or not body.rms_height:
         return
     if (share := _share_on_a_level(body.heights)) > _LEVEL_SHARE:
-        yield Departure("measured", heights_on_a_level(share), share / _LEVEL_SHARE)
+        yield Departure("measured", Fact("heights_on_a_level", share=share), share / _LEVEL_SHARE)
     rows = _jump(body) if isinstance(body, Surface) else None
     if isinstance(body, Surface) and rows and abs(rows.height) > _LARGEST_JUMP * body.rms_height:
         gravity = abs(rows.height) / _LARGEST_JUMP / body.rms_height
@@ -159,8 +147,9 @@ def _find_faults(body: Body) -> Iterator[Departure]:
 
 def _describe_jump(rows: _Jump, surface: Surface) -> Fact:
     """Say where rows of a map jump."""
-    axis, at = "xy"[rows.axis], rows.index * surface.spacing[rows.axis]
-    return map_jumps(rows.height, rows.scatter, axis, at, surface.unit, rows.is_single)
+    at = {"axis": "xy"[rows.axis], "at": rows.index * surface.spacing[rows.axis]}
+    jump = {"jump": abs(rows.height), "is_above": rows.height > 0, "scatter": rows.scatter}
+    return Fact("map_jumps", **at, **jump, unit=surface.unit, is_row=rows.is_single)
 
 
 def _share_on_lines(heights: Real) -> float:
@@ -293,7 +282,8 @@ def _first(
     if not grave:
         return None
     worst = max(grave, key=lambda each: each.gravity)
-    return Departure(assumption, beyond_chance(worst.fact(limit), _what(body)), worst.gravity)
+    fact = Fact("beyond_chance", fact=worst.fact(limit), what=_what(body))
+    return Departure(assumption, fact, worst.gravity)
 
 
 def _what(body: Body) -> str:
@@ -313,20 +303,20 @@ def _find_long_waves(body: Body) -> list[Departure | None]:
         return []
     found = [_find_tilt_and_bow(body, fit, what)]
     if not fit.shows_roll_off:
-        found.append(Departure("roll-off", no_roll_off(what), _NO_ROLL_OFF_GRAVITY))
+        found.append(Departure("roll-off", Fact("no_roll_off", what=what), _NO_ROLL_OFF_GRAVITY))
     return found
 
 
 def _find_tilt_and_bow(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
     if body.provenance.is_levelled_by_lines:
-        return Departure("longer waves", levelled_by_lines(what), _LEVELLED_GRAVITY)
+        return Departure("longer waves", Fact("levelled_by_lines", what=what), _LEVELLED_GRAVITY)
     if grave := _grave_shapes(body, fit):
         worst = max(grave, key=lambda each: each.share)
         gravity = math.sqrt(worst.share / _LONG_WAVES_SHARE)
         return Departure("longer waves", _describe_shape(worst, body, what), gravity)
     if known_tilt(body) is None and not body.provenance.tilt.is_of_mounting:
-        return Departure("longer waves", levelled_before(what), _LEVELLED_GRAVITY)
+        return Departure("longer waves", Fact("levelled_before", what=what), _LEVELLED_GRAVITY)
     return None
 
 
@@ -363,10 +353,11 @@ def checked_fit(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
 
 def _describe_shape(shape: LongShape, body: Body, what: str) -> Fact:
     """Say what waves longer than a body leave in it."""
+    sizes = {"rms": shape.rms, "explained": shape.explained, "unit": body.unit}
     if shape.degree == 1:
-        return tilted(what, shape.rms, shape.explained, body.unit)
+        return Fact("tilted", what=what, **sizes)
     name = "bow" if shape.degree == 2 else "longest shape"
-    return bowed(what, name, shape.rms, shape.explained, body.unit)
+    return Fact("bowed", what=what, shape=name, **sizes)
 
 
 _TESTS: Mapping[_Tested, Callable[[Body], Iterable[Departure | None]]] = {

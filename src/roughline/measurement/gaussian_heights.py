@@ -9,7 +9,6 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.facts.fact import Fact
-from roughline.facts.heights import long_tailed, skewed, slopes_differ_by_height
 from roughline.measurement.chance import Chance, Finding, score_of_square
 from roughline.measurement.coarser_selves import CoarserSelf
 from roughline.topography.body import Body, point_spacings
@@ -58,10 +57,12 @@ def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[F
     skewness, kurtosis = skewness_and_kurtosis(values)
 
     def skew(limit: float) -> Fact:
-        return skewed(name, skewness, limit * math.sqrt(6 / third))
+        chance = limit * math.sqrt(6 / third)
+        return Fact("skewed", of=name, skewness=skewness, chance=chance)
 
     def tails(limit: float) -> Fact:
-        return long_tailed(name, kurtosis, limit * math.sqrt(24 / fourth))
+        chance = limit * math.sqrt(24 / fourth)
+        return Fact("long_tailed", of=name, kurtosis=kurtosis, chance=chance)
 
     yield Finding(_skewness_score(skewness, third), abs(skewness) / _LARGEST_SKEWNESS, skew)
     gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LARGEST_LACK)
@@ -151,6 +152,7 @@ def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
         least, most = (
             math.sqrt(special.chdtri(shape, each) / shape) for each in (1 - chance, chance)
         )
-        return slopes_differ_by_height(places, math.sqrt(ratio), least, most)
+        ends = {"least": least, "most": most}
+        return Fact("slopes_differ_by_height", places=places, ratio=math.sqrt(ratio), **ends)
 
     return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _LARGEST_SLOPE_RATIO, fact)

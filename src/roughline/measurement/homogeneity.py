@@ -9,7 +9,6 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.facts.fact import Fact
-from roughline.facts.heights import differs_between_places, drifts, slopes_differ_by_direction
 from roughline.measurement.chance import Finding, score_of_square
 from roughline.measurement.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
@@ -54,7 +53,8 @@ def _scatter(logs: Real, shape: float) -> Finding:
 
     def fact(_limit: float) -> Fact:
         factor, chance = (math.exp(math.sqrt(each) / 2) for each in (variance, expected))
-        return differs_between_places(logs.size, factor, spread, chance)
+        numbers = {"factor": factor, "spread": spread, "chance": chance}
+        return Fact("differs_between_places", parts=logs.size, **numbers)
 
     return Finding(score, varies / _LARGEST_SCATTER, fact)
 
@@ -98,7 +98,7 @@ def _drift(along: str, logs: Real) -> Finding:
 
     def fact(limit: float) -> Fact:
         allowed = error * float(special.stdtrit(freedom, special.ndtr(limit)))
-        return drifts(along, math.exp(abs(change)), math.exp(allowed))
+        return Fact("drifts", along=along, factor=math.exp(abs(change)), chance=math.exp(allowed))
 
     return Finding(score, abs(change) / _LARGEST_DRIFT, fact)
 
@@ -143,7 +143,8 @@ def _lay(lay: float, variance: float, wave: float, unit: str | None) -> Finding:
 
     def fact(limit: float) -> Fact:
         allowed = math.sqrt(-2 * variance * math.log(2 * special.ndtr(-limit)))
-        return slopes_differ_by_direction(wave, unit, _ratio(lay), _ratio(min(allowed, 1.0)))
+        numbers = {"ratio": _ratio(lay), "chance": _ratio(min(allowed, 1.0))}
+        return Fact("slopes_differ_by_direction", wave=wave, unit=unit, **numbers)
 
     return Finding(score, lay / _lay_at(ISOTROPIC_FROM), fact)
 

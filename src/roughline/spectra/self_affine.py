@@ -20,6 +20,7 @@ from roughline.errors import ContinuumWarning, InputError
 from roughline.errors.checks import between, positive, refuse, whole_number
 from roughline.errors.public import public
 from roughline.errors.words import called
+from roughline.facts.fact import Fact
 from roughline.spectra.band import Band
 from roughline.spectra.lattice import BodyName, ContinuumSpectrum, LatticeSpectrum
 from roughline.spectra.synthesis import (
@@ -248,15 +249,8 @@ class SelfAffine:
     ) -> ContinuumSpectrum:
         """Return the continuum, for an attribute; warn where it is `factor` times the bodies'."""
         if abs(factor - 1) > _CLOSE_TO_CONTINUUM:
-            which = 'n, "line"' if body == "line" else "n"
-            warnings.warn(
-                f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "
-                f"this spectrum generates, as a sum over few long waves is not the integral. Take "
-                f"lattice({which}).{name} for a body of n points, or continuum.{name} for the "
-                "integral",
-                ContinuumWarning,
-                stacklevel=3,  # who asked for the attribute
-            )
+            fact = Fact("continuum_differs", name=name, factor=factor, is_line=body == "line")
+            warnings.warn(str(fact), ContinuumWarning, stacklevel=3)  # who asked for the attribute
         return self.continuum
 
     def surface(self, n: int, rng: Seed = None, amplitudes: Amplitudes = "fixed") -> Surface:

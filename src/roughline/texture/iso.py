@@ -12,7 +12,7 @@ from roughline.computing.notebook import in_notebook, printed
 from roughline.errors import InputError
 from roughline.errors.checks import number, positive
 from roughline.errors.public import public
-from roughline.errors.words import called
+from roughline.facts.fact import Fact
 from roughline.texture.filters import smoothed
 from roughline.texture.found import Found
 from roughline.texture.heights import height_parameters
@@ -38,7 +38,7 @@ from roughline.topography.body import (
 )
 from roughline.topography.heights import rms_deviation
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
-from roughline.units import decimal, in_words
+from roughline.units import in_words
 
 if TYPE_CHECKING:
     import pandas
@@ -66,7 +66,7 @@ class IsoParameters:
         Values by names, in the order in which people read them.
     undefined : mapping of str to str
         By name, why a parameter is not defined for this body.
-    remarks : tuple of str
+    facts : tuple of Fact
         What makes values depend on more than the surface: a tilt, a short map, stepped heights.
 
     Notes
@@ -90,7 +90,7 @@ class IsoParameters:
     filters: Mapping[str, str]
     values: Mapping[str, float]
     undefined: Mapping[str, str]
-    remarks: tuple[str, ...]
+    facts: tuple[Fact, ...]
 
     __str__ = printed
     _repr_html_ = in_notebook
@@ -116,6 +116,11 @@ class IsoParameters:
     def __dir__(self) -> list[str]:
         """Return the names, those of the parameters among them."""
         return sorted([*super().__dir__(), *self.values])
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """The facts in words."""
+        return tuple(map(str, self.facts))
 
     @property
     def parameters(self) -> Iterator[Parameter]:
@@ -224,17 +229,17 @@ def iso(
     _refuse_other_cutoffs(body, s_filter, l_filter)
     evaluated = _filtered(body, trend, s_filter, l_filter)
     filters = MappingProxyType(_filters_in_words(body, trend, s_filter, l_filter))
-    remarks = [*_tilt_notes(evaluated)]
+    facts = [*_tilt_facts(evaluated)]
     if isinstance(evaluated, Surface):
         found = _surface_parameters(evaluated)
-        remarks += _short_map_notes(evaluated, found)
+        facts += _short_map_facts(evaluated, found)
     else:
         sections = Sections.of(evaluated.heights.size, evaluated.spacing, l_filter)
-        remarks += _section_notes(evaluated, sections, l_filter)
+        facts += _section_facts(evaluated, sections, l_filter)
         evaluated = piece(evaluated, (sections.points,))
         found = _profile_parameters(evaluated, sections)
-    remarks += _step_notes(evaluated)
-    return IsoParameters(evaluated, filters, *_values_and_causes(found), tuple(remarks))
+    facts += _step_facts(evaluated)
+    return IsoParameters(evaluated, filters, *_values_and_causes(found), tuple(facts))
 
 
 def _values_and_causes(found: Found) -> tuple[Mapping[str, float], Mapping[str, str]]:
@@ -354,60 +359,41 @@ def _filters_in_words(
     }
 
 
-def _tilt_notes(body: Body) -> Iterator[str]:
+def _tilt_facts(body: Body) -> Iterator[Fact]:
     """Tell a tilt that is left in a piece."""
     rough = body.rms_height
     if not body.is_cut_out or rough == 0:
         return
     lower = 1 - rms_deviation(without_trend(body.heights, "tilt")) / rough
     if lower > _TILT_MATTERS:
-        letter = "S" if isinstance(body, Surface) else "R"
-        yield (
-            f"a tilt is left: without it {letter}q would be {lower:.0%} lower; give "
-            f"{called('trend', 'tilt')} unless it belongs to the surface"
-        )
+        yield Fact("tilt_left", letter="S" if isinstance(body, Surface) else "R", lower=lower)
 
 
-def _short_map_notes(surface: Surface, found: Found) -> Iterator[str]:
+def _short_map_facts(surface: Surface, found: Found) -> Iterator[Fact]:
     """Tell a map that is too short for its autocorrelation length."""
     length = found["Sal"]
     if isinstance(length, str) or not surface.is_cut_out:
         return
     count = min(surface.sizes) / length
     if count < _FEW_LENGTHS:
-        yield (
-            f"the map is {decimal(count, 2)} autocorrelation lengths wide: Sal and Str are those "
-            f"of its size and its levelling as well; {_FEW_LENGTHS} and more tell of the surface"
-        )
+        yield Fact("map_is_short", count=count, needed=_FEW_LENGTHS)
 
 
-def _section_notes(line: Line, sections: Sections, cutoff: float | None) -> Iterator[str]:
+def _section_facts(line: Line, sections: Sections, cutoff: float | None) -> Iterator[Fact]:
     """Tell how a profile is parted, and that it is no roughness profile without an L-filter."""
     if cutoff is None:
-        yield (
-            "there is no L-filter: these are parameters of the primary profile, which ISO 21920-2 "
-            f"writes with P, over {sections.in_words(line.unit)}"
-        )
+        yield Fact("primary_profile", sections=sections.in_words(line.unit))
         return
-    evaluated = sections.points.stop - sections.points.start
-    text = f"evaluated over {sections.in_words(line.unit)}"
-    if evaluated < line.heights.size:
-        text += (
-            f", {in_words(evaluated * line.spacing, line.unit)} in the middle of "
-            f"{in_words(line.length, line.unit)}"
-        )
-    yield text
+    points = sections.points.stop - sections.points.start
+    length = line.length if points < line.heights.size else None
+    sizes = {"evaluated": points * line.spacing, "length": length, "unit": line.unit}
+    yield Fact("evaluated_over", sections=sections.in_words(line.unit), **sizes)
 
 
-def _step_notes(body: Body) -> Iterator[str]:
+def _step_facts(body: Body) -> Iterator[Fact]:
     """Tell heights in steps, which decide where the material ratio curve is cut."""
     rough, step = body.rms_height, mean_step(material_ratio_curve(body.heights))
     if step > _COARSE_STEP * rough > 0:
         is_map = isinstance(body, Surface)
-        letter = "S" if is_map else "R"
-        of_peaks = ", and Spc on which point of a level top is its peak" if is_map else ""
-        yield (
-            f"heights stand in steps of {in_words(step, body.unit)}, {step / rough:.0%} of "
-            f"{letter}q: {letter}pk, {letter}vk and the material ratios depend on where a step lies"
-            f"{of_peaks}"
-        )
+        sizes = {"step": step, "share": step / rough, "unit": body.unit}
+        yield Fact("texture_in_steps", letter="S" if is_map else "R", is_map=is_map, **sizes)

@@ -9,7 +9,6 @@ from typing import Protocol
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.facts.borders import borders_unclear
 from roughline.facts.fact import Fact
 from roughline.topography.settings import Settings
 from roughline.units import decimal
@@ -115,7 +114,8 @@ def border_doubts(body: _BodyWithBorders) -> tuple[Fact, ...]:
     borders = decided(body)
     if borders is None or not borders.are_unclear:
         return ()
-    return (borders_unclear(_borders_name(body), borders.step, body.is_cut_out),)
+    taken = {"is_map": body.heights.ndim == 2, "is_cut_out": body.is_cut_out}
+    return (Fact("borders_unclear", steps=borders.step, **taken),)
 
 
 def _borders_name(body: _BodyWithBorders) -> str:

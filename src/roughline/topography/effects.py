@@ -6,13 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from roughline.facts.fact import Fact
-from roughline.facts.heights import (
-    NO_EFFECT,
-    crop_keeps_all,
-    low_pass_leaves_border,
-    none_found,
-    step_changes,
-)
+from roughline.facts.kinds import UNCHANGED
 from roughline.topography.body import Body, BodyType, side_lengths
 from roughline.topography.provenance import Left, Step, with_facts
 
@@ -48,16 +42,17 @@ def effects(body: Body) -> list[_Effect]:
     """Return what each step did to the rms height and slope, and which steps changed nothing."""
     found, done = [], body.provenance
     if done.cropped_share == 1:
-        found.append(_Effect(crop_keeps_all(), is_idle=True))
+        found.append(_Effect(Fact("crop_keeps_all"), is_idle=True))
     if done.scars_removed == 0:
-        found.append(_Effect(none_found("scars")))
+        found.append(_Effect(Fact("none_found", what="scars")))
     if done.outliers_removed == 0:
-        found.append(_Effect(none_found("spikes")))
+        found.append(_Effect(Fact("none_found", what="spikes")))
     for step, how in _HOW.items():
         if left := done.left_by(step):
             found.append(_effect(left, how(body), body.unit))
     if done.low_pass_kept:
-        found.append(_Effect(low_pass_leaves_border(side_lengths(body), body.unit)))
+        sides = side_lengths(body)
+        found.append(_Effect(Fact("low_pass_leaves_border", sides=sides, unit=body.unit)))
     return found
 
 
@@ -71,8 +66,9 @@ def _effect(left: Left, how: str | float | None, unit: str | None) -> _Effect:
     height, slope = left.height, 1.0 if left.slope is None else left.slope
     is_meant = left.step in ("detrended", "levelled")
     most_is_gone = not is_meant and height < 1 - _LARGEST_LOSS
-    fact = step_changes(left.step, how, unit, height, slope, most_is_gone)
-    is_idle = max(abs(height - 1), abs(slope - 1)) < NO_EFFECT
+    numbers = {"step": left.step, "how": how, "unit": unit, "left": (height, slope)}
+    fact = Fact("step_changes", **numbers, height=height, most_is_gone=most_is_gone)
+    is_idle = max(abs(height - 1), abs(slope - 1)) < UNCHANGED
     return _Effect(fact.grave(most_is_gone), is_idle)
 
 

@@ -22,7 +22,6 @@ from roughline.errors.checks import (
     several,
 )
 from roughline.errors.public import public
-from roughline.facts.borders import surface_is_tilted
 from roughline.facts.fact import Fact
 from roughline.topography.body import (
     Body,
@@ -232,7 +231,7 @@ def tilt_warnings(surface: Surface) -> tuple[Fact, ...]:
     lower = 1 - math.sqrt(1 - _tilt_share(surface.heights, surface.rms_height))
     if not surface.is_cut_out or lower <= _TILT_MATTERS:
         return ()
-    return (surface_is_tilted(lower),)
+    return (Fact("surface_is_tilted", lower=lower),)
 
 
 def _tilt_share(heights: Real, rms_height: float) -> float:

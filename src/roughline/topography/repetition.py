@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.facts.borders import map_jumps_at_borders
 from roughline.facts.fact import Fact
 from roughline.topography.body import Surface
 
@@ -30,9 +29,9 @@ class _BorderJump:
 
     def fact(self, unit: str | None) -> Fact:
         """How far a map jumps where it is repeated; a grave warning if that outweighs."""
-        found = map_jumps_at_borders(
-            self.jump, self.step, self.share_of_slope, unit, self.outweighs
-        )
+        times = self.jump / self.step if self.step else None
+        numbers = {"unit": unit, "outweighs": self.outweighs}
+        found = Fact("map_jumps_at_borders", **vars(self), times=times, **numbers)
         return found.grave(self.outweighs)
 
 

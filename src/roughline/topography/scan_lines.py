@@ -13,7 +13,6 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.facts.fact import Fact
-from roughline.facts.heights import filled_between_levels, rows_jump
 from roughline.topography.body import Body, BodyType, Surface, after_step
 from roughline.topography.effects import with_effect
 from roughline.topography.line_levels import Levelling, line_levels
@@ -46,7 +45,7 @@ def levelled(body: BodyType, how: Levelling) -> BodyType:
 def filled_lines_note(body: Body) -> Fact | None:
     """Say that missing points were filled before lines were levelled; None if they were not."""
     count = body.provenance.filled_between_levels
-    return filled_between_levels(count) if count else None
+    return Fact("filled_between_levels", points=count) if count else None
 
 
 def without_scars(body: BodyType) -> BodyType:
@@ -122,7 +121,7 @@ def line_jump_warning(body: Body) -> Fact | None:
         or found.turning >= _TURNING
     ):
         return None
-    return rows_jump(found.rms, found.by_chance, body.unit)
+    return Fact("rows_jump", rms=found.rms, by_chance=found.by_chance, unit=body.unit)
 
 
 def _refuse_others(body: Body, argument: str) -> None:

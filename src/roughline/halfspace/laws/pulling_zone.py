@@ -14,7 +14,6 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.facts.fact import Fact
-from roughline.facts.pressed import pulled_everywhere, pulling_zone_unresolved
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import LEAST_SHARE, ContactLaw
 
@@ -98,7 +97,9 @@ def facts_of_pull(law: ContactLaw, separation: Real) -> tuple[Fact, ...]:
         cells = f"{width:.2g}"
         if float(cells) >= RESOLVED_FROM:
             cells = f"{math.floor(100 * width) / 100:g}"
-        found.append(pulling_zone_unresolved(cells, RESOLVED_FROM, resolves_pull_off(law), wider))
+        numbers = {"cells": cells, "needed": RESOLVED_FROM, "wider": wider}
+        has_pull_off = resolves_pull_off(law)
+        found.append(Fact("pulling_zone_unresolved", **numbers, has_pull_off=has_pull_off))
     if pulled_length(law) >= separation.max():
-        found.append(pulled_everywhere())
+        found.append(Fact("pulled_everywhere"))
     return tuple(found)

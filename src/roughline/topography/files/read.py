@@ -13,9 +13,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.facts.fact import Fact
-from roughline.facts.heights import flat, odd_pixels, odd_rms_height, odd_sides, odd_slope
-from roughline.facts.own_words import in_own_words
+from roughline.facts.fact import Fact, own_words
 from roughline.topography.body import Body, Surface, point_spacings, side_lengths
 from roughline.topography.crop import Crop
 from roughline.topography.files.archives import (
@@ -238,17 +236,18 @@ def _read_array(path: Path, name: str) -> Measurement | None:
 
 def suspicions(body: Body) -> list[Fact]:
     """List properties of a measured body that suggest a wrong unit, a wrong file or a slip."""
-    doubts = [in_own_words(text).grave()] if (text := body.provenance.doubts_of_file) else []
+    text = body.provenance.doubts_of_file
+    doubts = [own_words(text).grave()] if text else []
     rms, slope = body.rms_height, body.rms_slope
     if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
-        doubts.append(odd_rms_height(rms))
+        doubts.append(Fact("odd_rms_height", rms=rms))
     if rms == 0:
-        doubts.append(flat())
+        doubts.append(Fact("flat"))
     if slope > 1:
-        doubts.append(odd_slope(slope, is_small=False))
+        doubts.append(Fact("odd_slope", slope=slope, is_small=False))
     doubts += _doubts_of_sides(body)
     if isinstance(body, Surface) and max(body.spacing) > 2 * min(body.spacing):
-        doubts.append(odd_pixels(body.spacing))
+        doubts.append(Fact("odd_pixels", spacing=body.spacing))
     if jumps := line_jump_warning(body):
         doubts.append(jumps)
     return doubts
@@ -259,9 +258,9 @@ def _doubts_of_sides(body: Body) -> list[Fact]:
     doubts = []
     sides, spacings = side_lengths(body), point_spacings(body)
     if max(sides) > _SIDES[1] or min(sides) < _SIDES[0]:
-        doubts.append(odd_sides(sides, are_pixels=False))
+        doubts.append(Fact("odd_sides", sides=sides, are_pixels=False))
     if body.provenance.instrument.pixels == "means" and max(spacings) > _LARGEST_PIXEL:
-        doubts.append(odd_sides(spacings, are_pixels=True))
+        doubts.append(Fact("odd_sides", sides=spacings, are_pixels=True))
     if 0 < body.rms_slope < _LEAST_SLOPE:
-        doubts.append(odd_slope(body.rms_slope, is_small=True))
+        doubts.append(Fact("odd_slope", slope=body.rms_slope, is_small=True))
     return doubts
