@@ -10,8 +10,7 @@ from roughline.assessment.answers import margins_by_cause, work_out_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.bounds import elastic_answers, widen_by_scatter
 from roughline.assessment.cost import Announce, announce_cost
-from roughline.assessment.doubts import collect_warnings
-from roughline.assessment.notes import collect_notes
+from roughline.assessment.doubts import collect_facts
 from roughline.assessment.presses import list_presses
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import (
@@ -26,8 +25,7 @@ from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.facts.fact import Fact
-from roughline.facts.intervals import without_answer
+from roughline.facts.fact import Fact, own_words
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on_filled
 from roughline.margins.variant import AS_ASKED, Curves, Stopped, press_all
@@ -93,9 +91,9 @@ def assess_body(
         sought=solution.sought,
         theories=theories,
     )
-    warnings = collect_warnings(result, case.moments, case.loads.grid_error)
     of_causes = [fact for each in causes for fact in each.facts(case, curves)]
-    return replace(result, facts=[*warnings, *collect_notes(result, of_causes)])
+    facts = collect_facts(result, case.moments, of_causes, case.loads.grid_error)
+    return replace(result, facts=facts)
 
 
 def _solved(
@@ -176,4 +174,8 @@ def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[Theory
         for name, why in left_out.items()
         if not why
     ]
-    return found, [without_answer((name,), why) for name, why in left_out.items() if why]
+    return found, [
+        Fact("without_answer", names=(name,), why=own_words(why))
+        for name, why in left_out.items()
+        if why
+    ]

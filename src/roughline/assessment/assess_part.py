@@ -20,7 +20,7 @@ from roughline.assessment.part_remarks import differ_in_size, facts_of_part
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
-from roughline.facts.part import not_pressed, refused
+from roughline.facts.fact import Fact, by_weight
 from roughline.question.arguments import has_forces
 from roughline.question.assumptions import broken
 from roughline.question.loads import LoadProgress
@@ -207,8 +207,8 @@ def _combined(done: _PressedMaps) -> PartAssessment:
     first = results[0].question
     behind = behind_maps(results)
     answers = _answers(results, behind)
-    missing = [refused(name, why) for name, why in done.refused.items()]
-    missing += [not_pressed(tuple(done.left))] if done.left else []
+    missing = [Fact("refused", name=name, why=why) for name, why in done.refused.items()]
+    missing += [Fact("not_pressed", names=tuple(done.left))] if done.left else []
     return PartAssessment(
         question=first,
         names=list(done.assessments),
@@ -217,7 +217,7 @@ def _combined(done: _PressedMaps) -> PartAssessment:
         left=done.left,
         answers=answers,
         elastic=_elastic(results, answers),
-        facts=[*missing, *facts_of_part(done.assessments, behind, answers)],
+        facts=by_weight([*missing, *facts_of_part(done.assessments, behind, answers)]),
     )
 
 

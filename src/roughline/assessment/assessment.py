@@ -21,7 +21,7 @@ from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pressed import Sought
 from roughline.engineering.rule import Answer
 from roughline.engineering.slip import PartialSlip
-from roughline.facts.fact import Fact
+from roughline.facts.fact import Fact, WithFacts
 from roughline.fluid.flow import Flow, flow
 from roughline.margins.larger_surface import LargerSurface
 from roughline.measurement.roughness import Roughness, roughness
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Assessment:
+class Assessment(WithFacts):
     """What pressing a body gave, and what follows from it.
 
     Attributes
@@ -139,21 +139,6 @@ class Assessment:
         if isinstance(self.body, Surface) or self.body.kind == "profile":
             return iso(self.body)
         return None
-
-    @property
-    def warnings(self) -> list[str]:
-        """Where an assumption breaks, what is suspicious, and why there are no intervals."""
-        return [str(each) for each in self.facts if each.is_warning]
-
-    @property
-    def notes(self) -> list[str]:
-        """What is left out, what was filled, and how the loads were meant."""
-        return [str(each) for each in self.facts if not each.is_warning]
-
-    @property
-    def remarks(self) -> list[str]:
-        """Warnings and notes."""
-        return [*self.warnings, *self.notes]
 
     @property
     def headings(self) -> list[str]:

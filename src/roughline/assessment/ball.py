@@ -20,6 +20,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError, UnitWarning
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
+from roughline.facts.fact import Fact, WithFacts
 from roughline.halfspace.laws.jkr import JKR
 from roughline.question.arguments import (
     modulus,
@@ -29,7 +30,7 @@ from roughline.question.arguments import (
     refuse_unless_one_modulus,
 )
 from roughline.topography.profile import Profile
-from roughline.units import as_si, decimal, engineering
+from roughline.units import as_si, engineering
 
 _RADIUS = 1e-12, 1e6  # of balls [m]
 _RADII = 800  # of a profile: a sphere's force is right to 1e-5 where nine tenths of it touch
@@ -193,7 +194,7 @@ class BallQuestion:
 
 
 @dataclass(frozen=True, eq=False)
-class PressedBall:
+class PressedBall(WithFacts):
     """A pressed ball: its curve, and what follows from the contact's being a disc."""
 
     question: BallQuestion
@@ -229,44 +230,23 @@ class PressedBall:
         )
 
     @property
-    def warnings(self) -> list[str]:
-        """Where what is assumed breaks."""
-        texts = []
-        hardness = self.question.softer_hardness
+    def facts(self) -> list[Fact]:
+        """Where what is assumed breaks, and whether it is known where yield begins."""
+        found, question, E_star = [], self.question, self.curve.E_star
+        hardness = question.softer_hardness
         largest = float(np.nanmax(self.largest_pressure, initial=0.0))
         if hardness is not None and largest > _YIELDS_FROM * hardness:
-            texts.append(
-                f"the largest pressure reaches {decimal(largest / hardness, 2)} times the softer "
-                f"body's hardness, {engineering(hardness, 'Pa', 3)}: from {_YIELDS_FROM:g} of it "
-                "on the body yields below the contact, so these elastic answers do not hold"
-            )
-        strain = float(np.nanmax(self.mean_pressure, initial=0.0)) / self.curve.E_star
+            bears = {"ratio": largest / hardness, "hardness": hardness, "limit": _YIELDS_FROM}
+            found.append(Fact("ball_yields", **bears))
+        strain = float(np.nanmax(self.mean_pressure, initial=0.0)) / E_star
         if strain > _LARGE_STRAIN:
-            texts.append(
-                f"the mean contact pressure reaches {decimal(strain, 2)} times the contact "
-                "modulus: bodies that are strained so far are not linear elastic"
-            )
-        return texts
-
-    @property
-    def notes(self) -> list[str]:
-        """Where the law of adhesion holds, and whether it is known where yield begins."""
-        texts = []
-        question = self.question
+            found.append(Fact("ball_is_strained", ratio=strain))
         if question.adhesion is not None:
-            work, modulus = question.adhesion.work, self.curve.E_star
-            reach = (question.radius * work**2 / modulus**2) ** (1 / 3) / _SHORT_RANGE
-            texts.append(
-                "the pull has no range here (JKR): that holds for a range below about "
-                f"{engineering(reach, 'm', 2)}, from which on Tabor's parameter is "
-                f"above {_SHORT_RANGE:g}"
-            )
-        if question.softer_hardness is None:
-            texts.append(
-                "the hardness of the softer body is not known, so it is not known whether it "
-                f"yields; give it with {called('hardness', '2 GPa')}"
-            )
-        return texts
+            reach = (question.radius * question.adhesion.work**2 / E_star**2) ** (1 / 3)
+            found.append(Fact("pull_without_range", reach=reach / _SHORT_RANGE, limit=_SHORT_RANGE))
+        if hardness is None:
+            found.append(Fact("hardness_of_ball_unknown"))
+        return found
 
 
 def press_ball(question: BallQuestion) -> PressedBall:

@@ -34,7 +34,7 @@ from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
-from roughline.errors.words import called
+from roughline.facts.fact import Fact
 from roughline.margins.larger_measure import UNBOUNDED
 from roughline.margins.larger_surface import Differences, LargerSurface
 from roughline.margins.spread import logit
@@ -45,7 +45,6 @@ from roughline.question.extrapolation import MOST_DOUBLINGS, Extrapolation, fitt
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
 from roughline.statistics.places import Agreement, agreement
 from roughline.topography.body import Surface
-from roughline.units import engineering
 
 _DEVIATIONS_TO_EDGE = 2.0  # standard deviations from the middle to the roughest places
 _SIDE_TOLERANCE = 0.05  # logarithm of sides, up to which maps have the same waves
@@ -60,7 +59,7 @@ class BehindMaps:
     agreement: Agreement | None  # of logarithms of rms heights, between maps and their quarters
     common: Differences  # from the mean of its places, as the tiles of maps show it
     sharing: Differences  # as places share the load
-    why_unknown: str = ""  # why the maps do not tell of it; empty where they do
+    why_unknown: Fact | None = None  # why the maps do not tell of it; None where they do
 
 
 def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
@@ -94,25 +93,14 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
         float(first.curve.half_space.modulus(np.array([math.pi / math.sqrt(area)]))[0]),
         1.0 if agree is None else agree.place_share,
     )
-    why_unknown = "" if law is None else _longer_waves(same, law)
-    if not why_unknown and not extrapolation.is_supported:
-        why_unknown = (
-            "the maps show no roll-off together, and the joint is "
-            f"{2**extrapolation.doublings:.3g} times as long: the longer waves that they lack "
-            f"leave its stiffness open: map areas at least 1/{2**MOST_DOUBLINGS:g} as long as "
-            "the joint"
-        )
+    why_unknown = None if law is None else _longer_waves(same, law)
     if first.question.coated:
-        why_unknown = (
-            "how maps differ from the part behind them is known of bodies of one material each, "
-            f"and {first.question.coated[0].name} is coated"
-        )
-    if not why_unknown and not tiles:
-        why_unknown = (
-            f"maps without the error of their grid ({called('grid_error', True)}), or with fewer "
-            f"than {FEWEST_POINTS} points a side, do not tell how they differ from the part behind "
-            "them"
-        )
+        why_unknown = Fact("part_is_coated", body=first.question.coated[0].name)
+    elif why_unknown is None and not extrapolation.is_supported:
+        lengths = {"times": 2**extrapolation.doublings, "least": 2**MOST_DOUBLINGS}
+        why_unknown = Fact("maps_show_no_roll_off", **lengths)
+    elif why_unknown is None and not tiles:
+        why_unknown = Fact("maps_without_tiles", points=FEWEST_POINTS)
     return BehindMaps(agree, common, sharing, why_unknown)
 
 
@@ -200,30 +188,17 @@ def _mean_law(surfaces: Sequence[Surface]) -> SelfAffineFit | None:
         return None
 
 
-def _longer_waves(surfaces: Sequence[Surface], law: SelfAffineFit) -> str:
+def _longer_waves(surfaces: Sequence[Surface], law: SelfAffineFit) -> Fact | None:
     """Say whether maps are tilted and bowed more than the waves of their law explain."""
     if len(surfaces) < 2:
-        return ""
+        return None
     shapes = list(long_shapes(surfaces, law))
     grave = [each for each in shapes if each.chance < _CHANCE / len(shapes)]
     if not grave:
-        return ""
+        return None
     worst = max(grave, key=lambda each: each.rms / each.explained)
-    unit = surfaces[0].unit or ""
-    rms, explained = (engineering(each, unit, 2).strip() for each in (worst.rms, worst.explained))
-    tilted = worst.degree == 1
-    departure = (
-        "are tilted differently" if tilted else "are bowed" if worst.degree == 2 else "are bent"
-    )
-    cause = "either they were mounted differently, or the" if tilted else "the"
-    remedy = "map larger areas"
-    if tilted:
-        remedy += ", or say that the tilt is the mounting's"
-    return (
-        f"the maps {departure}, by an rms height of {rms}, and their own waves explain "
-        f"{explained}: {cause} part has longer waves, on which its highest places bear more than "
-        f"the maps show: {remedy}"
-    )
+    heights = {"rms": worst.rms, "explained": worst.explained, "unit": surfaces[0].unit}
+    return Fact("maps_lie_on_longer_waves", degree=min(worst.degree, 3), **heights)
 
 
 def _agreement(surfaces: Sequence[Surface]) -> Agreement | None:

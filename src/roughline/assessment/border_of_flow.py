@@ -11,7 +11,6 @@ import numpy as np
 from roughline.assessment.assessment import Assessment
 from roughline.computing.arrays import Real
 from roughline.facts.fact import Fact
-from roughline.facts.intervals import border_moves_flow
 from roughline.fluid.gap import Along
 
 _COUNTED_RATIO = 1.2  # largest over least aperture of what is said
@@ -23,16 +22,17 @@ class _Border:
     """Apertures along one direction as the border across it is held, over the loads."""
 
     along: Along
-    of_map: Real  # as it repeats [m]
+    repeated: Real  # as the map repeats [m]
     with_flow: Real  # with the flow given there [m]
     with_pressure: Real  # with the pressure held even [m]
     over: Real  # by how much their logarithms differ where they are an end of the interval, else 0
     has_interval: bool
 
-    def at(self, load: int) -> tuple[str, float, float, float]:
-        """The direction, and all three under a load."""
-        of_map, with_flow, with_pressure = self.of_map, self.with_flow, self.with_pressure
-        return self.along, float(of_map[load]), float(with_flow[load]), float(with_pressure[load])
+    def at(self, load: int) -> Fact:
+        """All three under a load."""
+        names = ("repeated", "with_flow", "with_pressure")
+        apertures = {name: float(getattr(self, name)[load]) for name in names}
+        return Fact("flow_at_border", along=self.along, **apertures)
 
 
 def what_borders_do(result: Assessment) -> list[Fact]:
@@ -46,9 +46,10 @@ def what_borders_do(result: Assessment) -> list[Fact]:
         return []
     load = int(np.argmax(np.maximum.reduce([each.over for each in found])))
     differing = [each for each in found if each.over[load] > 0]
+    numbers = {"directions": tuple(each.at(load) for each in differing)}
     is_in_interval = all(each.has_interval for each in differing)
-    directions = tuple(each.at(load) for each in differing)
-    return [border_moves_flow(result.headings[load], is_in_interval, directions)]
+    heading = result.headings[load]
+    return [Fact("border_moves_flow", load=heading, is_in_interval=is_in_interval, **numbers)]
 
 
 def _borders(result: Assessment) -> Iterator[_Border]:

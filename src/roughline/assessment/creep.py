@@ -21,6 +21,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called, speaking
+from roughline.facts.fact import Fact, WithFacts
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.question.arguments import (
     modulus,
@@ -255,7 +256,7 @@ class CreepQuestion:
 
 
 @dataclass(frozen=True, eq=False)
-class PressedCreep:
+class PressedCreep(WithFacts):
     """A body that was pressed into one that creeps."""
 
     question: CreepQuestion
@@ -263,30 +264,17 @@ class PressedCreep:
     curve: CreepCurve
 
     @property
-    def warnings(self) -> list[str]:
-        """What a user of the numbers must know."""
-        body, strain = self.body, self.question.strain(self.body)
-        facts = [*suspicions(body), *grave_effects(body), *self.curve.elastic.facts]
-        texts = list(map(str, facts))
-        if strain > _LARGE_STRAIN:
-            texts.append(
-                f"the bodies are strained by about {decimal(strain, 2)} in the end, and bodies "
-                "that are strained so far are not linear elastic"
-            )
-        return list(dict.fromkeys(texts))
-
-    @property
-    def notes(self) -> list[str]:
-        """Which bodies are taken to creep, and how the topography was prepared."""
-        question, texts = self.question, []
-        if question.elastic_share:
-            texts.append(
-                f"{question.stiffer} is taken to creep as the other body does, which is of no "
-                f"account: its share of the compliance at once is {question.elastic_share:.1g}"
-            )
+    def facts(self) -> list[Fact]:
+        """What is suspicious, which bodies are taken to creep, and how they were prepared."""
+        question, body = self.question, self.body
+        found = [*suspicions(body), *grave_effects(body), *self.curve.elastic.facts]
+        if (strain := question.strain(body)) > _LARGE_STRAIN:
+            found.append(Fact("creep_strains", strain=strain))
+        if share := question.elastic_share:
+            found.append(Fact("stiffer_creeps", body=question.stiffer, share=share))
         elif question.both_give_way:
-            texts.append("both bodies are taken to creep alike")
-        return [*texts, *map(str, what_was_prepared(self.body))]
+            found.append(Fact("both_creep"))
+        return list(dict.fromkeys([*found, *what_was_prepared(body)]))
 
 
 def press_with_creep(question: CreepQuestion) -> PressedCreep:

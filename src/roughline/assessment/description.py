@@ -8,6 +8,7 @@ from pathlib import Path
 
 from roughline.assessment.notes import what_was_prepared
 from roughline.errors import InputError
+from roughline.facts.fact import Fact, WithFacts, own_words
 from roughline.measurement.roughness import Roughness, roughness
 from roughline.question.reading import Reading
 from roughline.question.source import crop_first, measured_body
@@ -20,7 +21,7 @@ from roughline.topography.preparation import Preparation, as_prepared
 
 
 @dataclass(frozen=True, eq=False)
-class Description:
+class Description(WithFacts):
     """What is known of a file."""
 
     file: Path
@@ -31,7 +32,7 @@ class Description:
     obstacles: Sequence[str]  # why it cannot be pressed as it is; empty if it can
     body: Body | None = None  # prepared; None if something is still needed [m]
     roughness: Roughness | None = None  # None for a reduced line, which is no topography
-    notes: Sequence[str] = ()  # what was filled, what is suspicious
+    facts: Sequence[Fact] = ()  # what was filled, what is suspicious
     texture: IsoParameters | None = None  # of the body, if they were asked for
 
 
@@ -61,8 +62,7 @@ def with_texture(
         For a reduced line, and for cutoffs that the body cannot show.
     """
     if description.body is None:
-        missing = "there are no parameters of ISO until what is missing here is given"
-        return replace(description, notes=[*description.notes, missing])
+        return replace(description, facts=[*description.facts, Fact("no_texture_yet")])
     return replace(description, texture=iso(description.body, s_filter=s_filter, l_filter=l_filter))
 
 
@@ -88,9 +88,9 @@ def describe_measurement(
     if obstacles:
         return found
     body = as_prepared(body_of(piece, reading, preparation), preparation)
-    notes, parameters = [*map(str, suspicions(body) + what_was_prepared(body))], None
+    facts, parameters = [*suspicions(body), *what_was_prepared(body)], None
     try:
         parameters = roughness(body)
     except InputError as error:  # a reduced line is no topography
-        notes.append(str(error))
-    return replace(found, body=body, roughness=parameters, notes=notes)
+        facts.append(own_words(str(error), "note"))
+    return replace(found, body=body, roughness=parameters, facts=facts)

@@ -1,15 +1,23 @@
-"""Warnings of an assessment: where assumptions break, and what is suspicious; gravest first."""
+"""Facts on an assessment: what is suspicious, where assumptions break, and what is told beside."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.border_of_flow import what_borders_do
 from roughline.assessment.notes import (
-    ABOUT_THE_BODY,
+    facts_on_borders,
     facts_on_each,
+    facts_on_facing,
+    facts_on_loads,
+    facts_on_materials,
+    facts_on_pull_off,
+    facts_on_yield,
     line_scan_limits,
-    repeated_border_jump,
+    what_was_prepared,
 )
 from roughline.contact.borders import border_warnings
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -20,19 +28,8 @@ from roughline.engineering.rules.mechanical import (
     INTERFACE_STIFFNESS,
     UNLOADING_STIFFNESS,
 )
-from roughline.facts.fact import Fact
-from roughline.facts.hardness import summits_yield
-from roughline.facts.heights import steep
-from roughline.facts.intervals import (
-    WhyNot,
-    departs,
-    grid_error_unknown,
-    theories_assume_isotropy,
-    theories_without_adhesion,
-    wide,
-)
-from roughline.facts.layers import layers_are_strained
-from roughline.facts.loads import Stands, all_touch, nearly_all_touch, on_filled_points
+from roughline.facts.fact import Fact, by_weight
+from roughline.facts.listed import MOST_NAMED
 from roughline.measurement.homogeneity import ISOTROPIC_FROM
 from roughline.question.assumptions import Prediction, departures_behind, takes_down
 from roughline.question.case import COARSENED_FROM
@@ -41,7 +38,6 @@ from roughline.question.question import Question
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface
-from roughline.topography.effects import grave_effects
 from roughline.topography.files.read import suspicions
 
 _LARGE_STRAIN = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
@@ -51,32 +47,49 @@ _WARNED_FILLED_SHARE = 0.05  # share of the force on filled points from which on
 _GRAVE_FILLED_SHARE = 0.5  # from which on answers are of heights that nobody measured
 _WIDE_RATIO = 4.0  # upper over lower end from which on the causes of an interval are said
 _COUNTED_RATIO = 1.2  # upper over lower end of what counts as a cause
+_KINDS_ON_BODY = ("step_changes", "map_jumps_at_borders", "border_carries")
+"""What curves say as well, and is told of all bodies, and of the loads that were asked for."""
 
 
-def collect_warnings(
-    result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
+def collect_facts(
+    result: Assessment, spectrum: Moments | None, of_causes: Sequence[Fact], tried: bool
 ) -> list[Fact]:
-    """What is suspicious, where assumptions break, and why there is no interval."""
-    bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
-    of_curve = [each for each in curve.facts if each.kind not in ABOUT_THE_BODY]
+    """All that is worth telling, the gravest first.
+
+    `tried` says whether the error of the grid was looked for, and Ctrl-C came.
+    """
+    question, body, curve = result.question, result.body, result.curve
+    bodies, pair = [each.body for each in result.topographies], question.pair
+    of_curve = [each for each in curve.facts if each.kind not in _KINDS_ON_BODY]
     is_scan = isinstance(body, Line) and body.kind == "profile"
-    warnings = [
+    found = [
         *(of_curve if is_scan else _departures(result)),
+        *facts_on_yield(result),
+        *facts_on_pull_off(question),
         *result.left_out,
         *facts_on_each(bodies, suspicions),
-        *facts_on_each(bodies, grave_effects),
+        *facts_on_each(bodies, what_was_prepared),
         *_broken_assumptions(result, spectrum),
-        *_filled_points_warnings(result),
-        *_full_contact_warnings(result),
-        *_wide_interval_warnings(result),
-        *line_scan_limits(result.question, body),
+        *(fact for each in result.answers.values() for fact in each.facts),
+        *_on_filled_points(result),
+        *_on_full_contact(result),
+        *_on_wide_intervals(result),
+        *line_scan_limits(question, body),
+        *(facts_on_materials(result, pair) if pair is not None else ()),
+        *what_borders_do(result),
         *([] if is_scan else of_curve),
         *_at_borders(result),
-        *repeated_border_jump(result.question, body),
+        *of_causes,
+        *facts_on_loads(question, body),
+        *facts_on_borders(question, body),
+        *_on_pressures(question),
+        *facts_on_facing(body),
     ]
     if isinstance(body, Surface) and not _knows_grid_error(curve):
-        warnings.append(_without_grid_error(result.question, body, grid_error_was_tried))
-    return [each for each in warnings if each.is_warning]
+        found.append(_without_grid_error(question, body, tried))
+    if pair is not None and not isinstance(curve, SurfaceCurve):
+        found.append(Fact("no_area_of_line"))
+    return by_weight(found)
 
 
 def _knows_grid_error(curve: Curve) -> bool:
@@ -90,6 +103,15 @@ def _at_borders(result: Assessment) -> tuple[Fact, ...]:
     if not isinstance(curve, SurfaceCurve):
         return ()
     return border_warnings(curve.surface, curve.force[loads], curve.border_share[loads])
+
+
+def _on_pressures(question: Question) -> list[Fact]:
+    """Repeat the pressures of a fluid, and that they are absolute."""
+    sealing = question.sealing
+    if sealing is None or sealing.inlet is None:
+        return []
+    pressures = {"inlet": sealing.inlet, "outlet": sealing.outlet}
+    return [Fact("absolute_pressures", fluid=sealing.medium.name, **pressures)]
 
 
 def _departures(result: Assessment) -> list[Fact]:
@@ -110,14 +132,10 @@ def _departures(result: Assessment) -> list[Fact]:
     for departure in departures_behind(predictions, result.body):
         down = {each for each in predictions if takes_down(departure, each, result.body)}
         if down:
-            is_of_larger = "larger surface" in down
-            fact = departs(
-                departure.fact,
-                takes_all="grid" in down,
-                takes_theories="theories" in down,
-                answers=names if is_of_larger else (),
-                whole=whole,
-            ).grave("grid" in down)
+            lost = {"takes_all": "grid" in down, "takes_theories": "theories" in down}
+            of = names if "larger surface" in down else ()
+            fact = Fact("departs", fact=departure.fact, answers=of, whole=whole, **lost)
+            fact = fact.grave("grid" in down)
             found.append(fact.concerning(*unbounded) if down == {"larger surface"} else fact)
     return found
 
@@ -125,7 +143,7 @@ def _departures(result: Assessment) -> list[Fact]:
 def _without_interval(result: Assessment) -> tuple[list[str], str]:
     """Keys of the answers of the joint or the larger surface that come without an interval.
 
-    The second result names what they are all of, if that is so.
+    The second result names what they are all of, if that is so and they are many.
     """
     is_joint = result.question.joint is not None
     meant = {
@@ -135,102 +153,107 @@ def _without_interval(result: Assessment) -> tuple[list[str], str]:
     }
     unbounded = [key for key, each in meant.items() if each.low is None]
     whole = "joint" if is_joint else "larger surface"
-    return unbounded, whole if len(unbounded) == len(meant) else ""
+    return unbounded, whole if MOST_NAMED < len(unbounded) == len(meant) else ""
 
 
-def _filled_points_warnings(result: Assessment) -> list[Fact]:
+def _on_filled_points(result: Assessment) -> list[Fact]:
     """Say how much of the force stands on points that nobody measured."""
     if result.on_filled is None:
         return []
     shares = result.on_filled[result.asked]
     most = int(np.argmax(np.nan_to_num(shares)))
-    if not shares[most] > _WARNED_FILLED_SHARE:
+    if not (share := float(shares[most])) > _WARNED_FILLED_SHARE:
         return []
-    fact = on_filled_points(result.headings[most], float(shares[most]))
-    return [fact.grave(bool(shares[most] > _GRAVE_FILLED_SHARE))]
+    fact = Fact("on_filled_points", load=result.headings[most], share=share)
+    return [fact.grave(share > _GRAVE_FILLED_SHARE)]
 
 
-def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[Fact]:
-    """Say where an assumption breaks, and what is to be said with the answers."""
+def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> Iterator[Fact]:
+    """Say where an assumption breaks."""
     question, body = result.question, result.body
-    found = []
     if body.rms_slope > _STEEP_SLOPE:
-        found.append(steep(body.rms_slope, _STEEP_SLOPE))
-    found += _strained(result)
+        yield Fact("steep", slope=body.rms_slope, limit=_STEEP_SLOPE)
+    yield from _strained(result)
     hardness = None if question.pair is None or result.curve.hardness else question.pair.hardness
     if hardness is not None and spectrum is not None and not question.coated:  # summits have none
         summits = spectrum.summit_deviation, spectrum.summit_radius
         index = plasticity_index(result.curve.E_star, hardness, summits)
         if index > 1:
-            found.append(summits_yield(index))
+            yield Fact("summits_yield", index=index)
     if (
         question.theories
         and isinstance(body, Surface)
         and (ratio := isotropy(body)) < ISOTROPIC_FROM
     ):
-        found.append(theories_assume_isotropy(ratio))
+        yield Fact("theories_assume_isotropy", ratio=ratio)
     if question.theories and question.attraction is not None:
-        found.append(theories_without_adhesion())
-    return found + [fact for each in result.answers.values() for fact in each.facts]
+        yield Fact("theories_without_adhesion")
 
 
-def _strained(result: Assessment) -> list[Fact]:
+def _strained(result: Assessment) -> Iterator[Fact]:
     """Say how far bodies are strained beyond what is linear elastic, by what strains them most."""
-    question = result.question
-    found = [each for each in question.strains(result.body) if each[0] > _LARGE_STRAIN]
-    pressed = result.answers.get("contact_pressure")
+    question, pressed = result.question, result.answers.get("contact_pressure")
+    found = [
+        (ratio, Fact("strained", strain=strain))
+        for ratio, strain in question.strains(result.body)
+        if ratio > _LARGE_STRAIN
+    ]
     if question.coated and pressed is not None:
         ratio = float(np.nanmax(pressed.values, initial=0.0)) / question.half_space.softest
         if ratio > _PRESSED:
-            found.append((ratio, layers_are_strained(ratio)))
-    return [max(found, key=lambda each: each[0])[1]] if found else []
+            found.append((ratio, Fact("layers_are_strained", ratio=ratio)))
+    if found:
+        yield max(found, key=lambda each: each[0])[1]
 
 
-def _full_contact_warnings(result: Assessment) -> list[Fact]:
+def _on_full_contact(result: Assessment) -> Iterator[Fact]:
     """Say under which loads all points touch, or all but a few."""
     curve, body = result.curve_as_asked, result.body
     if not isinstance(curve, SurfaceCurve):
-        return []
+        return
     # what repeats along both axes, and whose mean is not free, stands on a rigid base
-    k_of: Stands = "on base" if all(curve.half_space.repeats) else "punch"
-    k_of = "free" if curve.half_space.mean_is_free else k_of
-    found = []
+    stands = "on base" if all(curve.half_space.repeats) else "punch"
+    stands = "free" if curve.half_space.mean_is_free else stands
     open_points = np.rint((1 - curve.area_fraction) * body.heights.size)
     loads = list(zip(result.headings, open_points, strict=True))
     if full := tuple(name for name, n in loads if n == 0):
-        found.append(all_touch(full, k_of))
+        yield Fact("all_touch", loads=full, stands=stands)
     if nearly := tuple(name for name, n in loads if 0 < n < RESOLVED_FROM):
-        found.append(nearly_all_touch(nearly, RESOLVED_FROM))
-    return found
+        yield Fact("nearly_all_touch", loads=nearly, points=RESOLVED_FROM)
 
 
-def _wide_interval_warnings(result: Assessment) -> list[Fact]:
+def _on_wide_intervals(result: Assessment) -> Iterator[Fact]:
     """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
     rules = (INTERFACE_STIFFNESS, UNLOADING_STIFFNESS, CONTACT_STIFFNESS)
     answer = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
     curve, points = result.curve_as_asked, result.body.heights.size
     if answer is None or answer.ends is None or not isinstance(curve, SurfaceCurve):
-        return []
+        return
     with np.errstate(divide="ignore", invalid="ignore"):
         factors = np.nan_to_num(answer.ends[1] / answer.ends[0], posinf=0.0)
-    load = int(np.argmax(factors))
-    causes = [each for each in answer.why(load) if each.factor > _COUNTED_RATIO]
-    if factors[load] < _WIDE_RATIO or not causes:
-        return []
-    found = tuple((each.title, each.remedy, each.factor) for each in causes)
-    cells = round(float(curve.area_fraction[load]) * points)
-    heading, factor = result.headings[load], float(factors[load])
-    fact = wide(answer.name, heading, factor, found, cells, points)
-    return [fact.concerning(answer.key)]
+    i = int(np.argmax(factors))
+    causes = [each for each in answer.why(i) if each.factor > _COUNTED_RATIO]
+    if factors[i] < _WIDE_RATIO or not causes:
+        return
+    yield Fact(
+        "wide",
+        answer=answer.name,
+        load=result.headings[i],
+        factor=float(factors[i]),
+        cells=round(float(curve.area_fraction[i]) * points),
+        points=points,
+        causes=tuple(Fact("left_open", title=each.title, factor=each.factor) for each in causes),
+        remedy=causes[0].remedy,
+    ).concerning(answer.key)
 
 
 def _without_grid_error(question: Question, body: Surface, tried: bool) -> Fact:
     """Say that values come without an interval, and why; `tried` if Ctrl-C stopped the estimate."""
-    why: WhyNot = "takes long"
+    why = "takes long"
     if tried:
         why = "interrupted"
     elif question.grid_error is not None:
         why = "switched off"
     elif min(body.shape) < COARSENED_FROM:
         why = "few points"
-    return grid_error_unknown(why, COARSENED_FROM)
+    return Fact("grid_error_unknown", why=why, points=COARSENED_FROM)

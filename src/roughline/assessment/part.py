@@ -14,7 +14,7 @@ from roughline.computing.notebook import in_notebook, printed
 from roughline.computing.summary import summary
 from roughline.engineering.intervals import Ends
 from roughline.engineering.rule import Answer, Rule, within
-from roughline.facts.fact import Fact
+from roughline.facts.fact import Fact, WithFacts
 from roughline.question.question import Question
 from roughline.statistics.places import average_of_places
 
@@ -106,7 +106,7 @@ class PartAnswer:
 
 
 @dataclass(frozen=True, eq=False)
-class PartAssessment:
+class PartAssessment(WithFacts):
     """What pressing several maps of one part gave.
 
     Attributes
@@ -152,21 +152,6 @@ class PartAssessment:
     def headings(self) -> list[str]:
         """What each load is called: as it was typed."""
         return self.question.loading.headings
-
-    @property
-    def warnings(self) -> list[str]:
-        """What is to be known before the numbers are used."""
-        return [str(each) for each in self.facts if each.is_warning]
-
-    @property
-    def notes(self) -> list[str]:
-        """What is left out, what was filled, and how the loads were meant."""
-        return [str(each) for each in self.facts if not each.is_warning]
-
-    @property
-    def remarks(self) -> list[str]:
-        """Warnings and notes."""
-        return [*self.warnings, *self.notes]
 
     @property
     def largest(self) -> int:

@@ -13,40 +13,12 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.part import PartAnswer
 from roughline.facts.fact import Fact
-from roughline.facts.heights import (
-    bowed,
-    differs_between_places,
-    drifts,
-    levelled_before,
-    levelled_by_lines,
-    no_roll_off,
-    tilted,
-)
-from roughline.facts.own_words import on_maps
-from roughline.facts.part import (
-    behind_maps_unknown,
-    interval_of_part,
-    maps_agree,
-    maps_disagree,
-    mean_of_maps,
-    not_of_one_kind,
-    sealed_in_some,
-    single_map,
-    sizes_differ,
-    some_are_scans,
-    some_without_interval,
-)
 from roughline.question.kinds import nominal_area
 from roughline.topography.body import Body, Surface
 
 _JUDGED_TOGETHER = (
-    differs_between_places,
-    drifts,
-    levelled_by_lines,
-    levelled_before,
-    tilted,
-    bowed,
-    no_roll_off,
+    *("differs_between_places", "drifts", "no_roll_off"),
+    *("levelled_by_lines", "levelled_before", "tilted", "bowed"),
 )
 """What is said of a map alone, and what several maps are judged by together."""
 
@@ -65,7 +37,7 @@ _KINDS: tuple[tuple[str, Callable[[Body], float], float], ...] = (
 def facts_of_part(
     results: Mapping[str, Assessment], behind: BehindMaps | None, answers: Mapping[str, PartAnswer]
 ) -> list[Fact]:
-    """Facts on a part and on its maps, by their names; warnings first."""
+    """Facts on a part and on its maps, by their names."""
     maps = list(results.values())
     is_joint = maps[0].question.joint is not None
     facts = {name: each.facts for name, each in results.items()}
@@ -74,7 +46,7 @@ def facts_of_part(
             name: [each for each in some if each.innermost.kind not in _JUDGED_TOGETHER]
             for name, some in facts.items()
         }
-    found = [
+    return [
         *_behind(behind, answers, is_joint),
         *_sealed_in_some(results, answers),
         *_differences_in_kind(results),
@@ -82,7 +54,6 @@ def facts_of_part(
         *_agreement(behind),
         *_once(facts),
     ]
-    return sorted(found, key=lambda each: not each.is_warning)
 
 
 def differ_in_size(results: Sequence[Assessment]) -> bool:
@@ -97,16 +68,17 @@ def _differences_in_kind(results: Mapping[str, Assessment]) -> list[Fact]:
     kinds = {isinstance(each.body, Surface) for each in results.values()}
     if len(kinds) > 1:
         scans = [name for name, each in results.items() if not isinstance(each.body, Surface)]
-        found.append(some_are_scans(tuple(scans)))
+        found.append(Fact("some_are_scans", names=tuple(scans)))
     for what, of, most in _KINDS:
         sizes = {name: of(each.body) for name, each in results.items()}
         least, largest = min(sizes, key=sizes.__getitem__), max(sizes, key=sizes.__getitem__)
         if sizes[largest] > most * sizes[least]:
-            names = least, largest
-            found.append(not_of_one_kind(what, sizes[least], sizes[largest], most, names))
+            ends = {"least": sizes[least], "largest": sizes[largest]}
+            of_ends = {"least_of": least, "largest_of": largest}
+            found.append(Fact("not_of_one_kind", what=what, **ends, **of_ends, most=most))
     first = next(iter(results.values()))
     if first.question.joint is None and differ_in_size(list(results.values())):
-        found.append(sizes_differ(kinds == {True}))
+        found.append(Fact("sizes_differ", can_be_joint=kinds == {True}))
     return found
 
 
@@ -122,7 +94,8 @@ def _sealed_in_some(
         return []
     sealed = [name for name, each in zip(results, values[:, loads[0]], strict=True) if each == 0]
     heading = next(iter(results.values())).headings[loads[0]]
-    return [sealed_in_some(heading, tuple(sealed)).concerning("hydraulic_aperture")]
+    fact = Fact("sealed_in_some", load=heading, names=tuple(sealed))
+    return [fact.concerning("hydraulic_aperture")]
 
 
 def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[Fact]:
@@ -131,14 +104,15 @@ def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[Fac
 
     count = len(results)
     if count == 1:
-        return [single_map()]
-    more = _ADVISED_MAPS if count < _ADVISED_MAPS else 0
-    student, student_of_more = (
-        float(stdtrit(each - 1, 0.975)) if each else 0.0 for each in (count, more)
-    )
-    facts = [mean_of_maps(count), interval_of_part(count, student, is_joint, more, student_of_more)]
+        return [Fact("single_map")]
+    advised = _ADVISED_MAPS
+    student, student_of_more = (float(stdtrit(each - 1, 0.975)) for each in (count, advised))
+    narrower = student / student_of_more * math.sqrt(advised / count)
+    numbers = {"count": count, "student": student, "is_joint": is_joint, "narrower": narrower}
+    more = {"more": advised if count < advised else None, "student_of_more": student_of_more}
+    facts = [Fact("mean_of_maps", count=count), Fact("interval_of_part", **numbers, **more)]
     if any(each.intervals is None for each in results):
-        facts.append(some_without_interval())
+        facts.append(Fact("some_without_interval"))
     return facts
 
 
@@ -150,18 +124,18 @@ def _behind(
     if behind is None or not behind.why_unknown or not of:
         return []
     names = tuple(each.name for each in of.values())
-    found = behind_maps_unknown(behind.why_unknown, names, is_joint)
+    found = Fact("behind_maps_unknown", why=behind.why_unknown, answers=names, is_joint=is_joint)
     return [found if is_joint else found.concerning(*of)]
 
 
 def _agreement(behind: BehindMaps | None) -> list[Fact]:
-    """Say whether maps agree."""
+    """Say whether maps agree, by factors over 1 by which rms heights scatter."""
     found = None if behind is None else behind.agreement
     if found is None:
         return []
-    between, within = (math.expm1(each) for each in (found.between, found.within))
-    say = maps_agree if found.holds else maps_disagree
-    return [say(between, within, found.ratio, found.chance)]
+    scatter = {"between": math.expm1(found.between), "within": math.expm1(found.within)}
+    kind = "maps_agree" if found.holds else "maps_disagree"
+    return [Fact(kind, **scatter, ratio=found.ratio, chance=found.chance)]
 
 
 def _once(facts_by_map: Mapping[str, Sequence[Fact]]) -> list[Fact]:
@@ -186,7 +160,9 @@ def _with_its_maps(facts: Mapping[str, Fact], count: int) -> Fact:
     maps = () if len(facts) == count else tuple(facts)
     differ = any(str(facts[each]) != str(facts[first]) for each in others)
     fact = facts[first].grave(any(each.is_grave for each in facts.values()))
-    return fact.within(on_maps(fact, maps, first if differ else "")) if maps or differ else fact
+    if not (maps or differ):
+        return fact
+    return fact.within(Fact("on_maps", fact=fact, maps=maps, first=first if differ else ""))
 
 
 def _pixel(body: Body) -> float:

@@ -14,9 +14,9 @@ from roughline.contact.loads import separation_depth, unbearable_pull
 from roughline.contact.press import press
 from roughline.contact.status import Status
 from roughline.engineering.attraction import Separation
+from roughline.facts.fact import Fact
 from roughline.question.case import Case
 from roughline.topography.body import Surface
-from roughline.units import engineering
 
 _STEPS = 8  # from no load to the largest pull, on to where bodies come apart, and across that
 _NEAR_FULL_CONTACT = 1 - 1e-6  # of the depth of full contact
@@ -44,7 +44,7 @@ def draw_apart(case: Case, curve: SurfaceCurve) -> Separation | None:
     if not under.converged[:2].all():  # no contact bears the last
         reason = Status(under.status[~under.converged][0]).reason
         unknown = np.array([np.nan])
-        unsolved = f"the load that is taken off was not solved: {reason}"
+        unsolved = Fact("unloading_unsolved", why=reason)
         return Separation(under, unknown, unknown, math.nan, unsolved)
     share, error = under.area_fraction_corrected, under.area_fraction_error
     drawn, depths = _drawn(surface, under)
@@ -57,7 +57,7 @@ def draw_apart(case: Case, curve: SurfaceCurve) -> Separation | None:
     )
 
 
-def _unsolved(under: SurfaceCurve, drawn: SurfaceCurve, depths: Real) -> str:
+def _unsolved(under: SurfaceCurve, drawn: SurfaceCurve, depths: Real) -> Fact | None:
     """Say which load on the way was not solved, and what it takes at most, or why nothing is known.
 
     Past the largest pull bodies pull less, and at the last of the depths they are apart.
@@ -65,21 +65,14 @@ def _unsolved(under: SurfaceCurve, drawn: SurfaceCurve, depths: Real) -> str:
     lost = np.flatnonzero(~drawn.converged)
     if lost.size:
         first = int(lost[0])
-        text = (
-            "bodies that are drawn apart were not solved at a depth of "
-            f"{engineering(depths[first], 'm')}: {Status(drawn.status[first]).reason}"
-        )
+        at = {"depth": float(depths[first]), "why": Status(drawn.status[first]).reason}
         work, pull = drawn.work, -under.pull_off_force
-        if first < 2 or not np.isfinite(pull):
-            return text
-        least = float(work[first - 1] - work[1])
-        most = least + pull * float(depths[first - 1] - depths[-1])
-        return f"{text}; until then they take {engineering(least, 'J')}, and at most " + (
-            f"{engineering(most, 'J')} until they are apart"
-        )
-    if not np.isfinite(under.pull_off_force):
-        return "the grid does not resolve the range of the pull: give a larger one, or a finer grid"
-    return ""
+        least = most = None
+        if first >= 2 and np.isfinite(pull):
+            least = float(work[first - 1] - work[1])
+            most = least + pull * float(depths[first - 1] - depths[-1])
+        return Fact("separation_unsolved", **at, least=least, most=most)
+    return None if np.isfinite(under.pull_off_force) else Fact("pull_off_unresolved")
 
 
 def _drawn(surface: Surface, under: SurfaceCurve) -> tuple[SurfaceCurve, Real]:

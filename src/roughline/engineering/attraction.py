@@ -17,6 +17,7 @@ from roughline.engineering.described import table_rows
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
+from roughline.facts.fact import Fact
 from roughline.halfspace.laws.pulling_zone import resolves_pull_off
 from roughline.units import engineering, in_si
 
@@ -140,4 +141,6 @@ class Separation:
     pull_off: Real  # largest pull under a force that falls, in rows [N]
     area_fraction: Real  # that still touches under no load, in rows [1]
     work: float  # that is done from no load on until the bodies are apart [J]
-    unsolved: str = ""  # which load on the way was not solved, or why there is no pull-off
+    unsolved: Fact | None = (
+        None  # which load on the way was not solved, or why there is no pull-off
+    )

@@ -18,9 +18,6 @@ _Value = TypeVar("_Value", float, NDArray[np.float64])
 
 _FULL_CONTACT = 1e-6  # of the saturated stiffness, which may be missing in full contact
 
-COMPARED = "estimates for comparison", "they are of bodies of one material each"
-"""What Holm's, Mikic's and Yovanovich's formulas are called, and why they are not of layers."""
-
 ELASTIC_UP_TO = 0.4
 """Mean contact pressure over hardness at which yield begins under a smooth asperity."""
 

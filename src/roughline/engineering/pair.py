@@ -15,6 +15,7 @@ from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.material import Material
 from roughline.errors import InputError
 from roughline.errors.public import public
+from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 
 
@@ -146,21 +147,12 @@ class MaterialPair:
         bodies = (("first", self.first), ("second", self.second))
         return [(f"the {which} body ({each.name})", each) for which, each in bodies]
 
-    def lacks(self, quantity: str, what: str) -> str:
-        """Say that there is no answer, as a property is not known; nothing where it is."""
-        lacking = self.lacking(quantity)
-        if not lacking:
-            return ""
-        return (
-            f"no {what}: the {quantity} of {' and of '.join(lacking)} is not known; give it with "
-            f'the material, as "{quantity}=..."'
-        )
-
-    def refuses_layers(self, what: str, why: str) -> str:
-        """Say that there is no answer, as its formula is of bodies without layers; else nothing."""
-        if not self.coated:
-            return ""
-        return f"no {what} of coated bodies: {why}"
+    def lacks(self, quantity: str, what: str) -> Fact | None:
+        """Say that there is no answer, as a property is not known; None where it is."""
+        bodies = tuple(self.lacking(quantity))
+        if not bodies:
+            return None
+        return Fact("property_unknown", what=what, quantity=quantity, bodies=bodies)
 
     def both(self, quantity: str) -> tuple[float, float] | None:
         """Return a property of both bodies; None if one does not have it, or is coated."""

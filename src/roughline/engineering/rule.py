@@ -20,9 +20,7 @@ from roughline.engineering.symbols import Symbol
 from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice, refuse, several, shown
 from roughline.errors.public import are_numbers, public
-from roughline.facts.fact import Fact, Weight
-from roughline.facts.intervals import without_answer
-from roughline.facts.own_words import in_own_words
+from roughline.facts.fact import Fact
 
 _Group = Literal[
     "mechanics", "contact", "adhesion", "friction", "sealing", "electrical", "thermal", "acoustic"
@@ -76,15 +74,14 @@ class Rule:
         these names.
     lacking : callable, optional
         Says which property of two materials is missing for it, from these and the frequency of the
-        wave that is asked for, if one is; an empty text where none is.
+        wave that is asked for, if one is: a fact, such as that of ``pair.lacks(...)`` or
+        :func:`roughline.own_words`, or None where none is.
     unknown : callable, optional
-        Says why loads that were solved have no value, which is NaN then; an empty text where all
-        have one. Without such a text, an answer with a value that is no number is left out as a
-        fault of its rule.
-    warning, note : callable, optional
-        What is to be said with it of what was pressed; an empty text for nothing.
+        Says why loads that were solved have no value, which is NaN then: a fact, or None where all
+        have one. Without it, an answer with a value that is no number is left out as a fault of its
+        rule.
     facts : callable, optional
-        The same as facts of some kind: one, several, or None for nothing.
+        What is to be said with it of what was pressed: a fact, several, or None for nothing.
     limits : callable, optional
         Least and largest possible value, beyond which no interval reaches; default: from zero on.
         [unit]
@@ -154,10 +151,8 @@ class Rule:
     source: str = ""
     symbols: Callable[[Pressed], Sequence[Symbol]] = lambda _pressed: ()
     differing: Callable[[Pressed], Mapping[str, str]] = lambda _pressed: {}
-    lacking: Callable[[MaterialPair, float | None], str] = lambda _pair, _frequency: ""
-    unknown: Callable[[Pressed], str] = lambda _pressed: ""
-    warning: Callable[[Pressed], str] = lambda _pressed: ""
-    note: Callable[[Pressed], str] = lambda _pressed: ""
+    lacking: Callable[[MaterialPair, float | None], Fact | None] = lambda _pair, _frequency: None
+    unknown: Callable[[Pressed], Fact | None] = lambda _pressed: None
     facts: Callable[[Pressed], _Facts] = lambda _pressed: None
     limits: Callable[[Pressed], Limits] = lambda _pressed: (0.0, np.inf)
     under: Callable[[Pressed], tuple[str, float]] | None = None
@@ -226,21 +221,19 @@ class Rule:
             under=None if self.under is None else self.under(pressed),
             leads=is_first or self.leads(pressed),
             answers_question=is_first,
-            facts=self._facts_found(pressed),
+            facts=tuple(each.concerning(self.key) for each in self._returned("facts", pressed)),
         )
 
-    def _facts_found(self, pressed: Pressed) -> tuple[Fact, ...]:
-        """What is to be said with the answer, of it alone."""
-        found = self.facts(pressed)
-        texts: dict[Weight, str] = {"warning": self.warning(pressed), "note": self.note(pressed)}
-        return tuple(
-            each.concerning(self.key)
-            for each in (
-                *([found] if isinstance(found, Fact) else found or ()),
-                *(in_own_words(text).as_(weight) for weight, text in texts.items() if text),
+    def _returned(self, what: str, *of: Any) -> list[Fact]:
+        """What is to be said with the answer, or in its place."""
+        found = getattr(self, what)(*of)
+        facts = found if isinstance(found, tuple | list) else [found]
+        if not all(each is None or isinstance(each, Fact) for each in facts):
+            raise InputError(
+                f"{what} of the rule {shown(self.key)} returned {shown(found)}; a fact is needed, "
+                'such as rl.own_words("..."), or None for nothing'
             )
-            if each is not None
-        )
+        return [each for each in facts if each is not None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -420,12 +413,13 @@ class Rules:
             found += [each for rule in self for each in rule.measured_with(sealing)]
         return list(dict.fromkeys(found))
 
-    def left_out(self, pair: MaterialPair, frequency: float | None) -> list[str]:
+    def left_out(self, pair: MaterialPair, frequency: float | None) -> list[Fact]:
         """Say which answers there are not, as a property of a material is missing.
 
         The frequency [Hz] is that of an ultrasonic wave, if its reflection is asked for.
         """
-        return list(dict.fromkeys(filter(None, (each.lacking(pair, frequency) for each in self))))
+        found = [fact for each in self for fact in each._returned("lacking", pair, frequency)]
+        return [each.as_("note") for each in dict.fromkeys(found)]
 
     def answers(self, pressed: Pressed) -> tuple[dict[str, Answer], list[Fact]]:
         """Work out all answers by their keys, and say which are left out, and why.
@@ -433,26 +427,27 @@ class Rules:
         What was asked for beside the contact comes first, with its group.
         """
         answers: dict[str, Answer] = {}
-        left_out: dict[str, list[str]] = {}  # names by why
+        left_out: dict[Fact, list[Fact]] = {}  # answers by why
         unanswered = set()  # why something that was asked for is not answered
         for rule in self:
-            lacks = rule.lacking(pressed.pair, pressed.frequency)
+            lacks = rule._returned("lacking", pressed.pair, pressed.frequency)
             answer = None if lacks else rule.answer(pressed)
             if answer is None:
                 continue
             why, share = _why_not_used(answer, pressed)
             if why:
-                loads = "" if share == 1 else f" under {share:.0%} of the loads"
-                left_out.setdefault(why, []).append(f"{answer.name}{loads}")
+                of = Fact(
+                    "answer_under_loads", name=answer.name, share=share if share < 1 else None
+                )
+                left_out.setdefault(why, []).append(of)
                 if rule.answers_question(pressed):
                     unanswered.add(why)
             if share < 1:
                 answers[rule.key] = answer
-        lacking = self.left_out(pressed.pair, pressed.frequency)
         return _in_order(answers), [
-            *(in_own_words(text).as_("note") for text in lacking),
+            *self.left_out(pressed.pair, pressed.frequency),
             *(
-                without_answer(tuple(of), why).grave(why in unanswered)
+                Fact("without_answer", names=tuple(of), why=why).grave(why in unanswered)
                 for why, of in left_out.items()
             ),
         ]
@@ -469,15 +464,14 @@ def _in_order(answers: Mapping[str, Answer]) -> dict[str, Answer]:
     return dict(sorted(answers.items(), key=place))
 
 
-def _why_not_used(answer: Answer, pressed: Pressed) -> tuple[str, float]:
+def _why_not_used(answer: Answer, pressed: Pressed) -> tuple[Fact | None, float]:
     """Say why an answer cannot be used, and under which share of the loads that were solved."""
     values, solved = answer.values, pressed.known
     if values.shape != solved.shape:
-        return f"its rule gives {values.size} values, and there are {solved.size} loads", 1.0
+        return Fact("shape_of_values", values=values.size, loads=solved.size), 1.0
     unknown = solved & (np.isnan(values) | (np.isinf(values) & (not answer.rule.may_be_infinite)))
     if not unknown.any():
-        return "", 0.0
-    if why := answer.rule.unknown(pressed):
+        return None, 0.0
+    for why in answer.rule._returned("unknown", pressed):
         return why, float(unknown[solved].mean())
-    value = values[np.flatnonzero(unknown)[0]]
-    return f"its rule gives {value:g} under a load that was solved, which is not finite", 1.0
+    return Fact("not_finite", value=f"{values[np.flatnonzero(unknown)[0]]:g}"), 1.0

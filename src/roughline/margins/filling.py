@@ -11,7 +11,6 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.facts.fact import Fact
-from roughline.facts.intervals import filled_before, filling_matters, no_filled_point_left
 from roughline.margins.cause import OtherBodies
 from roughline.margins.variant import AS_ASKED, Curves, Variant
 from roughline.question.case import Case
@@ -58,10 +57,11 @@ class FilledPoints(OtherBodies):
                 _most_changed(getattr(curve, name), getattr(others[0], name), loads)
                 for name in ("stiffness", "area_fraction_corrected")
             )
-            return [filling_matters(method, stiffness, area, _SMALLEST_CHANGE)]
+            changes = {"stiffness": stiffness, "area": area, "least": _SMALLEST_CHANGE}
+            return [Fact("filling_matters", method=method, **changes)]
         if all(each.measurement is not None for each in case.parts if each.is_filled):
-            return [no_filled_point_left()]
-        return [filled_before(is_of_file=bool(case.parts[0].file))]
+            return [Fact("no_filled_point_left")]
+        return [Fact("filled_before", is_of_file=bool(case.parts[0].file))]
 
 
 def force_on(points: Mask) -> Measure:
@@ -92,8 +92,9 @@ def _relative_error(share: Real) -> Real:
         return np.where(share > _SHARE_IN_INTERVALS, share / (1 - share), 0.0)
 
 
-def _most_changed(before: Real, after: Real, loads: Indices) -> float:
-    """By how many per cent the loads that were asked for change at most."""
+def _most_changed(before: Real, after: Real, loads: Indices) -> float | None:
+    """By how many per cent the loads that were asked for change at most; None for next to none."""
     with np.errstate(invalid="ignore", divide="ignore"):  # infinite in full contact
         changed = np.where(after == before, 0.0, np.abs(after / before - 1))
-        return 100 * float(np.nanmax(changed[loads], initial=0.0))
+        most = 100 * float(np.nanmax(changed[loads], initial=0.0))
+    return most if most >= _SMALLEST_CHANGE else None

@@ -15,14 +15,6 @@ from roughline.contact.scaling import PUNCH_GRID_ERROR
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pressed import InterfaceStiffness
-from roughline.facts.answers import (
-    joint_in_reach,
-    joint_out_of_reach,
-    larger_surface_behind,
-    piece_alone,
-    reduced_line_alone,
-    some_larger_surface,
-)
 from roughline.facts.fact import Fact
 from roughline.margins.larger_measure import LargerMeasure
 from roughline.margins.place import spread_of_differences
@@ -100,12 +92,12 @@ def stiffness_of_the_piece(
     k = Values.of(curve).unloading
     if isinstance(body, Line):
         saturated, error, warned_from = curve.E_star * body.length, 0.0, 0.0
-        place = reduced_line_alone()
+        place = Fact("reduced_line_alone")
     else:
         saturated, warned_from = saturated_stiffness(body, curve), _PUNCH_MATTERS
         # as a share of k_s, which is a little more
         error = PUNCH_GRID_ERROR / math.sqrt(body.heights.size)
-        place = piece_alone(is_layered)
+        place = Fact("piece_alone", is_layered=is_layered)
     low, high = interval or np.full((2, k.size), np.nan)
     close = k > saturated * (1 - error)
     low = np.where(close, np.fmin(low, k * (1 - error)), low)
@@ -133,10 +125,11 @@ def which_surface(
 ) -> Fact:
     """Say which larger surface is meant, and how much of its waves the map holds."""
     if extrapolation.roll_offs is not None:
-        return larger_surface_behind(extrapolation.roll_offs)
+        return Fact("larger_surface_behind", roll_offs=extrapolation.roll_offs)
     times = 2**extrapolation.doublings
     if extrapolation.assembly is None:
-        return some_larger_surface(times, of)
+        return Fact("some_larger_surface", times=times, of=of)
     if extrapolation.is_supported:
-        return joint_in_reach(times, extrapolation.assembly)
-    return joint_out_of_reach(times, extrapolation.assembly, 2**MOST_DOUBLINGS)
+        return Fact("joint_in_reach", times=times, assembly=extrapolation.assembly)
+    least = 2**MOST_DOUBLINGS
+    return Fact("joint_out_of_reach", times=times, assembly=extrapolation.assembly, least=least)

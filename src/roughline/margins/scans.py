@@ -18,9 +18,6 @@ from roughline.contact.press import press
 from roughline.errors.checks import flag
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
-from roughline.facts.intervals import line_stands_for_surface
-from roughline.facts.own_words import on_body
-from roughline.facts.pressed import few_heights, one_line_only, stiff_heights
 from roughline.measurement.coarser_selves import coarser_selves
 from roughline.measurement.scan_bins import ScanBins
 from roughline.question.assumptions import broken
@@ -128,12 +125,12 @@ def press_scan(
         found = _gaussian_doubt(
             each, bins[which], curve.force_bar, is_known_gaussian=gaussian, rng=seed
         )
-        doubts += [
-            doubt.within(on_body(doubt, ("first", "second")[which])) if len(scans) > 1 else doubt
-            for doubt in found
-        ]
+        if len(scans) > 1:
+            name = ("first", "second")[which]
+            found = [fact.within(Fact("on_body", fact=fact, which=name)) for fact in found]
+        doubts += found
     if doubts:
-        doubted = [line_stands_for_surface(doubt).grave() for doubt in doubts]
+        doubted = [Fact("line_stands_for_surface", fact=doubt).grave() for doubt in doubts]
         curve = replace(curve, facts=(*doubted, *curve.facts))
         low, high = (np.full(curve.stiffness.size, math.nan) for _ in range(2))
     return PressedScan(curve, low, high)
@@ -176,7 +173,7 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:
             "spectrum": "of surfaces that the line scan may be cut from",
             **as_body(scan.settings),
         },
-        facts=(one_line_only(),),
+        facts=(Fact("one_line_only"),),
     )
 
 
@@ -250,7 +247,7 @@ def _gaussian_doubt(
         found = _stiffness_doubt(levelled.heights, bins, forces, rng)
     heights = independent_heights(levelled)
     if not found and not is_known_gaussian and heights < _LEAST_HEIGHTS:
-        found = [few_heights(heights, _LEAST_HEIGHTS)]
+        found = [Fact("few_heights", heights=heights, needed=_LEAST_HEIGHTS)]
     return found
 
 
@@ -280,7 +277,7 @@ def _stiffness_doubt(
         return []
     ratio = float(np.exp(own - middle)[worst])
     allowed = float(np.exp(np.sign(own - middle)[worst] * by_chance * spread[worst]))
-    return [stiff_heights(ratio, allowed, worst + 1)]
+    return [Fact("stiff_heights", ratio=ratio, allowed=allowed, load=worst + 1)]
 
 
 def _stiffness_of_springs(heights: Real, forces: Real) -> Real:

@@ -13,7 +13,6 @@ from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole_number
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
-from roughline.facts.loads import Strains, strained
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.question.kinds import nominal_area
 from roughline.topography.body import Body, side_lengths
@@ -133,16 +132,16 @@ class Loading:
         A fluid that carries a part of the load acts on all of the surface, and deforms little.
         """
         area, side = nominal_area(body), min(side_lengths(body))
-        what: Strains = "layers" if is_layered else "pressure"
-        is_beside_fluid = False
+        of, is_beside_fluid = "layers" if is_layered else "pressure", False
         if depths := self.heights():
-            what, ratios = "depth", [depth / side for depth in depths]
+            of, ratios = "depth", [depth / side for depth in depths]
         else:
             is_beside_fluid = any(map(operator.lt, pressing, self.forces(area)))
             side = math.inf if half_space.periodic is True else side
             ratios = [half_space.strain(max(force, 0.0) / area, side) for force in pressing]
+        numbers = {"of": of, "is_beside_fluid": is_beside_fluid}
         return [
-            (ratio, strained(what, heading, ratio, is_beside_fluid))
+            (ratio, Fact("strain_of_load", load=heading, ratio=ratio, **numbers))
             for heading, ratio in zip(self.headings, ratios, strict=False)
         ]
 

@@ -22,7 +22,6 @@ from roughline.errors.earlier import refuse_part
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
-from roughline.facts.loads import how_far_strained
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.question.arguments import (
     bodies,
@@ -364,8 +363,7 @@ class Question:
                 self.attraction.refuse_too_strong(min(body.sizes), self.modulus)
         for ratio, fact in self.strains(body):
             if ratio > LARGEST_STRAIN:
-                text = how_far_strained(**fact.numbers)
-                raise InputError(f"{text}, and {LINEARITY}: give a smaller one, and check its unit")
+                raise InputError(f"{fact}, and {LINEARITY}: give a smaller one, and check its unit")
         if self.theories and not has_spectrum(body):
             raise InputError(
                 "theories are evaluated for a rough surface of 8 x 8 points or more, whose pixels "

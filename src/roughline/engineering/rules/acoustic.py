@@ -12,15 +12,16 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
 from roughline.engineering.symbols import Symbol, both_bodies, nominal_area
+from roughline.facts.fact import Fact
 
 
-def _lacking(pair: MaterialPair, frequency: float | None) -> str:
+def _lacking(pair: MaterialPair, frequency: float | None) -> Fact | None:
     if frequency is None:
-        return ""
+        return None
     if pair.coated:
-        return pair.refuses_layers("reflection", "layers reflect a part of the wave themselves")
+        return Fact("no_reflection_of_layers")
     if not (pair.first.surface.carries_sound and pair.second.surface.carries_sound):
-        return "no reflection: a rigid or an incompressible body carries no such wave"
+        return Fact("no_reflection_without_sound")
     return pair.lacks("density", "reflection")
 
 

@@ -13,7 +13,6 @@ from roughline.engineering.attraction import Separation
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.symbols import nominal_area
-from roughline.facts.answers import on_the_way_in, set_by_the_range
 from roughline.facts.fact import Fact
 from roughline.halfspace.laws.adhesive import Adhesive
 from roughline.units import engineering
@@ -39,10 +38,10 @@ def _found(of: Callable[[Separation, Pressed], Real], pressed: Pressed) -> Real 
     return np.where(pressed.curve.converged, rows[:, np.newaxis], np.nan)
 
 
-def _why_unknown(pressed: Pressed) -> str:
+def _why_unknown(pressed: Pressed) -> Fact | None:
     """Say why it is not known what it takes to draw bodies apart."""
     separation = pressed.sought.separation
-    return "the largest load was not solved" if separation is None else separation.unsolved
+    return Fact("largest_load_unsolved") if separation is None else separation.unsolved
 
 
 def _work_ratio(separation: Separation, pressed: Pressed) -> Real:
@@ -75,9 +74,9 @@ def _branch(pressed: Pressed) -> Fact | None:
     if attraction is None or not isinstance(law, Adhesive) or pressed.sought.separation is None:
         return None
     if attraction.range is not None:
-        return on_the_way_in(None, None)
+        return Fact("on_the_way_in", shortest_range=None, heights=None)
     heights = law.range / pressed.rms_height if pressed.rms_height else None
-    return on_the_way_in(law.range, heights)
+    return Fact("on_the_way_in", shortest_range=law.range, heights=heights)
 
 
 def _set_by_the_range(pressed: Pressed) -> Fact | None:
@@ -86,7 +85,7 @@ def _set_by_the_range(pressed: Pressed) -> Fact | None:
     if separation is None or not isinstance(law, Adhesive):
         return None
     share = float(separation.pull_off[0] / (law.largest_pull * pressed.area))
-    return set_by_the_range(share) if share >= _FULL_PULL_SHARE else None
+    return Fact("set_by_the_range", share=share) if share >= _FULL_PULL_SHARE else None
 
 
 def _rule(name: str, **others: Any) -> Rule:

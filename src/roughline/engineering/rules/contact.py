@@ -14,8 +14,6 @@ from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
 from roughline.engineering.symbols import hardness, nominal_area
 from roughline.facts.fact import Fact
-from roughline.facts.hardness import beyond_elastic
-from roughline.facts.layers import through_the_layer
 
 _rule = partial(Rule, group="contact")
 
@@ -60,8 +58,8 @@ def _elastic_limit(pressed: Pressed) -> Fact | None:
     ratio = _over_hardness(pressed)
     if pressed.may_yield or ratio is None or not np.isfinite(ratio[0]).any():
         return None
-    worst = float(np.nanmax(ratio[0]))
-    return beyond_elastic(worst, ELASTIC_UP_TO) if worst > ELASTIC_UP_TO else None
+    worst, limit = float(np.nanmax(ratio[0])), ELASTIC_UP_TO
+    return Fact("beyond_elastic", ratio=worst, limit=limit) if worst > limit else None
 
 
 def _through_the_layer(pressed: Pressed) -> Fact | None:
@@ -71,7 +69,9 @@ def _through_the_layer(pressed: Pressed) -> Fact | None:
         return None
     (top, thickness), *_ = softer.layers
     deepest = float(np.nanmax(yielded.indentation, initial=0.0))
-    return through_the_layer(top.name, thickness, deepest) if deepest > thickness else None
+    if not deepest > thickness:
+        return None
+    return Fact("through_the_layer", material=top.name, thickness=thickness, deepest=deepest)
 
 
 CONTACT = (

@@ -8,7 +8,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.engineering.conduction import contact_conduction, spreading, through_layers
-from roughline.engineering.formulas import COMPARED, electrical_resistance, holm_resistance
+from roughline.engineering.formulas import electrical_resistance, holm_resistance
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
@@ -19,11 +19,12 @@ from roughline.engineering.symbols import (
     hardness,
     nominal_area,
 )
+from roughline.facts.fact import Fact
 
 _rule = partial(Rule, group="electrical")
 
 
-def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
+def _lacking(pair: MaterialPair, _frequency: float | None) -> Fact | None:
     return pair.lacks("resistivity", "constriction resistance")
 
 
@@ -101,7 +102,7 @@ ELECTRICAL = (
         "resistance, and elastic spots, which are smaller, have more",
         source="Holm 1967",
         value=_single_spot,
-        lacking=lambda pair, _frequency: pair.refuses_layers(*COMPARED),
+        lacking=lambda pair, _frequency: Fact("no_estimates_of_layers") if pair.coated else None,
         is_extensive=True,
         is_of_hardness_alone=True,
         may_be_infinite=True,

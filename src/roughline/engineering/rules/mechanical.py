@@ -23,12 +23,6 @@ from roughline.engineering.symbols import (
     nominal_area,
     tangential_modulus,
 )
-from roughline.facts.answers import (
-    joint_alone,
-    layers_in_series,
-    layers_keep_their_volume,
-    which_interface,
-)
 from roughline.facts.fact import Fact
 from roughline.units import engineering
 
@@ -90,21 +84,22 @@ def _which_surface(pressed: Pressed) -> Fact | None:
     if np.nanmax(left, initial=0.0) < pressed.interface.warned_from:
         return None
     place = pressed.interface.place
-    return which_interface(place).as_(place.weight)
+    return Fact("which_interface", fact=place).as_(place.weight)
 
 
 def _meaning_of_joint(pressed: Pressed) -> Fact | None:
     """Say what a joint is taken to be, and what is left out of it; a warning where that matters."""
     if pressed.joint is None:
         return None
-    disc = pressed.curve.half_space.disc_stiffness(math.sqrt(pressed.joint / math.pi))
+    disc = float(pressed.curve.half_space.disc_stiffness(math.sqrt(pressed.joint / math.pi)))
     share = float(np.nanmax(pressed.interface_stiffness[0], initial=0.0)) / disc
     resistivities = pressed.pair.both("resistivity")
     resistance = None
     if resistivities is not None:
         resistance = float(electrical_resistance(disc, pressed.curve.E_star, resistivities))
     matters = share > _IN_SERIES_MATTERS
-    found = joint_alone(disc, resistance, bool(pressed.pair.coated), share if matters else 0.0)
+    added = {"stiffness": disc, "resistance": resistance, "is_about": bool(pressed.pair.coated)}
+    found = Fact("joint_alone", **added, share=share if matters else None)
     return found.as_("warning" if matters else "note")
 
 
@@ -125,12 +120,12 @@ def _beside_layers(pressed: Pressed) -> Fact | None:
     share = pressed.interface_stiffness[0] / of_layers
     matters = bool(np.nanmax(share, initial=0.0) > _IN_SERIES_MATTERS)
     if np.isinf(of_layers).any():
-        found = layers_keep_their_volume()
+        found = Fact("layers_keep_their_volume")
     else:
         pressure = float(np.nanmax(pressed.load_pressure))  # a fluid compresses them as well
+        spring = {"k_i": pressed.symbols["k_i"], "stiffness": float(np.nanmax(of_layers))}
         compressed = pressure * pressed.pair.layers_compliance
-        stiffness = float(np.nanmax(of_layers))
-        found = layers_in_series(pressed.symbols["k_i"], compressed, pressure, stiffness)
+        found = Fact("layers_in_series", **spring, compressed=compressed, pressure=pressure)
     return found.as_("warning" if matters else "note")
 
 
@@ -329,10 +324,7 @@ MECHANICAL = (
         "causes no yield",
         source="Popov 2017, ch. 8",
         value=lambda pressed: pressed.pair.G_star / pressed.pair.E_star * pressed.unloading,
-        lacking=lambda pair, _frequency: pair.refuses_layers(
-            "tangential stiffness",
-            "its ratio to the normal one is that of bodies of one material each",
-        ),
+        lacking=lambda pair, _frequency: Fact("no_ratio_of_layers") if pair.coated else None,
         is_extensive=True,
         may_be_infinite=True,
     ),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import get_args
+from typing import Any, get_args
 
 import numpy as np
 
@@ -21,22 +21,7 @@ from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
 from roughline.engineering.sealing import Closing, Fluid, SealShape
 from roughline.engineering.symbols import Symbol
-from roughline.errors.words import called
 from roughline.facts.fact import Fact
-from roughline.facts.fluid import (
-    Beside,
-    few_molecules,
-    fluid_carries,
-    fluid_left_out,
-    fluid_lifts,
-    gas_is_rare,
-    inertia_counts,
-    leak_without_interval,
-    load_that_seals,
-    no_path,
-    one_channel,
-    stays_tight,
-)
 from roughline.fluid.flow import too_steep
 from roughline.fluid.gap import Along
 from roughline.fluid.measures import (
@@ -161,26 +146,22 @@ def _carried(pressed: Pressed) -> Real:
     return np.where(pressed.lifted, 1.0, np.nan_to_num(share))
 
 
-def _above_outside(fluid: Fluid) -> str:
-    """The fluid, and how far its pressure is above the outside."""
-    excess = engineering(fluid.excess, "Pa")
-    return f"{fluid.medium.name} at {excess} above the outside, in the mean of the gap,"
+def _above_outside(fluid: Fluid) -> dict[str, Any]:
+    """The fluid, and how far its pressure is above the outside. [Pa]"""
+    return {"fluid": fluid.medium.name, "excess": fluid.excess}
 
 
-def _lifts(pressed: Pressed) -> str:
+def _lifts(pressed: Pressed) -> Fact | None:
     """Say under which loads the fluid would lift the bodies apart, if it is not to carry any."""
     fluid, lift = pressed.sealing, _lift(pressed)
     if fluid is None or not (lift >= 1).any():
-        return ""
-    return (
-        f"{_above_outside(fluid)} would lift bodies apart that press with no more than that: give "
-        f"a larger load, or smaller pressures ({called('inlet')})"
-    )
+        return None
+    return Fact("fluid_would_lift", **_above_outside(fluid))
 
 
-def _ends(values: Real) -> tuple[float, float]:
-    """The least and the largest of values."""
-    return float(values.min()), float(values.max())
+def _ends(values: Real) -> tuple[float, ...]:
+    """The least and the largest of values, or the only one."""
+    return tuple(dict.fromkeys((float(values.min()), float(values.max()))))
 
 
 def _carries(pressed: Pressed) -> Fact | None:
@@ -192,26 +173,23 @@ def _carries(pressed: Pressed) -> Fact | None:
     counts = (share > 0) & ~pressed.lifted
     if not counts.any():
         return None
-    beside: dict[Beside, bool] = {
-        "soft faces": bool(fluid.opens_soft_faces(loads[counts]).any()),
-        "yield": pressed.yields,
-        "adhesion": pressed.attraction is not None,
-    }
-    return fluid_carries(
-        fluid.medium.name,
-        fluid.excess,
-        _ends(share[counts]),
-        _ends(loads[counts]),
-        _wide_ring(fluid),
-        tuple(each for each, is_so in beside.items() if is_so),
+    return Fact(
+        "fluid_carries",
+        **_above_outside(fluid),
+        **_wide_ring(fluid),
+        shares=_ends(share[counts]),
+        loads=_ends(loads[counts]),
+        opens_faces=bool(fluid.opens_soft_faces(loads[counts]).any()),
+        yields=pressed.yields,
+        sticks=pressed.attraction is not None,
     )
 
 
-def _wide_ring(fluid: Fluid) -> tuple[float, float] | None:
+def _wide_ring(fluid: Fluid) -> dict[str, float | None]:
     """Mean pressures in a ring that is not narrow beside its radius; None of others. [Pa]"""
     both = fluid.excess_in_ring
     is_narrow = max(abs(each - fluid.excess) for each in both) <= _WIDE_RING * fluid.excess
-    return None if is_narrow else both
+    return dict(zip(("inside", "outside"), (None, None) if is_narrow else both, strict=True))
 
 
 def _left_out(pressed: Pressed) -> Fact | None:
@@ -220,7 +198,7 @@ def _left_out(pressed: Pressed) -> Fact | None:
     part = lift[(lift >= _MENTIONED) & (lift < 1)]
     if fluid is None or fluid.carries is not False or not part.size:
         return None
-    return fluid_left_out(fluid.medium.name, fluid.excess, float(part.max()))
+    return Fact("fluid_left_out", **_above_outside(fluid), share=float(part.max()))
 
 
 def _opens(pressed: Pressed) -> Fact | None:
@@ -228,9 +206,11 @@ def _opens(pressed: Pressed) -> Fact | None:
     fluid, lifted = pressed.sealing, pressed.lifted
     if fluid is None or not lifted.any():
         return None
-    loads = _ends(pressed.load_pressure[lifted])
-    is_sticking = pressed.attraction is not None
-    return fluid_lifts(fluid.medium.name, fluid.excess, loads, _wide_ring(fluid), is_sticking)
+    numbers = {
+        "loads": _ends(pressed.load_pressure[lifted]),
+        "sticks": pressed.attraction is not None,
+    }
+    return Fact("fluid_lifts", **_above_outside(fluid), **_wide_ring(fluid), **numbers)
 
 
 def _opening_pressure(pressed: Pressed) -> Real | None:
@@ -263,7 +243,7 @@ def _carried_at_sealing(pressed: Pressed) -> float:
 def _load_that_seals(pressed: Pressed) -> Fact | None:
     """Say what the load that seals is more, where the fluid carries a part of it."""
     carried = _carried_at_sealing(pressed)
-    return load_that_seals(carried) if carried > 0 else None
+    return Fact("load_that_seals", carried=carried) if carried > 0 else None
 
 
 def _bodies_alone_texts(pressed: Pressed, *, share: bool) -> Mapping[str, str]:
@@ -325,7 +305,8 @@ def _one_channel(pressed: Pressed) -> Fact | None:
     if not np.nanmax(shares, initial=0.0) >= _MAIN_CHANNEL_SHARE:
         return None
     worst = int(np.nanargmax(shares))
-    return one_channel(float(shares[worst]), float(pressed.load_pressure[worst]))
+    pressure = float(pressed.load_pressure[worst])
+    return Fact("one_channel", share=float(shares[worst]), pressure=pressure)
 
 
 def _sealed(pressed: Pressed) -> Fact | None:
@@ -337,10 +318,10 @@ def _sealed(pressed: Pressed) -> Fact | None:
     if not sealed.any():
         return None
     loads = pressed.load_pressure
-    return no_path(
-        int(sealed.sum()),
-        sealed.size,
-        _ends(loads[sealed]),
+    return Fact(
+        "no_path",
+        **{"count": int(sealed.sum()), "all": sealed.size},
+        **{"least": float(loads[sealed].min()), "most": float(loads[sealed].max())},
         # on the way back dents may seal where nothing did before
         are_highest=not (np.diff(loads) < 0).any(),
         may_be_open=bool(aperture.shape[0] == 3 and (aperture[2][sealed] > 0).any()),
@@ -352,7 +333,7 @@ def _without_interval(pressed: Pressed) -> Fact | None:
     aperture = _largest(pressed, _APERTURES)
     if aperture is None or len(aperture) > 1 or pressed.intervals is None or not pressed.place:
         return None
-    return leak_without_interval(pressed.place)
+    return Fact("leak_without_interval", fact=pressed.place)
 
 
 def _thin_gap_limits(pressed: Pressed) -> list[Fact | None]:
@@ -363,15 +344,15 @@ def _thin_gap_limits(pressed: Pressed) -> list[Fact | None]:
         return []
     found = [too_steep(float(np.nanmax(steep[0], initial=0.0)))]
     if (inertia := float(np.nanmax(_reynolds(pressed) * steep[0], initial=0.0))) > _INERT:
-        found.append(inertia_counts(inertia, _INERT))
+        found.append(Fact("inertia_counts", number=inertia, limit=_INERT))
     is_open = aperture[0] > 0
     if not is_open.any():
         return found
     narrowest = float(np.nanmin(aperture[0][is_open]))
     if fluid.gas is None and narrowest < _MOLECULES:
-        found.append(few_molecules(narrowest, _MOLECULES))
+        found.append(Fact("few_molecules", aperture=narrowest, limit=_MOLECULES))
     if fluid.gas is not None and (rare := fluid.free_path / narrowest) > _RARE_GAS:
-        found.append(gas_is_rare(fluid.medium.name, rare, _RARE_GAS))
+        found.append(Fact("gas_is_rare", fluid=fluid.medium.name, ratio=rare, limit=_RARE_GAS))
     return found
 
 
@@ -392,7 +373,7 @@ def _stays_tight(pressed: Pressed) -> Fact | None:
     """Say where the load may be taken off altogether."""
     closing = pressed.sought.closing
     reopens = None if closing is None else closing.reopening
-    return None if reopens is None or reopens.low > 0 else stays_tight()
+    return None if reopens is None or reopens.low > 0 else Fact("stays_tight")
 
 
 def _without_leak(pressed: Pressed) -> bool:

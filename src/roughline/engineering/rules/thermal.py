@@ -13,7 +13,6 @@ from roughline.engineering.conduction import (
     through_layers,
 )
 from roughline.engineering.formulas import (
-    COMPARED,
     harmonic_conductivity,
     mikic_conductance,
     thermal_conductance,
@@ -29,7 +28,6 @@ from roughline.engineering.symbols import (
     hardness,
     nominal_area,
 )
-from roughline.facts.answers import as_in_vacuum
 from roughline.facts.fact import Fact
 
 _rule = partial(Rule, group="thermal")
@@ -38,7 +36,7 @@ _IN_VACUUM = "solid spots alone, as in vacuum: gas in the gap adds to it"
 _INTERFACE_VALIDITY = f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i"
 
 
-def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
+def _lacking(pair: MaterialPair, _frequency: float | None) -> Fact | None:
     return pair.lacks("conductivity", "thermal conductance")
 
 
@@ -60,14 +58,14 @@ def _which_interface(pressed: Pressed) -> Mapping[str, str]:
     return through_layers(validity, pressed) or {"validity": validity}
 
 
-def _estimated(pair: MaterialPair, _frequency: float | None) -> str:
-    return pair.refuses_layers(*COMPARED)
+def _estimated(pair: MaterialPair, _frequency: float | None) -> Fact | None:
+    return Fact("no_estimates_of_layers") if pair.coated else None
 
 
 def _without_gas(pressed: Pressed) -> Fact | None:
     """Say what is left out, unless a gas of known conductivity is asked for."""
     sealing = pressed.sealing
-    return None if sealing is not None and sealing.conductivity else as_in_vacuum()
+    return None if sealing is not None and sealing.conductivity else Fact("as_in_vacuum")
 
 
 def _shape(pressed: Pressed) -> tuple[float, float, tuple[float, float]] | None:
