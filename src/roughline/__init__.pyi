@@ -51,6 +51,7 @@ from roughline.errors import RoughlineError as RoughlineError
 from roughline.errors import StoreError as StoreError
 from roughline.errors import UnitError as UnitError
 from roughline.errors import UnitWarning as UnitWarning
+from roughline.facts.fact import own_words as own_words
 from roughline.fluid.flow import Flow as Flow
 from roughline.fluid.flow import flow as flow
 from roughline.fluid.measures import hydraulic_aperture as hydraulic_aperture

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.contact.status import Status
-from roughline.facts.fact import Fact, grave_first
+from roughline.facts.fact import Fact
 from roughline.report.page import Headline, KeyFigure, sentence
 from roughline.report.values import Write, with_interval
 from roughline.units import decimal, engineering
@@ -98,9 +98,9 @@ def figure_keys(result: Assessment | PartAssessment) -> list[str]:
     return [key for key in result.answers if key in chosen]
 
 
-def warnings_in_order(result: Assessment | PartAssessment) -> list[Fact]:
-    """Warnings, grave ones first."""
-    return [each for each in grave_first(result.facts) if each.is_warning]
+def in_full(fact: Fact) -> str:
+    """A fact as a sentence, which says whether it is a warning."""
+    return sentence(f"warning: {fact}" if fact.is_warning else str(fact))
 
 
 def headline(result: Assessment | PartAssessment, write: Write = with_interval) -> Headline:
@@ -117,7 +117,7 @@ def headline(result: Assessment | PartAssessment, write: Write = with_interval) 
         below.insert(0, f"places scatter by {scatter} in {answer.name}")
     return Headline(
         figures,
-        [sentence(each.in_short) for each in warnings_in_order(result)[:MOST_WARNINGS]],
+        [sentence(each.in_short) for each in result.facts[:MOST_WARNINGS] if each.is_warning],
         " ".join(map(sentence, filter(None, below))),
     )
 
@@ -257,24 +257,26 @@ def written_unit(answer: Answer | PartAnswer) -> str:
 
 
 def starred(result: Assessment | PartAssessment) -> list[str]:
-    """What each load is called, with a star where the grid decides on any of the maps.
+    """What each load is called, with its mark."""
+    return [f"{name}{mark}" for name, mark in zip(result.headings, marks(result), strict=True)]
+
+
+def marks(result: Assessment | PartAssessment) -> list[str]:
+    """What stands behind the name of each load: a star where the grid decides on any of the maps.
 
     Where a fluid lifts the bodies apart, it is called open.
     """
     if isinstance(result, PartAssessment):
-        of_maps = zip(*map(starred, result.assessments), strict=True)
-        return [max(headings, key=len) for headings in of_maps]
+        return [max(some, key=len) for some in zip(*map(marks, result.assessments), strict=True)]
     lifted = result.curve_as_asked.status == Status.LIFTED
-    names = [
-        f"{name}, open" if i else name for name, i in zip(result.headings, lifted, strict=True)
-    ]
     stars = _is_decided_by_grid(result)
-    return [f"{name} *" if star else name for name, star in zip(names, stars, strict=True)]
+    both = zip(lifted, stars, strict=True)
+    return [", open" * bool(is_open) + " *" * bool(star) for is_open, star in both]
 
 
 def has_star(result: Assessment | PartAssessment) -> bool:
     """Whether the grid decides one of the loads that were asked for."""
-    return any(heading.endswith(" *") for heading in starred(result))
+    return any(mark[-1:] == "*" for mark in marks(result))
 
 
 def _is_decided_by_grid(assessment: Assessment) -> list[bool]:

@@ -49,8 +49,8 @@ def description_table(
 def print_description(description: Description, files: Iterable[Path] = ()) -> None:
     """Print what a topography is like."""
     console = Console(markup=False)
-    if description.roughness is not None:
-        print_remarks(console, "warning", description.roughness.remarks)
+    of_roughness = [] if description.roughness is None else description.roughness.remarks
+    print_remarks(console, "warning", [*description.warnings, *of_roughness])
     print_rows(console, description_table(description))
     for line in _missing_map(description):
         console.print(line, highlight=False, soft_wrap=True)

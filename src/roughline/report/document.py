@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from roughline._version import __version__
 from roughline.assessment.part import PartAssessment
-from roughline.facts.fact import Fact, grave_first
 from roughline.facts.listed import listed, listed_in_short
 from roughline.report.answers import (
     UNRESOLVED,
@@ -19,12 +18,13 @@ from roughline.report.answers import (
     groups,
     has_star,
     headline,
+    in_full,
     lead_sentence,
     leading_keys,
     load_table,
 )
 from roughline.report.contact_tables import formula_table, solid_in_words, symbol_table
-from roughline.report.page import Section, Table, render, sentence
+from roughline.report.page import Section, Table, render
 from roughline.report.pdf import write_pdf
 from roughline.topography.body import Line
 
@@ -151,7 +151,7 @@ def _groups(result: Assessment | PartAssessment) -> list[Section]:
                 for i in loads[::abreast]
             ],
             notes=[
-                _in_full(fact) for fact in result.facts if not set(each.keys).isdisjoint(fact.of)
+                in_full(fact) for fact in result.facts if not set(each.keys).isdisjoint(fact.of)
             ],
             behind=answer_in_words(result, each.headline),
         )
@@ -161,21 +161,14 @@ def _groups(result: Assessment | PartAssessment) -> list[Section]:
 
 def _on_all_answers(result: Assessment | PartAssessment) -> list[Section]:
     """Warnings and notes that concern all answers, folded behind how many there are."""
-    found = [
-        each for each in grave_first(result.facts) if result.answers.keys().isdisjoint(each.of)
-    ]
+    found = [each for each in result.facts if result.answers.keys().isdisjoint(each.of)]
     if not found:
         return []
     warnings = sum(each.is_warning for each in found)
     counts = {"warning": warnings, "note": len(found) - warnings}
     words = [f"{n} {name}{'' if n == 1 else 's'}" for name, n in counts.items() if n]
     behind = f"{listed(words)} on all answers, in full"
-    return [Section("Warnings and notes", notes=[*map(_in_full, found)], behind=behind)]
-
-
-def _in_full(fact: Fact) -> str:
-    """A fact as a sentence, which says whether it is a warning."""
-    return sentence(f"warning: {fact}" if fact.is_warning else str(fact))
+    return [Section("Warnings and notes", notes=[*map(in_full, found)], behind=behind)]
 
 
 def _assumptions(assessment: Assessment) -> list[str]:

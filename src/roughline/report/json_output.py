@@ -96,17 +96,21 @@ def assessment_json(assessment: Assessment, files: Sequence[Path] = ()) -> dict[
 def _fact_json(fact: Fact) -> dict[str, Any]:
     """A fact by its kind, with its numbers and its words."""
     return {
-        "kind": fact.kind.name,
+        "kind": fact.kind,
         "weight": fact.weight,
         "about": fact.about,
         "answers": fact.of,
-        "numbers": {
-            name: _fact_json(each) if isinstance(each, Fact) else each
-            for name, each in fact.numbers.items()
-        },
+        "numbers": {name: _number_json(each) for name, each in fact.numbers.items()},
         "in_short": fact.in_short,
         "in_full": str(fact),
     }
+
+
+def _number_json(number: Any) -> Any:
+    """A number of a fact, or facts that it is made of."""
+    if isinstance(number, tuple):
+        return list(map(_number_json, number))
+    return _fact_json(number) if isinstance(number, Fact) else number
 
 
 def _measured_json(measured: Measured, assessment: Assessment) -> dict[str, Any]:
@@ -209,7 +213,7 @@ def description_json(description: Description, files: Sequence[Path] = ()) -> di
         "self_affine": None if fit is None else _fit_json(fit),
         "remarks": parameters.remarks if parameters is not None else [],
         **({} if description.texture is None else {"iso": texture_json(description.texture)}),
-        "notes": description.notes,
+        "notes": description.remarks,
         "files": list(files),
     }
 

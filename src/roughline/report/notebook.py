@@ -10,7 +10,6 @@ from rich.console import Console
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.computing.notebook import in_notebook, printed
-from roughline.facts.fact import grave_first
 from roughline.plot.notebook import html, png
 from roughline.plot.style import styled
 from roughline.report.answers import answer_table, lead_sentence, load_table
@@ -86,6 +85,6 @@ def _answers(result: Assessment | PartAssessment) -> tuple[list[str], list[list[
 
 def _remarks(result: Assessment | PartAssessment) -> list[str]:
     return [
-        *(f"warning: {each}" for each in grave_first(result.facts) if each.is_warning),
+        *(f"warning: {each}" for each in result.warnings),
         *(f"note: {each}" for each in result.notes),
     ]

@@ -18,8 +18,8 @@ from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.answers import (
     NO_MEAN,
     leading_keys,
+    marks,
     quantity,
-    starred,
     written_unit,
 )
 from roughline.report.contact_figures import write_contact
@@ -147,7 +147,7 @@ def _each_map_table(
 
     A star after a map's name marks that the grid decides on its values.
     """
-    stars = [starred(each)[load].removeprefix(part.headings[load]) for each in part.assessments]
+    stars = [marks(each)[load] for each in part.assessments]
     header = [part.headings[load], *(f"{part.names[i]}{stars[i]}" for i in maps)]
     keys = part.assessments[0].answers
     rows = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from roughline.report.answers import NO_MEAN, leading_keys, quantity, starred
+from roughline.report.answers import NO_MEAN, leading_keys, marks, quantity
 from roughline.report.values import Write, with_interval
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering
@@ -35,12 +35,11 @@ def leading_table(
     header = [part.headings[load], *(first.answers[key].symbol for key in keys)]
     rows = []
     for name, each in zip(part.names, part.assessments, strict=True):
-        star = starred(each)[load].removeprefix(part.headings[load])
         cells = [
             quantity(each.answers[key], load, write) if key in each.answers else NO_MEAN
             for key in keys
         ]
-        rows.append([f"{name}{star}", *cells])
+        rows.append([f"{name}{marks(each)[load]}", *cells])
     return header, rows
 
 

@@ -27,7 +27,6 @@ from roughline.report.answers import (
     load_table,
     quantity,
     starred,
-    warnings_in_order,
 )
 from roughline.report.columns import blocks, paragraph
 from roughline.report.contact_tables import curve_table, modulus_in_words
@@ -191,10 +190,9 @@ def _print_warnings(
     console: Console, result: Assessment | PartAssessment, unfolded_by: str
 ) -> bool:
     """Print warnings, grave ones first; folded the first few in short. Says whether any are."""
-    warnings = warnings_in_order(result)
-    words = [each.in_short for each in warnings[:MOST_WARNINGS]]
-    print_remarks(console, "warning", words if unfolded_by else map(str, warnings))
-    return bool(warnings)
+    first = [each.in_short for each in result.facts[:MOST_WARNINGS] if each.is_warning]
+    print_remarks(console, "warning", first if unfolded_by else result.warnings)
+    return bool(first)
 
 
 def print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:

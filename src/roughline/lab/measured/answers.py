@@ -16,8 +16,8 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
 from roughline.errors.words import speaking
-from roughline.facts.fact import DATA, INTERVALS, LIMITS
-from roughline.facts.own_words import in_own_words
+from roughline.facts.fact import own_words
+from roughline.facts.kinds import DATA, INTERVALS, LIMITS
 from roughline.lab.frames import drawn
 from roughline.lab.measured.cache import cached
 from roughline.lab.measured.part import part_in_words
@@ -36,11 +36,13 @@ from roughline.question.question import Question
 from roughline.question.source import Topography
 from roughline.report.answers import (
     IF_ELASTIC,
+    MOST_WARNINGS,
     UNRESOLVED,
     answer_table,
     counted,
     has_star,
     headline,
+    in_full,
     lead_sentence,
 )
 from roughline.report.comparison import verdict_in_words
@@ -93,14 +95,15 @@ def _in_words(result: Assessment | PartAssessment, place: str) -> dict[str, Any]
 
 
 def _remarks(result: Assessment | PartAssessment, arguments: Arguments) -> dict[str, Any]:
-    """Grave remarks, and the others by what they are about."""
+    """The first warnings in short, as on every screen, and all facts by what they are about."""
     bodies = result.assessments[:1] if isinstance(result, PartAssessment) else [result]
-    theories = [in_own_words(f"{each.name}: {each.validity}") for each in bodies[0].theories]
-    groups: dict[str, list[str]] = {"": [], DATA: [], INTERVALS: [], LIMITS: []}
+    theories = [own_words(f"{each.name}: {each.validity}", "note") for each in bodies[0].theories]
+    groups: dict[str, list[str]] = {DATA: [], INTERVALS: [], LIMITS: []}
     for each in (*result.facts, *theories):
-        text = sentence(without_paths(str(each), arguments))
-        groups["" if each.is_grave else each.about].append(text)
-    return {"lists": {"grave": groups.pop("")}, "remarks": groups}
+        groups[each.about].append(without_paths(in_full(each), arguments))
+    first = [each.brief for each in result.facts[:MOST_WARNINGS] if each.is_warning]
+    short = [sentence(without_paths(each, arguments)) for each in first]
+    return {"lists": {"grave": short}, "remarks": groups}
 
 
 def _body_header(result: Assessment) -> dict[str, Any]:

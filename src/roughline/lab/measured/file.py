@@ -128,7 +128,7 @@ def described(
 
 def _remarks(found: Description) -> list[str]:
     """What is to be known about a body."""
-    return [*found.notes, *(found.roughness.remarks if found.roughness else [])]
+    return [*found.remarks, *(found.roughness.remarks if found.roughness else [])]
 
 
 def _body(found: Description) -> dict[str, Any] | None:
