@@ -1,31 +1,18 @@
 """Every kind of fact, with numbers of every shape that its words may meet."""
 
-import importlib
-import inspect
+import ast
 import itertools
-import pkgutil
-import types
-import typing
+import re
 
-from roughline import facts
-from roughline.facts.fact import Fact, FactKind
+from architecture import SOURCE
 
-_SAMPLES = {
-    int: [1234],
-    float: [1.2345e-4],
-    str: ["interface stiffness"],
-    bool: [False, True],
-    type(None): [None],
-    tuple[str, ...]: [("contact stiffness",), ("mean gap", "approach", "leak rate", "k_i")],
-}
-_NAMED = {  # what stands for a longer or a shorter text than most
+from roughline.facts.fact import Fact
+from roughline.facts.kinds import KINDS
+
+_NAMED = {  # what stands for a longer or a shorter text than most, or is told apart by its shape
     "load": ["10 N"],
     "loads": [("10 N",), ("1 N", "10 N")],
     "unit": ["m", None],
-    "causes": [
-        (("the grid", "finer pixels", 12.0),),
-        (("the scatter", "a test", 4.0), ("one map", "many", 3.0)),
-    ],
     "material": ["titanium-nitride"],
     "fluid": ["helium"],
     "axis": ["x"],
@@ -33,58 +20,93 @@ _NAMED = {  # what stands for a longer or a shorter text than most
     "k_i": ["k_i"],
     "assembly": ["joint"],
     "which": ["second"],
-    "cells": [12, "1.8"],
+    "cells": [12],
+    "points": [1234],
+    "needed": [12],
     "of_layers": ["250 to 590 GPa"],
     "method": ["harmonic"],
-    "what": ["map", "scan"],
     "how": ["median"],
     "sides": [(1.2345e-4,), (1.2345e-4, 1.2345e-4)],
-    "added": [((1.2345e-4, "m² K/W", "heat"), (1.2345e-4, "Ω m²", "electricity"))],
+    "pixel": [(1.2345e-4, 1.2345e-4)],
+    "spacing": [(1.2345e-4, 1.2345e-4)],
+    "shares": [(0.1,), (0.1, 0.2)],
+    "ratios": [(0.9, 1.1)],
+    "left": [(0.9, 1.1)],
+    "letter": ["S"],
+    "what": ["map", "scan"],
+    "factor": [12.345],
+    "times": [12.345],
+    "least": [0.1],
+    "count": [12],
+    "name": ["rms_height"],
+    "quantity": ["conductivity"],
+    "bodies": [("the first body (titanium-nitride)",), ("the first body (a)", "the second (b)")],
+    "maps": [("a",), ("a", "b")],
 }
-
-
-def all_kinds():
-    """The kinds of all modules of the room, by their names."""
-    found = {}
-    for module in pkgutil.iter_modules(facts.__path__, "roughline.facts."):
-        for name, each in vars(importlib.import_module(module.name)).items():
-            if isinstance(each, FactKind) and each.__module__ == module.name:
-                assert name == each.name
-                assert name not in found, f"two kinds of facts are called {name}"
-                found[name] = each
-    return found
+_MADE_OF = {
+    ("scatter_changes", "changes"): ["answer_changes"],
+    ("scatter_changes", "largest"): ["answer_changes"],
+    ("resistance_of_layers", "added"): ["added_by_layers"],
+    ("wide", "causes"): ["left_open"],
+    ("border_moves_flow", "directions"): ["flow_at_border"],
+    ("strained", "strain"): ["strain_of_load"],
+    ("without_answer", "names"): ["answer_under_loads"],
+    ("without_answer", "why"): ["largest_load_unsolved"],
+}
+_LISTS = {",", ";", "no", "and", "and of", "few", "count", "then by"}
 
 
 def examples(kind):
     """Facts of a kind, with all combinations of what its words tell apart."""
-    hints = typing.get_type_hints(kind.words)
-    hints.pop("return")
-    options = [_samples(name, hint) for name, hint in hints.items()]
-    return [kind(**dict(zip(hints, each, strict=True))) for each in itertools.product(*options)]
+    text = KINDS[kind].short + KINDS[kind].full
+    names = sorted(KINDS[kind].numbers)
+    options = [_samples(kind, name, text) for name in names]
+    return [
+        Fact(kind, **dict(zip(names, each, strict=True))) for each in itertools.product(*options)
+    ]
 
 
-def _samples(name, hint):
-    if hint is Fact:
-        return [_inner()]
-    origin, parts = typing.get_origin(hint), typing.get_args(hint)
-    if origin is typing.Literal:
-        return list(parts)
-    if name in _NAMED and hint != tuple[float, float]:
-        return _NAMED[name]
-    if hint in _SAMPLES:
-        return _SAMPLES[hint]
-    if origin in (typing.Union, types.UnionType):
-        return [each for part in parts for each in _samples("", part)]
-    assert origin is tuple, (name, hint)
-    if parts[-1] is Ellipsis:
-        return [tuple(_samples("", parts[0])[:1]), tuple(_samples("", parts[0])[:1] * 4)]
-    return [tuple(_samples("", part)[0] for part in parts)]
+def _samples(kind, name, text):
+    formats = set(re.findall(rf"{{{name}(?::((?:[^{{}}]|{{\w+}})*))?}}", text))
+    values = [each for each in re.findall(rf"\[{name}=([^?]*)\?", text) if not each.isdigit()]
+    is_optional = re.search(rf"\[{name}\?", text) is not None
+    if parts := _MADE_OF.get((kind, name)):
+        facts = tuple(each for part in parts for each in examples(part)[:1])
+        return [facts] if formats & _LISTS else [*facts]
+    if "short" in formats:
+        return [Fact("flat")]
+    if name == "loads" and formats & {"to in Pa"}:
+        return [(1.2345e-4,), (1.2345e-4, 2.345e-4)]
+    if kind == "shape_of_values":
+        return [12]
+    if name in _NAMED and not values:
+        return [*([None] if is_optional else []), *_NAMED[name]]
+    if values:
+        return list(dict.fromkeys(values))
+    if not formats:
+        return [False, True] if is_optional else [1, 2, 3]
+    found = ["interface stiffness"] if formats == {""} else [1.2345e-4]
+    if formats & _LISTS:
+        found = [("contact stiffness",), ("mean gap", "approach", "leak rate", "k_i")]
+    return [() if formats & _LISTS else None, *found] if is_optional else found
 
 
-def _inner():
-    return importlib.import_module("roughline.facts.heights").flat()
+def made_in(tree):
+    """Facts that a file makes: their kinds, if they are written there, and their numbers.
+
+    The numbers are None where some are handed over together.
+    """
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "Fact":
+            names = [each.arg for each in node.keywords]
+            yield node, None if None in names else set(names)
 
 
-def parameters(kind):
-    """Names of the numbers of a kind."""
-    return list(inspect.signature(kind.words).parameters)
+def words_of_source():
+    """Texts that stand alone in the code, among them the kinds of facts."""
+    return {
+        node.value
+        for path in sorted(SOURCE.rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }

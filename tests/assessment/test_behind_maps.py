@@ -11,6 +11,7 @@ import roughline as rl
 from benchmarks.made_surfaces import SIDE, Make, parent_of
 from roughline.assessment.behind_maps import shared_load
 from roughline.topography.provenance import Provenance, Tilt
+from told import first_warning
 
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 E_STAR = 200e9 / (1 - 0.3**2) / 2
@@ -103,7 +104,9 @@ def test_a_part_of_alike_places_is_told_and_its_maps_agree(maps):
 
 def test_places_that_differ_in_roughness_are_named_and_widen_what_is_said_of_the_joint():
     parent, part, pressure = part_of("uneven roughness", maps=5, grid_error=True)
-    assert re.match(r"the maps do not agree: rms heights scatter by a factor of", part.warnings[0])
+    assert re.match(
+        r"the maps do not agree: rms heights scatter by a factor of", first_warning(part)
+    )
     whole = rl.press(parent, E_star=E_STAR, forces=pressure * parent.area, periodic=True)
     k = part.answers["interface_stiffness"]
     assert k.low[0] < whole.stiffness[0] < k.high[0]
@@ -114,7 +117,7 @@ def test_places_that_differ_in_roughness_are_named_and_widen_what_is_said_of_the
 @pytest.mark.parametrize("joint", [True, False])
 def test_waves_longer_than_all_maps_take_down_what_is_said_of_the_part(joint, maps):
     _, part, _ = part_of("waviness of 4 maps", maps=maps, points=64, joint=joint)
-    said = part.warnings[0]
+    said = first_warning(part)
     assert re.match(r"the maps are (tilted differently|bowed), by an rms height of", said)
     assert "come without an interval" in said
     assert np.isnan(part.answers["interface_stiffness"].low).all()
@@ -127,7 +130,7 @@ def test_waves_longer_than_all_maps_take_down_what_is_said_of_the_part(joint, ma
 def test_bows_tell_of_longer_waves_where_the_tilt_is_the_mountings(maps):
     mounted = Provenance(tilt=Tilt(is_of_mounting=True))
     _, part, _ = part_of("waviness of 4 maps", maps=maps, points=64, waves=8, provenance=mounted)
-    assert part.warnings[0].startswith("the maps are bowed")
+    assert first_warning(part).startswith("the maps are bowed")
 
 
 def test_a_joint_much_longer_than_maps_without_a_roll_off_is_not_told():
@@ -137,5 +140,7 @@ def test_a_joint_much_longer_than_maps_without_a_roll_off_is_not_told():
         bodies, MATERIALS, loads="1 MPa", ask=rl.Joint(1e4 * SIDE**2), elastic=True, fields=False
     )
     found = rl.assess(question)
-    assert found.warnings[0].startswith("the maps show no roll-off together, and the joint is 100 ")
+    assert first_warning(found).startswith(
+        "the maps show no roll-off together, and the joint is 100 "
+    )
     assert np.isnan(found.answers["interface_stiffness"].low).all()

@@ -10,7 +10,6 @@ from typer.testing import CliRunner
 import roughline as rl
 from roughline.cli import app
 from roughline.engineering.sealing import ATMOSPHERE
-from roughline.facts.fluid import fluid_lifts
 from roughline.question.from_fields import build_question
 from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
@@ -172,7 +171,7 @@ def test_a_seal_that_opens_has_no_leak_and_says_so_in_one_line(body, capsys):
         assert np.isnan(each.values[0]) == (key not in of_load), key
     opens = found.answers["opening_pressure"].values
     assert opens == pytest.approx([4e5 + ATMOSPHERE, 16e5 + ATMOSPHERE])
-    (fact,) = [each for each in found.facts if each.kind is fluid_lifts]
+    (fact,) = [each for each in found.facts if each.kind == "fluid_lifts"]
     said = str(fact)
     assert said.startswith("water at 249.3 kPa above the outside, in the mean of the gap, lifts ")
     assert "under the load at 200 kPa: the seal is open" in said

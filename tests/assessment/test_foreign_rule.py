@@ -184,6 +184,18 @@ def test_an_answer_that_cannot_be_used_is_left_out_and_named(surface, value, why
     assert why in note
 
 
+def test_what_is_told_with_it_is_in_words_of_its_own(surface):
+    facts = [rl.own_words("it swings", "note"), None, rl.own_words("it breaks", "grave")]
+    rl.rules.add(replace(RESONANCE, facts=lambda _pressed: facts))
+    try:
+        result = asked(surface, grid_error=False)
+    finally:
+        rl.rules.remove("resonance")
+    assert result.warnings[0] == "it breaks"
+    assert "it swings" in result.notes
+    assert {fact.of for fact in result.answers["resonance"].facts} == {("resonance",)}
+
+
 def test_two_answers_have_no_name_in_common(resonance):
     with pytest.raises(rl.InputError, match='key "resonance" of the resonance of one kilogram'):
         rl.rules.add(RESONANCE)
@@ -209,9 +221,14 @@ def test_two_answers_have_no_name_in_common(resonance):
         ),
         ({"limits": lambda _pressed: (np.inf, 0.0)}, r"limits of the rule .* in this order"),
         ({"limits": lambda _pressed: 3.0}, "limits of the rule .* returned 3.0"),
+        (
+            {"facts": lambda _pressed: "it swings"},
+            r'facts of the rule "resonance" returned "it swings"; a fact is needed, such as rl.own',
+        ),
+        ({"lacking": lambda *_: True}, "lacking of the rule .* returned True; a fact is needed"),
     ],
 )
-def test_a_rule_that_returns_no_numbers_is_told_in_one_line(surface, changed, said):
+def test_a_rule_that_returns_something_else_is_told_in_one_line(surface, changed, said):
     rl.rules.add(replace(RESONANCE, **changed))
     try:
         with pytest.raises(rl.InputError, match=said) as refused:

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.doubts import collect_warnings
-from roughline.facts.fact import INTERVALS
-from roughline.facts.layers import layer_hardness_differs, layer_modulus_differs
+from roughline.assessment.doubts import collect_facts
+from roughline.facts.kinds import INTERVALS
 from roughline.facts.listed import listed_in_short
 
 PAIR = "steel,copper"
@@ -145,7 +144,7 @@ def test_how_stiff_a_full_contact_is_follows_from_the_half_space(surface, half_s
     smooth = rl.Surface(surface.heights / 1000, surface.sizes, "m")
     result = said(smooth, loads=["1 mN", "20 N"], periodic=True, elastic=True)
     curve = rl.press(smooth, half_space=half_space, forces=result.curve.force)
-    found = collect_warnings(replace(result, curve=curve), None, False)
+    found = collect_facts(replace(result, curve=curve), None, [], False)
     assert any(str(each).endswith(f"no gap is left, and {rest}") for each in found)
     assert np.isinf(curve.stiffness[-1]) == (rest == "stiffness is infinite")
 
@@ -189,7 +188,7 @@ def test_a_wide_interval_names_its_largest_cause_first(surface):
 def test_a_layer_is_told_from_the_bulk_that_the_table_has(pair, told):
     rough = rl.SelfAffine(hurst=0.8, length=5e-4, rms_height=1e-6, q_roll=2.5e4).surface(16, rng=7)
     result = said(rough, pair, loads="1 mN", grid_error=False)
-    kinds = (layer_modulus_differs, layer_hardness_differs)
+    kinds = ("layer_modulus_differs", "layer_hardness_differs")
     found = [fact for fact in result.facts if fact.kind in kinds]
     assert [
         str(note).partition(", which no interval includes: give it with")[0] for note in found

@@ -47,7 +47,7 @@ def answered(invoke, *arguments):
 def test_a_fault_of_a_map_is_the_first_remark_above_its_answers(fault, invoke, tmp_path):
     heights, remark = FAULTY[fault]
     file = saved(heights, tmp_path)
-    for command in (("info", file, *SIZE), ("press", file, *PRESSED)):
+    for command in (("info", file, *SIZE), ("press", file, *PRESSED, "--all")):
         text = " ".join(answered(invoke, *command).split())
         assert remark in text
         if command[0] == "press":

@@ -197,7 +197,7 @@ def test_the_hardness_of_a_coated_body_is_that_of_its_top_layer():
 
 def test_what_holds_for_one_material_only_is_left_out_with_the_reason():
     coated = rl.material("gold 2 um on copper")
-    said = " / ".join(rules.left_out(MaterialPair(coated, STEEL), 5e6))
+    said = " / ".join(map(str, rules.left_out(MaterialPair(coated, STEEL), 5e6)))
     for name, reason in (
         ("tangential stiffness", "its ratio to the normal one"),
         ("estimates for comparison", "they are of bodies of one material each"),
@@ -218,7 +218,7 @@ def test_currents_need_the_properties_of_all_layers():
     assert pair.resistances("conductivity")[1] == ((1 / STEEL.conductivity,), ())
     unknown = MaterialPair(rl.material("gold 2 um on rubber 1 mm on copper"), STEEL)
     assert unknown.resistances("resistivity") is None
-    assert unknown.lacks("resistivity", "constriction resistance").startswith(
+    assert str(unknown.lacks("resistivity", "constriction resistance")).startswith(
         "no constriction resistance: the resistivity of rubber in the first body (gold 2 µm on "
     )
     assert [each.name for each in rules.measures(unknown, None)] == [

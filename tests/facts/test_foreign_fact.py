@@ -7,17 +7,15 @@ import pytest
 
 import roughline as rl
 from lab.test_measured import Page
-from roughline.facts.fact import LIMITS, Fact, kind
+from roughline.facts.fact import Fact
+from roughline.facts.kinds import KINDS, FactKind
 from roughline.report.contact_report import write_contact_report
 from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 
-
-@kind(LIMITS)
-def stored_warm(hours: float) -> tuple[str, str]:
-    """How long the body was stored, which its hardness does not know."""
-    return f"stored for {hours:g} h", f"stored for {hours:g} h: its hardness is that of a fresh one"
-
+WARM = FactKind(
+    "stored for {hours:g} h", "stored for {hours:g} h: its hardness is that of a fresh one"
+)
 
 STORED = rl.Rule(
     key="storage",
@@ -27,7 +25,7 @@ STORED = rl.Rule(
     group="mechanics",
     formula="k",
     value=lambda pressed: pressed.loading,
-    facts=lambda pressed: stored_warm(48.0),
+    facts=lambda pressed: Fact("stored_warm", hours=48.0),
     leads=lambda pressed: True,
 )
 
@@ -36,15 +34,16 @@ SURFACE = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=5e4).sur
 
 
 @pytest.fixture
-def result():
+def result(monkeypatch):
     """Of a rule that tells it."""
+    monkeypatch.setitem(KINDS, "stored_warm", WARM)
     rl.rules.add(STORED)
     yield rl.assess(rl.Question(SURFACE, "steel,copper", loads="10 N"))
     rl.rules.remove("storage")
 
 
 def test_it_is_a_warning_of_its_answer_in_python_json_and_on_the_screen(result, capsys):
-    (fact,) = (each for each in result.facts if each.kind is stored_warm)
+    (fact,) = (each for each in result.facts if each.kind == "stored_warm")
     assert fact.of == ("storage",)
     assert str(fact) in result.warnings
     (found,) = (
@@ -71,5 +70,5 @@ def test_it_stands_in_the_report_and_in_the_lab(result, tmp_path):
 
 
 def test_one_without_words_is_refused():
-    with pytest.raises(rl.InputError, match="a kind of fact, which has words, is needed"):
-        Fact("stored", {"hours": 48.0})
+    with pytest.raises(rl.InputError, match="stored"):
+        Fact("stored", hours=48.0)

@@ -157,7 +157,7 @@ def test_what_is_grave_stands_above_the_figures_and_the_press_shows_its_answer(t
     assert page.locator("[data-press]").bounding_box()["y"] < window - 30
     page.click("[data-press]")
     grave = page.locator("#measured .grave[role=alert]")
-    grave.filter(has_text="these elastic answers do not hold").wait_for()
+    grave.filter(has_text="it yields, and a line has no yield").wait_for()
     figures = page.locator('[data-figures="answers"] dl')
     assert grave.bounding_box()["y"] < figures.bounding_box()["y"] < window
     groups = page.locator("#measured [data-remarks] details")

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.facts.loads import on_filled_points
 
 LENGTH = 1e-4
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=LENGTH, rms_height=4e-7, q_roll=8 * np.pi / LENGTH)
@@ -45,7 +44,7 @@ def test_force_on_filled_points_is_said_and_widens_intervals(tmp_path):
     found = asked_of(heights, tmp_path, "5 N")
     share = found.on_filled[0]
     assert 0.1 < share < 0.9
-    fact = next(each for each in found.facts if each.kind is on_filled_points)
+    fact = next(each for each in found.facts if each.kind == "on_filled_points")
     said = str(fact)
     assert said.startswith(f"{share:.0%} of the force of load 5 N stands on points that were")
     assert fact.is_grave == (share > 0.5)

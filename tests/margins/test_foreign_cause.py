@@ -9,7 +9,8 @@ import pytest
 
 import roughline as rl
 from roughline.assessment.presses import list_presses
-from roughline.facts.fact import INTERVALS, kind
+from roughline.facts.fact import Fact
+from roughline.facts.kinds import INTERVALS, KINDS, FactKind
 from roughline.margins.variant import AS_ASKED, Curves
 from roughline.question.case import Case
 from roughline.report.contact_report import write_contact_report
@@ -20,10 +21,12 @@ PAIR = "steel,copper"
 RMS = 3e-8  # [m]
 
 
-@kind(INTERVALS, "note")
-def noisy(rms: float) -> str:
-    """How large the noise is."""
-    return f"the instrument is noisy by {1e9 * rms:.0f} nm"
+NOISY = FactKind(
+    "the instrument is noisy by {rms:in m}",
+    "the instrument is noisy by {rms:in m}",
+    INTERVALS,
+    "note",
+)
 
 
 class Noise(rl.OtherBodies):
@@ -43,11 +46,12 @@ class Noise(rl.OtherBodies):
         return replace(case.body, heights=case.body.heights + noise)
 
     def facts(self, case, curves):
-        return [noisy(self.rms)]
+        return [Fact("noisy", rms=self.rms)]
 
 
 @pytest.fixture
-def noise():
+def noise(monkeypatch):
+    monkeypatch.setitem(KINDS, "noisy", NOISY)
     rl.causes.add(cause := Noise())
     yield cause
     rl.causes.remove("noise")
@@ -69,14 +73,12 @@ def question(body, **more):
     return rl.Question(body, PAIR, **{"loads": ["3 N", "10 N"], "grid_error": True, **more})
 
 
-def test_it_adds_in_squares_to_what_others_leave_open(surface):
+def test_it_adds_in_squares_to_what_others_leave_open(noise, surface):
     """Bodies are elastic, so that nothing but the grid and the noise leaves them open."""
+    found = rl.assess(question(surface, elastic=True)).answers["contact_stiffness"]
+    rl.causes.remove("noise")
     without = rl.assess(question(surface, elastic=True)).answers["contact_stiffness"]
-    rl.causes.add(Noise())
-    try:
-        found = rl.assess(question(surface, elastic=True)).answers["contact_stiffness"]
-    finally:
-        rl.causes.remove("noise")
+    rl.causes.add(noise)
     assert (found.values == without.values).all()
     k = found.values
     noisy = [

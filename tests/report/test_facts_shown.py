@@ -9,14 +9,15 @@ import pytest
 from rich.console import Console
 
 import roughline as rl
-from known_facts import all_kinds, examples
-from roughline.facts.fact import LINE, kind
+from known_facts import examples
+from roughline.facts.fact import LINE, Fact, by_weight
+from roughline.facts.kinds import KINDS, FactKind
 from roughline.report.document import write_document
 from roughline.report.json_output import assessment_json, to_json
 from roughline.report.terminal import print_assessment
 from roughline.report.typeset import typeset
 
-FACTS = [examples(each)[0] for each in all_kinds().values()]
+FACTS = by_weight(examples(each)[0] for each in KINDS)
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +39,7 @@ def test_python_the_terminal_and_json_tell_every_kind_in_the_same_words(answered
     assert set(answered.remarks) <= set(told)
     assert sorted(found["notes"]) == sorted(map(str, FACTS))
     assert [each["in_full"] for each in found["facts"]] == list(map(str, FACTS))
-    assert [each["kind"] for each in found["facts"]] == list(all_kinds())
+    assert [each["kind"] for each in found["facts"]] == [each.kind for each in FACTS]
 
 
 def test_a_report_begins_with_the_same_three_and_folds_all_below_what_they_concern(
@@ -77,13 +78,16 @@ def test_the_first_screen_has_three_warnings_of_a_line_each_and_counts_the_rest(
     assert lines[-1].endswith(": --all shows them")
 
 
-@kind("Limits", "grave")
-def moon_is_full(share: float):
-    """A fact that no file of the package knows."""
-    return f"the moon is {share:.0%} full", f"the moon is {share:.0%} full, which no interval holds"
+MOON = FactKind(
+    "the moon is {share:.0%} full",
+    "the moon is {share:.0%} full, which no interval holds",
+    weight="grave",
+)
+"""A fact that no file of the package knows."""
 
 
-def test_a_foreign_fact_of_a_rule_is_shown_wherever_its_answer_is(capsys):
+def test_a_foreign_fact_of_a_rule_is_shown_wherever_its_answer_is(capsys, monkeypatch):
+    monkeypatch.setitem(KINDS, "moon_is_full", MOON)
     surface = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(16, rng=7)
     rl.rules.add(
         rl.Rule(
@@ -94,15 +98,17 @@ def test_a_foreign_fact_of_a_rule_is_shown_wherever_its_answer_is(capsys):
             group="mechanics",
             formula="F² / (2 k_u)",
             value=lambda pressed: pressed.force**2 / (2 * pressed.unloading),
-            facts=lambda _pressed: moon_is_full(0.5),
-            note=lambda _pressed: "tides are small",
+            facts=lambda _pressed: [
+                Fact("moon_is_full", share=0.5),
+                rl.own_words("tides are small", "note"),
+            ],
         )
     )
     try:
         result = rl.assess(rl.Question(surface, materials="steel,copper", loads="10 N"))
     finally:
         rl.rules.remove("tide")
-    (fact,) = [each for each in result.facts if each.kind is moon_is_full]
+    (fact,) = [each for each in result.facts if each.kind == "moon_is_full"]
     assert fact.of == ("tide",)
     assert str(fact) in result.warnings
     assert "tides are small" in result.notes
