@@ -78,7 +78,7 @@ SECTIONS = {
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
         *("Joint", "Friction", "Ultrasound", "Theories", "Adhesion", "Fluid"),
         *("export_table", "PartAssessment", "material", "Material", "Coated", "contact_modulus"),
-        *("Rule", "Symbol", "rules"),
+        *("Rule", "Symbol", "rules", "own_words"),
     ),
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (
