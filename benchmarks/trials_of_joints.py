@@ -20,9 +20,10 @@ from trials import (
 )
 
 import roughline as rl
+from roughline.contact.pieces import cut
 from roughline.margins.place import spread_of_differences
 from roughline.margins.spread import Values
-from roughline.margins.tiles import TiledCurves, coarsened, cut_tiles
+from roughline.margins.tiles import TiledCurves, coarsened
 from roughline.question.assumptions import broken
 from roughline.question.extrapolation import Extrapolation, roll_offs_along_a_side
 
@@ -205,7 +206,7 @@ def _of_tiles(piece, whole, truth, press):
     beyond = Extrapolation.of(roll_offs_along_a_side(piece), piece.area, whole.area)
     k, area = curve.unloading_stiffness, curve.area_fraction_corrected
     coarse = coarsened(level)
-    sizes = [coarse], cut_tiles(coarse, 2), cut_tiles(coarse, 4)
+    sizes = [coarse], cut(coarse, 2), cut(coarse, 4)
     (of_map,), *pressed_tiles = ([press(each, rtol=1e-4) for each in some] for some in sizes)
     tiled = TiledCurves(of_map, *pressed_tiles, coarse.heights.size)
     of_tiles = [each.extrapolated(beyond) for each in tiled.stiffness_and_contact()]

@@ -19,7 +19,7 @@ import roughline as rl
 from roughline.contact.curve import SurfaceCurve
 from roughline.errors import ConvergenceError
 from roughline.fluid.gap import Along
-from roughline.fluid.sealing_pressure import OPEN
+from roughline.fluid.sealing_pressure import CHANNEL
 
 SEED = 2012
 BAND = 4
@@ -130,14 +130,14 @@ class _Pressed:
             hardness=case.hardness * case.slope,
             periodic=True,
             fields=fields,
-            measures=[OPEN[along] for along in DIRECTIONS],
+            measures=[CHANNEL[along] for along in DIRECTIONS],
             rtol=_RTOL if fields else _RTOL_OF_CHANNELS,
         )
         return cls(loads, curve)
 
     def has_channel(self, i: int, along: Along) -> bool:
         """Whether a part of the gap winds along a direction under a load."""
-        return bool(self.curve.measured[OPEN[along].name].values[i])
+        return bool(self.curve.measured[CHANNEL[along].name].values[i])
 
     def permeances(self, i: int) -> tuple[float, float]:
         """Permeances along x and along y under a load, in rms heights³."""

@@ -296,6 +296,26 @@ def test_the_pressure_that_seals_is_an_answer_with_its_interval(surface, points,
     assert "leak_rate" not in result.answers
 
 
+@pytest.mark.parametrize("given", [{}, {"elastic": False, "hardness": "4 GPa"}])
+@pytest.mark.parametrize("points", [32, 64])
+def test_ten_times_as_much_of_a_liquid_leaks_again_whatever_the_fluid(surface, points, given):
+    """Of a gas in the gap the aperture is another; what the load has left is pressed as it is."""
+    surface = surface.cropped((0, points), (0, points))
+    gas = rl.Fluid("helium", inlet="1.1 bar", outlet="0 bar", seal="9 mm x 2 mm", closure=True)
+    result = asked(surface, gas, loads=["20 N", "400 N"], **given)
+    found = result.sought.closing.reopening
+    pressed = rl.press(
+        surface,
+        E_star=result.curve.E_star,
+        periodic=True,
+        hardness=result.curve.hardness,
+        forces=[result.curve.force[-1]],
+    )
+    alone = rl.reopening(pressed, rtol=0.02)
+    assert (found.low, found.high) == (alone.low, alone.high)
+    assert 0 < found.low < found.high < 1
+
+
 def test_ctrl_c_while_it_is_sought_keeps_the_curve(surface, monkeypatch):
     def stop(*_given, **_named):
         raise KeyboardInterrupt

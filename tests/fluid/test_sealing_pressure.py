@@ -8,8 +8,9 @@ import pytest
 
 import roughline as rl
 from random_cases import cases
+from roughline.contact.fields import Fields
 from roughline.fluid.one_map import can_be_cut, factor_left_open
-from roughline.fluid.sealing_pressure import OPEN
+from roughline.fluid.sealing_pressure import CHANNEL
 
 REPEATED = rl.Homogeneous(1.0, periodic=True)
 
@@ -105,9 +106,9 @@ def is_open(surface, pressure, hardness):
         forces=[pressure * surface.area],
         half_space=REPEATED,
         hardness=hardness,
-        measures=[OPEN["both"]],
+        measures=[CHANNEL["both"]],
     )
-    return bool(curve.measured[OPEN["both"].name].values[0])
+    return bool(curve.measured[CHANNEL["both"].name].values[0])
 
 
 @pytest.mark.parametrize(
@@ -258,3 +259,30 @@ def test_what_finer_grids_and_other_places_leave_open_combine_as_independent():
     assert both == pytest.approx(np.hypot(of_size, np.log(3)))
     assert left_open(1.0, [1.5] * 4) == 1
     assert left_open(1.0, [1.5] * 4, tells=False) == pytest.approx(1.5**2)
+
+
+@pytest.mark.parametrize("hardness", [None, 0.2])
+def test_rising_loads_leave_the_channel_that_each_leaves_alone(spectrum, hardness):
+    surface, pressures = spectrum.surface(64, rng=5), np.array([0.02, 0.03, 0.04])
+    given = {"E_star": 1.0, "periodic": True, "hardness": hardness, "measures": [CHANNEL["x"]]}
+
+    def channel(pressures):
+        return rl.press(surface, forces=pressures * surface.area, **given).measured
+
+    name = CHANNEL["x"].name
+    alone = [float(channel(each[np.newaxis])[name].values[0]) for each in pressures]
+    assert channel(pressures)[name].values == pytest.approx(alone, rel=1e-6)
+    assert alone[0] > alone[1] > alone[2] > 0
+
+
+def test_the_last_channel_is_as_wide_as_the_narrowest_place_of_the_widest_way_through():
+    """Beside a way that is 3 wide everywhere there is one of 5 with a place of 2."""
+    gap = np.zeros((64, 64))
+    gap[:, 10], gap[:, 30] = 3.0, 5.0
+    gap[20, 30] = 2.0
+    closed, nothing = gap == 0, np.zeros_like(gap)
+    fields = Fields(
+        nothing, nothing, gap, closed, closed, closed, nothing, sizes=(1.0, 1.0), periodic=True
+    )
+    assert CHANNEL["x"].of(fields) == CHANNEL["both"].of(fields) == 3
+    assert CHANNEL["y"].of(fields) == 0

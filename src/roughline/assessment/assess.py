@@ -116,7 +116,9 @@ def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | Non
     presses = list_presses(case)
     announce_cost(case, presses, announce)
     try:
-        curves = press_all(presses, case.loads.count, progress)
+        fluid = case.question.fluid
+        keep_dents = fluid is not None and fluid.closure
+        curves = press_all(presses, case.loads.count, progress, keep_dents=keep_dents)
     except Stopped as stop:
         return stop.curves
     sought, is_stopped = find_sought(case, curves)

@@ -14,6 +14,7 @@ from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.part import PartAnswer
 from roughline.facts.fact import Fact
 from roughline.question.kinds import nominal_area
+from roughline.statistics.student import student
 from roughline.topography.body import Body, Surface
 
 _JUDGED_TOGETHER = (
@@ -100,16 +101,14 @@ def _sealed_in_some(
 
 def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[Fact]:
     """Say what mean, scatter and interval of a part are."""
-    from scipy.special import stdtrit  # here because it loads slowly
-
     count = len(results)
     if count == 1:
         return [Fact("single_map")]
     advised = _ADVISED_MAPS
-    student, student_of_more = (float(stdtrit(each - 1, 0.975)) for each in (count, advised))
-    narrower = student / student_of_more * math.sqrt(advised / count)
-    numbers = {"count": count, "student": student, "is_joint": is_joint, "narrower": narrower}
-    more = {"more": advised if count < advised else None, "student_of_more": student_of_more}
+    factor, factor_of_more = student(count), student(advised)
+    narrower = factor / factor_of_more * math.sqrt(advised / count)
+    numbers = {"count": count, "student": factor, "is_joint": is_joint, "narrower": narrower}
+    more = {"more": advised if count < advised else None, "student_of_more": factor_of_more}
     facts = [Fact("mean_of_maps", count=count), Fact("interval_of_part", **numbers, **more)]
     if any(each.intervals is None for each in results):
         facts.append(Fact("some_without_interval"))

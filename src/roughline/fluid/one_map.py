@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
 from roughline.contact.grid_error import field_on, halved
+from roughline.contact.pieces import cut, laws_on_pieces
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.measurement.fit import fitted
+from roughline.statistics.student import student
 from roughline.topography.body import Surface
 
 _FEWEST_WAVES = 3.0  # of the roll-off along a side of a piece that tells of its whole
 _FEWEST_POINTS = 32  # along a side that is halved, or cut into quarters
-_STUDENT = 3.182  # of 95 %, with the three degrees of freedom of four quarters
 _EXTRAPOLATION = 2.0  # times the step from the quarters to a piece, from there to its whole
 
 
@@ -39,13 +40,9 @@ def on_half(surface: Surface, law: ContactLaw) -> tuple[Surface, ContactLaw]:
     return halved(surface), law.on(partial(field_on, surface, halved))
 
 
-def quarters(surface: Surface, law: ContactLaw) -> Iterator[tuple[Surface, ContactLaw]]:
+def quarters(surface: Surface, law: ContactLaw) -> list[tuple[Surface, ContactLaw]]:
     """The four quarters of a surface, and the law on each."""
-    sides = [[(0, n // 2), (n // 2, n)] for n in surface.shape]
-    for x in sides[0]:
-        for y in sides[1]:
-            cut = partial(Surface.cropped, x=x, y=y)
-            yield cut(surface).detrended(), law.on(partial(field_on, surface, cut))
+    return list(zip(cut(surface, 2), laws_on_pieces(surface, law, 2), strict=True))
 
 
 def tells_of_larger(surface: Surface) -> bool:
@@ -75,6 +72,6 @@ def factor_left_open(
     """
     logs = np.log(of_quarters)
     finer = max(abs(math.log(half / value)), math.log(of_grid))
-    of_size = _STUDENT * float(logs.std(ddof=1)) / math.sqrt(logs.size)
+    of_size = student(logs.size) * float(logs.std(ddof=1)) / math.sqrt(logs.size)
     step = 0.0 if tells else _EXTRAPOLATION * (float(logs.mean()) - math.log(value))
     return math.exp(math.hypot(finer, of_size, step))

@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -15,6 +16,7 @@ from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import checked_count
 from roughline.contact.curve import SurfaceCurve
+from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice, between, flag
@@ -28,11 +30,15 @@ from roughline.fluid.one_map import (
     quarters,
     tells_of_larger,
 )
+from roughline.fluid.trials import Hunt, Trials, bisected, crossing, ends, side_by_side
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
 _LARGER_FACTOR = math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
+_TIMES, _RTOL = 10.0, 0.01  # if not told
+_FIRST_SHARE = 0.4  # that is tried first, beside the smallest and all of it
+_FIRST_STEP = 1.18  # up and down from what another surface tells, to those that are tried first
 _SMALLEST_SHARE = 1e-4  # share of the load below which it counts as taken off
 _NARROWEST_INTERVAL = 3e-3  # below which an interval tells no shares apart
 
@@ -53,7 +59,7 @@ class Reopening:
     along : {"both", "x", "y"}
         Direction of the flow; of both, the leakier.
     on_half : float
-        The same on half as many points along each side; NaN if not asked for. [1]
+        The same on half as many points along each side, within about 2 %; NaN if not asked for. [1]
     on_quarters : sequence of float
         The same of the four quarters of the surface. [1]
     interval : tuple of float
@@ -87,9 +93,9 @@ def reopening(
     curve: SurfaceCurve,
     load: int = -1,
     *,
-    times: float = 10.0,
+    times: float = _TIMES,
     along: Along | Literal["both"] = "both",
-    rtol: float = 0.01,
+    rtol: float = _RTOL,
     interval: bool = False,
 ) -> Reopening:
     """Find down to which share a load may be taken off until so many times as much leaks.
@@ -146,11 +152,49 @@ def reopening(
     if not history[-1] > 0:
         raise InputError(f"load {load} is none: there is nothing to take off", "load")
     search = _ShareSearch(curve.half_space, times, along, rtol)
-    found = search.bracket(left, law, float(history[-1]))
+    found = search.bracket(_Relieved(left, law, float(history[-1])))
     if not interval or not can_be_cut(curve.surface, curve.half_space):
         return found
-    forces = np.array([np.nanmax(history), history[-1]])
-    return search.with_interval(found, curve.surface, law, forces)
+    return _with_interval(found, search, curve.surface, law, history)
+
+
+def reopening_about(
+    curve: SurfaceCurve, load: int, expected: float, *, along: Along | Literal["both"]
+) -> Reopening:
+    """The share that :func:`reopening` finds, within about 2 %, if another surface tells one."""
+    search = _ShareSearch(curve.half_space, _TIMES, along, _RTOL)
+    left = _Relieved(curve.surface_after(load), curve.law, float(curve.force[load]))
+    (share,) = search.about([left], expected)
+    return Reopening(share, share, (math.nan, math.nan, math.nan), _TIMES, along)
+
+
+def _with_interval(
+    found: Reopening, search: _ShareSearch, surface: Surface, law: ContactLaw, history: Real
+) -> Reopening:
+    """Press half as many points along each side, and the quarters of the surface."""
+    most, force = np.nanmax(history) / surface.area, history[-1] / surface.area
+
+    def loaded(piece: Surface, its_law: ContactLaw) -> _Relieved:
+        return _Relieved(piece, its_law, force * piece.area, not_yet=most * piece.area)
+
+    (half,) = search.about([loaded(*on_half(surface, law))], found.value)
+    of_quarters = search.about([loaded(*each) for each in quarters(surface, law)], found.value)
+    value, *others = np.array([found.value, half, *of_quarters]) + _NARROWEST_INTERVAL
+    factor = factor_left_open(value, others[0], others[1:], tells=tells_of_larger(surface))
+    low = (found.low + _NARROWEST_INTERVAL) / factor - _NARROWEST_INTERVAL
+    high = (found.high + _NARROWEST_INTERVAL) * factor - _NARROWEST_INTERVAL
+    interval = low if low > _NARROWEST_INTERVAL else 0.0, min(max(high, _NARROWEST_INTERVAL), 1.0)
+    return replace(found, on_half=half, on_quarters=of_quarters, interval=interval)
+
+
+@dataclass
+class _Relieved:
+    """A surface that a load has left, or one that it is not under yet."""
+
+    surface: Surface
+    law: ContactLaw
+    force: float  # that is taken off
+    not_yet: float = 0.0  # the largest force so far, if the surface is still untouched
 
 
 @dataclass(frozen=True)
@@ -162,52 +206,59 @@ class _ShareSearch:
     along: Along | Literal["both"]
     rtol: float
 
-    def with_interval(
-        self, found: Reopening, surface: Surface, law: ContactLaw, forces: Real
-    ) -> Reopening:
-        """Press half as many points along each side, and the quarters of the surface."""
-        half = self.after(forces, *on_half(surface, law))
-        of_quarters = [
-            self.after(forces * (each.area / surface.area), each, its_law)
-            for each, its_law in quarters(surface, law)
-        ]
-        value, *others = np.array([found.value, half, *of_quarters]) + _NARROWEST_INTERVAL
-        factor = factor_left_open(value, others[0], others[1:], tells=tells_of_larger(surface))
-        low = (found.low + _NARROWEST_INTERVAL) / factor - _NARROWEST_INTERVAL
-        high = (found.high + _NARROWEST_INTERVAL) * factor - _NARROWEST_INTERVAL
-        ends = low if low > _NARROWEST_INTERVAL else 0.0, min(max(high, _NARROWEST_INTERVAL), 1.0)
-        return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
+    def bracket(self, left: _Relieved) -> Reopening:
+        """Bisect the shares of a force."""
+        return side_by_side([self._bracketed()], [partial(self._apertures, left)])[0]
 
-    def after(self, forces: Real, untouched: Surface, law: ContactLaw) -> float:
-        """The share of the last of some forces that are put on one after the other."""
-        curve = press(untouched, half_space=self.half_space, law=law, forces=forces)
-        return self.bracket(curve.surface_after(-1), law, float(forces[-1])).value
+    def about(self, surfaces: Sequence[_Relieved], expected: float) -> list[float]:
+        """The shares of surfaces of one shape, within about 2 %."""
+        searches = [self._near(expected) for _ in surfaces]
+        return side_by_side(searches, [partial(self._apertures, each) for each in surfaces])
 
-    def bracket(self, left: Surface, law: ContactLaw, force: float) -> Reopening:
-        """Bisect the shares of the force."""
-        full = self._aperture(left, law, force)
-        most = full * float(np.cbrt(self.times))  # if sealed, whatever leaks is too much
-        at_low, at_high = self._aperture(left, law, _SMALLEST_SHARE * force), full
-        low, high = _SMALLEST_SHARE, 1.0
-        if not (at_low >= most and at_low > 0):
-            return Reopening(0.0, 0.0, (full, at_low, at_low), self.times, self.along)
-        while high > low * (1 + self.rtol):
-            middle = math.sqrt(low * high)
-            found = self._aperture(left, law, middle * force)
-            if found >= most and found > 0:
-                low, at_low = middle, found
-            else:
-                high, at_high = middle, found
-        return Reopening(low, high, (full, at_low, at_high), self.times, self.along)
+    def _bracketed(self) -> Hunt[Reopening]:
+        """Search both ends."""
+        trials = yield from self._started([_SMALLEST_SHARE, _FIRST_SHARE])
+        low = high = 0.0
+        if trials.is_above(_SMALLEST_SHARE):
+            bisect = partial(bisected, _SMALLEST_SHARE, 1.0, self.rtol)
+            low, high = yield from ends(trials, bisect)
+        at_low, at_high = (trials.values[each or _SMALLEST_SHARE] for each in (low, high))
+        apertures = trials.values[1.0], at_low, at_high
+        return Reopening(low, high, apertures, self.times, self.along)
 
-    def _aperture(self, left: Surface, law: ContactLaw, force: float) -> float:
-        """Hydraulic aperture under a force."""
+    def _near(self, expected: float) -> Hunt[float]:
+        """Search the share, from what another surface tells; zero where it never leaks so much."""
+        first = [expected / _FIRST_STEP, min(expected * _FIRST_STEP, 1.0)]
+        trials = yield from self._started(first if expected > 0 else [_SMALLEST_SHARE])
+        if trials.ends[0] == 0 and _SMALLEST_SHARE not in trials.values:
+            trials.add([_SMALLEST_SHARE], (yield [_SMALLEST_SHARE]))
+        return (yield from crossing(trials)) if trials.ends[0] > 0 else 0.0
+
+    def _started(self, shares: Sequence[float]) -> Hunt[Trials]:
+        """Try the first shares, and all of the force."""
+        asked = [*dict.fromkeys((*shares, 1.0))]
+        known = dict(zip(asked, (yield asked), strict=True))
+        most = known[1.0] * float(np.cbrt(self.times))  # if sealed, whatever leaks is too much
+        return Trials(most, values=known)
+
+    @property
+    def _measures(self) -> list[Measure]:
         directions: Sequence[Along] = ("x", "y") if self.along == "both" else (self.along,)
+        return [hydraulic_aperture(along) for along in directions]
+
+    def _apertures(self, left: _Relieved, shares: Sequence[float]) -> list[float]:
+        """Hydraulic apertures under shares of the force, after the largest one."""
+        forces = [share * left.force for share in shares]
+        path = [left.not_yet, *(each for each in forces if each != left.not_yet)]
         pressed = press(
-            left,
+            left.surface,
             half_space=self.half_space,
-            law=law,
-            forces=[force],
-            measures=[hydraulic_aperture(along) for along in directions],
+            law=left.law,
+            forces=path if left.not_yet else forces,
+            measures=self._measures,
         )
-        return max(float(each.values[0]) for each in pressed.measured.values())
+        if left.not_yet:
+            left.surface, left.not_yet = pressed.surface_after(0), 0.0
+        found = np.max([each.values for each in pressed.measured.values()], axis=0)
+        of_force = dict(zip(pressed.force.tolist(), found.tolist(), strict=True))
+        return [of_force[each] for each in forces]

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 
+from roughline.computing.arrays import Mask
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import checked_half_space, given_law
@@ -29,6 +31,15 @@ from roughline.fluid.one_map import (
     quarters,
     tells_of_larger,
 )
+from roughline.fluid.trials import (
+    Decide,
+    Trials,
+    bisected,
+    bracketed,
+    crossing,
+    ends,
+    side_by_side,
+)
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
@@ -36,10 +47,11 @@ from roughline.topography.body import Surface
 
 _PERCOLATION_PRESSURE = 0.277  # over E* and the rms slope, where Persson's area is 0.42
 _HARDNESS_SHARE = 0.4  # about the share of the area that seals, all of which bears the hardness
-_TRIAL_STEP = 1.5  # step from one trial to the next, until one is open and the other sealed
-_MOST_TRIALS = 60
+_FIRST_OF_GUESS = 0.45, 0.67  # of a guess, which are tried first: both mostly leave the gap open
+_FIRST_OF_EXPECTED = 0.7, 0.95  # of what another surface tells
 _RTOL_FACTOR = 1e4  # of the ends over that of contacts, which so decides no cell
-_LARGEST_LOADING = 0.999  # of the hardness: all of the area bears it
+_PART_OF_GAPS = 1 / 256  # of the cells of a gap, within which the narrowest of a channel is found
+_RTOL = 0.01  # of what is bisected
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,8 +67,8 @@ class SealingPressure:
     along : {"both", "x", "y"}
         Direction in which no path leads through; of both, in neither.
     on_half : float
-        The same on half as many points along each side; NaN if not asked for, or if these do not
-        resolve a layer. [pressure]
+        The same on half as many points along each side, within about 2 %; NaN if not asked for, or
+        if these do not resolve a layer. [pressure]
     on_quarters : sequence of float
         The same of the four quarters of the surface. [pressure]
     interval : tuple of float
@@ -94,15 +106,16 @@ def sealing_pressure(
     half_space: HalfSpace,
     law: ContactLaw | None = None,
     along: Along | Literal["both"] = "both",
-    rtol: float = 0.01,
+    rtol: float = _RTOL,
     interval: bool = True,
 ) -> SealingPressure:
     """Find the mean pressure at which the last channel through a contact closes.
 
-    Loads are bisected; each of them is applied to the untouched surface, as on first loading. The
-    gap is open where a path of cells out of contact, each beside the next, leads from a place to
-    its next repetition along a side, be it in a diagonal; where the surface does not repeat, where
-    one joins two opposite sides.
+    Loads are bisected on the untouched surface, as on first loading. Few of them are pressed, as
+    the width of the last channel tells how most of them turn out. The gap is open where a path of
+    cells out of contact, each beside the next, leads from a place to its next repetition along a
+    side, be it in a diagonal; where the surface does not repeat, where one joins two opposite
+    sides.
 
     Parameters
     ----------
@@ -150,11 +163,24 @@ def sealing_pressure(
     share = float(f"{_PERCOLATION_PRESSURE * _slope(full, half_space.repeats):.6g}")
     guess = min(share * half_space.E_star, _HARDNESS_SHARE * Bounds.of(law).largest_force(1.0))
     search = _PressureSearch(half_space, along, rtol)
-    (low, open_area), (high, sealed_area) = search.bracket(surface, law, guess)
-    found = SealingPressure(low, high, (open_area, sealed_area), along)
+    found = search.bracket(surface, law, guess)
     if not interval or not can_be_cut(surface, half_space):
         return found
     return _with_interval(found, search, surface, law, grid_steepening(full))
+
+
+def sealing_pressure_about(
+    surface: Surface,
+    expected: float,
+    *,
+    half_space: HalfSpace,
+    law: ContactLaw,
+    along: Along | Literal["both"],
+) -> SealingPressure:
+    """The mean pressure that seals, within about 2 %, of a surface that is like another one."""
+    search = _PressureSearch(half_space, along, _RTOL)
+    (value,) = search.about([(surface, law)], expected)
+    return SealingPressure(value, value, (math.nan, math.nan), along)
 
 
 def _with_interval(
@@ -165,13 +191,13 @@ def _with_interval(
     steepening: float,
 ) -> SealingPressure:
     """Return what was found with the ends that grid and size leave open."""
-    half = search.middle(*on_half(surface, law), found.value)
-    of_quarters = [search.middle(*each, found.value) for each in quarters(surface, law)]
+    (half,) = search.about([on_half(surface, law)], found.value)
+    of_quarters = search.about(quarters(surface, law), found.value)
     tells = tells_of_larger(surface)
     left_open = partial(factor_left_open, found.value, half, of_quarters, tells=tells)
     most = min(found.high * left_open(of_grid=steepening), Bounds.of(law).largest_force(1.0))
-    ends = found.low / left_open() if tells else 0.0, max(found.high, most)
-    return replace(found, on_half=half, on_quarters=of_quarters, interval=ends)
+    interval = found.low / left_open() if tells else 0.0, max(found.high, most)
+    return replace(found, on_half=half, on_quarters=of_quarters, interval=interval)
 
 
 def _slope(surface: Surface, repeats: tuple[bool, bool]) -> float:
@@ -193,62 +219,87 @@ class _PressureSearch:
     along: Along | Literal["both"]
     rtol: float
 
-    def middle(self, surface: Surface, law: ContactLaw, guess: float) -> float:
-        """The middle of the bracket of a surface."""
-        (low, _), (high, _) = self.bracket(surface, law, guess)
-        return math.sqrt(low * high)
+    def bracket(self, surface: Surface, law: ContactLaw, guess: float) -> SealingPressure:
+        """Bisect the mean pressure, from a guess on."""
+        guess, most = _below_hardness(guess, law)
+        areas: dict[float, float] = {}
 
-    def bracket(
-        self, surface: Surface, law: ContactLaw, guess: float
-    ) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Mean pressure and area fraction of the last open gap, and of the first sealed one."""
-        ends: dict[bool, tuple[float, float]] = {}
-        largest = Bounds.of(law).largest_force(1.0)
-        pressure, step = guess if guess < largest else _HARDNESS_SHARE * largest, _TRIAL_STEP
-        for _ in range(_MOST_TRIALS):
-            is_open, area = self._is_open(surface, law, pressure)
-            ends[is_open] = pressure, area
-            if len(ends) == 2:
-                low, high = ends[True][0], ends[False][0]
-                if high <= low * (1 + self.rtol):
-                    return ends[True], ends[False]
-                pressure = math.sqrt(low * high)
-            else:
-                pressure = pressure * step if is_open else pressure / step
-                step *= step
-            if pressure >= _LARGEST_LOADING * largest:
-                pressure = math.sqrt(ends[True][0] * largest)
-        raise InputError("does not seal under any load that was tried", "surface")
+        def bisect(is_open: Decide) -> tuple[float, float]:
+            return bisected(*bracketed(guess, most, is_open), self.rtol, is_open)
 
-    def _is_open(self, surface: Surface, law: ContactLaw, pressure: float) -> tuple[bool, float]:
-        """Whether the gap is open under a mean pressure, and the contact area fraction."""
-        curve = press(
-            surface,
-            half_space=self.half_space,
-            law=law,
-            forces=[pressure * surface.area],
-            measures=[OPEN[self.along]],
-            rtol=self.rtol / _RTOL_FACTOR,
-        )
-        return bool(curve.measured[OPEN[self.along].name].values[0]), float(curve.area_fraction[0])
+        press = partial(self._gaps, surface, law, areas)
+        first = [guess * each for each in _FIRST_OF_GUESS]
+        search = ends(Trials(most=most, first=first), bisect)
+        ((low, high),) = side_by_side([search], [press])
+        return SealingPressure(low, high, (areas[low], areas[high]), self.along)
+
+    def about(self, surfaces: Sequence[tuple[Surface, ContactLaw]], expected: float) -> list[float]:
+        """The mean pressures that seal surfaces of one shape, within about 2 %."""
+        searches = []
+        for _, law in surfaces:
+            guess, most = _below_hardness(expected, law)
+            first = [guess * each for each in _FIRST_OF_EXPECTED]
+            searches.append(crossing(Trials(most=most, first=first)))
+        return side_by_side(searches, [partial(self._gaps, *each, {}) for each in surfaces])
+
+    def _gaps(
+        self,
+        surface: Surface,
+        law: ContactLaw,
+        areas: dict[float, float],
+        pressures: Sequence[float],
+    ) -> list[float]:
+        """Width of the last channel under rising mean pressures; notes contact area fractions."""
+        measure, gaps = CHANNEL[self.along], []
+        paths = [[each] for each in pressures] if law.memory == "path" else [pressures]
+        for path in paths:
+            curve = press(
+                surface,
+                half_space=self.half_space,
+                law=law,
+                forces=np.array(path) * surface.area,
+                measures=[measure],
+                rtol=self.rtol / _RTOL_FACTOR,
+            )
+            gaps += curve.measured[measure.name].values.tolist()
+            areas.update(zip(path, curve.area_fraction.tolist(), strict=True))
+        return gaps
 
 
-def _percolates(fields: Fields, along: Along | Literal["both"]) -> float:
-    """One where a path leads through the gap, else zero."""
+def _below_hardness(guess: float, law: ContactLaw) -> tuple[float, float]:
+    """A mean pressure to start from, and the one that all of the area bears at most."""
+    largest = Bounds.of(law).largest_force(1.0)
+    return (guess if guess < largest else _HARDNESS_SHARE * largest), largest
+
+
+def _narrowest_gap(fields: Fields, along: Along | Literal["both"]) -> float:
+    """Gap at the narrowest place of the widest way through; zero where none leads through."""
     from roughline.fluid.winding import leads_through  # here because compiled loops load slowly
 
-    sides: tuple[Along, ...] = get_args(Along) if along == "both" else (along,)
-    return float(any(leads_through(~fields.contact, each, fields.repeats) for each in sides))
+    def is_open(cells: Mask) -> bool:
+        return leads_through(cells, along, fields.repeats)
+
+    if not is_open(~fields.contact):
+        return 0.0
+    gaps = np.sort(fields.gap[~fields.contact])
+    open_at, closed_at = 0, gaps.size  # numbers of gaps from which on cells count as open
+    while closed_at - open_at > max(1, gaps.size * _PART_OF_GAPS):
+        middle = (open_at + closed_at) // 2
+        if is_open(~fields.contact & (fields.gap >= gaps[middle])):
+            open_at = middle
+        else:
+            closed_at = middle
+    return max(float(gaps[open_at]), sys.float_info.min)  # rounding leaves a gap, where it is open
 
 
-OPEN = {
+CHANNEL = {
     along: Measure(
-        f"is_open_{along}",
+        f"last_channel_{along}",
         "",
-        "1",
-        f"one where a path leads through the gap along {along}, else zero",
-        partial(_percolates, along=along),
+        "length",
+        f"gap at the narrowest place of the widest way through along {along}, or zero",
+        partial(_narrowest_gap, along=along),
     )
     for along in ("x", "y", "both")
 }
-"""Whether the gap is open, along x, along y, or along one of both."""
+"""Width of the last channel along x, along y, or along one of both."""

@@ -56,8 +56,14 @@ def windings(open_cells: Mask, repeats: tuple[bool, bool]) -> Windings:
     return Windings(of_cells, rank[numbers], direction[numbers])
 
 
-def leads_through(open_cells: Mask, along: Literal["x", "y"], repeats: tuple[bool, bool]) -> bool:
-    """Whether a path of open cells, each beside the next, leads through along a side."""
+def leads_through(
+    open_cells: Mask, along: Literal["x", "y", "both"], repeats: tuple[bool, bool]
+) -> bool:
+    """Whether a path of open cells, each beside the next, leads through along a side, or either."""
+    if along == "both":
+        if all(repeats):
+            return bool(windings(open_cells, repeats).rank.any())
+        return any(leads_through(open_cells, each, repeats) for each in ("x", "y"))
     k = "xy".index(along)
     if repeats[k]:
         return windings(open_cells, repeats).leads(k)

@@ -11,6 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.measures import Measure
+from roughline.contact.pieces import cut
 from roughline.engineering.intervals import Ends
 from roughline.margins.cause import Cause
 from roughline.margins.larger_measure import LargerMeasure
@@ -22,7 +23,6 @@ from roughline.margins.tiles import (
     TiledCurves,
     coarse_shape,
     coarsened,
-    cut_tiles,
 )
 from roughline.margins.variant import AS_ASKED, Curves, Pressable, Variant, larger_name
 from roughline.question.assumptions import broken
@@ -142,7 +142,7 @@ def _listed(case: Case, map_name: str, body: Surface, purpose: str) -> list[Vari
     def tiles(count: int, curves: Curves) -> Pressable:
         if (loads := _loads_of_pieces(case, curves.get(map_name), measures)) is None:
             return None
-        pressed = [_on_piece(loads, each) for each in cut_tiles(coarse(), count)]
+        pressed = [_on_piece(loads, each) for each in cut(coarse(), count)]
         return [each for each in pressed if each is not None]
 
     found = [Variant(_COARSE, purpose, partial(whole, POINTS_OF_TILES, measures), shape, True)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -13,6 +14,7 @@ from roughline.engineering.intervals import Ends
 from roughline.fluid.measures import names_at_border
 from roughline.margins.spread import FLOOR, logit
 from roughline.question.extrapolation import Extrapolation
+from roughline.statistics.student import student
 from roughline.topography.body import Surface
 
 FEWEST_POINTS = 32
@@ -24,7 +26,6 @@ POINTS_OF_TILES = 2**16
 POINTS_OF_BORDER = 2**14
 """Points of a map whose border is judged: on four times as many, it does about an eighth less."""
 
-_STUDENT = 2.131  # of 95 %, with the 15 degrees of freedom of sixteen tiles
 _DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a border's share
 
 
@@ -80,10 +81,11 @@ class Tiles:
         """
         halves = _variance(self.halves)
         quarters = np.maximum(_variance(self.quarters), _variance_across(self.quarters))
+        certain = student(math.prod(self.quarters.shape[:2]))
         if extrapolation.roll_offs is not None:
             waves = min(4.0, max(1.0, extrapolation.roll_offs))
-            return _STUDENT * np.sqrt(np.maximum(halves / 4, quarters / waves**2))
-        return _STUDENT * np.sqrt(extrapolation.doublings / 2 * (halves + quarters) / 2)
+            return certain * np.sqrt(np.maximum(halves / 4, quarters / waves**2))
+        return certain * np.sqrt(extrapolation.doublings / 2 * (halves + quarters) / 2)
 
     def extrapolated(self, extrapolation: Extrapolation, *, mean: bool = False) -> Ends:
         """Both ends of the difference between the larger surface and the map.
@@ -212,18 +214,6 @@ def coarsened(piece: Surface, points: int = POINTS_OF_TILES) -> Surface:
     while piece.shape != shape:
         piece = piece.cropped(*((0, n - n % 2) for n in piece.shape)).coarsened()
     return piece
-
-
-def cut_tiles(piece: Surface, count: int) -> list[Surface]:
-    """Cut a map into so many tiles along each side, each without its tilt."""
-    ends = [np.linspace(0, n, count + 1).astype(int) for n in piece.shape]
-    return [
-        piece.cropped(
-            (int(ends[0][i]), int(ends[0][i + 1])), (int(ends[1][j]), int(ends[1][j + 1]))
-        ).detrended()
-        for i in range(count)
-        for j in range(count)
-    ]
 
 
 def _mean(tiles: Real) -> Real:

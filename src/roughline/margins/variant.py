@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Literal
 
+import numpy as np
+
 from roughline.contact.arguments import sticking_law
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.press import press
@@ -74,10 +76,17 @@ class Stopped(KeyboardInterrupt):
         self.curves = curves
 
 
-def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | None) -> Curves:
+def press_all(
+    variants: Sequence[Variant],
+    loads: int,
+    progress: LoadProgress | None,
+    *,
+    keep_dents: bool = False,
+) -> Curves:
     """Press all variants that are needed, in their order, under so many loads.
 
-    Progress is told as (loads done, loads in all), over all variants; those that take a part of the
+    The first curve keeps what its loads leave, which is large; others only if that is asked for,
+    and from the largest load on. Progress is told as (loads done, loads in all), over all variants; those that take a part of the
     time count as that part. Ctrl-C raises Stopped.
     """
     done: dict[str, Curve] = {}
@@ -99,12 +108,20 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
             raise Stopped(Curves(done, pieces, stopped=variant.name)) from stop
         if isinstance(found, Curve):
             if done and isinstance(found, SurfaceCurve):
-                found = replace(found, dents=())  # large, and only those of the first are looked at
+                found = _with_largest_dents(found) if keep_dents else replace(found, dents=())
             done[variant.name] = found
         before += here
     if progress is not None:
         progress(total, total)
     return Curves(done, pieces)
+
+
+def _with_largest_dents(curve: SurfaceCurve) -> SurfaceCurve:
+    """A curve without the dents of loads before its largest one."""
+    if not curve.dents:
+        return curve
+    largest = int(np.argmax(np.where(curve.converged, curve.force, -np.inf)))
+    return replace(curve, dents=(*[None] * largest, *curve.dents[largest:]))
 
 
 def _all_pieces(cases: Sequence[LoadCase], progress: LoadProgress | None) -> list[SurfaceCurve]:
