@@ -21,6 +21,7 @@ from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
 from roughline.facts.fact import Fact
+from roughline.margins.cause import Cause
 from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.larger_surface import Differences, stiffness_of_the_piece
 from roughline.margins.spread import measured_within
@@ -79,7 +80,7 @@ def margins_by_cause(
     answers: Mapping[str, Answer],
     scatter: Mapping[str, Ends],
 ) -> Mapping[str, Sequence[Margin]]:
-    """How far each cause alone leaves each answer open.
+    """How far each cause alone leaves each answer open; its ends are NaN where that is not known.
 
     An answer that is sought brings an interval of its own, of its half grid and its quarters.
     """
@@ -89,10 +90,17 @@ def margins_by_cause(
         for each in causes:
             if each.is_bound:
                 continue
-            solution = combine_curves(case, curves, left_open.by(each.name))
-            alone, _ = work_out_answers(case, solution)
+            by_cause = left_open.by(each.name)
+            alone, _ = work_out_answers(case, combine_curves(case, curves, by_cause))
             for key, answer in answers.items():
-                if (ends := _ends_alone(answer, alone.get(key), own.get(key))) is not None:
+                if answer.rule.is_given or _is_open(own.get(key)):
+                    continue
+                by_this, is_told = alone.get(key), answer.ends is not None
+                ends = None if by_this is None else by_this.ends
+                unknown = not (is_told or by_cause.is_known or _is_open(by_this))
+                if (unknown and _moves(each, answer, case)) or (ends is None and is_told):
+                    ends = (np.full(answer.values.shape, np.nan),) * 2
+                if ends is not None:
                     found[key].append(Margin(each.name, each.title, each.remedy, *ends))
     for key, (least, most) in scatter.items():
         values = answers[key].values
@@ -101,16 +109,23 @@ def margins_by_cause(
     return {key: [each for each in margins if each.matters] for key, margins in found.items()}
 
 
-def _ends_alone(answer: Answer, alone: Answer | None, own: Answer | None) -> Ends | None:
-    """Ends of an answer that one cause leaves open; None of one that has an interval of its own."""
-    if alone is None or own is None or answer.rule.is_given:
-        return None
-    if own.ends is not None and not all(
-        np.array_equal(each, own.values, equal_nan=True) for each in own.ends
-    ):
-        return None
-    unknown = np.full(answer.values.shape, np.nan)
-    return alone.ends or (None if answer.ends is None else (unknown, unknown))
+def _is_open(answer: Answer | None) -> bool:
+    """Whether an answer has an interval that is more than its value."""
+    return (
+        answer is not None
+        and answer.ends is not None
+        and not all(np.array_equal(each, answer.values, equal_nan=True) for each in answer.ends)
+    )
+
+
+def _moves(cause: Cause, answer: Answer, case: Case) -> bool:
+    """Whether a cause of which nothing more is known moves an answer."""
+    if answer.rule.is_of_hardness_alone:
+        return False
+    is_of_joint = case.question.joint is not None
+    if cause.is_of_larger:
+        return case.map is not None and (is_of_joint or answer.rule.is_of_interface)
+    return True
 
 
 def ends_from_many(

@@ -52,6 +52,12 @@ class LeftOpen:
         )
         return LeftOpen(of_map, of_larger)
 
+    @property
+    def is_known(self) -> bool:
+        """Whether all that they leave open is known, under some load at least."""
+        spreads = [*self.of_map.values(), *self.of_larger.values()]
+        return all(each is not None and each.is_known for each in spreads)
+
 
 @dataclass(frozen=True, eq=False)
 class Solution:

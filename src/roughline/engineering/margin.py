@@ -71,12 +71,27 @@ class Reason:
     high: float
 
     @property
+    def is_known(self) -> bool:
+        """Whether its ends are known."""
+        return not np.isnan([self.low, self.high]).any()
+
+    @property
     def factor(self) -> float:
         """Upper over lower end; NaN where that is not known. [1]"""
+        if not self.is_known:
+            return float("nan")
         return self.high / self.low if self.low > 0 else float("inf")
 
-    def __str__(self) -> str:
-        if np.isnan([self.low, self.high]).any():
-            return f"{self.title}: not known; {self.remedy} would tell"
+    @property
+    def ends_in_words(self) -> str:
+        """Both ends as multiples of the value."""
+        if not self.is_known:
+            return "not known"
         low, high = (decimal(each, 3) for each in (self.low, self.high))
-        return f"{self.title}: {low} to {high} times the value; {self.remedy} would narrow it"
+        if np.isinf(self.high):
+            return f"from {low} times the value on"
+        return f"{low} to {high} times the value"
+
+    def __str__(self) -> str:
+        does = "narrow it" if self.is_known else "tell more"
+        return f"{self.title}: {self.ends_in_words}; {self.remedy} would {does}"

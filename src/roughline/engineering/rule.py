@@ -304,7 +304,8 @@ class Answer:
         -------
         list of Reason
             Each with its ends over the value, as it alone leaves them open, and what would narrow
-            it; those that are not known first. Empty where nothing moves it.
+            it; those that are not known first. Empty where nothing moves it, and of a load that was
+            not solved.
 
         Raises
         ------
@@ -316,7 +317,7 @@ class Answer:
             refuse("load", load, f"a number from 0 to {count - 1} is needed")
         value = self.values[load]
         found = []
-        for each in self.margins:
+        for each in () if np.isnan(value) else self.margins:
             if not each.factor[load] <= MATTERS:
                 with np.errstate(divide="ignore", invalid="ignore"):
                     ends = (1.0 if end[load] == value else end[load] / value for end in each.ends)

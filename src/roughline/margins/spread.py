@@ -116,6 +116,12 @@ class Spread:
     floors: Mapping[str, Real] = field(default_factory=dict)
     """Of measures that may be zero, if the cause knows how large they are elsewhere."""
 
+    @property
+    def is_known(self) -> bool:
+        """Whether the ends of each quantity are known under some load."""
+        ends = (self.stiffness, self.unloading, self.area, *self.measures.values())
+        return not any(np.isnan(each).all() for each in ends)
+
     @classmethod
     def between(
         cls, values: Values, others: Sequence[Values], *, times: float = 1.0, more: Real | float = 0
