@@ -11,6 +11,7 @@ from roughline.margins.variant import AS_ASKED, Curves
 from roughline.question.case import Case
 
 PLACE = "what one map does not show: not known; a larger map, or several maps would tell more"
+JOINT = rl.Joint("1 m^2")
 GRID = "the grid: not known; finer pixels would tell more"
 
 
@@ -37,10 +38,16 @@ def given(key):
 
 
 def test_of_a_joint_beyond_reach_all_answers_say_it(piece):
-    for key, said in why(piece, ask=rl.Joint("1 m^2")).items():
+    for key, said in why(piece, ask=JOINT).items():
         assert (PLACE in said) != given(key)
         assert said == [] or said[0] == PLACE
         assert GRID not in said
+
+
+def test_an_area_that_is_all_at_the_hardness_says_it_too(piece):
+    """Its lower end is the area that bears the force, which is the value, but for rounding."""
+    said = why(piece, elastic=False, hardness="7 MPa", loads=[f"{7e6 * 12 / 32**2} Pa"], ask=JOINT)
+    assert said["contact_area"] == [PLACE]
 
 
 def test_of_a_map_that_is_not_alike_everywhere_those_of_the_larger_surface_say_it(piece):
@@ -85,7 +92,7 @@ def test_a_load_that_was_not_solved_has_no_reasons(piece):
         (
             (0.5, np.inf),
             np.inf,
-            "the grid: from 0.5 times the value on; finer pixels would narrow it",
+            "the grid: 0.5 or more times the value; finer pixels would narrow it",
         ),
         ((np.nan, np.nan), np.nan, GRID),
     ],

@@ -15,7 +15,7 @@ from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.selection import at_loads, first_fields
 from roughline.contact.status import Status
 from roughline.engineering.intervals import Ends, Intervals, taken
-from roughline.engineering.margin import Margin
+from roughline.engineering.margin import MATTERS, Margin
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
@@ -110,12 +110,12 @@ def margins_by_cause(
 
 
 def _is_open(answer: Answer | None) -> bool:
-    """Whether an answer has an interval that is more than its value."""
-    return (
-        answer is not None
-        and answer.ends is not None
-        and not all(np.array_equal(each, answer.values, equal_nan=True) for each in answer.ends)
-    )
+    """Whether an answer has an interval that reaches beyond its value, but for rounding."""
+    if answer is None or answer.ends is None:
+        return False
+    (low, high), rounding = answer.ends, np.abs(answer.values) * (MATTERS - 1)
+    with np.errstate(invalid="ignore"):  # of infinite ones
+        return bool(((answer.values - low > rounding) | (high - answer.values > rounding)).any())
 
 
 def _moves(cause: Cause, answer: Answer, case: Case) -> bool:

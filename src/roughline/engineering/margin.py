@@ -88,10 +88,9 @@ class Reason:
         if not self.is_known:
             return "not known"
         low, high = (decimal(each, 3) for each in (self.low, self.high))
-        if np.isinf(self.high):
-            return f"from {low} times the value on"
-        return f"{low} to {high} times the value"
+        return f"{low} or more" if np.isinf(self.high) else f"{low} to {high}"
 
     def __str__(self) -> str:
-        does = "narrow it" if self.is_known else "tell more"
-        return f"{self.title}: {self.ends_in_words}; {self.remedy} would {does}"
+        if not self.is_known:
+            return f"{self.title}: not known; {self.remedy} would tell more"
+        return f"{self.title}: {self.ends_in_words} times the value; {self.remedy} would narrow it"

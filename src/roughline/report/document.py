@@ -26,6 +26,7 @@ from roughline.report.answers import (
 from roughline.report.contact_tables import formula_table, solid_in_words, symbol_table
 from roughline.report.page import Section, Table, render
 from roughline.report.pdf import write_pdf
+from roughline.report.why import bars
 from roughline.topography.body import Line
 
 if TYPE_CHECKING:
@@ -154,6 +155,7 @@ def _groups(result: Assessment | PartAssessment) -> list[Section]:
                 in_full(fact) for fact in result.facts if not set(each.keys).isdisjoint(fact.of)
             ],
             behind=answer_in_words(result, each.headline),
+            bars=None if isinstance(result, PartAssessment) else bars(result, each.keys),
         )
         for each in groups(result)
     ]

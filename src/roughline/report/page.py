@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
+from typing import ClassVar
 
 from roughline.report.values import value_and_interval
 from roughline.statistics.verdict import Verdict
@@ -42,6 +43,55 @@ class Picture:
 
 
 @dataclass(frozen=True)
+class Bar:
+    """What one cause leaves open: its ends in words, and what would narrow it.
+
+    It is drawn from its left end, as wide as it is, in per cent of the axis; not without a width.
+    """
+
+    name: str
+    ends: str
+    remedy: str = ""
+    left: float = 0.0
+    width: float | None = None
+
+
+@dataclass(frozen=True)
+class BarGroup:
+    """What some answers have in common: the bar of the whole interval, and one of each cause."""
+
+    names: str
+    bars: Sequence[Bar]
+
+
+@dataclass(frozen=True)
+class Bars:
+    """Bars on one axis; `ticks` are places on it, and `value` that of the value. [% of it]"""
+
+    title: str
+    about: str
+    ticks: Mapping[str, float]
+    value: float
+    groups: Sequence[BarGroup]
+
+    header: ClassVar[tuple[str, str, str]] = (
+        "left open by",
+        "times the value",
+        "what would narrow it",
+    )
+
+    @property
+    def table(self) -> Table:
+        """The same numbers as a table."""
+        rows = [
+            [each.names if i == 0 else "", bar.name, bar.ends, bar.remedy]
+            for each in self.groups
+            for i, bar in enumerate(each.bars)
+        ]
+        return Table(["answer", *self.header], rows)
+
+
+@dataclass(frozen=True)
 class Section:
     """A heading and the content below it; `notes` are shown as a list.
 
@@ -58,6 +108,7 @@ class Section:
     pictures: Sequence[Picture] = field(default=())
     behind: str = ""
     verbatim: Sequence[str] = ()
+    bars: Bars | None = None
 
 
 @dataclass(frozen=True)
@@ -114,6 +165,7 @@ def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: 
         parts += [f"## {section.heading}", *section.paragraphs, *section.verbatim]
         parts += ["\n".join(f"- {note}" for note in section.notes)] if section.notes else []
         parts += [markdown_table(table) for table in section.tables]
+        parts += [markdown_table(section.bars.table)] if section.bars else []
         for picture in section.pictures:
             parts += [
                 f"![{picture.name}]({folder}/{picture.path.name})",

@@ -26,6 +26,7 @@ _MARGIN = 38.0  # so that figures, 7.2 inches wide, keep their size [points]
 _FOOTER_HEIGHT = 20.0  # above the edge of the sheet [points]
 _LARGEST_PICTURE = 600.0  # its height [points]
 _LEAST_ROOM = 140.0  # below which a section or a table begins on the next sheet [points]
+_ROOM_OF_BARS = 200.0  # the same of a table with a title and a text above it [points]
 _PADDING = 4.0  # left and right of a cell [points]
 _NAMES_SHARE = 0.2  # share of the width that the first column gets at least, if it needs it
 _WORD_SHARE = 0.4  # share of the width from which on a word is broken
@@ -152,6 +153,11 @@ def _section_parts(section: Section, heading: Any, text: Any, item: Any, width: 
     for i, grid in enumerate(grid for each in section.tables for grid in _grids(each, width)):
         flow += [CondPageBreak(_LEAST_ROOM)] if i else []  # the first stays below its heading
         flow += [Spacer(1, 5), grid]
+    if section.bars is not None:
+        title = _style(_FONT_SIZE, bold=True, keepWithNext=1, spaceBefore=7, spaceAfter=2)
+        flow += [CondPageBreak(_ROOM_OF_BARS), Paragraph(_set(section.bars.title), title)]
+        flow += [Paragraph(_set(section.bars.about), spaced)]
+        flow += _grids(section.bars.table, width)
     for each in section.pictures:
         flow += _picture(each.path, f"{each.name}. {each.caption}", width)
     return flow

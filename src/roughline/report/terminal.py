@@ -31,6 +31,7 @@ from roughline.report.answers import (
 from roughline.report.columns import blocks, paragraph
 from roughline.report.contact_tables import curve_table, modulus_in_words
 from roughline.report.part_tables import count_in_words, leading_table, maps_table
+from roughline.report.why import TITLE, why_in_words
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
@@ -127,6 +128,8 @@ def _print_answers(
     if not unfolded_by and (elastic := elastic_in_words(result)):
         where = " (at the largest load)" if len(headings) > 1 else ""
         console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
+    if not unfolded_by and isinstance(result, Assessment):
+        _print_why(console, result)
     _explain_star(console, [headings[i] for i in loads])
     loads_left = len(headings) - len(loads) if loads else 0
     further = {"answers": len(result.answers) - len(keys), "loads": loads_left}
@@ -134,6 +137,15 @@ def _print_answers(
     return counts + (
         ["those of each map"] if unfolded_by and isinstance(result, PartAssessment) else []
     )
+
+
+def _print_why(console: Console, result: Assessment) -> None:
+    """Print what leaves the answers that lead open, the most first: a line for each answer."""
+    rows = why_in_words(result, leading_keys(result))
+    if rows:
+        where = " (at the largest load)" if len(result.headings) > 1 else ""
+        console.print(f"{TITLE}, as multiples of the value{where}:", highlight=False)
+        print_rows(console, [(f"  {name}", told) for name, told in rows])
 
 
 def _folded_table(
