@@ -205,6 +205,24 @@ def test_walk_to_what_leaks_which_is_asked_in_a_fold_and_shown_on_the_map(prepar
     assert "flux" not in page.inner_text("#measured [data-choice=measured-contact]")
 
 
+def test_why_answers_are_not_known_better_unfolds_to_bars_at_any_width(prepared):
+    page = prepared(BODIES[0], "&loads=2+MPa&grid_error=yes", "")
+    page.click("[data-press]:not([disabled])")
+    fold = page.locator("#measured details.why")
+    fold.locator("summary", has_text="Why it is not known better").click()
+    assert "Independent causes add in squares" in fold.inner_text()
+    known = fold.locator("tbody", has=page.locator("rect.whole"))
+    assert known.count()
+    for rows in known.all():
+        whole = rows.locator("rect.whole").bounding_box()
+        for bar in (each.bounding_box() for each in rows.locator("rect:not(.whole)").all()):
+            assert whole["x"] - 1 < bar["x"]  # or the intervals do not hold what is shown
+            assert bar["x"] + bar["width"] < whole["x"] + whole["width"] + 1
+    assert "finer pixels" in fold.inner_text()
+    assert faint(page) == []
+    assert cut_off(page, "measured", 390, 844) == []
+
+
 @pytest.mark.parametrize("body", BODIES)
 def test_theories_have_their_names_and_their_dashes_beside_the_curve(prepared, body):
     asked_for = "&loads=2+MPa&boundary=periodic&theories=persson,bush-gibson-thomas"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from lab.test_measured import Page
 from roughline.assessment.presses import list_presses
 from roughline.facts.fact import Fact
 from roughline.facts.kinds import INTERVALS, KINDS, FactKind
@@ -125,7 +126,7 @@ def test_its_presses_are_in_the_list_the_cost_and_the_progress(noise, piece, mon
     assert steps[-1][0] == steps[-1][1]
 
 
-def test_terminal_report_json_and_page_show_it(noise, piece, tmp_path, capsys):
+def test_terminal_report_json_and_page_show_it(noise, piece, tmp_path, only_drawn, capsys):
     result = rl.assess(question(piece))
     print_assessment(result)
     assert "noisy by 30 nm" in capsys.readouterr().out
@@ -134,10 +135,23 @@ def test_terminal_report_json_and_page_show_it(noise, piece, tmp_path, capsys):
     (margin,) = (each for each in content["answers"]["k_i"]["margins"] if each["cause"] == "noise")
     assert margin["title"] == "the noise of the instrument"
     assert margin["low"][0] < content["answers"]["k_i"]["values"][0] < margin["high"][0]
+    only_drawn()
     write_contact_report(result, tmp_path, "")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "the noise of the instrument" in page
     assert "noisy by 30 nm" in page
+
+
+def test_the_lab_shows_it(noise, piece, tmp_path):
+    page = Page(tmp_path, tmp_path)
+    rl.write(replace(piece, unit="m"), tmp_path / "map.nc")
+    state = page.bring(tmp_path / "map.nc") | {"first": "steel", "second": "copper"}
+    header, _ = page.ask("answer", state | {"loads": "10 N", "grid_error": "yes"})
+    bars = [bar for each in header["bars"]["answers"]["groups"] for bar in each["bars"]]
+    assert {(each["name"], each["remedy"]) for each in bars if each["name"] == noise.title} == {
+        (noise.title, noise.remedy)
+    }
+    assert any("noisy by 30 nm" in told for each in header["remarks"].values() for told in each)
 
 
 def test_one_whose_load_does_not_converge_leaves_the_interval_unknown(noise, surface):

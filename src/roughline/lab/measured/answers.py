@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -49,6 +49,7 @@ from roughline.report.comparison import verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table, modulus_in_words
 from roughline.report.page import sentence
 from roughline.report.values import up_to_three_digits
+from roughline.report.why import bars
 from roughline.units import engineering
 
 _SLIP_ROWS = 12
@@ -107,7 +108,7 @@ def _remarks(result: Assessment | PartAssessment, arguments: Arguments) -> dict[
 
 
 def _body_header(result: Assessment) -> dict[str, Any]:
-    """What is told of one body alone: its modulus, formulas and partial slip."""
+    """What is told of one body alone: its modulus, why, formulas and partial slip."""
     nothing = (["no answers follow from a contact modulus alone"], list[list[str]]())
     tables = {"measured-formulas": formula_table(result) if result.answers else nothing}
     slip, rows = result.partial_slip, list[list[str]]()
@@ -119,7 +120,9 @@ def _body_header(result: Assessment) -> dict[str, Any]:
     can_report = result.question.pair is not None and bool(result.question.loads)
     modulus = up_to_three_digits(result.curve.E_star, None, "Pa")
     words = {"modulus": modulus_in_words(result, modulus)}
-    return {"words": words, "tables": tables, "can_report": can_report}
+    found = bars(result, result.answers)
+    why = None if found is None else {**asdict(found), "header": found.header}
+    return {"words": words, "tables": tables, "bars": {"answers": why}, "can_report": can_report}
 
 
 def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAssessment:

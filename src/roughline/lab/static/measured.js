@@ -6,7 +6,7 @@ import {Source} from "./measured-file.js";
 import {Part} from "./measured-part.js";
 import {picturesOf} from "./measured-pictures.js";
 import {recall, remember} from "./remember.js";
-import {fillFigures, fillGroups, fillList, fillTable} from "./tables.js";
+import {fillBars, fillFigures, fillGroups, fillList, fillTable} from "./tables.js";
 import {Waiting} from "./waiting.js";
 
 const VERSION = "1";
@@ -85,11 +85,12 @@ class Measured {
 
   // Show what an answer of the server tells: words, tables, lists, figures and remarks by their places, and pictures.
   show(answer, step = "") {
-    const {words = {}, tables = {}, lists = {}, figures = {}, remarks} = answer;
+    const {words = {}, tables = {}, lists = {}, figures = {}, bars = {}, remarks} = answer;
     for (const [name, text] of Object.entries(words)) this.say(name, text);
     for (const [id, [header, rows, groups, quiet]] of Object.entries(tables)) fillTable(id, header, rows, groups, quiet);
     for (const [name, sentences] of Object.entries(lists)) fillList(this.find(`[data-list="${name}"]`), sentences);
     for (const [name, each] of Object.entries(figures)) fillFigures(this.find(`[data-figures="${name}"] dl`), each);
+    for (const [name, each] of Object.entries(bars)) fillBars(this.find(`[data-bars="${name}"]`), each);
     if (remarks) fillGroups(this.find("[data-remarks]"), remarks);
     if (step) this.pictures.then((pictures) => pictures.show(step, answer));
   }

@@ -72,6 +72,29 @@ export function fillFigures(place, figures) {
     element("dt", {textContent: name}), ...[value, interval].map((textContent) => element("dd", {textContent})))));
 }
 
+// Why answers are not known better: below the whole interval of each a bar for each cause, all on one axis; a fold that is
+// open stays so.
+export function fillBars(place, bars) {
+  place.hidden = !bars;
+  if (!bars) return;
+  const [cause, ends, remedy] = bars.header;
+  const svg = (kind, height, parts) => element(kind, {className: "axis", innerHTML: `<svg height="${height}" aria-hidden="true">${parts.join("")}</svg>`});
+  const ticks = Object.entries(bars.ticks).map(([label, at]) =>
+    `<text x="${at}%" y="12" text-anchor="${{0: "start", 100: "end"}[at] ?? "middle"}">${label}</text>`);
+  const line = `<line x1="0" x2="100%" y1="7" y2="7"/><line class="value" x1="${bars.value}%" x2="${bars.value}%" y1="0" y2="14"/>`;
+  const bar = ({name, ends, remedy, left, width}, i) => element("tr", {},
+    element("td", {textContent: name}),
+    svg("td", 14, [line, width === null ? "" : `<rect class="${i ? "" : "whole"}" x="${left}%" width="${width}%" y="3" height="8"/>`]),
+    element("td", {className: "ends", textContent: ends}), element("td", {className: "remedy", textContent: remedy}));
+  const head = (text) => element("th", {scope: "col", textContent: text});
+  place.replaceChildren(
+    element("summary", {textContent: bars.title}),
+    element("p", {className: "quiet"}, ...typeset(`${bars.about} The axis is logarithmic.`)),
+    element("table", {}, element("thead", {}, element("tr", {}, head(cause), svg("th", 16, ticks), head(ends), head(remedy))),
+      ...bars.groups.map((group) => element("tbody", {},
+        element("tr", {}, element("th", {colSpan: 4, scope: "rowgroup"}, ...typeset(group.names))), ...group.bars.map(bar)))));
+}
+
 // Say in a caption what a map shows, and what colours of the theme mean in it.
 export function fillCaption(place, {caption, meanings}) {
   const patches = Object.entries(meanings).flatMap(([name, meaning]) =>
