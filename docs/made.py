@@ -79,6 +79,7 @@ SECTIONS = {
         *("Joint", "Friction", "Ultrasound", "Theories", "Adhesion", "Fluid"),
         *("export_table", "PartAssessment", "material", "Material", "Coated", "contact_modulus"),
         *("Rule", "Symbol", "rules", "own_words"),
+        *("Cause", "OtherBodies", "Spread", "causes"),
     ),
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (
