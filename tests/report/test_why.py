@@ -94,6 +94,15 @@ def test_what_is_zero_has_its_upper_end_with_its_unit(result):
     assert [each.width for each in group.bars] == [None, None]
 
 
+def test_what_is_infinite_has_its_lower_end_with_its_unit(result):
+    answer, endless = result.answers["contact_stiffness"], np.full(2, np.inf)
+    margin = replace(answer.margins[0], low=np.full(2, 3e9), high=endless)
+    full = replace(answer, values=endless, low=np.full(2, 2e9), high=endless, margins=[margin])
+    (group,) = bars(replace(result, answers={"k": full}), ["k"]).groups
+    assert [each.ends for each in group.bars] == ["2 GN/m or more", "3 GN/m or more"]
+    assert [each.width for each in group.bars] == [None, None]
+
+
 @pytest.mark.parametrize("low_and_high", [(0.0, 5.0), (0.5, np.inf), (np.nan, np.nan)])
 def test_ends_that_have_no_logarithm_stay_on_the_axis(result, low_and_high):
     answer = result.answers["contact_stiffness"]

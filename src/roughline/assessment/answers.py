@@ -95,27 +95,32 @@ def margins_by_cause(
             for key, answer in answers.items():
                 if answer.rule.is_given or _is_open(own.get(key)):
                     continue
-                by_this, is_told = alone.get(key), answer.ends is not None
-                ends = None if by_this is None else by_this.ends
-                unknown = not (is_told or by_cause.is_known or _is_open(by_this))
-                if (unknown and _moves(each, answer, case)) or (ends is None and is_told):
-                    ends = (np.full(answer.values.shape, np.nan),) * 2
-                if ends is not None:
+                may_move = not by_cause.is_known and _moves(each, answer, case)
+                if (ends := _ends_alone(answer, alone.get(key), may_move)) is not None:
                     found[key].append(Margin(each.name, each.title, each.remedy, *ends))
     for key, (least, most) in scatter.items():
         values = answers[key].values
         low, high = (np.where(values == 0, 0.0, values * each) for each in (least, most))
-        found[key].append(Margin(HARDNESS.name, HARDNESS.title, HARDNESS.remedy, low, high))
+        found[key].append(
+            Margin(HARDNESS.name, HARDNESS.title, HARDNESS.remedy, low, high, is_bound=True)
+        )
     return {key: [each for each in margins if each.matters] for key, margins in found.items()}
 
 
+def _ends_alone(answer: Answer, alone: Answer | None, may_move: bool) -> Ends | None:
+    """Ends that one cause leaves open, which may move the answer: NaN where they are not known."""
+    ends = None if alone is None else alone.ends
+    missing = ends is None if answer.ends is not None else may_move and not _is_open(alone)
+    return (np.full(answer.values.shape, np.nan),) * 2 if missing else ends
+
+
 def _is_open(answer: Answer | None) -> bool:
-    """Whether an answer has an interval that reaches beyond its value, but for rounding."""
+    """Whether an answer has an interval that is more than its value, but for rounding."""
     if answer is None or answer.ends is None:
         return False
-    (low, high), rounding = answer.ends, np.abs(answer.values) * (MATTERS - 1)
-    with np.errstate(invalid="ignore"):  # of infinite ones
-        return bool(((answer.values - low > rounding) | (high - answer.values > rounding)).any())
+    return not np.isclose(
+        answer.ends, answer.values, rtol=MATTERS - 1, atol=0, equal_nan=True
+    ).all()
 
 
 def _moves(cause: Cause, answer: Answer, case: Case) -> bool:

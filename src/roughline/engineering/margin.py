@@ -27,6 +27,8 @@ class Margin:
         What would narrow it, such as "finer pixels".
     low, high : ndarray, shape (loads,)
         Both ends that it alone leaves open; NaN where that is not known. [unit of the answer]
+    is_bound : bool
+        Whether it bounds what others leave open, instead of being independent of them.
     """
 
     cause: str
@@ -34,6 +36,7 @@ class Margin:
     remedy: str
     low: Real
     high: Real
+    is_bound: bool = False
 
     @property
     def ends(self) -> Ends:
@@ -52,13 +55,19 @@ class Margin:
         return bool((~(self.factor <= MATTERS)).any())
 
 
+def multiple(end: float, value: float) -> float:
+    """An end over the value; 1 where both are equal, as zero or infinite ones may be. [1]"""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return 1.0 if end == value else float(np.divide(end, value))
+
+
 @dataclass(frozen=True)
 class Reason:
     """Why an answer is not known better under one load; ``str`` says it in words.
 
     Attributes
     ----------
-    cause, title, remedy : str
+    cause, title, remedy, is_bound
         As those of its :class:`Margin`.
     low, high : float
         Lower and upper end over the value; NaN where that is not known. [1]
@@ -69,6 +78,7 @@ class Reason:
     remedy: str
     low: float
     high: float
+    is_bound: bool = False
 
     @property
     def is_known(self) -> bool:

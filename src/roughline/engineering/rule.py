@@ -12,7 +12,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.contact.measures import Measure
 from roughline.engineering.intervals import Ends
-from roughline.engineering.margin import MATTERS, Margin, Reason
+from roughline.engineering.margin import MATTERS, Margin, Reason, multiple
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.sealing import Fluid
@@ -319,9 +319,8 @@ class Answer:
         found = []
         for each in () if np.isnan(value) else self.margins:
             if not each.factor[load] <= MATTERS:
-                with np.errstate(divide="ignore", invalid="ignore"):
-                    ends = (1.0 if end[load] == value else end[load] / value for end in each.ends)
-                    found.append(Reason(each.cause, each.title, each.remedy, *map(float, ends)))
+                low, high = (multiple(end[load], value) for end in each.ends)
+                found.append(Reason(each.cause, each.title, each.remedy, low, high, each.is_bound))
         return sorted(found, key=lambda each: -np.nan_to_num(each.factor, nan=np.inf))
 
     @property

@@ -145,7 +145,7 @@ def _print_why(console: Console, result: Assessment) -> None:
     if rows:
         where = " (at the largest load)" if len(result.headings) > 1 else ""
         console.print(f"{TITLE}, as multiples of the value{where}:", highlight=False)
-        print_rows(console, [(f"  {name}", told) for name, told in rows])
+        print_rows(console, [(f"  {name}", causes) for name, causes in rows])
 
 
 def _folded_table(

@@ -7,9 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from roughline.engineering.margin import Reason
+from roughline.engineering.margin import Reason, multiple
 from roughline.facts.listed import listed
-from roughline.margins.causes import causes
 from roughline.report.page import Bar, BarGroup, Bars
 from roughline.report.values import with_interval
 from roughline.units import decimal
@@ -23,9 +22,9 @@ TITLE = "Why it is not known better"
 
 _TOGETHER = "all together"
 _NO_INTERVAL = "without an interval"
-_FARTHEST = 100.0  # times the value, beyond which an axis does not reach, nor below its inverse
-_NEAREST = 1.1  # times the value, up to which an axis reaches at least
-_CLOSE = 15.0  # distance of labels that would touch each other [% of the axis]
+_LONGEST_AXIS = 100.0  # times the value, beyond which an axis does not reach, nor below its inverse
+_SHORTEST_AXIS = 1.1  # times the value, up to which an axis reaches at least
+_TICKS_APART = 15.0  # distance of labels that would touch each other [% of the axis]
 
 
 def bars(assessment: Assessment, keys: Iterable[str]) -> Bars | None:
@@ -38,17 +37,17 @@ def bars(assessment: Assessment, keys: Iterable[str]) -> Bars | None:
     if not open_answers:
         return None
     reasons = {each.key: _reasons(each, load) for each in open_answers}
-    axis = _Axis.of(each for some in reasons.values() for each in some)
-    alike: dict[tuple[Bar, ...], list[Answer]] = {}
+    axis = _BarAxis.of(each for some in reasons.values() for each in some)
+    groups: dict[tuple[Bar, ...], list[Answer]] = {}
     for answer in open_answers:
         made = tuple(_bar(answer, load, each, axis) for each in reasons[answer.key])
-        alike.setdefault(made, []).append(answer)
-    groups = [
+        groups.setdefault(made, []).append(answer)
+    named = [
         BarGroup(listed([f"{each.name} {each.symbol}" for each in answers]), made)
-        for made, answers in alike.items()
+        for made, answers in groups.items()
     ]
     about = _about(assessment, [each for some in reasons.values() for each in some])
-    return Bars(TITLE, about, axis.ticks, axis.place(1.0), groups)
+    return Bars(TITLE, about, axis.ticks, axis.place(1.0), named)
 
 
 def why_in_words(assessment: Assessment, keys: Iterable[str]) -> list[tuple[str, str]]:
@@ -63,9 +62,9 @@ def why_in_words(assessment: Assessment, keys: Iterable[str]) -> list[tuple[str,
 
 def _about(assessment: Assessment, reasons: Sequence[Reason]) -> str:
     """What bars show, and how they add up."""
-    count, bounds = len(assessment.headings), {each.name for each in causes if each.is_bound}
-    under = f" under {assessment.headings[assessment.largest]}" if count > 1 else ""
-    widening = dict.fromkeys(each.title for each in reasons if each.cause in bounds)
+    headings = assessment.headings
+    under = f" under {headings[assessment.largest]}" if len(headings) > 1 else ""
+    widening = dict.fromkeys(each.title for each in reasons if each.is_bound)
     text = (
         f"What each cause alone leaves open{under}, the most first, as multiples of the value. "
         "Independent causes add in squares"
@@ -75,46 +74,48 @@ def _about(assessment: Assessment, reasons: Sequence[Reason]) -> str:
 
 def _reasons(answer: Answer, load: int) -> list[Reason]:
     """The whole interval of an answer over its value, and below it what leaves it open."""
-    low, high = (math.nan,) * 2 if answer.ends is None else (each[load] for each in answer.ends)
-    value = float(answer.values[load])
-    ends = (float(each) / value if value else math.nan for each in (low, high))
-    return [Reason("", _TOGETHER, "", *ends), *answer.why(load)]
+    low, high = math.nan, math.nan
+    if answer.ends is not None:
+        low, high = (multiple(each[load], answer.values[load]) for each in answer.ends)
+    return [Reason("", _TOGETHER, "", low, high), *answer.why(load)]
 
 
-def _bar(answer: Answer, load: int, reason: Reason, axis: _Axis) -> Bar:
+def _bar(answer: Answer, load: int, reason: Reason, axis: _BarAxis) -> Bar:
     """A bar of one cause, or of the whole interval; none where its ends are not known."""
-    words = _ends_in_words(answer, load, reason)
-    if not reason.is_known or not answer.values[load]:
+    words, has_multiples = _ends_in_words(answer, load, reason), 0 < answer.values[load] < math.inf
+    if not (reason.is_known and has_multiples):
         return Bar(reason.title, words, reason.remedy)
     left, right = axis.place(reason.low), axis.place(reason.high)
     return Bar(reason.title, words, reason.remedy, left, round(right - left, 2))
 
 
 def _ends_in_words(answer: Answer, load: int, reason: Reason) -> str:
-    """Both ends over the value; of what is zero, the upper end with its unit."""
-    if not answer.values[load]:
-        margins = {each.cause: each.high for each in answer.margins}
-        high = margins.get(reason.cause, answer.high)
-        if high is not None and high[load] > 0:
-            return f"up to {with_interval(float(high[load]), None, answer.unit)}"
-    is_whole = not reason.cause
-    return _NO_INTERVAL if is_whole and not reason.is_known else reason.ends_in_words
+    """Both ends over the value; of what is zero or infinite, the other end with its unit."""
+    if not reason.is_known:
+        return reason.ends_in_words if reason.cause else _NO_INTERVAL
+    value = answer.values[load]
+    if 0 < value < math.inf:
+        return reason.ends_in_words
+    by_cause = {each.cause: each.ends for each in answer.margins}
+    low, high = by_cause.get(reason.cause) or answer.ends or (answer.values, answer.values)
+    end = with_interval(float((high if value == 0 else low)[load]), None, answer.unit)
+    return f"up to {end}" if value == 0 else f"{end} or more"
 
 
 @dataclass(frozen=True)
-class _Axis:
+class _BarAxis:
     """A logarithmic axis of multiples of a value, from below one to above it."""
 
     low: float
     high: float
 
     @classmethod
-    def of(cls, reasons: Iterable[Reason]) -> _Axis:
+    def of(cls, reasons: Iterable[Reason]) -> _BarAxis:
         """As long as what some reasons leave open needs, as far as it may reach."""
-        known = [each for each in reasons if each.is_known]
-        low = min([1 / _NEAREST, *(each.low for each in known)])
-        high = max([_NEAREST, *(each.high for each in known)])
-        return cls(_outward(max(low, 1 / _FARTHEST), -1), _outward(min(high, _FARTHEST), 1))
+        ends = [end for each in reasons if each.is_known for end in (each.low, each.high)]
+        some = [end for end in ends if 0 < end < math.inf]  # others have no place on it
+        low, high = min([1 / _SHORTEST_AXIS, *some]), max([_SHORTEST_AXIS, *some])
+        return cls(_outward(max(low, 1 / _LONGEST_AXIS), -1), _outward(min(high, _LONGEST_AXIS), 1))
 
     def place(self, ratio: float) -> float:
         """Where a multiple of the value is on the axis; beyond its ends, there. [% of it]"""
@@ -126,7 +127,9 @@ class _Axis:
         """Places of the value and of both ends of the axis, by what stands there."""
         value = self.place(1.0)
         found = {decimal(self.low, 2): 0.0, "1": value, decimal(self.high, 2): 100.0}
-        return {name: at for name, at in found.items() if at == value or abs(at - value) > _CLOSE}
+        return {
+            name: at for name, at in found.items() if at == value or abs(at - value) > _TICKS_APART
+        }
 
 
 def _outward(ratio: float, sign: int) -> float:
