@@ -24,7 +24,7 @@ def table_lines(out):
     """Lines of the table on screen."""
     lines = out.splitlines()
     first = next(i for i, line in enumerate(lines) if line.strip().startswith("normal force")) - 1
-    after = ("*", "note:", "for comparison, ")
+    after = ("*", "note:", "for comparison, ", "Why it is not known better")
     last = next(i for i, line in enumerate(lines) if line.startswith(after))
     return lines[first:last]
 

@@ -119,7 +119,7 @@ def test_the_terminal_says_it_of_leading_answers_where_all_is_wanted(result, cap
     _, lines = told(result, capsys).split(f"{TITLE}, as multiples of the value (at the largest")
     for key in leading_keys(result):
         answer = result.answers[key]
-        causes = "; ".join(f"{each.title} {each.ends_in_words}" for each in answer.why())
+        causes = "; ".join(f"{each.title}: {each.ends_in_words}" for each in answer.why())
         assert re.search(f"  {re.escape(answer.name)} +{re.escape(causes)}\n", lines)
 
 

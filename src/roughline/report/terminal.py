@@ -128,9 +128,9 @@ def _print_answers(
     if not unfolded_by and (elastic := elastic_in_words(result)):
         where = " (at the largest load)" if len(headings) > 1 else ""
         console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
+    _explain_star(console, [headings[i] for i in loads])
     if not unfolded_by and isinstance(result, Assessment):
         _print_why(console, result)
-    _explain_star(console, [headings[i] for i in loads])
     loads_left = len(headings) - len(loads) if loads else 0
     further = {"answers": len(result.answers) - len(keys), "loads": loads_left}
     counts = [f"{count} further {name}" for name, count in further.items() if count]

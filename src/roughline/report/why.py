@@ -55,7 +55,7 @@ def why_in_words(assessment: Assessment, keys: Iterable[str]) -> list[tuple[str,
     load, found = assessment.largest, []
     for answer in (assessment.answers[key] for key in keys):
         if reasons := answer.why(load):
-            texts = [f"{each.title} {_ends_in_words(answer, load, each)}" for each in reasons]
+            texts = [f"{each.title}: {_ends_in_words(answer, load, each)}" for each in reasons]
             found.append((answer.name, "; ".join(texts)))
     return found
 
