@@ -104,15 +104,14 @@ class Convolution:
         out: Real | None,
     ) -> Real:
         """Return what :meth:`displacement` does, on a small grid."""
+        grid.put(pressure, grid.places(sources.indices))
+        grid.convolve(self.spectrum)
         if out is None:
             out = np.empty(self.shape if targets is None else targets.indices.size)
-        field = grid.field()
-        _lay_out(pressure, *sources.listed, field)
-        grid.convolve(field, self.spectrum, field)
         if targets is None:
-            out[:] = field[:, : self.shape[1]]
+            out[:] = grid.result.reshape(-1, grid.width)[:, : self.shape[1]]
         else:
-            _pick(field, *targets.listed, out)
+            out[:] = grid.at(grid.places(targets.indices))
         return out
 
     def _sums_are_cheap(self, sources: int, targets: int) -> bool:
@@ -222,26 +221,6 @@ def displacement_field(operator: Convolution, pressure: Real) -> Real:
     """Return the displacement everywhere under the pressure on each cell, shape (nx, ny)."""
     nodes = InGrid(np.flatnonzero(pressure))
     return operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, operator.shape))
-
-
-@compiled
-def _lay_out(
-    values: Floats, starts: Integers, columns: Integers, rows: Integers, field: Floats
-) -> None:
-    """Write values at their nodes into a field."""
-    for k in range(rows.size):
-        for i in range(starts[k], starts[k + 1]):
-            field[rows[k], columns[i]] = values[i]
-
-
-@compiled
-def _pick(
-    field: Floats, starts: Integers, columns: Integers, rows: Integers, values: Floats
-) -> None:
-    """Read what _lay_out would write."""
-    for k in range(rows.size):
-        for i in range(starts[k], starts[k + 1]):
-            values[i] = field[rows[k], columns[i]]
 
 
 @compiled

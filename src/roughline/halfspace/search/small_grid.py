@@ -30,8 +30,6 @@ _MOST_VAIN_EXCHANGES = 6  # without a new minimum of wrong nodes
 _FEW_WRONG = 0.1  # part of the nodes in contact that may be wrong in a guess
 _ROUGH_FROM = 1e-2  # tolerance of one
 _RELIEF = 1e-3  # part of the most that a node bears by which it is relieved
-_MOST_EVALUATIONS = 4  # each computes the energy form afresh; two are enough
-_ENERGY_AIM = 0.1  # part of its accuracy
 
 
 class _Last(threading.local):
@@ -77,7 +75,6 @@ class _SmallGridSearch:
         self._approach = 0.0 if load.depth is None else load.depth - problem.touch
         self._above = problem.separation - problem.touch
         self._state = np.zeros(problem.separation.shape, dtype=np.int8)
-        self._field, self._gap = grid.field(), grid.field()
         self._slack = 0.0  # gap up to which plastic nodes stay so [length]
         self.convolutions = 0
 
@@ -146,14 +143,14 @@ class _SmallGridSearch:
             self._pressure += _carried_over(relieved, high, self._nodes)
 
     def _moved(self) -> Real:
-        """Return the displacement by the pressures, as a field."""
+        """Return the displacement by the pressures, as a field of the grid."""
+        grid, plastic = self._grid, self._plastic
         self.convolutions += 1
-        _put(self._pressure, self._nodes, self._grid.shape[1], self._field)
-        if self._plastic.size:
-            high = np.full(self._plastic.size, self._most)
-            _write(high, self._plastic, self._grid.shape[1], self._field)
-        self._grid.convolve(self._field, self._problem.operator.spectrum, self._gap)
-        return self._gap
+        grid.put(self._pressure, grid.places(self._nodes))
+        if plastic.size:
+            grid.source[grid.places(plastic)] = self._most
+        grid.convolve(self._problem.operator.spectrum)
+        return grid.result
 
     def _tolerance(self, displaced: float) -> float:
         """Return the error that is allowed, by the scales of the residuals. [length]"""
@@ -181,7 +178,8 @@ class _SmallGridSearch:
         right[:, 1] = self._above.flat[nodes]
         if self._plastic.size:
             self._pressure[:] = 0.0
-            right[:, 1] += _at(self._moved(), nodes, self._grid.shape[1])
+            self._moved()
+            right[:, 1] += self._grid.at(self._grid.places(nodes))
         solution, _ = lapack.dpotrs(factor, right, lower=1, overwrite_b=1)
         even, rest = (float(each) for each in solution.sum(axis=0))
         added, left = inverse.even_pressure_term, self._left  # the kernel displaces by more
@@ -194,7 +192,7 @@ class _SmallGridSearch:
         wrong, error, displaced = _exchanged_by_gap(
             self._pressure,
             (nodes, self._plastic),
-            (self._moved(), self._above, self._approach),
+            (self._moved(), self._grid.width, self._above, self._approach),
             (self._most, self._slack),
             self._state,
         )
@@ -202,19 +200,23 @@ class _SmallGridSearch:
 
     def _led_by_gradients(self) -> tuple[int, float, float]:
         """Lead the pressures by conjugate gradients, until errors of the set outweigh their own."""
-        left, pressure, width = self._left, self._pressure, self._grid.shape[1]
+        left, pressure, grid = self._left, self._pressure, self._grid
         if left is not None and pressure.any():
             pressure *= left / pressure.sum()
-        moved = self._moved()
-        displaced = float(_at(moved, self._plastic, width).max(initial=0.0))
+        moved, places = self._moved(), grid.places(self._nodes)
+        displaced = float(grid.at(grid.places(self._plastic)).max(initial=0.0))
         error, level, most_displaced = _missing(
-            pressure, self._nodes, moved, self._above, left is not None, self._approach
+            pressure,
+            (self._nodes, places),
+            (moved, self._above.reshape(-1)),
+            left is not None,
+            self._approach,
         )
         least = level + REACH_OF_ERROR * math.sqrt(float(error @ error) / error.size)
-        beside = _watched(moved, self._state, least)
-        gradients = Gradients(self._inverse, self._grid, self._nodes, pressure, error)
+        beside, gap = _watched((moved, grid.width, self._above, self._plastic), self._state, least)
+        gradients = Gradients(self._inverse, self._nodes, pressure, error)
         watched = np.append(beside, self._plastic)
-        gradients.watch(watched, moved, (self._inverse.diagonal, self._most, beside.size))
+        gradients.watch(watched, gap, (self._inverse.diagonal, self._most, beside.size))
         gradients.level, tolerance = level, self._tolerance(max(displaced, most_displaced))
         spare = self._method.max_iterations - self.convolutions
         gradients.lead(tolerance, fixed=left is not None, most_steps=min(MOST_STEPS, spare))
@@ -223,9 +225,9 @@ class _SmallGridSearch:
         wrong = _exchanged(
             pressure,
             (self._nodes, watched, beside.size),
-            gradients.gap - gradients.level,
+            gap - gradients.level,
             (self._most, self._slack),
-            self._state,
+            self._state.reshape(-1),
         )
         return wrong, gradients.largest_error, tolerance
 
@@ -238,31 +240,30 @@ class Gradients:
     """
 
     def __init__(
-        self,
-        inverse: ApproximateInverse,
-        grid: SmallGrid,
-        nodes: InGrid,
-        pressure: Real,
-        error: Real,
+        self, inverse: ApproximateInverse, nodes: InGrid, pressure: Real, error: Real
     ) -> None:
+        grid = inverse.operator.small_grid
+        assert grid is not None
         self.level = 0.0  # of the displacement, which a fixed total leaves open [length]
         self.largest_error = math.inf  # [length]
         self.energy = 0.0  # of the error, norm squared, by the preconditioner
         self.steps = 0  # each takes one convolution
-        self.gap = np.empty(0)  # of the watched nodes, from any datum [length]
-        self._watched = np.empty(0, dtype=np.intp)
-        self._bounds = 0.0, math.inf, 0
-        self._inverse, self._grid, self._nodes = inverse, grid, nodes
+        self._grid, self._spectrum = grid, inverse.operator.spectrum
+        self._around, self._inverse = inverse.small_inverse
+        self._places, self._places_around = grid.places(nodes), self._around.places(nodes)
         self._pressure, self._error = pressure, error
+        # watched places, their gaps from any datum [length], and bounds
+        self._watched: tuple[Indices, Real] = np.empty(0, dtype=np.intp), np.empty(0)
+        self._bounds = 0.0, math.inf, 0
 
     def watch(self, watched: Indices, gap: Real, bounds: tuple[float, float, int]) -> None:
         """Watch nodes, and pressures beyond their bounds, as displacements at their own nodes.
 
-        The bounds are the diagonal of the operator, the most that a node bears, and how many of
-        the watched nodes are without pressure; the others bear the most.
+        The gaps of the nodes are from any datum, and overwritten. The bounds are the diagonal of
+        the operator, the most that a node bears, and how many of the watched nodes are without
+        pressure; the others bear the most.
         """
-        self._watched, self._bounds = watched, bounds
-        self.gap = _at(gap, watched, self._grid.shape[1])
+        self._watched, self._bounds = (self._grid.places(watched), gap), bounds
 
     def lead(
         self,
@@ -277,29 +278,32 @@ class Gradients:
         Or until their energy, by the preconditioner, is so small. With a fixed total the sum of the
         pressures stays, and the level follows. [pressure length]
         """
-        grid, error, nodes, width = self._grid, self._error, self._nodes, self._grid.shape[1]
-        around, spectrum = self._inverse.small_inverse
-        to_invert, inverted = around.field(), around.field()
-        field, response = grid.field(), grid.field()
+        grid, around, error = self._grid, self._around, self._error
+        here, there = self._places_around, self._places
         direction, even = np.zeros_like(error), np.zeros(0)
+        grid.source[:] = 0.0
         if fixed:
-            _write(np.ones_like(error), nodes, width, to_invert)
-            around.convolve(to_invert, spectrum, inverted)
-            even = _at(inverted, nodes, width)
+            around.put(np.ones_like(error), here)
+            around.convolve(self._inverse)
+            even = around.at(here)
+            even /= even.sum()
             rise, self.largest_error = _levelled(error, even)
             self.level += rise
+        around.put(error, here)
         while self.steps < most_steps:
-            _write(error, nodes, width, to_invert)
-            around.convolve(to_invert, spectrum, inverted)
-            self.energy = _turned(inverted, self.energy, error, nodes, width, direction, field)
+            around.convolve(self._inverse)
+            self.energy = _turned(
+                (around.result, here), self.energy, error, direction, (grid.source, there)
+            )
             if self.energy <= least_energy:
                 break
-            grid.convolve(field, self._inverse.operator.spectrum, response)
+            grid.convolve(self._spectrum)
             rise, of_set, of_error, largest = _stepped(
-                (direction, response, self.energy),
+                (direction, grid.result, there, self.energy),
                 (even, self.level, *self._bounds),
-                (nodes, self._watched, width),
-                (self._pressure, error, self.gap),
+                (self._pressure, error),
+                self._watched,
+                (around.source, here),
             )
             if largest < 0:  # nothing to gain
                 break
@@ -311,50 +315,48 @@ class Gradients:
 
 
 def compliance(
-    inverse: ApproximateInverse, grid: SmallGrid, nodes: InGrid, pressure: Real, accuracy: float
+    inverse: ApproximateInverse, nodes: InGrid, pressure: Real, accuracy: float
 ) -> tuple[float, int]:
     """Lead pressures of unit force, which are overwritten, to those that displace all nodes alike.
 
     Return the compliance, NaN where it is not found to such a part of itself, and the convolutions.
     """
     if nodes.size <= _MOST_FACTORED_NODES:
-        return _compliance_of_few(inverse, grid, nodes, pressure, accuracy)
+        return _compliance_of_few(inverse, nodes, pressure, accuracy)
     if inverse.solves_blocks:
         return math.nan, 0
-    cell_area, width = inverse.operator.cell_area, grid.shape[1]
-    field, steps = grid.field(), 0
-    for turns in range(1, _MOST_EVALUATIONS + 1):
-        _write(pressure, nodes, width, field)
-        moved = grid.field()
-        grid.convolve(field, inverse.operator.spectrum, moved)
-        displacement = _at(moved, nodes, width)
-        found = float(pressure @ displacement) * cell_area
-        least = _ENERGY_AIM * accuracy * found / cell_area
-        gradients = Gradients(
-            inverse, grid, nodes, pressure, float(displacement.mean()) - displacement
-        )
-        gradients.lead(0.0, fixed=True, least_energy=least)
-        steps += gradients.steps
-        if not gradients.steps:
-            return (found if gradients.energy <= least else math.nan), steps + turns
-    return math.nan, steps + _MOST_EVALUATIONS
+    displacement = _displaced(inverse, nodes, pressure)
+    mean, least = float(displacement.mean()), accuracy * float(pressure @ displacement)
+    error = mean - displacement
+    gradients = Gradients(inverse, nodes, pressure, error)
+    gradients.level = mean
+    gradients.lead(0.0, fixed=True, least_energy=least)
+    found = float(pressure @ (gradients.level - error)) * inverse.operator.cell_area
+    return (found if gradients.energy <= least else math.nan), 1 + gradients.steps
 
 
 def _compliance_of_few(
-    inverse: ApproximateInverse, grid: SmallGrid, nodes: InGrid, pressure: Real, accuracy: float
+    inverse: ApproximateInverse, nodes: InGrid, pressure: Real, accuracy: float
 ) -> tuple[float, int]:
     """Return the compliance of few nodes, from a Cholesky factor, and the convolutions."""
     factor, cell_area = _factor(inverse, nodes), inverse.operator.cell_area
     solution, _ = lapack.dpotrs(factor, np.ones(nodes.size), lower=1, overwrite_b=1)
     pressure[:] = solution / (solution.sum() * cell_area)
-    field = grid.field()
-    _write(pressure, nodes, grid.shape[1], field)
-    grid.convolve(field, inverse.operator.spectrum, field)
-    moved = _at(field, nodes, grid.shape[1])
+    moved = _displaced(inverse, nodes, pressure)
     found = float(pressure @ moved) * cell_area
     off = moved - moved.mean()
     rest, _ = lapack.dpotrs(factor, off, lower=1)
     return (found if float(off @ rest) * cell_area <= accuracy * found else math.nan), 1
+
+
+def _displaced(inverse: ApproximateInverse, nodes: InGrid, pressure: Real) -> Real:
+    """Return the displacement of nodes by pressures on them."""
+    grid = inverse.operator.small_grid
+    assert grid is not None
+    places = grid.places(nodes)
+    grid.put(pressure, places)
+    grid.convolve(inverse.operator.spectrum)
+    return grid.at(places)
 
 
 def _factor(inverse: ApproximateInverse, nodes: InGrid) -> Real:
@@ -377,29 +379,6 @@ def _factor(inverse: ApproximateInverse, nodes: InGrid) -> Real:
 
 
 @compiled
-def _write(values: Real, nodes: Indices, width: int, field: Real) -> None:
-    """Write values at nodes into a field."""
-    for i in range(nodes.size):
-        field[nodes[i] // width, nodes[i] % width] = values[i]
-
-
-@compiled
-def _put(values: Real, nodes: Indices, width: int, field: Real) -> None:
-    """Write values at nodes into a field, which is zero elsewhere."""
-    field[:] = 0.0
-    _write(values, nodes, width, field)
-
-
-@compiled
-def _at(field: Real, nodes: Indices, width: int) -> Real:
-    """Return the values of a field at nodes."""
-    values = np.empty(nodes.size)
-    for i in range(nodes.size):
-        values[i] = field[nodes[i] // width, nodes[i] % width]
-    return values
-
-
-@compiled
 def _carried_over(before: Indices, pressure: Real, nodes: Indices) -> Real:
     """Return pressures on other ascending nodes: zero on those that had none."""
     values, place = np.zeros(nodes.size), 0
@@ -415,35 +394,39 @@ def _carried_over(before: Indices, pressure: Real, nodes: Indices) -> Real:
 def _exchanged_by_gap(
     pressure: Real,
     nodes_and_plastic: tuple[Indices, Indices],
-    lengths: tuple[Real, Real, float],
+    lengths: tuple[Real, int, Real, float],
     limits: tuple[float, float],
     state: Integers,
 ) -> tuple[int, float, float]:
     """Let nodes that overlap join, those that pull leave, and those that bear too much yield.
 
-    Plastic nodes of which the gap is more than a slack touch again. Lengths are displacements,
-    separations and the approach; limits are the most that a node bears, and the slack. Return how
-    many have changed, the largest gap of those that touch, and the largest displacement.
+    Plastic nodes of which the gap is more than a slack touch again. Lengths are displacements, with
+    the width of their field, separations and the approach; limits are the most that a node bears,
+    and the slack. Return how many have changed, the largest gap of those that touch, and the
+    largest displacement.
     """
-    (nodes, plastic), (moved, above, approach) = nodes_and_plastic, lengths
-    (most, slack), width = limits, state.shape[1]
+    (nodes, plastic), (moved, width, above, approach) = nodes_and_plastic, lengths
+    (most, slack), columns = limits, state.shape[1]
     wrong, error, displaced = 0, 0.0, 0.0
     for x in range(state.shape[0]):
-        for y in range(width):
-            if state[x, y] == 0 and moved[x, y] + above[x, y] < approach:
+        row = moved[x * width : x * width + columns]
+        for y in range(columns):
+            if state[x, y] == 0 and row[y] + above[x, y] < approach:
                 state[x, y] = 1
                 wrong += 1
     for i in range(nodes.size):
-        x, y = nodes[i] // width, nodes[i] % width
-        error = max(error, abs(moved[x, y] + above[x, y] - approach))
-        displaced = max(displaced, moved[x, y])
+        x, y = nodes[i] // columns, nodes[i] % columns
+        here = moved[x * width + y]
+        error = max(error, abs(here + above[x, y] - approach))
+        displaced = max(displaced, here)
         if pressure[i] < 0 or pressure[i] > most:
             state[x, y] = 0 if pressure[i] < 0 else 2
             wrong += 1
     for node in plastic:
-        x, y = node // width, node % width
-        displaced = max(displaced, moved[x, y])
-        if moved[x, y] + above[x, y] - approach > slack:
+        x, y = node // columns, node % columns
+        here = moved[x * width + y]
+        displaced = max(displaced, here)
+        if here + above[x, y] - approach > slack:
             state[x, y] = 1
             wrong += 1
     return wrong, error, displaced
@@ -452,23 +435,23 @@ def _exchanged_by_gap(
 @compiled_sums
 def _missing(
     pressure: Real,
-    nodes: Indices,
-    moved: Real,
-    above: Real,
+    at: tuple[Indices, Indices],
+    lengths: tuple[Real, Real],
     fixed: bool,
     approach: float,
 ) -> tuple[Real, float, float]:
-    """Turn displacements into gaps from the datum, and return what is missing in contact.
+    """Return what displacements miss of the contact at nodes, by their places in the field.
 
     Return with it the level: the approach, or, with a fixed total, that of the work of the
     pressures; and the largest displacement.
     """
-    error, width = np.empty(nodes.size), above.shape[1]
+    (nodes, places), (moved, above) = at, lengths
+    error = np.empty(nodes.size)
     work, total, displaced = 0.0, 0.0, 0.0
     for i in range(nodes.size):
-        x, y = nodes[i] // width, nodes[i] % width
-        displaced = max(displaced, moved[x, y])
-        error[i] = moved[x, y] + above[x, y]
+        here = moved[places[i]]
+        displaced = max(displaced, here)
+        error[i] = here + above[nodes[i]]
         work += pressure[i] * error[i]
         total += pressure[i]
     level = approach
@@ -476,104 +459,114 @@ def _missing(
         level = work / total if total > 0 else error.mean()
     for i in range(nodes.size):
         error[i] = level - error[i]
-    for x in range(above.shape[0]):
-        for y in range(width):
-            moved[x, y] += above[x, y]
     return error, level, displaced
 
 
 @compiled
-def _watched(gap: Real, state: Integers, least: float) -> Indices:
-    """List the nodes without pressure whose gap is below a number."""
-    nodes, found, width = np.empty(state.size, dtype=np.intp), 0, state.shape[1]
+def _watched(
+    lengths: tuple[Real, int, Real, Indices], state: Integers, least: float
+) -> tuple[Indices, Real]:
+    """List the nodes without pressure whose gap from the datum is below a number.
+
+    Lengths are displacements, with the width of their field, and separations. Return the nodes, and
+    the gaps of them and of the plastic ones, which follow.
+    """
+    moved, width, above, plastic = lengths
+    nodes, found, columns = np.empty(state.size, dtype=np.intp), 0, state.shape[1]
+    gaps = np.empty(state.size)
     for x in range(state.shape[0]):
-        for y in range(width):
-            if gap[x, y] < least and state[x, y] == 0:
-                nodes[found] = x * width + y
+        row = moved[x * width : x * width + columns]
+        for y in range(columns):
+            gap = row[y] + above[x, y]
+            if gap < least and state[x, y] == 0:
+                nodes[found], gaps[found] = x * columns + y, gap
                 found += 1
-    return nodes[:found].copy()
+    count = found
+    for node in plastic:
+        x, y = node // columns, node % columns
+        gaps[count] = moved[x * width + y] + above[x, y]
+        count += 1
+    return nodes[:found].copy(), gaps[:count].copy()
 
 
 @compiled_sums
 def _levelled(error: Real, even: Real) -> tuple[float, float]:
     """Raise an error so that its preconditioned sum is zero; return by how much, and the largest.
 
-    The even one is what the preconditioner makes of an error of one.
+    The even one is what the preconditioner makes of an error of one, over its sum.
     """
     total, largest = 0.0, 0.0
     for i in range(error.size):
         total += even[i] * error[i]
-    rise = -total / even.sum()
     for i in range(error.size):
-        error[i] += rise
+        error[i] -= total
         largest = max(largest, abs(error[i]))
-    return rise, largest
+    return -total, largest
 
 
 @compiled_sums
 def _turned(
-    inverted: Real,
+    inverted: tuple[Real, Indices],
     before: float,
     error: Real,
-    nodes: Indices,
-    width: int,
     direction: Real,
-    field: Real,
+    source: tuple[Real, Indices],
 ) -> float:
     """Let the direction be conjugate to the last one, and write it into a field.
 
-    The energy of the error is returned; the one before is zero at first.
+    Fields come with the places of the nodes. The energy of the error is returned; the one before is
+    zero at first.
     """
+    (inverted_field, here), (field, there) = inverted, source
     energy = 0.0
-    for i in range(nodes.size):
-        energy += error[i] * inverted[nodes[i] // width, nodes[i] % width]
+    for i in range(error.size):
+        energy += error[i] * inverted_field[here[i]]
     part = energy / before if before > 0 else 0.0
-    for i in range(nodes.size):
-        x, y = nodes[i] // width, nodes[i] % width
-        direction[i] = inverted[x, y] + part * direction[i]
-        field[x, y] = direction[i]
+    for i in range(error.size):
+        direction[i] = inverted_field[here[i]] + part * direction[i]
+        field[there[i]] = direction[i]
     return energy
 
 
 @compiled_sums
 def _stepped(
-    step: tuple[Real, Real, float],
+    step: tuple[Real, Real, Indices, float],
     conditions: tuple[Real, float, float, float, int],
-    places: tuple[Indices, Indices, int],
-    state: tuple[Real, Real, Real],
+    state: tuple[Real, Real],
+    beyond: tuple[Indices, Real],
+    source: tuple[Real, Indices],
 ) -> tuple[float, float, float, float]:
     """Go along a direction to the least energy.
 
-    A step is the direction, the field that it displaces by, and the energy of the error. Conditions
-    are the even one, the level, the diagonal of the operator, the most that a node bears, and how
-    many watched nodes are without pressure; places are the nodes that touch, the watched ones, and
-    columns of the grid. The state is overwritten: pressures, errors, and gaps of the watched nodes.
-    Return the rise of the level, the sums of the squared violations of the set and of the squared
-    errors, and the largest error, negative where nothing is to be gained.
+    A step is the direction, the field that it displaces by, with the places of the nodes in it, and
+    the energy of the error. Conditions are the even one, the level, the diagonal of the operator,
+    the most that a node bears, and how many watched nodes are without pressure. The state,
+    pressures and errors, and the gaps at watched places are overwritten. The errors are written
+    into a field, too. Return the rise of the level, the sums of the squared violations of the set
+    and of the squared errors, and the largest error, negative where nothing is to be gained.
     """
-    (direction, response, energy), (even, level, diagonal, most, beside) = step, conditions
-    (nodes, watched, width), (pressure, error, gap) = places, state
+    (direction, response, places, energy), (even, level, diagonal, most, beside) = step, conditions
+    (pressure, error), (watched, gap), (field, here) = state, beyond, source
     curvature = 0.0
-    for i in range(nodes.size):
-        curvature += direction[i] * response[nodes[i] // width, nodes[i] % width]
+    for i in range(places.size):
+        curvature += direction[i] * response[places[i]]
     if not (curvature > 0 and energy > 0):
         return 0.0, 0.0, 0.0, -1.0
-    length, total, rise = energy / curvature, 0.0, 0.0
-    for i in range(nodes.size):
+    length, rise = energy / curvature, 0.0
+    for i in range(places.size):
         pressure[i] += length * direction[i]
-        error[i] -= length * response[nodes[i] // width, nodes[i] % width]
-    if even.size:
-        for i in range(nodes.size):
-            total += even[i] * error[i]
-        rise = -total / even.sum()
+        error[i] -= length * response[places[i]]
+    for i in range(even.size):
+        rise -= even[i] * error[i]
     of_set, of_error, largest = 0.0, 0.0, 0.0
-    for i in range(nodes.size):
+    for i in range(places.size):
         error[i] += rise
+        field[here[i]] = error[i]
         of_error += error[i] ** 2
         largest = max(largest, abs(error[i]))
         of_set += (diagonal * (min(pressure[i], 0.0) + max(pressure[i] - most, 0.0))) ** 2
     for i in range(watched.size):
-        gap[i] += length * response[watched[i] // width, watched[i] % width]
+        gap[i] += length * response[watched[i]]
         off = gap[i] - level - rise
         of_set += (min(off, 0.0) if i < beside else max(off, 0.0)) ** 2
     return rise, of_set, of_error, largest
@@ -592,14 +585,13 @@ def _exchanged(
     Places are the nodes that touch, the watched ones, and how many of these are without pressure;
     the others are plastic.
     """
-    (nodes, watched, beside), (most, slack) = places, limits
-    wrong, width = 0, state.shape[1]
+    (nodes, watched, beside), (most, slack), wrong = places, limits, 0
     for i in range(nodes.size):
         if pressure[i] < 0 or pressure[i] > most:
-            state[nodes[i] // width, nodes[i] % width] = 0 if pressure[i] < 0 else 2
+            state[nodes[i]] = 0 if pressure[i] < 0 else 2
             wrong += 1
     for i in range(watched.size):
         if gap[i] < 0 if i < beside else gap[i] > slack:
-            state[watched[i] // width, watched[i] % width] = 1
+            state[watched[i]] = 1
             wrong += 1
     return wrong

@@ -80,9 +80,7 @@ def punch_compliance(
     """
     inverse, listed = grid.inverse, grid.nodes(nodes)
     if inverse.operator.small_grid:
-        found, spent = small_grid.compliance(
-            inverse, inverse.operator.small_grid, nodes, pressure, _ENERGY_MARGIN * method.rtol
-        )
+        found, spent = small_grid.compliance(inverse, nodes, pressure, _ENERGY_MARGIN * method.rtol)
         if not np.isnan(found):
             return found, spent
     operator = CorrectedOperator(inverse.operator, inverse.restricted.on(listed), listed)
