@@ -23,12 +23,14 @@ def share_at_border(contact: Contact) -> float:
     shape, repeats = contact.separation.shape, contact.problem.grid.half_space.repeats
     if not contact.nodes.size:
         return 0.0
-    within = np.ones(contact.nodes.size)
-    for place, n, repeated in zip(np.divmod(contact.nodes, shape[1]), shape, repeats, strict=True):
+    in_frame = np.zeros(shape, dtype=bool)
+    for axis, (n, repeated) in enumerate(zip(shape, repeats, strict=True)):
         if not repeated:
-            within = np.minimum(within, np.minimum(place, n - 1 - place) / n)
+            place = np.arange(n)
+            at_border = np.minimum(place, n - 1 - place) < _FRAME * n
+            in_frame |= np.expand_dims(at_border, 1 - axis)
     pressure = np.abs(contact.pressure)
-    return float(pressure[within < _FRAME].sum() / pressure.sum())
+    return float(pressure[in_frame.reshape(-1)[contact.nodes]].sum() / pressure.sum())
 
 
 def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[Fact, ...]:

@@ -357,7 +357,7 @@ def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tup
 
 def _elastic_energy(contact: Contact) -> float:
     """Work that the half-space gives back on unloading, in the units of the contact."""
-    separation = contact.separation.flat[contact.nodes]
+    separation = contact.separation.reshape(-1)[contact.nodes]
     displacement = contact.gap_at(contact.nodes) - separation + contact.depth
     cell_area = contact.problem.operator.cell_area
     return 0.5 * cell_area * float(contact.pressure @ displacement)

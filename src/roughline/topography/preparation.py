@@ -228,8 +228,10 @@ def tilt_warnings(surface: Surface) -> tuple[Fact, ...]:
     Such a plane is mostly the tilt of the stage, or part of a wave longer than the piece. The side
     that it lifts carries the load.
     """
+    if not surface.is_cut_out:
+        return ()
     lower = 1 - math.sqrt(1 - _tilt_share(surface.heights, surface.rms_height))
-    if not surface.is_cut_out or lower <= _TILT_MATTERS:
+    if lower <= _TILT_MATTERS:
         return ()
     return (Fact("surface_is_tilted", lower=lower),)
 

@@ -160,6 +160,16 @@ class ApproximateInverse:
         spectrum /= px * py
         return SmallGrid(operator.shape, (px, py)), spectrum
 
+    def flattening(self, nodes: InGrid, above: Real) -> tuple[Real, Real]:
+        """Return the pressures that flatten heights of nodes, and those that press all alike."""
+        around, spectrum = self.small_inverse
+        places, found = around.places(nodes), []
+        for displacement in (-above, np.ones_like(above)):
+            around.put(displacement, places)
+            around.convolve(spectrum)
+            found.append(around.at(places))
+        return found[0], found[1]
+
     @cached_property
     def stencil(self) -> tuple[Integers, Single]:
         """Offsets of the stencil in the restricted operators' flat grid, and its coefficients.

@@ -34,7 +34,8 @@ class Bounds:
 
     def largest_force(self, area: float) -> float:
         """Return the force under which the mean pressure on an area is the upper bound. [force]"""
-        return float(np.mean(self.high)) * area
+        mean = self.high.mean() if isinstance(self.high, np.ndarray) else self.high
+        return float(mean) * area
 
     def at(self, places: Indices | Mask) -> Bounds:
         """Return the bounds of some of the nodes, by ascending places or a mask."""

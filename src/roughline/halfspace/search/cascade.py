@@ -1,4 +1,8 @@
-"""A first guess of the contact: solved roughly on ever finer grids, each from the coarser one."""
+"""A first guess of the contact: solved roughly on ever finer grids, each from the coarser one.
+
+The coarsest of them starts from the pressures that would flatten the bodies, as far as they push,
+or from the rigid shift.
+"""
 
 from __future__ import annotations
 
@@ -9,15 +13,18 @@ from functools import lru_cache
 
 import numpy as np
 
-from roughline.computing.arrays import InGrid, Real
+from roughline.computing.arrays import InGrid, Real, among
 from roughline.computing.compiled import compiled
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.pull import Shares
+from roughline.halfspace.search.small_grid import MOST_FACTORED_NODES
 from roughline.halfspace.search.window import GridWindow
 
 _COARSEST_POINTS = 16  # points along the longer side of the grid that starts from the rigid shift
+_FLATTENED_POINTS = 64  # and of that which starts from the pressures that flatten the bodies
 _FEW_NODES = 120  # of a rigid shift on a small grid, which a coarser one guesses no faster
+_ROUGH_TOTAL = 0.01  # part by which the pressures of a guess may miss their sum
 # A guess whose pressures exceed an upper bound so many times leaves no doubt that nodes yield, on
 # grids of more points along a side.
 _CERTAIN_YIELD, _CERTAIN_FROM = 3.0, 64
@@ -41,13 +48,15 @@ def _from_coarser(problem: Problem, load: Load) -> ContactSet | None:
     """Solve roughly on a coarser grid; None where that is too coarse to touch, or no faster.
 
     The coarse grid sees the mean separation of two by two nodes, and its pressures are the same on
-    all four.
+    all four. Where bodies are flattened, no coarser grid is needed.
     """
     separation = problem.separation
     if max(separation.shape) <= _COARSEST_POINTS:
         return None
     if problem.operator.small_grid and _shifted(problem, load, _FEW_NODES):
         return None
+    if flattened := _flattened(problem, load):
+        return flattened
     coarse_separation = _halved(separation)
     if problem.operator.mean_is_free:  # depths count from mean planes, odd sides end in half blocks
         coarse_separation += separation.mean() - coarse_separation.mean()
@@ -112,13 +121,61 @@ def _spread(coarse: ContactSet, width: int, shape: tuple[int, int]) -> ContactSe
     return ContactSet(InGrid(nodes[order]), pressure, coarse.depth) if loaded.any() else None
 
 
+def _flattened(problem: Problem, load: Load) -> ContactSet | None:
+    """Start from the pressures that would flatten the bodies, as far as they push.
+
+    The depth is that at which those that push carry the force. Among few such nodes the pressures
+    that flatten them alone are taken once more. None on a large grid, under a given depth, and
+    where bodies pull, yield all over, or are no half-space that the inverse convolution inverts.
+    """
+    grid, force, separation = problem.grid, load.force, problem.separation
+    if max(grid.shape) > _FLATTENED_POINTS or force is None or not problem.law.only_pushes:
+        return None
+    if not problem.operator.small_grid or problem.inverse.solves_blocks:
+        return None
+    above = (separation - separation.mean()).reshape(-1)
+    nodes = InGrid(np.arange(above.size))
+    for _ in range(2):
+        flat, even = problem.inverse.flattening(nodes, above[nodes])
+        level = _level_of_pushes(flat, even, force / grid.cell_area)
+        pressure = flat + level * even
+        pushes = pressure > 0
+        nodes, pressure = among(nodes, pushes), pressure[pushes]
+        if not problem.bounds.largest_force(nodes.size * grid.cell_area) > force:
+            return None
+        if nodes.size > MOST_FACTORED_NODES:
+            break
+    return ContactSet(nodes, pressure)
+
+
+@compiled
+def _level_of_pushes(flat: Real, even: Real, total: float) -> float:
+    """Return the multiple of a field with which, added to another one, pushes have a total.
+
+    NaN if none is found. The sum of pushes is convex in it, so that Newton's method falls to it.
+    """
+    level = (total - flat.sum()) / even.sum()
+    for _ in range(100):
+        found = slope = 0.0
+        for i in range(flat.size):
+            value = flat[i] + level * even[i]
+            if value > 0:
+                found += value
+                slope += even[i]
+        if abs(found - total) <= _ROUGH_TOTAL * total:
+            return level
+        level += (total - found) / slope
+    return math.nan
+
+
 def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
     """Start from every node that the rigid shift would overlap, with its overlap as pressure.
 
     A force shifts the body to the depth at which one disc of as many nodes would carry it,
     its stiffness times (d - mean separation).
     """
-    start = _shifted(problem, load, problem.separation.size)
+    size = problem.separation.size
+    start = _shifted(problem, load, min(_FEW_NODES, size)) or _shifted(problem, load, size)
     assert start is not None
     return start
 
@@ -133,7 +190,7 @@ def _shifted(problem: Problem, load: Load, most: int) -> ContactSet | None:
     nodes = InGrid(np.flatnonzero(separation < depth))
     if nodes.size > most:
         return None
-    return ContactSet(nodes, depth - separation.flat[nodes], load.depth)
+    return ContactSet(nodes, depth - separation.reshape(-1)[nodes], load.depth)
 
 
 def _rigid_depth(problem: Problem, force: float, most: int) -> float | None:
@@ -155,10 +212,10 @@ def _rigid_depth(problem: Problem, force: float, most: int) -> float | None:
     if reached == len(counts):
         return None
     depth = disc_depth(counts[reached])
-    fewest = np.nan_to_num(force / problem.bounds.largest_force(grid.cell_area))
+    fewest = force / problem.bounds.largest_force(grid.cell_area)
     if fewest > most:
         return None
-    return max(depth, float(lowest[min(int(fewest), sums.size - 1)]))
+    return max(depth, float(lowest[int(min(fewest, sums.size - 1))]))
 
 
 def _disc_stiffness(half_space: HalfSpace, radius: float) -> float:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, InGrid, Mask, among
+from roughline.computing.arrays import Indices, InGrid, Mask
 from roughline.computing.compiled import compiled
 from roughline.halfspace.search.problem import Contact
 
@@ -37,17 +37,13 @@ def overstated_cells(
        contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
        (2017).
     """
-    on, touching = np.zeros(contact.separation.shape, dtype=np.bool_), ~contact.pulling
-    on.flat[contact.nodes[touching]] = True
     above = contact.pressure - contact.problem.bounds_at(contact.nodes).low
-    pairs, along_x = _pairs(among(contact.nodes, touching), on, repeats)
-    outline, outside, within = pairs
-    at = np.searchsorted(contact.nodes, outline)
+    pairs, along_x = _pairs(contact.nodes, ~contact.pulling, contact.separation.shape, repeats)
+    at, outside, within = pairs
     gap, edge = contact.gap_at(InGrid(outside)), above[at]
     loaded_too = within >= 0
     rising = contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
-    inner = np.searchsorted(contact.nodes, within[loaded_too])
-    rising[loaded_too] |= edge[loaded_too] > above[inner] * (1 + 1e-6)
+    rising |= loaded_too & (edge > above[within] * (1 + 1e-6))
     smooth = edge * np.where(loaded_too, _STEEP_GAP, _STEEP_GAP_ALONE)
     smooth[:along_x] *= spacing[0]
     smooth[along_x:] *= spacing[1]
@@ -58,38 +54,47 @@ def overstated_cells(
 
 
 @compiled
-def _pairs(nodes: Indices, on: Mask, repeats: tuple[bool, bool]) -> tuple[Indices, int]:
+def _pairs(
+    nodes: Indices, touching: Mask, shape: tuple[int, int], repeats: tuple[bool, bool]
+) -> tuple[Indices, int]:
     """List the pairs of neighbours of which one touches: those along x, then those along y.
 
-    The nodes that touch are given, and marked in a field.
-
-    For each: the node that touches, the other one, and the one beyond the first if that touches,
-    too, or -1, shape (3, pairs); all as flat indices. Return with them how many are along x.
+    Ascending nodes are given, and which of them touch. For each pair: the place of the node that
+    touches among the nodes, the other one as a flat index, and the place of the one beyond the
+    first if that touches, too, or -1, shape (3, pairs). Return with them how many are along x.
     """
-    ny = on.shape[1]
+    nx, ny = shape
+    place = np.full((nx, ny), -1, dtype=np.int32)
+    flat = place.reshape(-1)
+    for i in range(nodes.size):
+        if touching[i]:
+            flat[nodes[i]] = i
     pairs = np.empty((3, 4 * nodes.size), dtype=np.intp)
     found = along_x = 0
-    for axis in range(2):
-        n = on.shape[axis]
-        for step in (1, -1):
-            for node in nodes:
-                x, y = node // ny, node % ny
-                place = y if axis else x
-                out, inner = place + step, place - step
-                if not repeats[axis] and (out < 0 or out >= n):
-                    continue
-                out %= n
-                if on[x, out] if axis else on[out, y]:
-                    continue
-                exists = repeats[axis] or 0 <= inner < n
-                inner %= n
-                loaded = exists and (on[x, inner] if axis else on[inner, y])
-                pairs[0, found] = node
-                pairs[1, found] = x * ny + out if axis else out * ny + y
-                pairs[2, found] = -1
-                if loaded:
-                    pairs[2, found] = x * ny + inner if axis else inner * ny + y
-                found += 1
-        if axis == 0:
+    for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        x = out_x = in_x = -1
+        for i in range(nodes.size):
+            if not touching[i]:
+                continue
+            if nodes[i] >= (x + 1) * ny:
+                x = nodes[i] // ny
+                out_x, in_x = _beside(x + dx, nx, repeats[0]), _beside(x - dx, nx, repeats[0])
+            y = nodes[i] - x * ny
+            out_y, in_y = _beside(y + dy, ny, repeats[1]), _beside(y - dy, ny, repeats[1])
+            if out_x < 0 or out_y < 0 or place[out_x, out_y] >= 0:
+                continue
+            pairs[0, found] = i
+            pairs[1, found] = out_x * ny + out_y
+            pairs[2, found] = place[in_x, in_y] if in_x >= 0 and in_y >= 0 else -1
+            found += 1
+        if dx == -1:
             along_x = found
     return pairs[:, :found], along_x
+
+
+@compiled
+def _beside(place: int, n: int, repeated: bool) -> int:
+    """Return a place along a side, on the other end where it repeats; -1 where it is outside."""
+    if 0 <= place < n:
+        return place
+    return place % n if repeated else -1

@@ -24,7 +24,8 @@ from roughline.halfspace.search.patch import MOST_STEPS
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.region import REACH_OF_ERROR
 
-_MOST_FACTORED_NODES = 400  # whose equations are solved directly
+MOST_FACTORED_NODES = 400
+"""Nodes up to which their equations are solved directly."""
 _MOST_EXCHANGES = 30
 _MOST_VAIN_EXCHANGES = 6  # without a new minimum of wrong nodes
 _FEW_WRONG = 0.1  # part of the nodes in contact that may be wrong in a guess
@@ -84,7 +85,7 @@ class _SmallGridSearch:
         bound = int(np.count_nonzero(is_plastic))
         if bound and self._total is not None and bound * self._most >= self._total:
             is_plastic[:] = False  # a start of bodies that do not yield
-        self._state.flat[start.nodes] = np.where(is_plastic, _PLASTIC, _TOUCHING)
+        self._state.reshape(-1)[start.nodes] = np.where(is_plastic, _PLASTIC, _TOUCHING)
         self._nodes, self._plastic = among(start.nodes, ~is_plastic), among(start.nodes, is_plastic)
         self._pressure = np.maximum(start.pressure[~is_plastic], 0.0)
         few = _FEW_WRONG if self._method.rtol >= _ROUGH_FROM else 0.0
@@ -114,7 +115,7 @@ class _SmallGridSearch:
             count > 0
             and (left is None or left > 0)
             and self.convolutions + round_takes < self._method.max_iterations
-            and (count <= _MOST_FACTORED_NODES or not self._inverse.solves_blocks)
+            and (count <= MOST_FACTORED_NODES or not self._inverse.solves_blocks)
         )
 
     @property
@@ -166,7 +167,7 @@ class _SmallGridSearch:
 
         Return how many there are, the largest gap in contact, and what is allowed.
         """
-        few = self._nodes.size <= _MOST_FACTORED_NODES
+        few = self._nodes.size <= MOST_FACTORED_NODES
         return self._solved_directly() if few else self._led_by_gradients()
 
     def _solved_directly(self) -> tuple[int, float, float]:
@@ -175,7 +176,7 @@ class _SmallGridSearch:
         factor = _factor(inverse, nodes)
         right = np.empty((nodes.size, 2), order="F")
         right[:, 0] = 1.0
-        right[:, 1] = self._above.flat[nodes]
+        right[:, 1] = self._above.reshape(-1)[nodes]
         if self._plastic.size:
             self._pressure[:] = 0.0
             self._moved()
@@ -321,7 +322,7 @@ def compliance(
 
     Return the compliance, NaN where it is not found to such a part of itself, and the convolutions.
     """
-    if nodes.size <= _MOST_FACTORED_NODES:
+    if nodes.size <= MOST_FACTORED_NODES:
         return _compliance_of_few(inverse, nodes, pressure, accuracy)
     if inverse.solves_blocks:
         return math.nan, 0
