@@ -281,27 +281,25 @@ class Gradients:
         """
         grid, around, error = self._grid, self._around, self._error
         here, there = self._places_around, self._places
-        direction, even = np.zeros_like(error), np.zeros(0)
+        direction = np.zeros_like(error)
         grid.source[:] = 0.0
         if fixed:
-            around.put(np.ones_like(error), here)
-            around.convolve(self._inverse)
-            even = around.at(here)
-            even /= even.sum()
-            rise, self.largest_error = _levelled(error, even)
-            self.level += rise
+            mean = float(error.mean())
+            error -= mean
+            self.level -= mean
+            self.largest_error = float(abs(error).max())
         around.put(error, here)
         while self.steps < most_steps:
             around.convolve(self._inverse)
             self.energy = _turned(
-                (around.result, here), self.energy, error, direction, (grid.source, there)
+                (around.result, here), self.energy, error, direction, (grid.source, there), fixed
             )
             if self.energy <= least_energy:
                 break
             grid.convolve(self._spectrum)
             rise, of_set, of_error, largest = _stepped(
                 (direction, grid.result, there, self.energy),
-                (even, self.level, *self._bounds),
+                (fixed, self.level, *self._bounds),
                 (self._pressure, error),
                 self._watched,
                 (around.source, here),
@@ -491,40 +489,29 @@ def _watched(
 
 
 @compiled_sums
-def _levelled(error: Real, even: Real) -> tuple[float, float]:
-    """Raise an error so that its preconditioned sum is zero; return by how much, and the largest.
-
-    The even one is what the preconditioner makes of an error of one, over its sum.
-    """
-    total, largest = 0.0, 0.0
-    for i in range(error.size):
-        total += even[i] * error[i]
-    for i in range(error.size):
-        error[i] -= total
-        largest = max(largest, abs(error[i]))
-    return -total, largest
-
-
-@compiled_sums
 def _turned(
     inverted: tuple[Real, Indices],
     before: float,
     error: Real,
     direction: Real,
     source: tuple[Real, Indices],
+    fixed: bool,
 ) -> float:
     """Let the direction be conjugate to the last one, and write it into a field.
 
     Fields come with the places of the nodes. The energy of the error is returned; the one before is
-    zero at first.
+    zero at first. With a fixed total the mean of the direction is zero, as that of the error is.
     """
     (inverted_field, here), (field, there) = inverted, source
-    energy = 0.0
+    energy = mean = 0.0
     for i in range(error.size):
-        energy += error[i] * inverted_field[here[i]]
+        value = inverted_field[here[i]]
+        energy += error[i] * value
+        mean += value
+    mean = mean / error.size if fixed else 0.0
     part = energy / before if before > 0 else 0.0
     for i in range(error.size):
-        direction[i] = inverted_field[here[i]] + part * direction[i]
+        direction[i] = inverted_field[here[i]] - mean + part * direction[i]
         field[there[i]] = direction[i]
     return energy
 
@@ -532,7 +519,7 @@ def _turned(
 @compiled_sums
 def _stepped(
     step: tuple[Real, Real, Indices, float],
-    conditions: tuple[Real, float, float, float, int],
+    conditions: tuple[bool, float, float, float, int],
     state: tuple[Real, Real],
     beyond: tuple[Indices, Real],
     source: tuple[Real, Indices],
@@ -540,25 +527,26 @@ def _stepped(
     """Go along a direction to the least energy.
 
     A step is the direction, the field that it displaces by, with the places of the nodes in it, and
-    the energy of the error. Conditions are the even one, the level, the diagonal of the operator,
-    the most that a node bears, and how many watched nodes are without pressure. The state,
-    pressures and errors, and the gaps at watched places are overwritten. The errors are written
-    into a field, too. Return the rise of the level, the sums of the squared violations of the set
-    and of the squared errors, and the largest error, negative where nothing is to be gained.
+    the energy of the error. Conditions are whether the total is fixed, the level, the diagonal of
+    the operator, the most that a node bears, and how many watched nodes are without pressure. The
+    state, pressures and errors, and the gaps at watched places are overwritten. The errors are
+    written into a field, too. Return the rise of the level, the sums of the squared violations of
+    the set and of the squared errors, and the largest error, negative where nothing is to be
+    gained.
     """
-    (direction, response, places, energy), (even, level, diagonal, most, beside) = step, conditions
+    (direction, response, places, energy), (fixed, level, diagonal, most, beside) = step, conditions
     (pressure, error), (watched, gap), (field, here) = state, beyond, source
     curvature = 0.0
     for i in range(places.size):
         curvature += direction[i] * response[places[i]]
     if not (curvature > 0 and energy > 0):
         return 0.0, 0.0, 0.0, -1.0
-    length, rise = energy / curvature, 0.0
+    length, total = energy / curvature, 0.0
     for i in range(places.size):
         pressure[i] += length * direction[i]
         error[i] -= length * response[places[i]]
-    for i in range(even.size):
-        rise -= even[i] * error[i]
+        total += error[i]
+    rise = -total / places.size if fixed else 0.0
     of_set, of_error, largest = 0.0, 0.0, 0.0
     for i in range(places.size):
         error[i] += rise
