@@ -24,7 +24,7 @@ from roughline.halfspace.search.patch import MOST_STEPS
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.region import REACH_OF_ERROR
 
-MOST_FACTORED_NODES = 400
+MOST_FACTORED_NODES = 300
 """Nodes up to which their equations are solved directly."""
 _MOST_EXCHANGES = 30
 _MOST_VAIN_EXCHANGES = 6  # without a new minimum of wrong nodes
