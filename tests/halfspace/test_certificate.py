@@ -158,7 +158,7 @@ def one_third(pressure):
 @pytest.mark.parametrize("few", [0, 400])
 def test_a_small_grid_that_is_solved_wrongly_is_not_believed(monkeypatch, part, damaged, few):
     sound = pressed()
-    monkeypatch.setattr(small_grid, "_MOST_FACTORED_NODES", few)
+    monkeypatch.setattr(small_grid, "MOST_FACTORED_NODES", few)
     monkeypatch.setattr(small_grid, part, damaged(getattr(small_grid, part)))
     curve = pressed()
     assert_true_where_certified(curve)

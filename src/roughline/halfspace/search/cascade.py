@@ -215,7 +215,8 @@ def _rigid_depth(problem: Problem, force: float, most: int) -> float | None:
     fewest = force / problem.bounds.largest_force(grid.cell_area)
     if fewest > most:
         return None
-    return max(depth, float(lowest[int(min(fewest, sums.size - 1))]))
+    at_least = int(min(fewest, sums.size - 1)) if fewest > 0 else 0
+    return max(depth, float(lowest[at_least]))
 
 
 def _disc_stiffness(half_space: HalfSpace, radius: float) -> float:

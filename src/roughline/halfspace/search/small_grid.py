@@ -30,6 +30,7 @@ _MOST_EXCHANGES = 30
 _MOST_VAIN_EXCHANGES = 6  # without a new minimum of wrong nodes
 _FEW_WRONG = 0.1  # part of the nodes in contact that may be wrong in a guess
 _ROUGH_FROM = 1e-2  # tolerance of one
+_MOST_AIMS = 8  # at the stiffness, each from the compliance that is known by then; one is enough
 _RELIEF = 1e-3  # part of the most that a node bears by which it is relieved
 
 
@@ -324,14 +325,17 @@ def compliance(
         return _compliance_of_few(inverse, nodes, pressure, accuracy)
     if inverse.solves_blocks:
         return math.nan, 0
-    displacement = _displaced(inverse, nodes, pressure)
-    mean, least = float(displacement.mean()), accuracy * float(pressure @ displacement)
-    error = mean - displacement
+    cell_area, displacement = inverse.operator.cell_area, _displaced(inverse, nodes, pressure)
+    found, mean = float(pressure @ displacement), float(displacement.mean())
+    error = np.subtract(mean, displacement, out=displacement)
     gradients = Gradients(inverse, nodes, pressure, error)
     gradients.level = mean
-    gradients.lead(0.0, fixed=True, least_energy=least)
-    found = float(pressure @ (gradients.level - error)) * inverse.operator.cell_area
-    return (found if gradients.energy <= least else math.nan), 1 + gradients.steps
+    for _ in range(_MOST_AIMS):
+        gradients.lead(0.0, fixed=True, least_energy=accuracy * found)
+        found = float(pressure @ (gradients.level - error))
+        if gradients.energy <= accuracy * found:
+            return found * cell_area, 1 + gradients.steps
+    return math.nan, 1 + gradients.steps
 
 
 def _compliance_of_few(
