@@ -162,7 +162,8 @@ class ApproximateInverse:
 
     def flattening(self, nodes: InGrid, above: Real) -> tuple[Real, Real]:
         """Return the pressures that flatten heights of nodes, and those that press all alike."""
-        around, spectrum = self.small_inverse
+        grid, spectrum = self.small_inverse
+        around = grid.fields()
         places, found = around.places(nodes), []
         for displacement in (-above, np.ones_like(above)):
             around.put(displacement, places)

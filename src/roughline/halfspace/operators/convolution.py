@@ -104,14 +104,15 @@ class Convolution:
         out: Real | None,
     ) -> Real:
         """Return what :meth:`displacement` does, on a small grid."""
-        grid.put(pressure, grid.places(sources.indices))
-        grid.convolve(self.spectrum)
+        fields = grid.fields()
+        fields.put(pressure, fields.places(sources.indices))
+        fields.convolve(self.spectrum)
         if out is None:
             out = np.empty(self.shape if targets is None else targets.indices.size)
         if targets is None:
-            out[:] = grid.result.reshape(-1, grid.width)[:, : self.shape[1]]
+            out[:] = fields.result.reshape(-1, fields.width)[:, : self.shape[1]]
         else:
-            out[:] = grid.at(grid.places(targets.indices))
+            out[:] = fields.at(fields.places(targets.indices))
         return out
 
     def _sums_are_cheap(self, sources: int, targets: int) -> bool:

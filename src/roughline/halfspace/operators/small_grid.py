@@ -1,4 +1,4 @@
-"""Convolutions of whole fields on a small grid, with few calls and in memory that is kept."""
+"""Convolutions of whole fields on a small grid, with few calls and few copies."""
 
 from __future__ import annotations
 
@@ -11,30 +11,41 @@ from roughline.computing.compiled import compiled
 
 
 class SmallGrid:
-    """Transforms of fields on a grid of few modes, by one thread and in double precision.
-
-    It has two fields, each a row after row of the grid, as long as the period: the source, which is
-    zero beyond the columns of the grid, and the result, which is of no meaning there.
-    """
+    """Transforms of fields on a grid of few modes, by one thread and in double precision."""
 
     def __init__(self, shape: tuple[int, int], periods: tuple[int, int]) -> None:
-        self.shape = shape
-        self.width = periods[1]  # of the rows of its fields
-        self._modes = np.zeros((periods[0], periods[1] // 2 + 1), dtype=np.complex128)
-        self._of_rows = self._modes[: shape[0]]
-        self._padding = self._modes[shape[0] :]
-        self._rows, self._rows_back = np.zeros((2, shape[0], periods[1]))
-        self.source, self.result = self._rows.reshape(-1), self._rows_back.reshape(-1)
+        self.shape, self.periods = shape, periods
+        self.modes = np.zeros((periods[0], periods[1] // 2 + 1), dtype=np.complex128)
 
     @property
     def nbytes(self) -> int:
         """Memory that it holds. [bytes]"""
-        return self._modes.nbytes + 2 * self._rows.nbytes
+        return self.modes.nbytes
+
+    def fields(self) -> Fields:
+        """Return memory for the fields of a search."""
+        return Fields(self)
+
+
+class Fields:
+    """What a convolution on a small grid takes, the source, and what it gives, the result.
+
+    Each has the rows of the grid one after the other, as long as the period. What lies beyond the
+    columns of the grid is zero in a source, and of no meaning in a result.
+    """
+
+    def __init__(self, grid: SmallGrid) -> None:
+        (nx, columns), width = grid.shape, grid.periods[1]
+        self.width = width  # of the rows
+        self._columns, self._modes = columns, grid.modes
+        self._of_rows, self._padding = grid.modes[:nx], grid.modes[nx:]
+        self._rows, self._rows_back = np.empty((2, nx, width))
+        self.source, self.result = self._rows.reshape(-1), self._rows_back.reshape(-1)
 
     def places(self, nodes: Indices) -> Indices:
-        """Return where nodes of the grid lie in its fields."""
-        columns = self.shape[1]
-        return nodes if columns == self.width else _places(nodes, columns, self.width)
+        """Return where nodes of the grid lie in the fields."""
+        same = self._columns == self.width
+        return nodes if same else _places(nodes, self._columns, self.width)
 
     def put(self, values: Real, places: Indices) -> None:
         """Let the source be zero but for some values."""

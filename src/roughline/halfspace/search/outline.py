@@ -69,7 +69,8 @@ def _pairs(
     for i in range(nodes.size):
         if touching[i]:
             flat[nodes[i]] = i
-    pairs = np.empty((3, 4 * nodes.size), dtype=np.intp)
+    inside = touching.sum()  # each node has four neighbours
+    pairs = np.empty((3, 4 * min(inside, nx * ny - inside)), dtype=np.intp)
     found = along_x = 0
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         x = out_x = in_x = -1

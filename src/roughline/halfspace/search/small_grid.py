@@ -17,7 +17,7 @@ from scipy.linalg import lapack
 from roughline.computing.arrays import Indices, InGrid, Integers, Real, among
 from roughline.computing.compiled import compiled, compiled_sums
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, fill_triangle
-from roughline.halfspace.operators.small_grid import SmallGrid
+from roughline.halfspace.operators.small_grid import Fields, SmallGrid
 from roughline.halfspace.search.active_set import TOLERANCE_AIM
 from roughline.halfspace.search.carriers import merged
 from roughline.halfspace.search.patch import MOST_STEPS
@@ -26,6 +26,7 @@ from roughline.halfspace.search.region import REACH_OF_ERROR
 
 MOST_FACTORED_NODES = 300
 """Nodes up to which their equations are solved directly."""
+_MOST_UNDER_HARD_LAYERS = 400  # of them where the inverse convolution is no inverse
 _MOST_EXCHANGES = 30
 _MOST_VAIN_EXCHANGES = 6  # without a new minimum of wrong nodes
 _FEW_WRONG = 0.1  # part of the nodes in contact that may be wrong in a guess
@@ -70,7 +71,7 @@ class _SmallGridSearch:
     """
 
     def __init__(self, problem: Problem, grid: SmallGrid, load: Load, method: Method) -> None:
-        self._problem, self._grid, self._method = problem, grid, method
+        self._problem, self._grid, self._method = problem, grid.fields(), method
         self._inverse: ApproximateInverse = problem.inverse
         self._most = float(problem.bounds.high)  # that a node bears
         self._total = load.total(problem.grid.cell_area)
@@ -116,7 +117,7 @@ class _SmallGridSearch:
             count > 0
             and (left is None or left > 0)
             and self.convolutions + round_takes < self._method.max_iterations
-            and (count <= MOST_FACTORED_NODES or not self._inverse.solves_blocks)
+            and (_are_few(count, self._inverse) or not self._inverse.solves_blocks)
         )
 
     @property
@@ -168,7 +169,7 @@ class _SmallGridSearch:
 
         Return how many there are, the largest gap in contact, and what is allowed.
         """
-        few = self._nodes.size <= MOST_FACTORED_NODES
+        few = _are_few(self._nodes.size, self._inverse)
         return self._solved_directly() if few else self._led_by_gradients()
 
     def _solved_directly(self) -> tuple[int, float, float]:
@@ -216,7 +217,7 @@ class _SmallGridSearch:
         )
         least = level + REACH_OF_ERROR * math.sqrt(float(error @ error) / error.size)
         beside, gap = _watched((moved, grid.width, self._above, self._plastic), self._state, least)
-        gradients = Gradients(self._inverse, self._nodes, pressure, error)
+        gradients = Gradients(self._inverse, grid, self._nodes, pressure, error)
         watched = np.append(beside, self._plastic)
         gradients.watch(watched, gap, (self._inverse.diagonal, self._most, beside.size))
         gradients.level, tolerance = level, self._tolerance(max(displaced, most_displaced))
@@ -242,16 +243,20 @@ class Gradients:
     """
 
     def __init__(
-        self, inverse: ApproximateInverse, nodes: InGrid, pressure: Real, error: Real
+        self,
+        inverse: ApproximateInverse,
+        grid: Fields,
+        nodes: InGrid,
+        pressure: Real,
+        error: Real,
     ) -> None:
-        grid = inverse.operator.small_grid
-        assert grid is not None
+        around, self._inverse = inverse.small_inverse
         self.level = 0.0  # of the displacement, which a fixed total leaves open [length]
         self.largest_error = math.inf  # [length]
         self.energy = 0.0  # of the error, norm squared, by the preconditioner
         self.steps = 0  # each takes one convolution
         self._grid, self._spectrum = grid, inverse.operator.spectrum
-        self._around, self._inverse = inverse.small_inverse
+        self._around = around.fields()
         self._places, self._places_around = grid.places(nodes), self._around.places(nodes)
         self._pressure, self._error = pressure, error
         # watched places, their gaps from any datum [length], and bounds
@@ -314,6 +319,11 @@ class Gradients:
                 break
 
 
+def _are_few(count: int, inverse: ApproximateInverse) -> bool:
+    """Whether the equations of so many nodes are solved directly."""
+    return count <= (_MOST_UNDER_HARD_LAYERS if inverse.solves_blocks else MOST_FACTORED_NODES)
+
+
 def compliance(
     inverse: ApproximateInverse, nodes: InGrid, pressure: Real, accuracy: float
 ) -> tuple[float, int]:
@@ -321,14 +331,17 @@ def compliance(
 
     Return the compliance, NaN where it is not found to such a part of itself, and the convolutions.
     """
-    if nodes.size <= MOST_FACTORED_NODES:
+    if _are_few(nodes.size, inverse):
         return _compliance_of_few(inverse, nodes, pressure, accuracy)
     if inverse.solves_blocks:
         return math.nan, 0
-    cell_area, displacement = inverse.operator.cell_area, _displaced(inverse, nodes, pressure)
+    cell_area, (grid, displacement) = (
+        inverse.operator.cell_area,
+        _displaced(inverse, nodes, pressure),
+    )
     found, mean = float(pressure @ displacement), float(displacement.mean())
     error = np.subtract(mean, displacement, out=displacement)
-    gradients = Gradients(inverse, nodes, pressure, error)
+    gradients = Gradients(inverse, grid, nodes, pressure, error)
     gradients.level = mean
     for _ in range(_MOST_AIMS):
         gradients.lead(0.0, fixed=True, least_energy=accuracy * found)
@@ -345,21 +358,21 @@ def _compliance_of_few(
     factor, cell_area = _factor(inverse, nodes), inverse.operator.cell_area
     solution, _ = lapack.dpotrs(factor, np.ones(nodes.size), lower=1, overwrite_b=1)
     pressure[:] = solution / (solution.sum() * cell_area)
-    moved = _displaced(inverse, nodes, pressure)
+    _, moved = _displaced(inverse, nodes, pressure)
     found = float(pressure @ moved) * cell_area
     off = moved - moved.mean()
     rest, _ = lapack.dpotrs(factor, off, lower=1)
     return (found if float(off @ rest) * cell_area <= accuracy * found else math.nan), 1
 
 
-def _displaced(inverse: ApproximateInverse, nodes: InGrid, pressure: Real) -> Real:
-    """Return the displacement of nodes by pressures on them."""
-    grid = inverse.operator.small_grid
-    assert grid is not None
+def _displaced(inverse: ApproximateInverse, nodes: InGrid, pressure: Real) -> tuple[Fields, Real]:
+    """Return fields of the grid, and the displacement of nodes by pressures on them."""
+    assert inverse.operator.small_grid is not None
+    grid = inverse.operator.small_grid.fields()
     places = grid.places(nodes)
     grid.put(pressure, places)
     grid.convolve(inverse.operator.spectrum)
-    return grid.at(places)
+    return grid, grid.at(places)
 
 
 def _factor(inverse: ApproximateInverse, nodes: InGrid) -> Real:
