@@ -47,7 +47,7 @@ _DENTS_BYTES = 30  # and for each node in contact
 # a side soft layers were measured to take 8 to 12 bytes more than homogeneous bodies do under light
 # loads, and nothing more under heavy ones; free plates take 23 to 25.
 _ALL_PLACES_BYTES = 12
-_SMALL_GRIDS_BYTES = 150, 1.5e6  # of small grids that lead a grid: on each point, and at most
+_SMALL_GRIDS_BYTES = 150, 2e6  # of small grids that lead a grid: on each point, and at most
 _SMALL_CONTACT_BYTES = 2.2e6, 9e6  # and of full contact on them: of a free grid, and one repeated
 _GRIDS_FACTOR = 4 / 3  # coarser grids that lead a grid, and itself
 _MEMORY_MARGIN = 1.15  # times as much, so that what is told covers what was measured

@@ -22,12 +22,12 @@ class SmallGrid:
         """Memory that it holds. [bytes]"""
         return self.modes.nbytes
 
-    def fields(self) -> Fields:
+    def fields(self) -> SmallFields:
         """Return memory for the fields of a search."""
-        return Fields(self)
+        return SmallFields(self)
 
 
-class Fields:
+class SmallFields:
     """What a convolution on a small grid takes, the source, and what it gives, the result.
 
     Each has the rows of the grid one after the other, as long as the period. What lies beyond the

@@ -17,7 +17,7 @@ from scipy.linalg import lapack
 from roughline.computing.arrays import Indices, InGrid, Integers, Real, among
 from roughline.computing.compiled import compiled, compiled_sums
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, fill_triangle
-from roughline.halfspace.operators.small_grid import Fields, SmallGrid
+from roughline.halfspace.operators.small_grid import SmallFields, SmallGrid
 from roughline.halfspace.search.active_set import TOLERANCE_AIM
 from roughline.halfspace.search.carriers import merged
 from roughline.halfspace.search.patch import MOST_STEPS
@@ -245,7 +245,7 @@ class Gradients:
     def __init__(
         self,
         inverse: ApproximateInverse,
-        grid: Fields,
+        grid: SmallFields,
         nodes: InGrid,
         pressure: Real,
         error: Real,
@@ -365,7 +365,9 @@ def _compliance_of_few(
     return (found if float(off @ rest) * cell_area <= accuracy * found else math.nan), 1
 
 
-def _displaced(inverse: ApproximateInverse, nodes: InGrid, pressure: Real) -> tuple[Fields, Real]:
+def _displaced(
+    inverse: ApproximateInverse, nodes: InGrid, pressure: Real
+) -> tuple[SmallFields, Real]:
     """Return fields of the grid, and the displacement of nodes by pressures on them."""
     assert inverse.operator.small_grid is not None
     grid = inverse.operator.small_grid.fields()
