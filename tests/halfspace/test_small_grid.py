@@ -78,6 +78,16 @@ def test_steps_are_few(monkeypatch, searched, factored):
     assert curve.convolutions[0] <= (9 if factored else 31)
 
 
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("force", [0.5, 5.0])
+def test_pressures_that_flatten_the_bodies_guess_the_contact_without_coarser_grids(
+    searched, periodic, force
+):
+    curve = rl.press(SURFACE, E_star=1.0, forces=[force], periodic=periodic)
+    assert searched == [True]
+    assert curve.convolutions[0] <= 36
+
+
 def test_a_bound_on_convolutions_holds(monkeypatch):
     few = rl.press(
         SURFACE, E_star=1.0, forces=[0.5], solver=rl.Solver(max_iterations=2), throw=False
