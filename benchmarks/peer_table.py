@@ -1,16 +1,26 @@
 """The table of roughline beside other programs, made of measured rows."""
 
-from peer_programs import program_of
+from peer_programs import SMALL, program_of
 
 PEERS = ("ASPHER", "Tamaas", "ContactMechanics")
 SAME_AREA = 1e-4  # relative
 
-INTRODUCTION = """\
+SAME = """\
 All press the same surfaces, free and fractal down to the grid, and are asked for 1e-6, each in its
-own measure. Only roughline's times include a stiffness, with every load. Every timing is a
+own measure. Only roughline's times include a stiffness, with every load."""
+
+LARGE_GRIDS = """Every timing is a
 process of its own that has pressed another grid before (480² points; others 256², as ASPHER takes
 powers of two only): machine code is loaded, thread pools run, and neither tables, plans of
-transforms nor memory of the timed grid are there.
+transforms nor memory of the timed grid are there."""
+
+SMALL_GRIDS = """Every timing is a
+process of its own that has pressed another surface on the same grid before and then presses this
+one again and again, the shortest press counts: what a program keeps from one surface to the next,
+tables, plans of transforms and memory, is there. No load is begun from the pressures of another.
+ASPHER's coarsest grid is 64², its default, but 32² where the grid itself is 64²."""
+
+ALL_GRIDS = """\
 All may use as many threads. Programs take turns; the best of the runs counts, and what takes 2 s or
 more runs once.
 
@@ -21,7 +31,7 @@ ends in double precision, as roughline does. An engine that takes longer than 2 
 another has taken is stopped.
 
 Ratios are the other program's time over roughline's: below one, roughline is slower. A dash
-stands where a program was not run; Tamaas and ContactMechanics press the smaller grids only.
+stands where a program was not run{smaller_only}.
 """
 
 
@@ -55,7 +65,10 @@ def head(rows):
         f"Written by `make peers`: {programs}; {machine['processor']}, {machine['cores']} "
         f"cores, {machine['vectors']}; Python {machine['python']}, NumPy {machine['numpy']}.\n"
     )
-    yield INTRODUCTION
+    small = all(row["n"] <= SMALL for row in rows if "n" in row)
+    yield f"{SAME} {SMALL_GRIDS if small else LARGE_GRIDS}"
+    smaller_only = "; Tamaas and ContactMechanics press the smaller grids only" * (not small)
+    yield ALL_GRIDS.format(smaller_only=smaller_only)
     yield other_work(rows)
 
 
@@ -106,10 +119,10 @@ def best(row, program):
 
 def duration(run):
     """Return the time of a run as text, or why there is none."""
-    if run.get("converged"):
-        return f"{run['seconds']:.2f} s"
     if "seconds" in run:
-        return f"{run['seconds']:.2f} s, not converged"
+        seconds = run["seconds"]
+        text = f"{seconds:.2f} s" if seconds >= 0.1 else f"{1e3 * seconds:.1f} ms"
+        return text if run.get("converged") else f"{text}, not converged"
     if "stopped_after" in run:
         return f"> {run['stopped_after']:.3g} s"
     return "failed" if run else "–"

@@ -1,8 +1,10 @@
-"""Time roughline and the other programs that are installed, and write docs/peers-table.md.
+"""Time roughline and the other programs that are installed.
 
-``make peers`` runs all of it, in two or three hours on two cores. Rows are kept in a file beside
-the table as they are measured, and are not measured again until ``--fresh`` is given. The machine
-must do nothing else: threads that wait for each other lose most where a core is taken away.
+``make peers`` runs all of it, in two or three hours on two cores: docs/small-peers-table.md, of
+grids up to 256², and docs/peers-table.md. ``--sizes 64 128 256`` does the former, in ten minutes.
+Rows are kept in a file beside their table as they are measured, and are not measured again until
+``--fresh`` is given. The machine must do nothing else: threads that wait for each other lose most
+where a core is taken away.
 """
 
 import argparse
@@ -17,6 +19,7 @@ import peer_table
 from measure import our_convolution, plain_convolution
 from peer_programs import (
     ENGINES_OF_ASPHER,
+    SMALL,
     WARM_UP,
     entrants,
     path_of_aspher,
@@ -29,8 +32,11 @@ from peer_programs import (
 
 from roughline.computing.cores import available_cores, processor_name
 
+SIZES = (64, 128, 256, 512, 1024, 2048)
 TABLE = Path(__file__).parents[1] / "docs" / "peers-table.md"
 SHORT = 2.0  # what takes less is run again, and never stopped for the sake of another engine [s]
+LOADS = (0.8, 0.2), (0.03, 0.1, 0.4, 1.2)  # H, and F / (E* h L)
+SMALL_LOADS = (0.8,), (0.001, 0.03, 0.3, 1.0, 10.0)  # on small grids
 LARGE = 2048  # points along a side, from which only every k-th load of a path is solved by others
 KEY = ("kind", "n", "hurst", "force_bar", "n_loads", "load")
 
@@ -111,13 +117,14 @@ def race(presses, n, hurst, limit, repeats):
     return {"runs": runs}
 
 
-def cold_loads(rows, wanted):
+def cold_loads(rows, sizes, wanted):
     programs = versions()
-    for n in wanted.sizes:
+    for n in sizes:
         slow = () if n in wanted.slow_sizes else ("Tamaas", "ContactMechanics")
         taking_part = [program for program in programs if program not in slow]
-        for hurst in wanted.hurst:
-            for force in wanted.forces:
+        hursts, forces = SMALL_LOADS if n <= SMALL else LOADS
+        for hurst in wanted.hurst or hursts:
+            for force in wanted.forces or forces:
                 presses = entrants(taking_part, force)
                 measure = partial(race, presses, n, hurst, wanted.limit, wanted.repeats)
                 rows.measure(measure, kind="cold", n=n, hurst=hurst, force_bar=force)
@@ -133,9 +140,9 @@ def path(n, hurst, n_loads, limit):
     return {"plain": plain, "runs": runs}
 
 
-def paths(rows, wanted):
+def paths(rows, sizes, wanted):
     """Time paths of roughline, and ASPHER's cold loads along them."""
-    for n in wanted.sizes:
+    for n in sizes:
         for hurst in wanted.path_hurst:
             key = {"n": n, "hurst": hurst, "n_loads": wanted.loads}
             measure = partial(path, n, hurst, wanted.loads, wanted.limit)
@@ -159,37 +166,48 @@ def paths(rows, wanted):
                 engines.sort(key=lambda engine, winner=winner: engine != winner)
 
 
+def measure_table(wanted, table, sizes, here):
+    """Measure the rows of one table."""
+    rows = Rows(table, fresh=wanted.fresh, disturbed=wanted.disturbed)
+    before = rows.measure(lambda: here, kind="machine")
+    if before != {"kind": "machine", **here}:
+        raise SystemExit(f"{rows.file} is of another machine or other programs: give --fresh")
+    large = [n for n in sizes if n > SMALL]
+    for n in large:
+        rows.measure(partial(convolution, n), kind="convolution", n=n)
+    cold_loads(rows, sizes, wanted)
+    paths(rows, large, wanted)
+    table.write_text(peer_table.table(rows.rows.values()))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     add = parser.add_argument
-    add("--sizes", type=int, nargs="+", default=[512, 1024, 2048], help="points along a side")
-    add("--hurst", type=float, nargs="+", default=[0.8, 0.2], help="of the cold loads")
-    add("--forces", type=float, nargs="+", default=[0.03, 0.1, 0.4, 1.2], help="F / (E* h L)")
+    add("--sizes", type=int, nargs="+", default=SIZES, help="points along a side")
+    add("--hurst", type=float, nargs="+", help="of the cold loads")
+    add("--forces", type=float, nargs="+", help="of the cold loads, F / (E* h L)")
     add("--path-hurst", type=float, nargs="*", default=[0.2, 0.5, 0.8], help="of the paths")
     add("--loads", type=int, default=20, help="loads of a path")
     add("--every", type=int, default=4, help=f"solve every k-th of them by ASPHER from {LARGE}² on")
-    add("--slow-sizes", type=int, nargs="*", default=[512], help="of Tamaas and ContactMechanics")
+    add("--slow-sizes", type=int, nargs="*", default=SIZES[:4], help="Tamaas', ContactMechanics'")
     add("--repeats", type=int, default=3, help=f"runs of what takes less than {SHORT:.0f} s")
     add("--limit", type=float, default=600.0, help="seconds after which a run is stopped")
     add("--table", type=Path, default=TABLE)
     add("--fresh", action="store_true", help="forget the rows measured before")
     add("--disturbed", action="store_true", help="measure rows again that other work disturbed")
     wanted = parser.parse_args()
-    if min(wanted.sizes) <= max(WARM_UP.values()):
-        parser.error(f"sizes begin above {max(WARM_UP.values())}, the grid that warms up")
+    if any(SMALL < n <= max(WARM_UP.values()) for n in wanted.sizes):
+        parser.error(f"sizes are {SMALL} at most, or above {max(WARM_UP.values())}, which warms up")
     cores = available_cores()
     for library in ("OMP", "OPENBLAS", "MKL"):  # of the processes that are timed
         os.environ[f"{library}_NUM_THREADS"] = str(cores)
-    rows = Rows(wanted.table, fresh=wanted.fresh, disturbed=wanted.disturbed)
     here = machine(cores)
-    before = rows.measure(lambda: here, kind="machine")
-    if before != {"kind": "machine", **here}:
-        raise SystemExit(f"{rows.file} is of another machine or other programs: give --fresh")
-    for n in wanted.sizes:
-        rows.measure(partial(convolution, n), kind="convolution", n=n)
-    cold_loads(rows, wanted)
-    paths(rows, wanted)
-    wanted.table.write_text(peer_table.table(rows.rows.values()))
+    small, large = [n for n in wanted.sizes if n <= SMALL], [n for n in wanted.sizes if n > SMALL]
+    if small:
+        table = wanted.table.with_name(f"small-{wanted.table.name}")
+        measure_table(wanted, table, small, here)
+    if large:
+        measure_table(wanted, wanted.table, large, here)
 
 
 if __name__ == "__main__":

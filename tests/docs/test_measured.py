@@ -194,7 +194,7 @@ def test_the_page_of_speed_quotes_its_tables():
     ratios = [
         number(line.split("|")[7].replace("*", ""))
         for line in lines
-        if re.match(r"\| \d+² \| 0.\d \| [\d.]+ \| [\d.]+% \| [\d.]+ s \|", line)
+        if re.match(r"\| \d+² \| 0.\d \| [\d.]+ \| [\d.]+% \| [\d.]+ m?s \|", line)
     ]
     contact = [number(row["contact"]) for row in cold]
     assert len(ratios) == len(contact) == 24
