@@ -22,7 +22,7 @@ import numpy as np
 from scipy.linalg import blas, lapack
 
 from roughline.computing import fft
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Indices, Integers, Real
 from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
@@ -32,6 +32,9 @@ from roughline.halfspace.operators.restricted import RESOLVED_EXCESS, excess_com
 _MOST_CELLS = 16  # along the side of a block, where these are square
 _ALONG_LARGER = 4  # blocks along the side of a larger one
 _MOST_LARGER = 500  # with nodes, whose equations are solved all together
+_LEAST_LEFT = (
+    0.01  # part of the pressures of a block that is left where they do not push on the whole
+)
 
 
 def stretch(operator: Convolution) -> float:
@@ -124,6 +127,19 @@ class BlockOperators:
             cells *= 2
 
 
+def without_pulls(pressure: Real, nodes: GridNodes, sides: tuple[int, int]) -> Real:
+    """Return pressures that nowhere pull; as far as they push on the whole, blocks keep their sums.
+
+    Pulls that were just left out would move a hard layer far beyond the nodes that they leave. So
+    what pushes in the same block is lessened by the same force.
+    """
+    counts = [-(-n // side) for n, side in zip(nodes.shape, sides, strict=True)]
+    sums, pushes = np.zeros(counts), np.zeros(counts)
+    result = np.empty_like(pressure)
+    _lessen_pushes(pressure, nodes.listed, sides, sums, pushes, result)
+    return result
+
+
 class SolvedBlocks:
     """The pressures, even on the nodes of each block, that take up residuals.
 
@@ -179,6 +195,33 @@ class SolvedBlocks:
         half = blas.dtrsv(self._between, np.add.reduceat(residual, self._starts[:-1]), lower=1)
         pressure = blas.dtrsv(self._between, half, lower=1, trans=1, overwrite_x=1)
         return np.repeat(pressure, np.diff(self._starts))
+
+
+@compiled
+def _lessen_pushes(
+    pressure: Real,
+    nodes: tuple[Indices, Integers, Indices],
+    sides: tuple[int, int],
+    sums: Real,
+    pushes: Real,
+    result: Real,
+) -> None:
+    """Leave out what pulls, and lessen what pushes by as much in each block.
+
+    The sums of blocks, and of what pushes there, are zero before.
+    """
+    starts, columns, rows = nodes
+    for k in range(rows.size):
+        x = rows[k] // sides[0]
+        for i in range(starts[k], starts[k + 1]):
+            y = columns[i] // sides[1]
+            sums[x, y] += pressure[i]
+            pushes[x, y] += max(pressure[i], 0.0)
+    for k in range(rows.size):
+        x = rows[k] // sides[0]
+        for i in range(starts[k], starts[k + 1]):
+            y, push = columns[i] // sides[1], max(pressure[i], 0.0)
+            result[i] = push * max(sums[x, y] / pushes[x, y], _LEAST_LEFT) if push > 0 else 0.0
 
 
 @compiled

@@ -34,6 +34,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import InRegion, Mask, Real, among
+from roughline.halfspace.inverse.blocks import without_pulls
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.operators.grid_nodes import Precision
 from roughline.halfspace.search.carriers import Carriers, merged
@@ -422,7 +423,7 @@ def exchanged(region: Region, carriers: Carriers, watched: InRegion, wrong: _Wro
     """Return carriers after wrong nodes have changed sides; their pressures are overwritten."""
     bounds, pressure = region.bounds.at(carriers.places), carriers.pressure
     pressure[wrong.above] = bounds.at(wrong.above).high
-    pressure[wrong.below] = bounds.at(wrong.below).low
+    _raise_to_bounds(region, carriers, bounds, wrong.below)
     # a node that leaves its bound is relieved of what its own gap takes to close, but of little,
     # for its neighbours change sides as well
     bound = pressure[wrong.leaving]
@@ -434,6 +435,21 @@ def exchanged(region: Region, carriers: Carriers, watched: InRegion, wrong: _Wro
         .without(free)
         .joined_by(among(watched, wrong.overlapping))
     )
+
+
+def _raise_to_bounds(region: Region, carriers: Carriers, bounds: Bounds, below: Mask) -> None:
+    """Raise the pressures below their lower bounds to these.
+
+    Where a base is softer than the layers on it, blocks keep the sums of their pressures.
+    """
+    pressure, inverse = carriers.pressure, region.problem.inverse
+    if inverse.solves_blocks and below.any():
+        touching = bounds.touching(pressure)
+        nodes = region.operator.grid_nodes(among(carriers.places, touching))
+        low = bounds.at(touching).low
+        raised = without_pulls(pressure[touching] - low, nodes, inverse.blocks.on(nodes).sides)
+        pressure[touching] = raised + low
+    pressure[below] = bounds.at(below).low
 
 
 class _StoppingRule:
