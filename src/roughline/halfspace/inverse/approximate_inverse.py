@@ -291,7 +291,10 @@ class _TwoLevels:
             grid.margins[0] * width + grid.margins[1],
             width,
         )
-        self._nodes, self._grid, self._stencil = nodes, grid, inverse.stencil
+        offsets, taps = inverse.stencil
+        if solved:
+            taps = taps * np.float32(solved.details)
+        self._nodes, self._grid, self._stencil = nodes, grid, (offsets, taps)
         self._bands_at_a_time = max(1, fft.VALUES_AT_A_TIME * shape[0] // nodes.indices.size)
         count = np.empty(shape)
         self._share_out(lambda first, last: _count_nodes(self._at, first, last, count))

@@ -6,6 +6,9 @@ as soft, and more where the layer bends as a plate. So here the equations betwee
 hold nodes are solved, those within larger blocks by themselves and those between larger blocks all
 together, as in deflation [1]_ and balancing [2]_.
 
+Where blocks are wider than the layer is thick, what varies within them is displaced by waves that
+feel the base, and counts less: the stencil of the inverse convolution is of shorter waves.
+
 References
 ----------
 .. [1] R. A. Nicolaides, "Deflation of conjugate gradients with applications to boundary value
@@ -59,6 +62,7 @@ class BlockOperator:
     half_spectrum: Real  # over the product of the periods
     periods: tuple[int, int]
     own: float  # by which a node displaces itself more than its block does
+    details: float  # weight of what varies within blocks, at most 1
 
     @classmethod
     def of(
@@ -80,7 +84,19 @@ class BlockOperator:
         x, y = (np.minimum(np.arange(n), -np.arange(n) % n) for n in periods)
         spectrum = fft.half_spectrum(kernel[x[:, np.newaxis], y]).real / math.prod(periods)
         own = max(0.0, diagonal - float(kernel[0, 0]))
-        return cls(sides, (shape[0], shape[1]), kernel, spectrum, (periods[0], periods[1]), own)
+        # the mean between the compliances for short waves and for those that blocks just show
+        assert operator.half_space is not None
+        width = max(side * each for side, each in zip(sides, operator.spacing, strict=True))
+        excess = max(0.0, excess_compliance(operator.half_space, 2 * width))
+        return cls(
+            sides,
+            (shape[0], shape[1]),
+            kernel,
+            spectrum,
+            (periods[0], periods[1]),
+            own,
+            1 / math.sqrt(1 + excess),
+        )
 
     def larger_with_nodes(self, nodes: GridNodes) -> int:
         """Return how many larger blocks hold nodes."""
