@@ -86,8 +86,8 @@ def press_all(
     """Press all variants that are needed, in their order, under so many loads.
 
     The first curve keeps what its loads leave, which is large; others only if that is asked for,
-    and from the largest load on. Progress is told as (loads done, loads in all), over all variants; those that take a part of the
-    time count as that part. Ctrl-C raises Stopped.
+    and from the largest load on. Progress is told as (loads done, loads in all), over all variants;
+    those that take a part of the time count as that part. Ctrl-C raises Stopped.
     """
     done: dict[str, Curve] = {}
     pieces: dict[str, Sequence[SurfaceCurve]] = {}
