@@ -21,7 +21,6 @@ from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
 from roughline.facts.fact import Fact
-from roughline.margins.cause import Cause
 from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.larger_surface import Differences, stiffness_of_the_piece
 from roughline.margins.spread import measured_within
@@ -87,17 +86,22 @@ def margins_by_cause(
     found: dict[str, list[Margin]] = {key: [] for key in answers}
     if left_open is not None:
         own, _ = work_out_answers(case, combine_curves(case, curves, left_open.by("")))
+        open_alone = {key for key in answers if _is_open(own.get(key))}
         for each in causes:
             if each.is_bound:
                 continue
-            by_cause = left_open.by(each.name)
+            by_cause, text = left_open.by(each.name), (each.name, each.title, each.remedy)
             alone, _ = work_out_answers(case, combine_curves(case, curves, by_cause))
+            moved = alone
+            if not by_cause.is_known:  # what it moves is seen as something else moves as much
+                probe = by_cause.probed(case, curves)
+                moved, _ = work_out_answers(case, combine_curves(case, curves, probe))
             for key, answer in answers.items():
-                if answer.rule.is_given or _is_open(own.get(key)):
+                if key in open_alone or answer.rule.is_given or not _is_open(moved.get(key)):
                     continue
-                may_move = not by_cause.is_known and _moves(each, answer, case)
-                if (ends := _ends_alone(answer, alone.get(key), may_move)) is not None:
-                    found[key].append(Margin(each.name, each.title, each.remedy, *ends))
+                ends = alone[key].ends or (np.full_like(answer.values, np.nan),) * 2
+                margin = Margin(*text, *ends, is_of_larger=each.is_of_larger)
+                found[key].append(margin)
     for key, (least, most) in scatter.items():
         values = answers[key].values
         low, high = (np.where(values == 0, 0.0, values * each) for each in (least, most))
@@ -107,13 +111,6 @@ def margins_by_cause(
     return {key: [each for each in margins if each.matters] for key, margins in found.items()}
 
 
-def _ends_alone(answer: Answer, alone: Answer | None, may_move: bool) -> Ends | None:
-    """Ends that one cause leaves open, which may move the answer: NaN where they are not known."""
-    ends = None if alone is None else alone.ends
-    missing = ends is None if answer.ends is not None else may_move and not _is_open(alone)
-    return (np.full(answer.values.shape, np.nan),) * 2 if missing else ends
-
-
 def _is_open(answer: Answer | None) -> bool:
     """Whether an answer has an interval that is more than its value, but for rounding."""
     if answer is None or answer.ends is None:
@@ -121,16 +118,6 @@ def _is_open(answer: Answer | None) -> bool:
     return not np.isclose(
         answer.ends, answer.values, rtol=MATTERS - 1, atol=0, equal_nan=True
     ).all()
-
-
-def _moves(cause: Cause, answer: Answer, case: Case) -> bool:
-    """Whether a cause of which nothing more is known moves an answer."""
-    if answer.rule.is_of_hardness_alone:
-        return False
-    is_of_joint = case.question.joint is not None
-    if cause.is_of_larger:
-        return case.map is not None and (is_of_joint or answer.rule.is_of_interface)
-    return True
 
 
 def ends_from_many(

@@ -234,7 +234,7 @@ def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mappin
     answers = {}
     for key in keys:
         is_of_part = behind is not None and (
-            question.joint is not None or results[0].answers[key].rule.is_of_interface
+            question.joint is not None or any(each.answers[key].is_of_larger for each in results)
         )
         is_known = is_of_part and all(key in each for each in sides[0])
         answers[key] = PartAnswer.of(

@@ -84,8 +84,6 @@ def _widened(
     widened = {}
     for key, each in answers.items():
         ends, can_be = each.ends, each.limits
-        if each.rule.is_of_hardness_alone and known is not None:
-            ends = each.values, each.values  # nothing else leaves them open
         if each.under is not None and each.under[0] in answers:
             upper, factor = each.under
             bound = answers[upper].ends

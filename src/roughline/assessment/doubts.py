@@ -149,7 +149,7 @@ def _without_interval(result: Assessment) -> tuple[list[str], str]:
     meant = {
         key: each
         for key, each in result.answers.items()
-        if (is_joint or each.rule.is_of_interface) and not each.rule.is_given
+        if (is_joint or each.is_of_larger) and not each.rule.is_given
     }
     unbounded = [key for key, each in meant.items() if each.low is None]
     whole = "joint" if is_joint else "larger surface"

@@ -58,7 +58,7 @@ def _scatter(result: Assessment, factor: float, *, is_yielding: bool) -> Fact:
         each.name: tuple(float(end[load]) for end in result.hardness_scatter[key])
         for key, each in result.answers.items()
         if key in result.hardness_scatter
-        and (each.leads or each.rule.is_of_interface)
+        and (each.leads or (each.is_of_larger and result.question.joint is None))
         and not each.rule.is_given
     }
     if not moved:
@@ -110,7 +110,7 @@ def facts_on_materials(result: Assessment, pair: MaterialPair) -> Iterator[Fact]
     if pair.hardness is not None and result.curve.hardness is None:
         yield Fact("no_plasticity_index_of_layers")
     if is_map(result.body) or question.joint is not None:
-        keys = {key: each.name for key, each in result.answers.items() if each.rule.is_of_interface}
+        keys = {key: each.name for key, each in result.answers.items() if each.is_of_larger}
         fact = Fact("larger_surface_of_layers", answers=tuple(keys.values()))
         yield fact.concerning(*keys)
     yield from _facts_on_currents(result, pair)

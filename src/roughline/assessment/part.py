@@ -85,6 +85,11 @@ class PartAnswer:
         return self.of_maps[0].key
 
     @property
+    def is_of_larger(self) -> bool:
+        """Whether it is about the surface that maps were cut out of, rather than about them."""
+        return any(each.is_of_larger for each in self.of_maps)
+
+    @property
     def rule(self) -> Rule:
         """That it follows from."""
         return self.of_maps[0].rule

@@ -119,7 +119,7 @@ def _behind(
     behind: BehindMaps | None, answers: Mapping[str, PartAnswer], is_joint: bool
 ) -> list[Fact]:
     """Say why maps do not tell of the part, and of which answers they do not."""
-    of = {key: each for key, each in answers.items() if each.of_maps[0].rule.is_of_interface}
+    of = {key: each for key, each in answers.items() if each.is_of_larger}
     if behind is None or not behind.why_unknown or not of:
         return []
     names = tuple(each.name for each in of.values())

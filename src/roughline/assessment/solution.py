@@ -52,6 +52,18 @@ class LeftOpen:
         )
         return LeftOpen(of_map, of_larger)
 
+    def probed(self, case: Case, curves: Curves) -> LeftOpen:
+        """The same causes as if each moved all that they are of by a little."""
+        found = []
+        for name, spreads in (
+            (AS_ASKED, self.of_map),
+            (larger_name(case, AS_ASKED), self.of_larger),
+        ):
+            curve = curves.by_name.get(name)
+            probe = None if curve is None else Spread.probe(Values.of(curve))
+            found.append(dict.fromkeys(spreads, probe))
+        return LeftOpen(*found)
+
     @property
     def is_known(self) -> bool:
         """Whether all that they leave open is known, under some load at least."""

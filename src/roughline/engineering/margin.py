@@ -29,6 +29,8 @@ class Margin:
         Both ends that it alone leaves open; NaN where that is not known. [unit of the answer]
     is_bound : bool
         Whether it bounds what others leave open, instead of being independent of them.
+    is_of_larger : bool
+        Whether it is that the answer is of the surface which a map was cut out of.
     """
 
     cause: str
@@ -37,6 +39,7 @@ class Margin:
     low: Real
     high: Real
     is_bound: bool = False
+    is_of_larger: bool = False
 
     @property
     def ends(self) -> Ends:

@@ -195,6 +195,14 @@ class Pressed:
         ends = self.intervals.area if self.intervals else None
         return np.stack([self.curve.area_fraction_corrected, *(ends or ())])
 
+    def by_hardness_alone(self, values: Real) -> Real:
+        """Values that the hardness enters by their formula, and nothing else leaves open, in rows.
+
+        They stand without an interval where all others do, and where the hardness does not scatter.
+        """
+        scatters = self.hardest is not None and self.hardest != self.curve.hardness
+        return np.stack([values] * 3) if scatters and self.intervals is not None else values
+
     def measure(self, name: str) -> Real | None:
         """A measure by its name, in rows; None where it was not taken, as of a line."""
         found = self.measured.get(name)

@@ -98,24 +98,16 @@ class Rule:
         lead.
     is_extensive : bool, optional
         Whether it grows or falls with the nominal area under the same mean pressure.
-    is_of_interface : bool, optional
-        Whether it is about the surface that a map was cut out of, rather than about the map.
     is_given : bool, optional
         Whether it stands without an interval, as loads and depths do.
-    is_of_hardness_alone : bool, optional
-        Whether the hardness enters by the formula alone, and nothing else leaves it open.
     in_per_cent : bool, optional
         Whether it is written in per cent.
     may_be_infinite : bool, optional
         Whether infinity is a value of it, as of a stiffness in full contact. An answer that is not
         finite is left out otherwise, with a note that says so.
-    measures : sequence of Measure, optional
+    measures : sequence of Measure or callable, optional
         What it needs from the fields of every load: ``pressed.measure(name)`` returns them, in
-        rows.
-    measured_with : callable, optional
-        The same, needed where a fluid in the gap is asked for, from what is asked.
-    measured_of : callable, optional
-        The same, needed of some materials, from both.
+        rows. A callable returns them from both materials, and from the fluid in the gap or None.
 
     Examples
     --------
@@ -160,14 +152,10 @@ class Rule:
     answers_question: Callable[[Pressed], bool] = lambda _pressed: False
     is_shown_at_many_loads: bool = False
     is_extensive: bool = False
-    is_of_interface: bool = False
     is_given: bool = False
-    is_of_hardness_alone: bool = False
     in_per_cent: bool = False
     may_be_infinite: bool = False
-    measures: Sequence[Measure] = ()
-    measured_with: Callable[[Fluid], Sequence[Measure]] = lambda _sealing: ()
-    measured_of: Callable[[MaterialPair], Sequence[Measure]] = lambda _pair: ()
+    measures: Sequence[Measure] | Callable[[MaterialPair, Fluid | None], Sequence[Measure]] = ()
 
     def __post_init__(self) -> None:
         for name, annotation in type(self).__annotations__.items():
@@ -334,6 +322,11 @@ class Answer:
         return self.rule.unit
 
     @property
+    def is_of_larger(self) -> bool:
+        """Whether it is about the surface that a map was cut out of, rather than about the map."""
+        return any(each.is_of_larger for each in self.margins)
+
+    @property
     def ends(self) -> Ends | None:
         """Both ends of its interval. [unit]"""
         return None if self.low is None or self.high is None else (self.low, self.high)
@@ -408,9 +401,11 @@ class Rules:
 
         Some of it only where a fluid in the gap is asked for, or of some materials.
         """
-        found = [each for rule in self for each in (*rule.measures, *rule.measured_of(pair))]
-        if sealing is not None:
-            found += [each for rule in self for each in rule.measured_with(sealing)]
+        found = [
+            each
+            for rule in self
+            for each in (rule.measures(pair, sealing) if callable(rule.measures) else rule.measures)
+        ]
         return list(dict.fromkeys(found))
 
     def left_out(self, pair: MaterialPair, frequency: float | None) -> list[Fact]:

@@ -14,6 +14,7 @@ from roughline.engineering.intervals import Ends, Intervals
 
 _LEAST_OPEN = 1e-9  # share of the area that is not in contact; less counts as this
 _LEAST_OF_FLOOR = 1e-12  # of a floor; less of a measure is none
+_PROBE = 0.01  # relative distance of ends that show what a cause moves
 FLOOR = 0.3  # of a measure, added before its logarithm is taken: what is sealed has none
 
 
@@ -121,6 +122,16 @@ class Spread:
         """Whether the ends of each quantity are known under some load."""
         ends = (self.stiffness, self.unloading, self.area, *self.measures.values())
         return not any(np.isnan(each).all() for each in ends)
+
+    @classmethod
+    def probe(cls, values: Values) -> Spread:
+        """Ends a little away from all values, which show what follows from them."""
+
+        def ends(value: Real) -> Ends:
+            return value / (1 + _PROBE), value * (1 + _PROBE)
+
+        measures = {name: ends(value) for name, value in values.measures.items()}
+        return cls(ends(values.stiffness), ends(values.unloading), ends(values.area), measures)
 
     @classmethod
     def between(

@@ -202,7 +202,7 @@ def _interval_assumptions(assessment: Assessment) -> list[str]:
     if is_of_joint:
         held += f", and what {unseen}"
     else:
-        ours = [each.name for each in assessment.answers.values() if each.rule.is_of_interface]
+        ours = [each.name for each in assessment.answers.values() if each.is_of_larger]
         if ours:
             held += f"; those of {listed_in_short(ours)} hold what {unseen} as well"
     other = "other material data" if assessment.hardness_scatter else "material data"

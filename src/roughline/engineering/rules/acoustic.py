@@ -77,7 +77,6 @@ _REFLECTION = Rule(
     differing=_wave_texts,
     lacking=_lacking,
     limits=_limits,
-    is_of_interface=True,
 )
 """Share of an ultrasonic wave that the interface reflects."""
 

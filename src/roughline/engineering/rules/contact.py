@@ -156,7 +156,6 @@ CONTACT = (
         validity="of the map in a periodic half-space; waves longer than the map open it further",
         differing=lambda pressed: {"validity": str(pressed.place)} if pressed.place else {},
         value=lambda pressed: pressed.measure(MEAN_GAP.name),
-        is_of_interface=True,
         measures=[MEAN_GAP],
     ),
 )

@@ -47,7 +47,8 @@ def _single_spot(pressed: Pressed) -> Real | None:
     if resistivities is None or hardness is None:
         return None
     with np.errstate(divide="ignore"):
-        return holm_resistance(pressed.force, hardness, resistivities)
+        found = holm_resistance(pressed.force, hardness, resistivities)
+    return pressed.by_hardness_alone(found)
 
 
 def _resistivities(pressed: Pressed) -> list[Symbol]:
@@ -69,7 +70,7 @@ ELECTRICAL = (
         value=_resistance,
         differing=partial(through_layers, "clean metal; films add to it"),
         lacking=_lacking,
-        measured_of=partial(spreading, quantity="resistivity"),
+        measures=lambda pair, _fluid: spreading(pair, "resistivity"),
         leads=always,
         is_extensive=True,
         may_be_infinite=True,
@@ -104,7 +105,6 @@ ELECTRICAL = (
         value=_single_spot,
         lacking=lambda pair, _frequency: Fact("no_estimates_of_layers") if pair.coated else None,
         is_extensive=True,
-        is_of_hardness_alone=True,
         may_be_infinite=True,
     ),
 )

@@ -214,7 +214,6 @@ INTERFACE_STIFFNESS = _rule(
     facts=_which_surface,
     leads=lambda pressed: pressed.joint is not None,
     is_extensive=True,
-    is_of_interface=True,
     may_be_infinite=True,
 )
 
@@ -269,7 +268,7 @@ MECHANICAL = (
         value=lambda pressed: pressed.measure("effective_modulus"),
         differing=_between_moduli,
         leads=lambda pressed: bool(pressed.pair.coated),
-        measured_of=_energy_measures,
+        measures=lambda pair, _fluid: _energy_measures(pair),
     ),
     _rule(
         key="layer_stiffness",

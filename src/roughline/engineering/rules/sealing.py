@@ -16,6 +16,7 @@ from roughline.engineering.leak import (
     reynolds_number,
     throughput_at_room,
 )
+from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.rules.thermal import conductance_of_interface
@@ -66,6 +67,13 @@ def _along_each(*measures_of: Callable[[Rarefied, Along], Measure]) -> _Needed:
     return lambda fluid: [
         of(fluid.rarefied, along) for along in fluid.directions for of in measures_of
     ]
+
+
+def _with_fluid(
+    needed: _Needed,
+) -> Callable[[MaterialPair, Fluid | None], Sequence[Measure]]:
+    """What is needed where a fluid is asked for, and nothing elsewhere."""
+    return lambda _pair, fluid: () if fluid is None else needed(fluid)
 
 
 _APERTURES = _along_each(equivalent_aperture)
@@ -467,7 +475,6 @@ SEALING = (
         unit="m³/s",
         formula="(W/B) u_h³ (P1 - P2) / (12 eta)",
         symbols=_fluid_symbols,
-        is_of_interface=True,
         value=_liquid_leak,
         unknown=_lifts,
         differing=_through_seal,
@@ -481,7 +488,6 @@ SEALING = (
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta), at 20 °C; u_s with slip",
         symbols=_fluid_symbols,
         unknown=_lifts,
-        is_of_interface=True,
         value=partial(_gas_leak, lambda leak, gas: _MBAR_LITRES * throughput_at_room(leak, gas)),
         differing=_through_seal,
         answers_question=always,
@@ -493,7 +499,6 @@ SEALING = (
         unit="kg/s",
         formula="(W/B) u_s³ (P1² - P2²) / (24 eta R_s T)",
         symbols=_fluid_symbols,
-        is_of_interface=True,
         value=partial(_gas_leak, mass_of_throughput),
         unknown=_lifts,
         differing=_through_seal,
@@ -533,7 +538,6 @@ SEALING = (
         unit="m",
         formula="gap of flat plates that let as much through, (12 eta Q B/(W (P1 - P2)))^(1/3)",
         symbols=_fluid_symbols,
-        is_of_interface=True,
         value=partial(_largest, needed=_APERTURES),
         differing=partial(_with_direction, "hydraulic aperture"),
         facts=lambda pressed: (
@@ -544,7 +548,7 @@ SEALING = (
         ),
         leads=always,
         answers_question=_without_leak,
-        measured_with=_APERTURES,
+        measures=_with_fluid(_APERTURES),
     ),
     _rule(
         key="aperture_with_slip",
@@ -552,7 +556,6 @@ SEALING = (
         symbol="u_s",
         unit="m",
         formula="gap of flat plates between which as much of a liquid would flow",
-        is_of_interface=True,
         value=_with_slip,
         differing=partial(_with_direction, "aperture with slip"),
     ),
@@ -565,7 +568,6 @@ SEALING = (
             formula=f"the same, along {along} over the map",
             value=partial(_along, along),
             differing=_placed,
-            is_of_interface=True,
         )
         for along in get_args(Along)
     ),
@@ -576,10 +578,9 @@ SEALING = (
         unit="1",
         formula="(u_h / u_m)³",
         source="Patir and Cheng 1978",
-        is_of_interface=True,
         value=partial(_largest, needed=_FACTORS),
         differing=partial(_with_direction, "pressure flow factor"),
-        measured_with=_FACTORS,
+        measures=_with_fluid(_FACTORS),
     ),
     _rule(
         key="largest_channel",
@@ -593,7 +594,7 @@ SEALING = (
         facts=_one_channel,
         limits=lambda _pressed: (0.0, 1.0),
         in_per_cent=True,
-        measured_with=_along_each(largest_share, slope_of_flow),
+        measures=_with_fluid(_along_each(largest_share, slope_of_flow)),
     ),
     _rule(
         key="gas_conductance",
@@ -606,9 +607,8 @@ SEALING = (
         validity=f"of the map; {_STILL}",
         differing=lambda pressed: {"validity": f"{pressed.place or 'of the map'}; {_STILL}"},
         source="Yovanovich 2005",
-        is_of_interface=True,
         value=_gas_conductance,
-        measured_with=_inverse_gap,
+        measures=_with_fluid(_inverse_gap),
     ),
     _rule(
         key="joint_conductance",
@@ -622,9 +622,8 @@ SEALING = (
         value=_joint_conductance,
         leads=always,
         answers_question=_without_leak,
-        is_of_interface=True,
         may_be_infinite=True,
-        measured_with=_inverse_gap,
+        measures=_with_fluid(_inverse_gap),
     ),
 )
 """Answers about a fluid in the gap, in their order."""

@@ -86,7 +86,8 @@ def _plastic(pressed: Pressed) -> Real | None:
     shape, hardness = _shape(pressed), pressed.pair.hardness
     if shape is None or hardness is None:
         return None
-    return yovanovich_conductance(pressed.pressure, hardness, *shape)
+    found = yovanovich_conductance(pressed.pressure, hardness, *shape)
+    return pressed.by_hardness_alone(found)
 
 
 def _conductivities(pressed: Pressed) -> list[Symbol]:
@@ -120,7 +121,7 @@ THERMAL = (
         value=lambda pressed: _conductance(contact_conduction(pressed, "conductivity"), pressed),
         differing=partial(through_layers, _IN_VACUUM),
         lacking=_lacking,
-        measured_of=partial(spreading, quantity="conductivity"),
+        measures=lambda pair, _fluid: spreading(pair, "conductivity"),
         is_extensive=True,
         may_be_infinite=True,
     ),
@@ -142,7 +143,6 @@ THERMAL = (
         lacking=_lacking,
         facts=_without_gas,
         leads=always,
-        is_of_interface=True,
         may_be_infinite=True,
     ),
     _rule(
@@ -176,7 +176,6 @@ THERMAL = (
         source="Yovanovich 2005",
         value=_plastic,
         lacking=_estimated,
-        is_of_hardness_alone=True,
     ),
 )
 """Answers about heat, in their order."""
