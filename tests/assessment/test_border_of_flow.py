@@ -8,12 +8,12 @@ import pytest
 
 import roughline as rl
 from held_measures import held
-from roughline.assessment.behind_maps import behind_maps
 from roughline.assessment.border_of_flow import what_borders_do
 from roughline.contact.measures import Measured
 from roughline.fluid import border
 from roughline.fluid.measures import LIQUID, equivalent_aperture, names_at_border
 from roughline.margins.larger_measure import LargerMeasure
+from roughline.margins.parts import behind_maps
 from roughline.margins.tiles import POINTS_OF_BORDER, TiledCurves, coarse_shape
 from roughline.question.extrapolation import Extrapolation
 

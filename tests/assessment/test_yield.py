@@ -9,10 +9,11 @@ import pytest
 from attrs import evolve
 
 import roughline as rl
-from roughline.assessment.behind_maps import BehindMaps, ends_in_common
+from roughline.assessment.answers import ends_in_common
 from roughline.engineering.formulas import electrical_resistance, partial_slip
 from roughline.margins import variant as variants
 from roughline.margins.larger_surface import Differences
+from roughline.margins.parts import BehindMaps
 from roughline.question import case as cases
 from roughline.report.answers import answer_table, elastic_in_words
 

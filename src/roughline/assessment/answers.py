@@ -23,6 +23,8 @@ from roughline.engineering.rules import rules
 from roughline.facts.fact import Fact
 from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.larger_surface import Differences, stiffness_of_the_piece
+from roughline.margins.parts import BehindMaps
+from roughline.margins.scans import ONE_SCAN
 from roughline.margins.spread import measured_within
 from roughline.margins.variant import Curves
 from roughline.question.case import Case
@@ -84,7 +86,11 @@ def margins_by_cause(
     An answer that is sought brings an interval of its own, of its half grid and its quarters.
     """
     found: dict[str, list[Margin]] = {key: [] for key in answers}
-    if left_open is not None:
+    if left_open is None:  # of a line scan, whose lines are all that leaves it open
+        for key, answer in answers.items():
+            if answer.ends is not None and _is_open(answer):
+                found[key].append(Margin(*ONE_SCAN, *answer.ends))
+    else:
         own, _ = work_out_answers(case, combine_curves(case, curves, left_open.by("")))
         open_alone = {key for key in answers if _is_open(own.get(key))}
         for each in causes:
@@ -99,7 +105,8 @@ def margins_by_cause(
             for key, answer in answers.items():
                 if key in open_alone or answer.rule.is_given or not _is_open(moved.get(key)):
                     continue
-                ends = alone[key].ends or (np.full_like(answer.values, np.nan),) * 2
+                ends = alone[key].ends if _is_open(alone[key]) else None
+                ends = ends or (np.full_like(answer.values, np.nan),) * 2
                 margin = Margin(*text, *ends, is_of_larger=each.is_of_larger)
                 found[key].append(margin)
     for key, (least, most) in scatter.items():
@@ -151,6 +158,18 @@ def ends_from_many(
         )
     )
     return {key: each.ends for key, each in found_answers.items() if each.ends is not None}
+
+
+def ends_in_common(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, Ends], ...]:
+    """What a map misses as all others do of each answer, and how sharing its load changes it."""
+    common = ends_from_many(result, behind.common, with_grid=True)
+    moved = result.hardness_scatter
+    with np.errstate(invalid="ignore"):  # nothing, times infinity
+        common = {
+            key: (ends[0] * moved[key][0], ends[1] * moved[key][1]) if key in moved else ends
+            for key, ends in common.items()
+        }
+    return common, ends_from_many(result, behind.sharing, with_grid=False)
 
 
 def _pressed(

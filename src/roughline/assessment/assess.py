@@ -92,6 +92,8 @@ def assess_body(
         theories=theories,
     )
     of_causes = [fact for each in causes for fact in each.facts(case, curves)]
+    if titles := tuple(each.title for each in causes if each.name in curves.missing):
+        of_causes.append(Fact("causes_missing", titles=titles))
     facts = collect_facts(result, case.moments, of_causes, case.loads.grid_error)
     return replace(result, facts=facts)
 

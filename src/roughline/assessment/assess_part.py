@@ -11,9 +11,9 @@ from pathlib import Path
 import attrs
 import numpy as np
 
+from roughline.assessment.answers import ends_in_common
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.behind_maps import BehindMaps, behind_maps, ends_in_common
 from roughline.assessment.cost import Announce
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.part_remarks import differ_in_size, facts_of_part
@@ -21,6 +21,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
 from roughline.facts.fact import Fact, by_weight
+from roughline.margins.parts import BehindMaps, behind_maps
 from roughline.question.arguments import has_forces
 from roughline.question.assumptions import broken
 from roughline.question.loads import LoadProgress

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.part import PartAnswer
 from roughline.facts.fact import Fact
+from roughline.margins.parts import BehindMaps
 from roughline.question.kinds import nominal_area
 from roughline.statistics.student import student
 from roughline.topography.body import Body, Surface
@@ -51,8 +51,8 @@ def facts_of_part(
         *_behind(behind, answers, is_joint),
         *_sealed_in_some(results, answers),
         *_differences_in_kind(results),
-        *_what_is_averaged(maps, is_joint),
         *_agreement(behind),
+        *_what_is_averaged(maps, is_joint),
         *_once(facts),
     ]
 

@@ -164,8 +164,10 @@ def _measured(
         return measured_within(taken, [None])
     spreads = left_open.of_larger
     own = [spread for key, spread in spreads.items() if not causes[key].is_of_larger]
-    tiled = {} if larger is None else {key: taken[key] for key in larger.measures}
-    return measured_within(taken, own) | measured_within(tiled, spreads.values())
+    tells = larger is not None and bool(larger.measures)
+    tells |= any(causes[key].is_of_larger and spread for key, spread in spreads.items())
+    of_larger = {each.name: taken[each.name] for each in case.measures if each.intensive and tells}
+    return measured_within(taken, own) | measured_within(of_larger, spreads.values())
 
 
 def fields_of_gap(case: Case, curves: Curves) -> Fields | None:

@@ -42,6 +42,10 @@ _CHANCE = 0.02  # that a Gaussian scan differs from them so much
 _NO_MATTER = 0.02  # relative difference of a stiffness that does not matter
 
 
+ONE_SCAN = ("scan", "what one line does not show of its surface", "a map")
+"""Name, title and remedy of what leaves answers of a scan open."""
+
+
 @dataclass(frozen=True, eq=False)
 class PressedScan:
     """Reduced lines of surfaces that a line scan may have been cut from.

@@ -33,6 +33,7 @@ class Curves:
 
     sought: Mapping[str, Sought] = field(default_factory=dict)  # beyond the loads, if asked for
     stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
+    missing: Sequence[str] = ()  # purposes of those that were not pressed, as Ctrl-C came
 
     @property
     def as_asked(self) -> Curve:
@@ -94,7 +95,7 @@ def press_all(
     points = max(math.prod(each.shape) for each in variants)
     steps = [math.ceil(loads * each.share * math.prod(each.shape) / points) for each in variants]
     before, total = 0, sum(steps)
-    for variant, here in zip(variants, steps, strict=True):
+    for i, (variant, here) in enumerate(zip(variants, steps, strict=True)):
         found = variant.needed(Curves(done, pieces))
         report = partial(_report, progress, before, here, total) if progress else None
         try:
@@ -105,7 +106,8 @@ def press_all(
         except Interrupted as stop:
             if isinstance(found, LoadCase):
                 done[variant.name] = found.spread(stop.curve)
-            raise Stopped(Curves(done, pieces, stopped=variant.name)) from stop
+            missing = tuple(dict.fromkeys(each.purpose for each in variants[i:]))
+            raise Stopped(Curves(done, pieces, {}, variant.name, missing)) from stop
         if isinstance(found, Curve):
             if done and isinstance(found, SurfaceCurve):
                 found = _with_largest_dents(found) if keep_dents else replace(found, dents=())

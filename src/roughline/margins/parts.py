@@ -25,13 +25,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from roughline.assessment.answers import ends_from_many
-from roughline.assessment.assessment import Assessment
 from roughline.computing.arrays import Real
-from roughline.contact.curve import SurfaceCurve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.facts.fact import Fact
@@ -42,14 +41,35 @@ from roughline.margins.tiles import FEWEST_POINTS, Tiles
 from roughline.measurement.fit import SelfAffineFit, nearest_law
 from roughline.measurement.longer_waves import long_shapes
 from roughline.question.extrapolation import MOST_DOUBLINGS, Extrapolation, fitted_roll_offs
+from roughline.question.question import Question
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
 from roughline.statistics.places import Agreement, agreement
-from roughline.topography.body import Surface
+from roughline.topography.body import Body, Surface
 
 _DEVIATIONS_TO_EDGE = 2.0  # standard deviations from the middle to the roughest places
 _SIDE_TOLERANCE = 0.05  # logarithm of sides, up to which maps have the same waves
 _CHANCE = 0.01  # of a tilt and bow that the waves of the maps explain
 _FEWEST_POINTS = 16  # points along a side, whose quarters have an rms height
+
+
+class MapOfPart(Protocol):
+    """One of several maps, pressed, as far as it tells of the part."""
+
+    @property
+    def question(self) -> Question:
+        """What was asked of it."""
+
+    @property
+    def body(self) -> Body:
+        """What was pressed. [m]"""
+
+    @property
+    def curve_as_asked(self) -> Curve:
+        """Its curve at the loads that were asked for."""
+
+    @property
+    def larger(self) -> LargerSurface | None:
+        """The surface that it was cut out of, under these loads; None if it is no map."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +82,7 @@ class BehindMaps:
     why_unknown: Fact | None = None  # why the maps do not tell of it; None where they do
 
 
-def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
+def behind_maps(results: Sequence[MapOfPart]) -> BehindMaps | None:
     """Say what two or more maps tell of the surface behind them; None if one is no map of it."""
     larger = [each.larger for each in results if each.larger is not None]
     surfaces = [each.body for each in results if isinstance(each.body, Surface)]
@@ -75,7 +95,7 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     extrapolation = Extrapolation.of(roll_offs, area, first.question.joint)
     gap_extrapolation = Extrapolation.of(roll_offs, area, *first.question.gap_assembly)
     tiles = [each.tiles for each in larger if each.tiles is not None]
-    nothing = np.zeros(first.asked.size)
+    nothing = np.zeros(first.curve_as_asked.force.size)
     common = Differences((nothing, nothing), (nothing, nothing))
     if tiles:
         of_stiffness, of_area = (
@@ -90,7 +110,7 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
         np.stack([each.stiffness.values for each in larger]),
         np.stack(areas),
         math.sqrt(area),
-        float(first.curve.half_space.modulus(np.array([math.pi / math.sqrt(area)]))[0]),
+        float(first.curve_as_asked.half_space.modulus(np.array([math.pi / math.sqrt(area)]))[0]),
         1.0 if agree is None else agree.place_share,
     )
     why_unknown = None if law is None else _longer_waves(same, law)
@@ -119,18 +139,6 @@ def _measure_differences(
             both = np.minimum(mean[0], border[0]), np.maximum(mean[1], border[1])
             found[name] = both if extrapolation.is_supported else UNBOUNDED
     return found
-
-
-def ends_in_common(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, Ends], ...]:
-    """What a map misses as all others do of each answer, and how sharing its load changes it."""
-    common = ends_from_many(result, behind.common, with_grid=True)
-    moved = result.hardness_scatter
-    with np.errstate(invalid="ignore"):  # nothing, times infinity
-        common = {
-            key: (ends[0] * moved[key][0], ends[1] * moved[key][1]) if key in moved else ends
-            for key, ends in common.items()
-        }
-    return common, ends_from_many(result, behind.sharing, with_grid=False)
 
 
 def shared_load(

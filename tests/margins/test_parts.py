@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 import roughline as rl
 from benchmarks.made_surfaces import SIDE, Make, parent_of
-from roughline.assessment.behind_maps import shared_load
+from roughline.margins.parts import shared_load
 from roughline.topography.provenance import Provenance, Tilt
 from told import first_warning
 
@@ -104,9 +104,7 @@ def test_a_part_of_alike_places_is_told_and_its_maps_agree(maps):
 
 def test_places_that_differ_in_roughness_are_named_and_widen_what_is_said_of_the_joint():
     parent, part, pressure = part_of("uneven roughness", maps=5, grid_error=True)
-    assert re.match(
-        r"the maps do not agree: rms heights scatter by a factor of", first_warning(part)
-    )
+    assert re.match(r"the maps do not agree: rms heights scatter by a factor of", part.warnings[0])
     whole = rl.press(parent, E_star=E_STAR, forces=pressure * parent.area, periodic=True)
     k = part.answers["interface_stiffness"]
     assert k.low[0] < whole.stiffness[0] < k.high[0]
