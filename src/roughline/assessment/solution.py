@@ -164,8 +164,8 @@ def _measured(
         return measured_within(taken, [None])
     spreads = left_open.of_larger
     own = [spread for key, spread in spreads.items() if not causes[key].is_of_larger]
-    tells = larger is not None and bool(larger.measures)
-    tells |= any(causes[key].is_of_larger and spread for key, spread in spreads.items())
+    probed = any(causes[key].is_of_larger and spread for key, spread in spreads.items())
+    tells = larger is not None and (bool(larger.measures) or probed)
     of_larger = {each.name: taken[each.name] for each in case.measures if each.intensive and tells}
     return measured_within(taken, own) | measured_within(of_larger, spreads.values())
 
