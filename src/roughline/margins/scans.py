@@ -26,9 +26,9 @@ from roughline.spectra.profile import profile_spectrum
 from roughline.topography.body import Line
 from roughline.topography.settings import as_body
 
-_SCAN_LINES = 200
-_SPRINGS_A_WAVE = 8
-_LEAST_SPRINGS = 2**12
+_SCAN_LINES = 200  # lines that are pressed, each of a surface that the scan may be cut from
+_SPRINGS_A_WAVE = 8  # springs of a line for each height of the scan
+_LEAST_SPRINGS = 2**12  # of a line, however short the scan is
 
 _LEAST_HEIGHTS = 100
 """Independent heights from which on a scan shows whether its surface has Gaussian ones.

@@ -53,8 +53,8 @@ _STEPPED_SHARE = 0.1  # of heights in steps, that matters
 _LEVEL_SHARE = 0.003  # of heights on one level, beyond the lowest, that matters
 _FILLED_SHARE = 0.1  # of points: beyond, intervals of light loads hold too few surfaces
 _LARGEST_JUMP = 0.02  # of the rms height, by which rows jump that matters
-_NO_ROLL_OFF_GRAVITY = 2.0
-_LEVELLED_GRAVITY = 1.01  # of a tilt that is not known
+_NO_ROLL_OFF_GRAVITY = 2.0  # of a map without a roll-off, which has no number of its own
+_LEVELLED_GRAVITY = 1.01  # of a tilt that is not known, which has no number of its own
 
 _FEWEST_POINTS = 8  # along the shortest side, that tell of faults
 _MOST_SEARCHED = 1024  # points along a side, for equal heights

@@ -15,7 +15,7 @@ from roughline.topography.body import Body, point_spacings
 from roughline.units import in_words
 
 _FEWEST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
-_LARGEST_SKEWNESS = 0.45  # more matters
+_LARGEST_SKEWNESS = 0.45  # of heights or curvatures; more matters
 _LARGEST_EXCESS = (1.0, 2.5)  # of the kurtosis over 3, of heights and of curvatures
 _LARGEST_LACK = 0.6  # of the kurtosis under 3
 _HIGHEST_SHARES = (0.02, 0.05, 0.1, 0.2)  # shares of the highest places whose slopes are judged

@@ -15,7 +15,7 @@ from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.leakage import LONGER_WAVES, map_leakage, power_inside
 
 _CORRELATED_MODES = 2.4  # modes of a ring that vary together under a Hann window
-_ROLLS_PER_DECADE = 40
+_ROLLS_PER_DECADE = 40  # roll-offs that are tried, from four rings on
 _RINGS_BELOW, _RINGS_ABOVE = 4, 2  # rings below and above an end in which its leakage is computed
 _END_STEP = 0.25  # from end to end that is tried, and from wave to wave
 
