@@ -13,7 +13,6 @@ from roughline.computing.arrays import Mask, Real
 from roughline.facts.fact import Fact
 
 MOST_CELLS = 512  # cells along a side of a map, from which correlations are taken
-_SMALLEST_CHANCE = 1e-300
 
 
 @dataclass(frozen=True)
@@ -70,15 +69,16 @@ class Chance:
 
 
 def score_of_square(freedom: float, ratio: float) -> float:
-    """Return the standard score of a chi-squared variable over its mean."""
+    """Return the standard score of a chi-squared variable over its mean.
+
+    It is infinite where the chance is smaller than the smallest number.
+    """
     from scipy import special  # here because it loads slowly
 
     over = float(special.chdtrc(freedom, freedom * ratio))
     if over < 0.5:
-        return -float(special.ndtri(max(over, _SMALLEST_CHANCE)))
-    return float(
-        special.ndtri(max(float(special.chdtr(freedom, freedom * ratio)), _SMALLEST_CHANCE))
-    )
+        return -float(special.ndtri(over))
+    return float(special.ndtri(special.chdtr(freedom, freedom * ratio)))
 
 
 def _fine_part(field: Real) -> Real:
