@@ -24,7 +24,6 @@ _REACHES = (1.4, 2.0, 4.0)  # where waves may end that are shorter than the spac
 _LARGEST_FOLDED_BLUR = 0.6  # up to which such waves are seen
 _BLUR_STEP = 3  # from one of these blurs to the next that is tried with such waves
 _KNOWN_WITHIN = 0.1  # of the logarithm of what an instrument does, to which its law is known
-_IMAGE_COUNT = 2  # times twice the Nyquist wavenumber, on both sides
 _DIRECTIONS = 12  # of waves, on a quarter of a circle
 _IMAGE_PLACES = 24  # between which images of shorter waves are interpolated
 
@@ -105,7 +104,8 @@ def _images(
 ) -> tuple[Real, Real]:
     """Folded power at some wavenumbers, over (blur and reach, hurst, wavenumber)."""
     places = np.linspace(0, 1, _IMAGE_PLACES)
-    shifts = 2.0 * np.arange(-_IMAGE_COUNT, _IMAGE_COUNT + 1)
+    farthest = math.floor((max(_REACHES) + 1) / 2)  # images farther away end before
+    shifts = 2.0 * np.arange(-farthest, farthest + 1)
     if dimensions == 1:
         x = places[:, np.newaxis, np.newaxis] + shifts[shifts != 0]
         y = np.zeros(x.shape)
