@@ -11,7 +11,7 @@ PEERS_PYTHON ?= $(BIN)/python
 unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -133,6 +133,10 @@ square-leakage: $(VENV)/installed
 # MAPS names files of instruments, if there are any.
 start-up: $(VENV)/installed
 	$(BIN)/python benchmarks/start_up.py $(MAPS)
+
+# Each constant of the margins doubled, one at a time, in half an hour; MAPS as above; resumable.
+constants: $(VENV)/installed
+	$(BIN)/python benchmarks/constants.py $(MAPS)
 
 lab-benchmark: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_moves.py

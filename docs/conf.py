@@ -61,6 +61,7 @@ WIDE = (
         "permeance-table",
         "yielding-table",
         "yield-of-maps-table",
+        "constants-table",
         "made/validation",
         "made/materials",
         "made/fluids",
