@@ -268,8 +268,9 @@ def written(rows, maps):
         "values, of answers and of fitted laws; widths, which are logarithms of upper over lower "
         "ends, as the geometric mean of the ratios of those that change, and the ratio farthest "
         "from one; intervals that come, go, open to nothing or infinity, or shut; and facts that "
-        "come (+) and go (−). What changes nothing guards what the cases do not hold. All numbers "
-        "stand in [a table](constants-table.csv).\n"
+        "come (+) and go (−). What changes nothing guards what the cases do not hold: which, is "
+        "read from the code, and tried by no run. All numbers stand in [a "
+        "table](constants-table.csv).\n"
     )
     page.table("constant", "value", "what it bounds", "what chose it", "if it is doubled")
     for row in rows:
