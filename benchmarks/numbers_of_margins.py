@@ -23,11 +23,11 @@ MODULES = (
     "fluid/one_map.py",
     "fluid/reopening.py",
     "fluid/sealing_pressure.py",
+    "fluid/trials.py",
     *(
         f"assessment/{name}.py"
-        for name in ("behind_maps", "border_of_flow", "bounds", "doubts", "larger_surface")
+        for name in ("border_of_flow", "bounds", "doubts", "notes", "part_remarks")
     ),
-    *(f"assessment/{name}.py" for name in ("line_scan", "notes", "part_remarks")),
     *(f"question/{name}.py" for name in ("assumptions", "case", "extrapolation", "films")),
     "measurement/*.py",
     "statistics/bootstrap.py",
