@@ -110,6 +110,8 @@ def margins_by_cause(
                 margin = Margin(*text, *ends, is_of_larger=each.is_of_larger)
                 found[key].append(margin)
     for key, (least, most) in scatter.items():
+        if answers[key].rule.is_given:
+            continue
         values = answers[key].values
         low, high = (np.where(values == 0, 0.0, values * each) for each in (least, most))
         found[key].append(

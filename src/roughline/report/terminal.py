@@ -63,7 +63,7 @@ def print_assessment(
     if isinstance(curve, SurfaceCurve):
         boundary = curve.half_space.boundary
         model = f"full model, {boundary} half-space, residuals below {curve.settings['rtol']}"
-    console.print(f"{modulus_in_words(assessment)}; {model}", highlight=False)
+    console.print(f"{modulus_in_words(assessment)}; {model}", highlight=False, soft_wrap=True)
     folded: list[str] = []
     if pair is not None:
         folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)
