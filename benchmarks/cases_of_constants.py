@@ -45,7 +45,7 @@ class Found:
 
 def _kinds(fact):
     inner = fact.numbers.get("fact")
-    return [fact.kind.name, *(_kinds(inner) if inner is not None else [])]
+    return [fact.kind, *(_kinds(inner) if inner is not None else [])]
 
 
 def a_map(kind="smooth roll-off", points=64, seed=0, instrument=None, **made):
@@ -113,7 +113,7 @@ def described(body):
     """The law of a topography, and how it departs from what predictions rest on."""
     found, body = Found(), body.detrended()
     found.facts = [
-        [f"{each.assumption} {each.fact.kind.name}", str(each.fact)] for each in departures(body)
+        [f"{each.assumption} {each.fact.kind}", str(each.fact)] for each in departures(body)
     ]
     rough = rl.roughness(body)
     fit = rough.fit

@@ -235,7 +235,7 @@ def test_a_grid_too_large_for_memory_is_refused_before_the_work(monkeypatch):
     monkeypatch.setattr(memory.psutil, "virtual_memory", lambda: type("M", (), {"available": 5e5}))
     surface = rl.Surface(np.random.default_rng(0).normal(size=(128, 128)), (1.0, 1.0))
     message = (
-        "pressing 128 x 128 points needs about 0.00473 GB of memory, and 0.0005 GB is free: "
+        "pressing 128 x 128 points needs about 0.00415 GB of memory, and 0.0005 GB is free: "
         "take a smaller piece"
     )
     with pytest.raises(rl.InputError, match=message):

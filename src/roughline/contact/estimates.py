@@ -47,7 +47,9 @@ _DENTS_BYTES = 30  # and for each node in contact
 # a side soft layers were measured to take 8 to 12 bytes more than homogeneous bodies do under light
 # loads, and nothing more under heavy ones; free plates take 23 to 25.
 _ALL_PLACES_BYTES = 12
-_SMALL_GRIDS_BYTES = 150, 2e6  # of small grids that lead a grid: on each point, and at most
+# Of small grids that lead a grid: on each point of a small one, and of a larger one at most.
+_SMALL_GRIDS_BYTES = 150, {False: 1.5e6, True: 2e6}
+_FEW_POINTS = 2**16  # of a grid whose small grids hold contacts of fewer nodes
 _SMALL_CONTACT_BYTES = 2.2e6, 9e6  # and of full contact on them: of a free grid, and one repeated
 _GRIDS_FACTOR = 4 / 3  # coarser grids that lead a grid, and itself
 _MEMORY_MARGIN = 1.15  # times as much, so that what is told covers what was measured
@@ -202,7 +204,8 @@ def memory_for(
     if share is None:
         share = _FULL_CONTACT_FROM if periodic else _SATURATED_FROM
     held = bytes_at_a_point(shape, periodic, share, yielding=yielding, several=several)
-    points, (on_each, most) = shape[0] * shape[1], _SMALL_GRIDS_BYTES
+    points, (on_each, at_most) = shape[0] * shape[1], _SMALL_GRIDS_BYTES
+    most = at_most[points > _FEW_POINTS]
     most += share * _SMALL_CONTACT_BYTES[bool(periodic)]
     held += besides + min(on_each, most / points)
     return points * round(_MEMORY_MARGIN * held + _FIELDS_BYTES[yielding] * kept_fields)

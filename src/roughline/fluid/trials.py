@@ -33,7 +33,7 @@ Decide = Callable[[float], bool]
 """Whether what is measured under a load is above the threshold."""
 
 _TRIAL_STEP = 1.5  # step from one trial to the next, until one is above and the other below
-_MOST_TRIALS = 60
+_MOST_TRIALS = 60  # rounds of loads, until the search gives up
 _NEVER = "does not seal under any load that was tried"
 _LARGEST_SHARE = 0.999  # of the largest load, at which nothing is left
 # In logarithms of the load:
