@@ -54,6 +54,7 @@ WIDE = (
     "engineering",
     *(
         "peers-table",
+        "small-peers-table",
         "speed-table",
         "lab-table",
         "sessions-table",

@@ -109,6 +109,17 @@ def test_contacts_beside_other_programs_are_those_of_the_table(hurst):
     assert curve.area_fraction == pytest.approx(found, abs=6e-7)
 
 
+@pytest.mark.parametrize("grid", ["64²", "128²", "256²"])
+def test_contacts_on_small_grids_beside_other_programs_are_those_of_the_table(grid):
+    rows = rows_of("small-peers", "Contact areas of these loads")
+    rows = [row for row in rows if row["grid"] == grid]
+    forces = [float(row["F̄"]) for row in rows]
+    curve = rl.press(surface_of(rows[0]), E_star=1.0, forces=forces)
+    found = [number(row["roughline"]) for row in rows]
+    assert len(found) == 5
+    assert curve.area_fraction == pytest.approx(found, abs=6e-7)
+
+
 def test_memory_is_estimated_as_the_table_says():
     rows = [row for row in rows_of("memory") if row["grid"] == "1024²"]
     surface = surface_of(rows[0])
