@@ -165,6 +165,14 @@ def test_one_whose_load_does_not_converge_leaves_the_interval_unknown(noise, sur
     assert np.isnan(found.stiffness).tolist() == [[False, True]] * 2
 
 
+def test_one_of_which_ctrl_c_left_a_body_out_is_not_known(noise, surface):
+    case, curve = Case.of(question(surface, elastic=True)), rl.press(surface, **pressed(surface))
+    first = noise.presses(case, list_presses(case)[0])[0].name
+    known = {AS_ASKED: curve, first: curve}
+    assert noise.spread(case, Curves(known, missing=("noise",)), AS_ASKED) is None
+    assert noise.spread(case, Curves(known, missing=("place",)), AS_ASKED) is not None
+
+
 @pytest.mark.parametrize(
     ("name", "told"),
     [

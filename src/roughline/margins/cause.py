@@ -105,10 +105,9 @@ class OtherBodies(Cause):
         ]
 
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
-        """How far their curves are away from that of a variant."""
-        found = self.pressed(curves, variant)
-        curve = curves.get(variant)
-        if curve is None or (curves.stopped and not found):
+        """How far their curves are away from that of a variant; None if Ctrl-C came before all."""
+        curve, found = curves.get(variant), self.pressed(curves, variant)
+        if curve is None or self.name in curves.missing:
             return None
         values = Values.of(curve)
         others = [Values.of(each) for each in found] or [values]

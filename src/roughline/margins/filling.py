@@ -12,7 +12,6 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.facts.fact import Fact
 from roughline.margins.cause import OtherBodies
-from roughline.margins.spread import Spread
 from roughline.margins.variant import AS_ASKED, Curves, Variant
 from roughline.question.case import Case
 from roughline.question.source import pressed_body
@@ -41,10 +40,6 @@ class FilledPoints(OtherBodies):
         found = pressed_body([each.filled_by(method) for each in case.filled])
         assert isinstance(found, Surface)
         return found
-
-    def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
-        """How far another filling moves a curve: not at all where nothing was filled."""
-        return super().spread(case, curves if case.filled else Curves(curves.by_name), variant)
 
     def more(self, curves: Curves) -> Real | float:
         """What force that stands on filled points leaves open, relative to the values. [1]"""
