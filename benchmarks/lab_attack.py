@@ -7,7 +7,7 @@ messages and questions mutated at random, and 10,000 requests to every route; `s
 of each. Meanwhile an honest page, in a process of its own, asks and opens anew. Descriptors,
 memory, processes, folder and log of the lab are noted every few seconds. When all has become quiet
 they must be as before, or the exit code is 1. Linux alone has the addresses that this needs.
-``make lab-attack`` writes ``docs/lab-attack-table.md``.
+``make lab-attack`` writes a part of ``docs/measured.md``.
 """
 
 import asyncio
@@ -242,30 +242,32 @@ def faults_of(told, refused, log):
 
 def write(told, share, seed):
     counts = told["counts"]
-    written = page.Page("lab-attack-table.md", "The lab under attack", "lab-attack")
+    written = page.Page("lab-attack", "measured.md", "lab-attack")
     written.say(
         f"{SOCKETS * share:.0f} sockets held open, {counts['sessions']} sessions, "
         f"{counts['messages']} messages of which some parts are mutated at random, and "
         f"{counts['requests']} requests to every route, in {told['minutes']:.0f} minutes on the "
-        f"machine that serves, seed {seed}; meanwhile a page is used as it is meant to be.\n"
+        f"machine that serves, seed {seed}; meanwhile a page is used as it is meant to be."
     )
     written.say(
         f"All is quiet {told['quiet']:.0f} s after the last attacker has gone; it then takes "
-        f"{told['idle']:.1%} of a core.\n"
+        f"{told['idle']:.1%} of a core."
     )
-    written.table("what the lab holds", "before", "most meanwhile", "afterwards", "may be more by")
+    columns = ("before", "most meanwhile", "afterwards", "may be more by")
+    written.table("what the lab holds", *columns, at_most=5)
     for name, (shown, allowed) in HELD.items():
         most = max(each[name] for each in told["samples"])
         values = told["before"][name], most, told["after"][name]
         written.row(shown, *(f"{value:.0f}" for value in values), allowed)
-    written.say("\n## Times of the page that is used meanwhile\n")
-    written.table("question", "alone, median", "times", "median", "95th percentile", "worst")
+    written.heading("Times of the page that is used meanwhile")
+    columns = ("alone, median", "times", "median", "95th percentile", "worst")
+    written.table("question", *columns, at_most=0)
     for what, times in told["times"].items():
         parts = statistics.median(told["alone"][what]), *page.percentiles(times)
         shown = [f"{1e3 * part:.0f} ms" for part in parts]
         written.row(what, shown[0], len(times), *shown[1:])
-    written.say("\n## What came\n")
-    written.table("what", "times")
+    written.heading("What came")
+    written.table("what", "times", at_most=0)
     for kind in told["kinds"]:
         written.row(f"socket: {kind}", counts.pop(kind))
     for what in sorted(counts):

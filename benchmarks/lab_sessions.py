@@ -3,7 +3,7 @@
 All pages are plain websockets in this process; each has a seed of its own. They ask all at the same
 instant (burst), or each moves a slider ten times a second for two seconds and rests then (people).
 The time of an answer ends when the page has it all; that of the browser comes on top.
-``make lab-sessions`` writes ``docs/sessions-table.md``.
+``make lab-sessions`` writes a part of ``docs/measured.md``.
 """
 
 import asyncio
@@ -143,21 +143,21 @@ async def measure(address, cookie, pid):
     during = megabytes(server)
     await asyncio.gather(*(each.close() for each in pages))
     await asyncio.sleep(1)
-    written = page.Page("sessions-table.md", "Twenty pages at once, measured", "lab-sessions")
+    written = page.Page("sessions", "measured.md", "lab-sessions")
     written.say(
         f"{SESSIONS} pages ask for the same at once, and then move a slider {MOVES} times in two "
         "seconds each. Beside each time stands how often it holds that of one page alone. A first "
-        "answer may be a coarser one; the whole is all of it.\n"
+        "answer may be a coarser one; the whole is all of it."
     )
     percentiles = ("answers", "median", "95th percentile", "worst")
-    written.table("question", "when", "one page alone", *percentiles)
+    written.table("question", "when", "one page alone", *percentiles, at_most=6)
     for task in TASKS:
         for when, times in {"all ask at once": burst, "all move a slider": people}.items():
             for what in (each for each in times if each.startswith(task)):
                 question = ASKED[task] + what.removeprefix(task)
                 alone = f"{1e3 * lonely[task]:.0f} ms"
                 written.row(question, when, alone, *row(times[what], lonely[task]))
-    written.say("\n## Memory\n")
+    written.heading("Memory of twenty pages")
     written.table("when", "the server", "with its processes")
     held = {"no page is open": before, "all are open": during, "all are closed": megabytes(server)}
     for when, own in held.items():
