@@ -35,9 +35,9 @@ from roughline.report.page import render_markdown
 from roughline.statistics.averages import relative_difference
 from studies.paper import shown
 from studies.paper.lab_figures import lab_figures
-from studies.paper.trust import trust_map_figure, trust_page
+from studies.paper.trust import told_of_map, trust_map_figure, trust_page
 from studies.reduced_data import finished, refuse_other_settings
-from studies.study import DOCS, PICTURES, show
+from studies.study import DOCS, PICTURES, show, write_tables
 
 PLAN = Path(__file__).parent / "plan.toml"
 FIGURES = PICTURES / "figures.json"
@@ -166,4 +166,6 @@ def _publish_map() -> None:
     (_FIGURES / "trust_map.pdf").unlink()
     rows = np.loadtxt(DATA / "map_fine.csv", delimiter=",", skiprows=1)
     fine = TrustMap.from_rows(rows)
-    (DOCS / "trust.md").write_text(trust_page(trust, fine), encoding="utf-8")
+    told = told_of_map(trust, fine)
+    (DOCS / "trust.md").write_text(trust_page(told), encoding="utf-8")
+    write_tables(told, "trust")

@@ -343,7 +343,7 @@ def test_values_that_are_nearly_all_equal_have_an_interval():
 def test_the_text_and_the_figures_are_those_of_data(as_said):
     table = claims_table({"Verdict": claims(as_said)})
     text = (STUDY.folder / "text.md").read_text("utf-8")
-    page = filled(text, {"verdicts": table, **told(as_said)})
+    page = filled(text, {"verdicts": table, **told(as_said)}, "sealing")
     assert re.search(r"elastic contact closes where 0\.4[12]\d of the nominal area", page)
     assert "nan" not in page
     figure, panels = study.sealing_figure(as_said), study.panels(as_said)
