@@ -122,7 +122,7 @@ def write_tables(told: Mapping[str, object], study: str) -> None:
 def _in_short(table: Table, file: str) -> str:
     """Return a table as Markdown, ten rows of it at most, spread evenly, with a link to all."""
     count = len(table.rows)
-    places = range(count)
+    places = list(range(count))
     if count > _SHOWN:
         places = [round(i * (count - 1) / (_SHOWN - 1)) for i in range(_SHOWN)]
     columns = [i for i, name in enumerate(table.header) if name not in _IN_FILES_ALONE]
