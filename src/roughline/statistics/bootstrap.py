@@ -152,7 +152,7 @@ def means(values: Real, rng: int = 0) -> Resampled:
 def function_of_means(values: Real, statistic: _Statistic, rng: int = 0) -> Resampled:
     """Resample a smooth function of the means, with its linearised standard error.
 
-    Values, shape (realisations, loads), are all finite.
+    Values, shape (realisations, loads), are all finite. One realisation has no error.
     """
     count = values.shape[0]
     weights = _weights(count, rng)
@@ -164,11 +164,9 @@ def function_of_means(values: Real, statistic: _Statistic, rng: int = 0) -> Resa
     moves = gradient @ deviations.T
     moves -= (gradient * shift).sum(axis=1)[:, np.newaxis]
     np.square(moves, out=moves)  # in place, as these arrays are large
-    freedom = max(count - 1, 1)
+    freedom = count - 1 if count > 1 else np.nan
     errors = np.sqrt(np.einsum("ij,ij->i", weights, moves) / count / freedom)
-    return Resampled(
-        results[0], errors[0], results[1:], errors[1:], np.asarray(count - 1, dtype=np.float64)
-    )
+    return Resampled(results[0], errors[0], results[1:], errors[1:], np.asarray(float(freedom)))
 
 
 def sum_of_log_means(
