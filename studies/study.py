@@ -108,4 +108,4 @@ def claims_table(judged: Mapping[str, Sequence[Claim]]) -> Table:
         texts["Basis"] = [each.basis for each in claims]
     words = {name: [each.cases for each in of_it] for name, of_it in judged.items()}
     rows = list(zip(*texts.values(), *words.values(), strict=True))
-    return Table((*texts, *words), rows, (), len(texts))
+    return Table((*texts, *words), rows)

@@ -8,22 +8,27 @@ from functools import partial
 import xarray
 from matplotlib.figure import Figure
 
-from roughline.paper.claims import claims_section, judge_claims
+from roughline.paper.claims import judge_claims
+from roughline.paper.claims_section import HOW_JUDGED
 from roughline.paper.figures import body_figure, body_name, indented_figure
 from roughline.paper.results import PaperResults
 from roughline.paper.studies import StudyPicture, StudySummary
 
+_BASIS = "Window, averaging, grid"
 _BODY, _LINE = (880, 840), (700, 480)  # sizes of the pictures [pixel]
 
 
 def summary(results: PaperResults) -> StudySummary:
     """Return the claims with their verdicts, and the words of the pictures."""
-    section = claims_section(judge_claims(results))
-    (table,) = section.tables
+    header = ("The paper says", "Found here", "95 % interval", "Allowed", _BASIS, "Verdict")
+    rows = [
+        (each.statement, each.found, each.interval, each.allowed, each.basis, each.cases)
+        for each in judge_claims(results)
+    ]
     gallery = _gallery(results)
     bodies = [_body(gallery, row) for row in range(gallery.sizes["fractal_dimension"])]
     pictures = [*bodies, _indented(gallery)]
-    return StudySummary("paper", section.heading, section.note, table.header, table.rows, pictures)
+    return StudySummary("paper", "The paper's claims", HOW_JUDGED, header, rows, pictures)
 
 
 def drawings(results: PaperResults) -> list[Callable[[], Figure]]:

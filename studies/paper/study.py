@@ -152,7 +152,8 @@ def refuse_another_plan() -> None:
 def _publish_paper(results: PaperResults) -> None:
     """Draw the page "The paper, recomputed"."""
     with TemporaryDirectory() as folder:
-        text = render_markdown(*compose(results, Path(folder)), "figures/paper")
+        page = compose(results, Path(folder))
+        text = render_markdown(page.title, page.lead, page.sections, "figures/paper", page.headline)
         for picture in (Path(folder) / "figures").glob("*.png"):
             shutil.copy(picture, _FIGURES)
     (DOCS / "paper.md").write_text(text, encoding="utf-8")

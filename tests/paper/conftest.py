@@ -67,10 +67,10 @@ def report(request, results, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         out = tmp_path_factory.mktemp("report")
         if request.param == "all figures":
-            return write_page(results, out)
+            return write_page(results, out)[0]
         blank_but(patch, "figure_2")
         with of_few_resamples():
-            return write_page(results, out)
+            return write_page(results, out)[0]
 
 
 @pytest.fixture
