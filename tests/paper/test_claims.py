@@ -7,7 +7,7 @@ import pytest
 
 from roughline.paper.claim import Numbers
 from roughline.paper.claims import judge_claims
-from roughline.paper.findings import findings, untold
+from roughline.paper.findings import findings, lone_bodies
 from roughline.paper.results import larger_study
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Claim, Verdict, joint_verdict, verdict
@@ -115,7 +115,7 @@ def test_the_three_numbers_say_of_the_paper_what_its_claims_say(claims, publishe
         assert f"this {verbs[claim.verdict]} " in each.sentence
         assert "95 %: " in each.sentence
     assert "0.520 (95 %: 0.494 to 0.547) at D_f = 2.0" in found[0].sentence
-    assert untold(published_results) == []
+    assert lone_bodies(published_results) == []
 
 
 def test_a_claim_is_judged_by_the_numbers_that_are_drawn(claims):

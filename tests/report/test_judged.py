@@ -34,7 +34,7 @@ def test_a_number_without_interval_is_a_dot_that_is_not_decided():
     ((_, dot, _),) = judged(IntervalEstimate(0.01, np.nan, np.nan)).dots
     assert dot.low == dot.at == dot.high
     assert dot.verdict is Verdict.UNDECIDED
-    assert dot.told == "0.010"
+    assert dot.words == "0.010"
 
 
 def test_what_lies_far_off_is_an_arrow_at_the_edge():
@@ -46,6 +46,6 @@ def test_the_larger_study_stands_behind_the_same_fractal_dimension():
     one, other = IntervalEstimate(0.0, -0.1, 0.1), IntervalEstimate(0.02, 0.01, 0.03)
     row = judged(one, one, more=[other])
     behind = [each for _, _, each in row.dots]
-    assert behind[0].told == "0.020 (0.010 to 0.030)"
+    assert behind[0].words == "0.020 (0.010 to 0.030)"
     assert behind[1] is None
     assert row.otherwise == ""

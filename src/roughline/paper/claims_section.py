@@ -27,20 +27,20 @@ def claims_section(claims: Sequence[Claim], by_more: Sequence[Claim]) -> Section
     """Return the claims, those with numbers first; `by_more` are those of a larger study."""
     more = {each.statement: each for each in by_more}
     drawn = sorted(claims, key=lambda each: not each.numbers)
-    said = (
+    text = (
         f"Of {len(claims)} claims {_counts(claims)}. A dot is the number at the D_f on the left, "
         "its bar the 95 % interval, and the shaded range is what the claim allows: green lies "
         "within, red outside, and amber is not decided. A row opens to its words."
     )
     if more:
-        alike = [more[each.statement] for each in claims if each.statement in more]
-        said += (
+        same = [more[each.statement] for each in claims if each.statement in more]
+        text += (
             " In grey behind stands the full study, which comes with the package, in the same "
-            f"windows: with it {_counts(alike)}."
+            f"windows: with it {_counts(same)}."
         )
     return Section(
         "The paper's claims",
-        [said],
+        [text],
         claims=[JudgedClaim(each, more.get(each.statement)) for each in drawn],
         note=HOW_JUDGED,
     )

@@ -39,7 +39,7 @@ def findings(results: PaperResults, by_more: PaperResults | None) -> list[KeyFig
     ]
 
 
-def untold(results: PaperResults) -> list[str]:
+def lone_bodies(results: PaperResults) -> list[str]:
     """Say what bodies that are one of a kind cannot tell."""
     return [
         f"One {name} of each D_f does not tell how far another would differ: its numbers have no "
@@ -83,16 +83,16 @@ class _Finding:
 
     def sentence(self, more: _Finding | None) -> str:
         """Tell it all, and in short what the larger study found."""
-        told = []
+        ends = []
         for where, each in _first_and_last(self.numbers.known):
             value, low, high = (
                 f"{x:{self.numbers.form}}" for x in (each.value, each.low, each.high)
             )
-            told.append(f"{value}{'' if low == 'nan' else f' (95 %: {low} to {high})'} {where}")
-        said = f"{self.subject} {' and '.join(told)}: this {self.judges(self.stated)}"
+            ends.append(f"{value}{'' if low == 'nan' else f' (95 %: {low} to {high})'} {where}")
+        text = f"{self.subject} {' and '.join(ends)}: this {self.judges(self.stated)}"
         if more and more.numbers.known:
-            said += f"; the full study, {more.ends}, {more.judges('it')}"
-        return f"{said}."
+            text += f"; the full study, {more.ends}, {more.judges('it')}"
+        return f"{text}."
 
 
 def _first_and_last(known: Mapping[str, IntervalEstimate]) -> list[tuple[str, IntervalEstimate]]:

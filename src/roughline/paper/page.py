@@ -14,7 +14,7 @@ from roughline.paper.added_figures import added_drawings, first_drawings
 from roughline.paper.claims import judge_claims
 from roughline.paper.claims_section import claims_section
 from roughline.paper.figures import draw_bodies, draw_pictures, paper_drawings
-from roughline.paper.findings import findings, untold
+from roughline.paper.findings import findings, lone_bodies
 from roughline.paper.laws import dimension_law
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
 from roughline.paper.results import larger_study
@@ -97,7 +97,7 @@ def compose(results: PaperResults, out: Path) -> StudyPage:
             Section("Other figures", pictures=others, behind=_OTHER_FIGURES),
             _methods_section(results),
         ],
-        headline=Headline(findings(results, more), untold(results), pictures=first),
+        headline=Headline(findings(results, more), lone_bodies(results), pictures=first),
     )
 
 

@@ -24,7 +24,7 @@ class Dot:
     low: float
     high: float
     verdict: str
-    told: str  # the number and its interval
+    words: str  # the number and its interval
     beyond: str = ""  # an arrow where it lies beyond the strip
 
 
@@ -80,16 +80,16 @@ class JudgedClaim:
     def _dot(self, number: IntervalEstimate) -> Dot:
         least, most = self.claim.within
         ends = (number.low, number.high) if math.isfinite(number.low) else (number.value,) * 2
-        told = f"{number.value:.3f}"
+        words = f"{number.value:.3f}"
         if math.isfinite(number.low):
-            told += f" ({number.low:.3f} to {number.high:.3f})"
+            words += f" ({number.low:.3f} to {number.high:.3f})"
         off = (2 * number.value - least - most) / (most - least)
         return Dot(
             at=self._place(number.value),
             low=self._place(ends[0]),
             high=self._place(ends[1]),
             verdict=verdict(number.low, number.high, least, most),
-            told=told,
+            words=words,
             beyond="" if abs(off) <= _FARTHEST else "▸" if off > 0 else "◂",
         )
 
