@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from roughline.paper.results import PaperResults
     from roughline.statistics.bootstrap import IntervalEstimate
 
-_NEAR = around(0, EXPONENT_TOLERANCE)
+_NO_DIFFERENCE = around(0, EXPONENT_TOLERANCE)
 _VERBS = {
     Verdict.CONFIRMED: "confirms",
     Verdict.REFUTED: "refutes",
@@ -31,7 +31,7 @@ def findings(results: PaperResults, by_more: PaperResults | None) -> list[KeyFig
     Each sentence ends with what a larger study found, where there is one.
     """
     found = _found(results)
-    more: Sequence[_Finding | None] = _found(by_more) if by_more else [None] * len(found)
+    more: Sequence[_LeadingNumber | None] = _found(by_more) if by_more else [None] * len(found)
     return [
         KeyFigure(each.name, each.ends, each.where, each.sentence(of_more))
         for each, of_more in zip(found, more, strict=True)
@@ -53,7 +53,7 @@ def lone_bodies(results: PaperResults) -> list[str]:
 
 
 @dataclass(frozen=True)
-class _Finding:
+class _LeadingNumber:
     """A number over the fractal dimensions, and how it judges a statement of the paper."""
 
     name: str
@@ -81,7 +81,7 @@ class _Finding:
         where = "" if len(of_it) == len(judged) else f" {places(of_it)}"
         return f"{_VERBS[together]} {stated}{where}"
 
-    def sentence(self, more: _Finding | None) -> str:
+    def sentence(self, more: _LeadingNumber | None) -> str:
         """Tell it all, and in short what the larger study found."""
         ends = []
         for where, each in _first_and_last(self.numbers.known):
@@ -101,7 +101,7 @@ def _first_and_last(known: Mapping[str, IntervalEstimate]) -> list[tuple[str, In
     return every[:: max(len(every) - 1, 1)]
 
 
-def _found(results: PaperResults) -> list[_Finding]:
+def _found(results: PaperResults) -> list[_LeadingNumber]:
     """Evaluate them."""
     surfaces = Numbers.of(results.laws, lambda laws: exponent_estimate(laws.full))
     lines = Numbers.of(results.laws, lambda laws: exponent_estimate(laws.reduced))
@@ -115,21 +115,21 @@ def _found(results: PaperResults) -> list[_Finding]:
         lambda laws: exponent_estimate(laws.reduced) - REDUCED_ENDS[laws.fractal_dimension],
     )
     return [
-        _Finding(
+        _LeadingNumber(
             "Exponent α of surfaces",
             "The exponent of the surfaces is α =",
             surfaces,
             "the paper's 0.2567 D_f",
-            off_linear.judge(_NEAR),
+            off_linear.judge(_NO_DIFFERENCE),
         ),
-        _Finding(
+        _LeadingNumber(
             "Exponent α of lines",
             "The exponent of the lines is α =",
             lines,
             "the paper's 0.5 and 0.75",
-            off_ends.judge(_NEAR),
+            off_ends.judge(_NO_DIFFERENCE),
         ),
-        _Finding(
+        _LeadingNumber(
             "Stiffness, surfaces over lines",
             "With the same waves, the stiffness of surfaces over that of lines is",
             ratio,

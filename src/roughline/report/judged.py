@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from roughline.statistics.bootstrap import IntervalEstimate
 
 _MIDDLE, _HALF = 54.0, 11.0  # of the allowed range, in the middle of its strip [% of the strip]
-_FARTHEST = 4.0  # from the middle, in halves of that range; what lies beyond is at the edge
+_FARTHEST_DOT = 4.0  # from the middle, in halves of that range; what lies beyond is at the edge
 
 
 @dataclass(frozen=True)
@@ -90,11 +90,11 @@ class JudgedClaim:
             high=self._place(ends[1]),
             verdict=verdict(number.low, number.high, least, most),
             words=words,
-            beyond="" if abs(off) <= _FARTHEST else "▸" if off > 0 else "◂",
+            beyond="" if abs(off) <= _FARTHEST_DOT else "▸" if off > 0 else "◂",
         )
 
     def _place(self, value: float) -> float:
         """Where a number stands on the strip."""
         least, most = self.claim.within
         off = (2 * value - least - most) / (most - least)
-        return round(_MIDDLE + _HALF * min(max(off, -_FARTHEST), _FARTHEST), 2)
+        return round(_MIDDLE + _HALF * min(max(off, -_FARTHEST_DOT), _FARTHEST_DOT), 2)
