@@ -7,7 +7,7 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.assessment.creep import CreepQuestion, press_with_creep
+from roughline.creep.question import CreepQuestion, press_with_creep
 
 PRONY = ("--prony", "0.3 10 ms, 20% 1 s")
 RUBBER = rl.Creep([0.3, 0.2], [1e-2, 1.0])

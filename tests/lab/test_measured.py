@@ -20,8 +20,7 @@ import xarray
 import roughline as rl
 from gwyddion_files import field, gwy
 from lab.unpacked import unpacked
-from roughline.assessment.comparison import compare_models
-from roughline.assessment.description import describe
+from roughline.comparison.compared import compare_models
 from roughline.errors.words import speaking
 from roughline.lab.measured import documents
 from roughline.lab.measured.answers import assessed
@@ -30,7 +29,7 @@ from roughline.lab.measured.examples import EXAMPLES, write_example
 from roughline.lab.measured.state import CONTROLS, control_texts, first_source, page_question
 from roughline.lab.server.tasks import run_task
 from roughline.lab.site import TASKS
-from roughline.question.source import Topography
+from roughline.question.description import describe
 from roughline.report.answers import answer_table, in_full
 from roughline.report.comparison import comparison_table, verdict_in_words
 from roughline.report.contact_tables import curve_table, formula_table
@@ -280,7 +279,7 @@ def test_both_models_are_compared_as_by_the_command(page, rough, body):
     said = {"example": "film"} if body == "film" else page.bring(rough)
     page.ask("look", said)
     source = first_source(said, page.session)
-    expected = compare_models(Topography.of(source.path, rl.Reading(), None))
+    expected = compare_models(rl.read(source.path))
     header, _ = page.ask("compare", said)
     assert table_of(header, "models") == comparison_table(expected)
     assert header["words"]["verdict"] == sentence(verdict_in_words(expected))

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughline as rl
-from roughline.assessment.description import describe
+from roughline.question.description import describe
 from roughline.report.contact_figures import draw_filled
 from roughline.report.description_figures import write_description
 from roughline.report.description_table import print_description

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Literal
 
-from roughline.assessment.separation import draw_apart
 from roughline.contact.curve import SurfaceCurve
+from roughline.contact.separation import draw_apart
 from roughline.engineering.pressed import Sought
 from roughline.engineering.sealing import Closing
 from roughline.fluid.gap import Along
@@ -32,7 +32,10 @@ def find_sought(case: Case, curves: Curves) -> tuple[Mapping[str, Sought], bool]
         if case.loads.attraction is not None:
             of_pull = curves.get(AS_ASKED)
             if of_pull is not None:
-                found[AS_ASKED] = Sought(separation=draw_apart(case, of_pull))
+                # other places of a joint, and other fillings, leave these open as well
+                has_ends = case.loads.grid_error and case.question.joint is None and not case.filled
+                separation = draw_apart(of_pull, case.loads.largest, grid_error=has_ends)
+                found[AS_ASKED] = Sought(separation=separation)
         elif (fluid := case.question.fluid) is not None and fluid.closure:
             for name in (AS_ASKED, *WAYS):
                 curve = curves.get(larger_name(case, name))

@@ -78,7 +78,7 @@ def ball_command(
     roughline ball --radius "20 um" --materials "E=5 MPa nu=0.49, rigid" --adhesion "50 mJ/m^2"
     --load "1 uN" --load "0 N" --load "-2 uN"
     """
-    from roughline.assessment.ball import BallQuestion, press_ball
+    from roughline.ball import BallQuestion, press_ball
     from roughline.report.ball import ball_json, print_ball
 
     question = BallQuestion(

@@ -50,7 +50,7 @@ def compare_command(
     the package is read as well. For a surface in a file, that surface and random lines of its
     spectrum are pressed.
     """
-    from roughline.assessment.comparison import compare_models
+    from roughline.comparison.compared import compare_models
     from roughline.question.from_fields import build_reading
     from roughline.question.source import Topography
     from roughline.report.comparison import print_comparison, write_comparison
@@ -70,7 +70,7 @@ def compare_command(
     with interruptible("nothing is written"), load_progress() as progress:
         with writable(out):
             result = compare_models(
-                spectrum if file is None else Topography.of(file, reading, None),
+                spectrum if file is None else Topography.of(file, reading, None).body,
                 n=n,
                 surfaces=surfaces,
                 force_bars=force_bar,

@@ -79,7 +79,7 @@ def creep_command(
     roughline creep scan.x3p --modulus "50 MPa" --prony "0.5 1 s" --times "0 s, 1 min, 1 h"
     --load "0 N" --load "1 N" --load "1 N" --out creep.nc
     """
-    from roughline.assessment.creep import CreepQuestion, press_with_creep
+    from roughline.creep.question import CreepQuestion, press_with_creep
     from roughline.question.from_fields import build_preparation, build_reading
     from roughline.report.creep import creep_json, print_creep
 

@@ -20,11 +20,11 @@ from roughline.topography.body import Body, side_lengths
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
-    from roughline.assessment.comparison import ModelComparison
-    from roughline.assessment.description import Description
     from roughline.assessment.part import PartAssessment
+    from roughline.comparison.compared import ModelComparison
     from roughline.contact.measures import Measured
     from roughline.measurement.fit import SelfAffineFit
+    from roughline.question.description import Description
 
 
 def to_json(content: Mapping[str, Any]) -> str:

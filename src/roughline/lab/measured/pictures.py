@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.comparison import ModelComparison
-from roughline.assessment.description import Description
+from roughline.comparison.compared import ModelComparison
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.selection import loads_with_fields
@@ -19,6 +18,7 @@ from roughline.engineering.intervals import Ends
 from roughline.lab.maps import Map, ShownUnit, contact_maps, flux_map, height_map
 from roughline.lab.panels import PanelContent, Points
 from roughline.plot.pixels import any_marked, thinned
+from roughline.question.description import Description
 from roughline.report.comparison import comparison_table
 from roughline.report.contact_tables import area_in_words, curve_table
 from roughline.report.values import figure, up_to_three_digits

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roughline.assessment.notes import what_was_prepared
 from roughline.errors import InputError
 from roughline.facts.fact import Fact, WithFacts, own_words
 from roughline.measurement.roughness import Roughness, roughness
@@ -14,6 +13,7 @@ from roughline.question.reading import Reading
 from roughline.question.source import crop_first, measured_body
 from roughline.texture.iso import IsoParameters, iso
 from roughline.topography.body import Body
+from roughline.topography.effects import what_was_prepared
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement, suspicions
 from roughline.topography.missing import MissingPattern, missing_pattern

@@ -13,6 +13,7 @@ from attrs import field, frozen
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
+from roughline.contact.strain import LARGE_STRAIN
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Solid
 from roughline.engineering.formulas import ELASTIC_UP_TO, largest_pressure_under_ball
@@ -36,7 +37,6 @@ _RADIUS = 1e-12, 1e6  # of balls [m]
 _RADII = 800  # of a profile: a sphere's force is right to 1e-5 where nine tenths of it touch
 _FINEST = 1e-6  # least radius of a profile over that of the ball, without its zero
 _ALL_PRESSED_IN = 10.0  # radii of depth, or E* R² of force, that surely press in all of the ball
-_LARGE_STRAIN = 0.1  # mean contact pressure over E*, above which a warning says so
 _YIELDS_FROM = 1.5 * ELASTIC_UP_TO  # largest pressure over hardness; Hertz's mean is 2/3 of it
 _SHORT_RANGE = 5.0  # Tabor's parameter, from which on the pull is as good as without a range
 
@@ -239,7 +239,7 @@ class PressedBall(WithFacts):
             bears = {"ratio": largest / hardness, "hardness": hardness, "limit": _YIELDS_FROM}
             found.append(Fact("ball_yields", **bears))
         strain = float(np.nanmax(self.mean_pressure, initial=0.0)) / E_star
-        if strain > _LARGE_STRAIN:
+        if strain > LARGE_STRAIN:
             found.append(Fact("ball_is_strained", ratio=strain))
         if question.adhesion is not None:
             reach = (question.radius * question.adhesion.work**2 / E_star**2) ** (1 / 3)

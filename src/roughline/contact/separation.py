@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
@@ -13,32 +14,42 @@ from roughline.contact.curve import SurfaceCurve
 from roughline.contact.loads import separation_depth, unbearable_pull
 from roughline.contact.press import press
 from roughline.contact.status import Status
-from roughline.engineering.attraction import Separation
 from roughline.facts.fact import Fact
-from roughline.question.case import Case
 from roughline.topography.body import Surface
 
 _STEPS = 8  # from no load to the largest pull, on to where bodies come apart, and across that
 _NEAR_FULL_CONTACT = 1 - 1e-6  # of the depth of full contact
 
 
-def draw_apart(case: Case, curve: SurfaceCurve) -> Separation | None:
+@dataclass(frozen=True, eq=False)
+class Separation:
+    """What it takes to draw bodies apart once their largest load was on.
+
+    "In rows" are a value and, where they are known, both ends of its interval, (1 or 3,).
+    """
+
+    curve: SurfaceCurve  # over falling depths, from the largest load on
+    pull_off: Real  # largest pull under a force that falls, in rows [N]
+    area_fraction: Real  # that still touches under no load, in rows [1]
+    work: float  # that is done from no load on until the bodies are apart [J]
+    unsolved: Fact | None = None  # why a load on the way, or a pull-off, is not known
+
+
+def draw_apart(curve: SurfaceCurve, largest: int, *, grid_error: bool) -> Separation | None:
     """Draw a surface apart from the largest load of a curve; None if that was not solved.
 
-    Pull-off and area are uncertain by the grid's errors. They have no interval where other places
-    of a joint, or the way in which missing points are filled, leave them open as well.
+    Pull-off and area are uncertain by the grid's errors, if these are wanted.
     """
-    largest, law, surface = case.loads.largest, curve.law, curve.surface
+    law, surface = curve.law, curve.surface
     if not curve.converged[largest]:
         return None
     force = float(curve.force[largest])
-    with_interval = case.loads.grid_error and case.question.joint is None and not case.filled
     under = press(
         surface,
         half_space=curve.half_space,
         law=law,
         forces=[force, 0.0, unbearable_pull(law, surface.area)],
-        grid_error=with_interval,
+        grid_error=grid_error,
         throw=False,
     )
     if not under.converged[:2].all():  # no contact bears the last

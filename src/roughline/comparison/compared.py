@@ -1,4 +1,4 @@
-"""Both models for one roughness, a spectrum or a surface in a file, and the trust map's entry."""
+"""Both models for one roughness, a spectrum or a measured surface, and the trust map's entry."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from roughline.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.measurement.homogeneity import ISOTROPIC_FROM
-from roughline.question.source import Topography
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict
-from roughline.topography.body import Line, Surface
+from roughline.topography.body import Body, Line, Surface
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ class ModelComparison:
 
 
 def compare_models(
-    roughness: SelfAffine | Topography,
+    roughness: SelfAffine | Body,
     *,
     n: int = 256,
     surfaces: int = 20,
@@ -42,7 +41,7 @@ def compare_models(
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> ModelComparison:
-    """Compare the two models for a spectrum or for a surface that was read.
+    """Compare the two models for a spectrum or for a surface.
 
     Models count as agreeing up to a relative difference, the tolerance; progress is told of
     (surfaces done, surfaces in all). The rest is as for :func:`roughline.compare`.
@@ -56,10 +55,10 @@ def compare_models(
             f"q_roll / q_0 = {roughness.q_roll / roughness.q_low:.3g}"
         )
     else:
-        name = roughness.reading.name or str(roughness.file or "the surface")
-        if isinstance(roughness.body, Line):
+        name = roughness.settings.get("file", "the surface")
+        if isinstance(roughness, Line):
             raise InputError(f"{name} holds a line; the models are compared on a surface")
-        body, what = roughness.body, _what_is_in(name, roughness.body)
+        body, what = roughness, _what_is_in(name, roughness)
     result = compare(
         body, n=n, surfaces=surfaces, force_bars=force_bars, rng=seed, progress=progress
     )

@@ -11,9 +11,8 @@ from pathlib import Path
 import numpy as np
 from attrs import field, frozen
 
-from roughline.assessment.notes import what_was_prepared
 from roughline.contact.arguments import LARGEST_NUMBER, given_half_space
-from roughline.contact.strain import LARGEST_STRAIN, LINEARITY
+from roughline.contact.strain import LARGE_STRAIN, LARGEST_STRAIN, LINEARITY
 from roughline.creep.creep import Creep
 from roughline.creep.press_creep import CreepCurve, press_creep
 from roughline.engineering.coated import Solid
@@ -35,7 +34,7 @@ from roughline.question.kinds import nominal_area
 from roughline.question.reading import Reading
 from roughline.question.source import Topography
 from roughline.topography.body import Body, Line, side_lengths
-from roughline.topography.effects import grave_effects
+from roughline.topography.effects import what_was_prepared
 from roughline.topography.files.read import suspicions
 from roughline.topography.preparation import Preparation
 from roughline.units import (
@@ -55,7 +54,6 @@ _EXAMPLE = (
     '"0.3 10 ms, 0.4 1 s"'
 )
 _ELASTIC_SHARE = 0.01  # of the compliance, up to which what does not creep is as good as rigid
-_LARGE_STRAIN = 0.1  # strain above which a warning says so
 _DEFAULT_TIMES = 12  # beside zero
 _MARGIN_OF_TIMES = 10.0  # before the first relaxation time, and after the last one
 
@@ -267,14 +265,14 @@ class PressedCreep(WithFacts):
     def facts(self) -> list[Fact]:
         """What is suspicious, which bodies are taken to creep, and how they were prepared."""
         question, body = self.question, self.body
-        found = [*suspicions(body), *grave_effects(body), *self.curve.elastic.facts]
-        if (strain := question.strain(body)) > _LARGE_STRAIN:
+        found = [*suspicions(body), *what_was_prepared(body), *self.curve.elastic.facts]
+        if (strain := question.strain(body)) > LARGE_STRAIN:
             found.append(Fact("creep_strains", strain=strain))
         if share := question.elastic_share:
             found.append(Fact("stiffer_creeps", body=question.stiffer, share=share))
         elif question.both_give_way:
             found.append(Fact("both_creep"))
-        return list(dict.fromkeys([*found, *what_was_prepared(body)]))
+        return list(dict.fromkeys(found))
 
 
 def press_with_creep(question: CreepQuestion) -> PressedCreep:
