@@ -81,7 +81,7 @@ class Tiles:
         """
         halves = _variance(self.halves)
         quarters = np.maximum(_variance(self.quarters), _variance_across(self.quarters))
-        certain = student(math.prod(self.quarters.shape[:2]))
+        certain = student(math.prod(self.quarters.shape[:2]) - 1)
         if extrapolation.roll_offs is not None:
             waves = min(4.0, max(1.0, extrapolation.roll_offs))
             return certain * np.sqrt(np.maximum(halves / 4, quarters / waves**2))
