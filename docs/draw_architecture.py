@@ -32,6 +32,7 @@ PLACES = {
     "campaign": 7.2,
     "plot": 1.1,
     "comparison": 6.2,
+    "ball": 1.1,
     "creep": 2.75,
     "engineering": 1.1,
     "theories": 7.9,

@@ -44,8 +44,6 @@ _NAMED = {  # what stands for a longer or a shorter text than most, or is told a
     "maps": [("a",), ("a", "b")],
 }
 _MADE_OF = {
-    ("scatter_changes", "changes"): ["answer_changes"],
-    ("scatter_changes", "largest"): ["answer_changes"],
     ("resistance_of_layers", "added"): ["added_by_layers"],
     ("wide", "causes"): ["left_open"],
     ("border_moves_flow", "directions"): ["flow_at_border"],

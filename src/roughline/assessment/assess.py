@@ -10,7 +10,7 @@ from roughline.assessment.answers import margins_by_cause, work_out_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.bounds import elastic_answers, widen_by_scatter
 from roughline.assessment.cost import Announce, announce_cost
-from roughline.assessment.doubts import collect_facts
+from roughline.assessment.facts import collect_facts
 from roughline.assessment.presses import list_presses
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import (
@@ -94,7 +94,7 @@ def assess_body(
     of_causes = [fact for each in causes for fact in each.facts(case, curves)]
     if titles := tuple(each.title for each in causes if each.name in curves.missing):
         of_causes.append(Fact("causes_missing", titles=titles))
-    facts = collect_facts(result, case.moments, of_causes, case.loads.grid_error)
+    facts = collect_facts(result, of_causes)
     return replace(result, facts=facts)
 
 

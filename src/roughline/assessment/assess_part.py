@@ -16,7 +16,7 @@ from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.cost import Announce
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.assessment.part_remarks import differ_in_size, facts_of_part
+from roughline.assessment.part_facts import differ_in_size, facts_of_part
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public

@@ -16,14 +16,18 @@ from roughline.computing.arrays import Mask
 from roughline.contact.arguments import yielding_law
 from roughline.contact.curve import Curve
 from roughline.contact.selection import among_loads, at_loads
+from roughline.engineering.coated import Coated
+from roughline.engineering.formulas import plasticity_index
+from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import yields
+from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread
 from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
 from roughline.question.case import Case
-from roughline.question.films import hardness_ends
+from roughline.question.films import Film, film_that_spots_exceed, hardness_ends
 from roughline.question.kinds import nominal_area
-from roughline.question.loads import LoadCase
+from roughline.question.loads import Hardness, LoadCase
 from roughline.topography.body import Body, Surface
 
 ELASTIC = "elastic"
@@ -93,6 +97,75 @@ class HardnessScatter(Cause):
         return [
             OfHardness(way, body, _hardness_in(case, way, as_asked)) for way in (SOFTEST, HARDEST)
         ]
+
+    def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
+        """What yields at the largest load, with which hardness, and how far that is known."""
+        curve, pair = curves.as_asked, case.pair
+        found = [] if case.hardness is None else _on_yield(case, curves, case.hardness)
+        if pair is None:
+            return found
+        summits, hardness = case.moments, pair.hardness
+        if pair.coated:
+            found += _on_layers(case, pair, curve)
+        elif summits is not None and hardness is not None and not curve.hardness:
+            of_summits = summits.summit_deviation, summits.summit_radius
+            index = plasticity_index(curve.E_star, hardness, of_summits)
+            if index > 1:
+                found.append(Fact("summits_yield", index=index))
+        return found
+
+
+def _on_yield(case: Case, curves: Curves, hardness: Hardness) -> list[Fact]:
+    """Say what yields at the largest load, with which hardness, and what its scatter does."""
+    curve, largest, pair = curves.get(AS_ASKED), case.loads.largest, case.pair
+    if curve is None or np.isnan(share := float(curve.plastic_fraction[largest])):
+        return []
+    bearer = None if pair is None or hardness.factor == 1 else pair.bearer
+    known = {"hardness": hardness.value, "bearer": bearer}
+    found = [
+        Fact("some_yields", share=share, **known) if share else Fact("nothing_yields", **known)
+    ]
+    if hardness.factor == 1 or pair is None:
+        return found
+    kind, softest = "scatter_in_intervals", curves.get(SOFTEST)
+    if curves.stopped or softest is None:
+        kind = "scatter_unknown"
+    elif not softest.converged[largest]:
+        kind = "softest_does_not_bear"
+    elif not softest.plastic_fraction[largest] > 0:
+        kind = "scatter_changes_nothing"
+    return [*found, Fact(kind, factor=hardness.factor)]
+
+
+def _on_layers(case: Case, pair: MaterialPair, curve: Curve) -> list[Fact]:
+    """Say of what the hardness of a coated body is, and what is not known with it."""
+    found, softer = [], pair.softer
+    if isinstance(softer, Coated) and not case.question.elastic:
+        top = softer.surface
+        found.append(Fact("hardness_in_bulk", body=softer.name, top=top.name))
+        if (exceeded := film_that_spots_exceed(case.question, curve)) is not None:
+            found.append(_on_film(*exceeded))
+        if (of := top.layer_hardness) and top.hardness:
+            numbers = {"hardness": top.hardness, "of_layers": of}
+            found.append(Fact("layer_hardness_differs", material=top.name, **numbers))
+    if pair.hardness is not None and curve.hardness is None:
+        found.append(Fact("no_plasticity_index_of_layers"))
+    return found
+
+
+def _on_film(film: Film, radius: float) -> Fact:
+    """Say which hardness spots wider than a film is thick feel, and which way that goes."""
+    top, below = film.top.hardness, film.below.hardness
+    return Fact(
+        "spots_wider_than_film",
+        radius=radius,
+        thickness=film.thickness,
+        top=film.top.name,
+        below=film.below.name,
+        is_known=top is not None and below is not None,
+        is_harder=None if top is None or below is None else below > top,
+        is_included=film.top.hardness_factor > 1,
+    )
 
 
 def _hardness_in(case: Case, way: str, curve: Curve) -> float | None:

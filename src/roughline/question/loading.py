@@ -78,6 +78,10 @@ class Loading:
         falling = UNLOADING if self.unload else ()
         return headings + [f"unloaded to {each:.0%}" if each else "unloaded" for each in falling]
 
+    def names_of_loads(self, asked: Sequence[int]) -> list[str]:
+        """What loads that were asked for are called: as they were typed, or their numbers."""
+        return self.headings or [str(i + 1) for i in asked]
+
     def scale(self, area: float) -> float:
         """How many times larger the joint is than a body of a nominal area [m²]; 1 without one."""
         return 1.0 if self.joint is None else self.joint / area

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.assessment.assessment import Assessment
 from roughline.computing.arrays import Real
+from roughline.engineering.rule import Answer
+from roughline.engineering.sealing import Fluid
 from roughline.facts.fact import Fact
 from roughline.fluid.gap import Along
+from roughline.margins.larger_surface import LargerSurface
 
-_COUNTED_RATIO = 1.2  # largest over least aperture of what is said
+COUNTED_RATIO = 1.2  # upper over lower end from which on a cause is told
 _END_ROUNDING = 1 - 1e-9  # of an end of an interval, to rounding
 
 
@@ -35,31 +37,39 @@ class _Border:
         return Fact("flow_at_border", along=self.along, **apertures)
 
 
-def what_borders_do(result: Assessment) -> list[Fact]:
+def what_borders_do(
+    sealing: Fluid | None,
+    larger: LargerSurface | None,
+    answers: Mapping[str, Answer],
+    headings: Sequence[str],
+) -> list[Fact]:
     """Say what flows with the pressure held along the border of a map, and with the flow given.
 
     That is said of each direction in which one of them is an end of the interval, or there is none,
     under the load where they differ most.
     """
-    found = [each for each in _borders(result) if (each.over > 0).any()]
+    if sealing is None or larger is None:
+        return []
+    borders = _borders(sealing, larger, answers)
+    found = [each for each in borders if (each.over > 0).any()]
     if not found:
         return []
     load = int(np.argmax(np.maximum.reduce([each.over for each in found])))
     differing = [each for each in found if each.over[load] > 0]
     numbers = {"directions": tuple(each.at(load) for each in differing)}
     is_in_interval = all(each.has_interval for each in differing)
-    heading = result.headings[load]
-    return [Fact("border_moves_flow", load=heading, is_in_interval=is_in_interval, **numbers)]
+    return [
+        Fact("border_moves_flow", load=headings[load], is_in_interval=is_in_interval, **numbers)
+    ]
 
 
-def _borders(result: Assessment) -> Iterator[_Border]:
+def _borders(
+    sealing: Fluid, larger: LargerSurface, answers: Mapping[str, Answer]
+) -> Iterator[_Border]:
     """What the border does along each direction that is asked for."""
-    sealing, larger = result.question.sealing, result.larger
-    if sealing is None or larger is None:
-        return
     for along in sealing.directions:
         key = f"hydraulic_aperture_{along}"
-        answer = result.answers.get(key) or result.answers.get("hydraulic_aperture")
+        answer = answers.get(key) or answers.get("hydraulic_aperture")
         measure = larger.measures.get(key)
         values = None if measure is None else measure.values_at_border
         if values is None or answer is None:
@@ -71,5 +81,5 @@ def _borders(result: Assessment) -> Iterator[_Border]:
         with np.errstate(divide="ignore", invalid="ignore"):
             of_border = np.nan_to_num(np.log(most / least), nan=0.0)
         is_end = (low >= least * _END_ROUNDING) | (high <= most / _END_ROUNDING)
-        over = np.where(is_end & (of_border > math.log(_COUNTED_RATIO)), of_border, 0.0)
+        over = np.where(is_end & (of_border > math.log(COUNTED_RATIO)), of_border, 0.0)
         yield _Border(along, answer.values, with_flow, with_pressure, over, answer.ends is not None)

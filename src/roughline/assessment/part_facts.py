@@ -13,9 +13,8 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAnswer
 from roughline.facts.fact import Fact
 from roughline.margins.parts import BehindMaps
-from roughline.question.kinds import nominal_area
 from roughline.statistics.student import student
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, Surface, point_spacings, side_lengths
 
 _JUDGED_TOGETHER = (
     *("differs_between_places", "drifts", "no_roll_off"),
@@ -30,9 +29,14 @@ _ADVISED_MAPS = 5  # maps up to which it is said how much more would help
 # their long waves, and so in rms height; an instrument does not change its lens by a tenth.
 _KINDS: tuple[tuple[str, Callable[[Body], float], float], ...] = (
     ("rms heights", lambda body: body.rms_height, 3.0),
-    ("pixels", lambda body: _pixel(body), 1.5),
-    ("sides", lambda body: nominal_area(body) ** 0.5, 1.5),
+    ("pixels", lambda body: _mean(point_spacings(body)), 1.5),
+    ("sides", lambda body: _mean(side_lengths(body)), 1.5),
 )
+
+
+def _mean(lengths: Sequence[float]) -> float:
+    """Geometric mean of those along x and y, or of that of a line. [m]"""
+    return float(math.prod(lengths) ** (1 / len(lengths)))
 
 
 def facts_of_part(
@@ -47,11 +51,11 @@ def facts_of_part(
             name: [each for each in some if each.innermost.kind not in _JUDGED_TOGETHER]
             for name, some in facts.items()
         }
+    of = {key: each.name for key, each in answers.items() if each.is_of_larger}
     return [
-        *_behind(behind, answers, is_joint),
+        *(() if behind is None else behind.facts(of, is_joint=is_joint)),
         *_sealed_in_some(results, answers),
         *_differences_in_kind(results),
-        *_agreement(behind),
         *_what_is_averaged(maps, is_joint),
         *_once(facts),
     ]
@@ -105,7 +109,7 @@ def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[Fac
     if count == 1:
         return [Fact("single_map")]
     advised = _ADVISED_MAPS
-    factor, factor_of_more = student(count), student(advised)
+    factor, factor_of_more = student(count - 1), student(advised - 1)
     narrower = factor / factor_of_more * math.sqrt(advised / count)
     numbers = {"count": count, "student": factor, "is_joint": is_joint, "narrower": narrower}
     more = {"more": advised if count < advised else None, "student_of_more": factor_of_more}
@@ -113,28 +117,6 @@ def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[Fac
     if any(each.intervals is None for each in results):
         facts.append(Fact("some_without_interval"))
     return facts
-
-
-def _behind(
-    behind: BehindMaps | None, answers: Mapping[str, PartAnswer], is_joint: bool
-) -> list[Fact]:
-    """Say why maps do not tell of the part, and of which answers they do not."""
-    of = {key: each for key, each in answers.items() if each.is_of_larger}
-    if behind is None or not behind.why_unknown or not of:
-        return []
-    names = tuple(each.name for each in of.values())
-    found = Fact("behind_maps_unknown", why=behind.why_unknown, answers=names, is_joint=is_joint)
-    return [found if is_joint else found.concerning(*of)]
-
-
-def _agreement(behind: BehindMaps | None) -> list[Fact]:
-    """Say whether maps agree, by factors over 1 by which rms heights scatter."""
-    found = None if behind is None else behind.agreement
-    if found is None:
-        return []
-    scatter = {"between": math.expm1(found.between), "within": math.expm1(found.within)}
-    kind = "maps_agree" if found.holds else "maps_disagree"
-    return [Fact(kind, **scatter, ratio=found.ratio, chance=found.chance)]
 
 
 def _once(facts_by_map: Mapping[str, Sequence[Fact]]) -> list[Fact]:
@@ -162,11 +144,3 @@ def _with_its_maps(facts: Mapping[str, Fact], count: int) -> Fact:
     if not (maps or differ):
         return fact
     return fact.within(Fact("on_maps", fact=fact, maps=maps, first=first if differ else ""))
-
-
-def _pixel(body: Body) -> float:
-    """Side of a pixel, of both the geometric mean. [m]"""
-    if isinstance(body, Surface):
-        dx, dy = body.spacing
-        return float((dx * dy) ** 0.5)
-    return body.spacing

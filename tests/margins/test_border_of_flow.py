@@ -8,10 +8,10 @@ import pytest
 
 import roughline as rl
 from held_measures import held
-from roughline.assessment.border_of_flow import what_borders_do
 from roughline.contact.measures import Measured
 from roughline.fluid import border
 from roughline.fluid.measures import LIQUID, equivalent_aperture, names_at_border
+from roughline.margins.border_of_flow import what_borders_do
 from roughline.margins.larger_measure import LargerMeasure
 from roughline.margins.parts import behind_maps
 from roughline.margins.tiles import POINTS_OF_BORDER, TiledCurves, coarse_shape
@@ -139,6 +139,10 @@ def test_a_map_of_many_points_is_judged_on_few():
     assert coarse_shape((64, 2048), POINTS_OF_BORDER) == (64, 2048)
 
 
+def said_of_borders(result):
+    return what_borders_do(result.question.sealing, result.larger, result.answers, result.headings)
+
+
 def test_both_are_told_where_one_is_an_end_of_the_interval(assessment):
     values = dict(zip("xy", ((0.8, 1.4), (0.99, 1.01)), strict=True))
     measures, answers = dict(assessment.larger.measures), dict(assessment.answers)
@@ -151,7 +155,7 @@ def test_both_are_told_where_one_is_an_end_of_the_interval(assessment):
         answers[name] = replace(answers[name], values=np.array([1e-6]), **ends)
     larger = replace(assessment.larger, measures=measures)
     result = replace(assessment, larger=larger, answers=answers)
-    assert list(map(str, what_borders_do(result))) == [
+    assert list(map(str, said_of_borders(result))) == [
         "under 50 MPa the border of the map leaves open more than all else does: along x "
         "u_h is 1 µm as the map repeats, 1.4 µm with the pressure held even along the border, "
         "and 800 nm with the flow given there"
@@ -159,17 +163,17 @@ def test_both_are_told_where_one_is_an_end_of_the_interval(assessment):
     beside = replace(
         measures[APERTURE], at_border=[np.log(np.array([each])) for each in (1.5, 1.6)]
     )
-    (told,) = what_borders_do(
+    (told,) = said_of_borders(
         replace(result, larger=replace(larger, measures={**measures, APERTURE: beside}))
     )
     assert "1 µm as the map repeats, 1.66 µm with the pressure held" in str(
         told
     )  # alike, and far off
     wide = {APERTURE: replace(answers[APERTURE], low=np.array([0.5e-6]))}
-    assert what_borders_do(replace(result, answers={**answers, **wide})) == []
-    assert what_borders_do(assessment) == []
+    assert said_of_borders(replace(result, answers={**answers, **wide})) == []
+    assert said_of_borders(assessment) == []
     bare = {APERTURE: answers[APERTURE].without_interval}
-    (told,) = what_borders_do(replace(result, answers={**answers, **bare}))
+    (told,) = said_of_borders(replace(result, answers={**answers, **bare}))
     assert str(told).startswith(
         "under 50 MPa the border of the map moves what flows, and no interval"
     )
