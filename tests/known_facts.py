@@ -30,7 +30,6 @@ _NAMED = {  # what stands for a longer or a shorter text than most, or is told a
     "pixel": [(1.2345e-4, 1.2345e-4)],
     "spacing": [(1.2345e-4, 1.2345e-4)],
     "shares": [(0.1,), (0.1, 0.2)],
-    "ratios": [(0.9, 1.1)],
     "left": [(0.9, 1.1)],
     "letter": ["S"],
     "what": ["map", "scan"],

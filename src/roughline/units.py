@@ -23,9 +23,6 @@ _EXPONENT = re.compile(r"(?<=[^\W\d_])(-?\d+)\b")  # of "mm2", "m-3"
 _MIL = re.compile(r"\bmils?\b")  # the inch's thousandth, which the registry takes for an angle
 _DECIMAL_COMMA = re.compile(r"\d+,\d+")
 
-LEAST_CHANGE = 0.05
-"""A change below it is written as none. [%]"""
-
 SI = ("m", "m²", "N", "N/m", "Pa", "J")
 """Units that get a prefix where values are shown."""
 
@@ -268,16 +265,3 @@ def digits_known(value: float, error: float | None) -> int:
     if error is None or not value > 0:
         return MOST_DIGITS
     return supported_digits(value, (value / (1 + error / value), value + error))
-
-
-def change_in_words(least: float, largest: float) -> str:
-    """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
-
-    def signed(ratio: float) -> str:
-        percent = 100 * (ratio - 1)
-        if abs(percent) < LEAST_CHANGE:
-            return "0"
-        return ("+" if percent > 0 else "") + decimal(percent, 2)
-
-    ends = signed(least), signed(largest)
-    return "no change" if ends == ("0", "0") else f"{ends[0]} to {ends[1]}%"

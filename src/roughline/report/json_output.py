@@ -136,7 +136,6 @@ def _answers_json(assessment: Assessment) -> dict[str, Any]:
             "validity": each.validity,
             "source": each.source,
             "if_elastic": (elastic := assessment.elastic.get(each.key)) and elastic.values,
-            "hardness_scatter": assessment.hardness_scatter.get(each.key),
             "margins": list(map(vars, each.margins)),
         }
         for each in assessment.answers.values()
