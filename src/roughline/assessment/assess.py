@@ -25,7 +25,7 @@ from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.facts.fact import Fact, own_words
+from roughline.facts.fact import Fact
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on_filled
 from roughline.margins.variant import AS_ASKED, Curves, Stopped, press_all
@@ -162,24 +162,9 @@ def _with_fluid_recorded(case: Case, curve: Curve) -> Curve:
 
 
 def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[TheoryCurve], list[Fact]]:
-    """Theories at the mean pressures of the loads that were solved, rising, each once.
-
-    The second result says which are left out, as they do not hold of layers.
-    """
-    solved = np.unique(curve.force[curve.converged & (curve.force > 0)])
-    if not question.theories or not isinstance(body, Surface) or not solved.size:
+    """Theories that are asked for, at the loads of a curve, and which are left out, and why."""
+    if not question.theories or not isinstance(body, Surface):
         return [], []
-    from roughline.theories.theory import theory, why_not  # here because they load slowly
+    from roughline.theories.at_loads import theories_at_loads  # here because it loads slowly
 
-    pressures, half_space = solved / body.area, curve.half_space
-    left_out = {name: why_not(name, body, half_space) for name in question.theories}
-    found = [
-        theory(name, body, pressure=pressures, half_space=half_space)
-        for name, why in left_out.items()
-        if not why
-    ]
-    return found, [
-        Fact("without_answer", names=(name,), why=own_words(why))
-        for name, why in left_out.items()
-        if why
-    ]
+    return theories_at_loads(question.theories, body, curve)

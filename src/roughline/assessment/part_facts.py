@@ -109,7 +109,7 @@ def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[Fac
     if count == 1:
         return [Fact("single_map")]
     advised = _ADVISED_MAPS
-    factor, factor_of_more = student(count - 1), student(advised - 1)
+    factor, factor_of_more = (float(student(each - 1)) for each in (count, advised))
     narrower = factor / factor_of_more * math.sqrt(advised / count)
     numbers = {"count": count, "student": factor, "is_joint": is_joint, "narrower": narrower}
     more = {"more": advised if count < advised else None, "student_of_more": factor_of_more}
