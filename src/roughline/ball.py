@@ -24,14 +24,17 @@ from roughline.errors.words import called
 from roughline.facts.fact import Fact, WithFacts
 from roughline.halfspace.laws.jkr import JKR
 from roughline.question.arguments import (
+    called_by,
     modulus,
+    pair_of,
     quantities,
     quantity,
     read_pair,
+    refuse_unless_one_load,
     refuse_unless_one_modulus,
 )
 from roughline.topography.profile import Profile
-from roughline.units import as_si, engineering
+from roughline.units import as_si
 
 _RADIUS = 1e-12, 1e6  # of balls [m]
 _RADII = 800  # of a profile: a sphere's force is right to 1e-5 where nine tenths of it touch
@@ -104,11 +107,7 @@ class BallQuestion:
 
     def __attrs_post_init__(self) -> None:
         refuse_unless_one_modulus(self.E_star, self.materials)
-        if bool(self.loads) == bool(self.depths):
-            raise InputError(
-                f"give forces, {called('loads', '10 N')}, or depths, {called('depths', '1 um')}, "
-                "one of the two"
-            )
+        refuse_unless_one_load(self.loads, self.depths)
         pair = self.pair
         if pair is not None and pair.coated:
             refuse(
@@ -140,10 +139,7 @@ class BallQuestion:
     @property
     def pair(self) -> MaterialPair | None:
         """Both materials, with the hardness that is given; None without materials."""
-        if self.materials is None:
-            return None
-        pair = MaterialPair(*self.materials)
-        return pair if self.hardness is None else pair.with_hardness(self.hardness)
+        return pair_of(self.materials, self.hardness)
 
     @property
     def modulus(self) -> float:
@@ -182,7 +178,7 @@ class BallQuestion:
     def headings(self) -> list[str]:
         """What each load or depth is called: as it was typed, or with its unit."""
         unit, given = ("N", self.loads) if self.loads else ("m", self.depths)
-        return [each if isinstance(each, str) else engineering(each, unit) for each in given]
+        return called_by(given, unit)
 
     @property
     def profile(self) -> Profile:

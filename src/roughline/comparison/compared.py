@@ -55,7 +55,7 @@ def compare_models(
             f"q_roll / q_0 = {roughness.q_roll / roughness.q_low:.3g}"
         )
     else:
-        name = roughness.settings.get("file", "the surface")
+        name = str(roughness.settings.get("file", "the surface"))
         if isinstance(roughness, Line):
             raise InputError(f"{name} holds a line; the models are compared on a surface")
         body, what = roughness, _what_is_in(name, roughness)

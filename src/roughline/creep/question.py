@@ -23,10 +23,13 @@ from roughline.errors.words import called, speaking
 from roughline.facts.fact import Fact, WithFacts
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.question.arguments import (
+    called_by,
     modulus,
     one_body,
+    pair_of,
     quantities,
     read_pair,
+    refuse_unless_one_load,
     refuse_unless_one_modulus,
     several,
 )
@@ -40,7 +43,6 @@ from roughline.topography.preparation import Preparation
 from roughline.units import (
     as_si,
     decimal,
-    engineering,
     in_si,
     load_in_newtons,
     refuse_decimal_comma,
@@ -142,11 +144,7 @@ class CreepQuestion:
 
     def __attrs_post_init__(self) -> None:
         refuse_unless_one_modulus(self.E_star, self.materials)
-        if bool(self.loads) == bool(self.depths):
-            raise InputError(
-                f"give a force, {called('loads', '10 N')}, or a depth, {called('depths', '1 um')}, "
-                "one of the two"
-            )
+        refuse_unless_one_load(self.loads, self.depths)
         if len(self.loads or self.depths) > 1 and not self.times:
             raise InputError(
                 f"{called('times')} are needed with several loads, one for each: give them, or one "
@@ -179,7 +177,7 @@ class CreepQuestion:
     @property
     def pair(self) -> MaterialPair | None:
         """Both materials; None without them."""
-        return None if self.materials is None else MaterialPair(*self.materials)
+        return pair_of(self.materials, None)
 
     @property
     def half_space(self) -> HalfSpace:
@@ -211,8 +209,7 @@ class CreepQuestion:
     @property
     def headings(self) -> list[str]:
         """What each time is called: as it was typed, or with its unit."""
-        given = self.times or self.seconds
-        return [each if isinstance(each, str) else engineering(each, "s", 3) for each in given]
+        return called_by(self.times or self.seconds, "s", 3)
 
     @property
     def seconds(self) -> list[float]:

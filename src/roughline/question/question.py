@@ -27,6 +27,7 @@ from roughline.question.arguments import (
     bodies,
     modulus,
     opposite,
+    pair_of,
     quantities,
     read_pair,
     refuse_unless_one_modulus,
@@ -284,12 +285,7 @@ class Question:
     @property
     def pair(self) -> MaterialPair | None:
         """Both materials, with the hardness that is given; None without materials."""
-        if self.materials is None:
-            return None
-        pair = MaterialPair(*self.materials)
-        if self.hardness is None or self.hardness == math.inf:
-            return pair
-        return pair.with_hardness(self.hardness)
+        return pair_of(self.materials, self.hardness)
 
     @property
     def half_space(self) -> HalfSpace:
