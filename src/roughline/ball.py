@@ -25,8 +25,8 @@ from roughline.facts.fact import Fact, WithFacts
 from roughline.halfspace.laws.jkr import JKR
 from roughline.question.arguments import (
     called_by,
+    given_pair,
     modulus,
-    pair_of,
     quantities,
     quantity,
     read_pair,
@@ -139,7 +139,7 @@ class BallQuestion:
     @property
     def pair(self) -> MaterialPair | None:
         """Both materials, with the hardness that is given; None without materials."""
-        return pair_of(self.materials, self.hardness)
+        return given_pair(self.materials, self.hardness)
 
     @property
     def modulus(self) -> float:

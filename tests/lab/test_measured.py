@@ -20,7 +20,7 @@ import xarray
 import roughline as rl
 from gwyddion_files import field, gwy
 from lab.unpacked import unpacked
-from roughline.comparison.compared import compare_models
+from roughline.comparison.compared import NamedBody, compare_models
 from roughline.errors.words import speaking
 from roughline.lab.measured import documents
 from roughline.lab.measured.answers import assessed
@@ -279,7 +279,7 @@ def test_both_models_are_compared_as_by_the_command(page, rough, body):
     said = {"example": "film"} if body == "film" else page.bring(rough)
     page.ask("look", said)
     source = first_source(said, page.session)
-    expected = compare_models(rl.read(source.path))
+    expected = compare_models(NamedBody(rl.read(source.path), source.name))
     header, _ = page.ask("compare", said)
     assert table_of(header, "models") == comparison_table(expected)
     assert header["words"]["verdict"] == sentence(verdict_in_words(expected))

@@ -17,6 +17,14 @@ from roughline.topography.body import Body, Line, Surface
 
 
 @dataclass(frozen=True)
+class NamedBody:
+    """A body that was read, and what its file is called."""
+
+    body: Body
+    name: str
+
+
+@dataclass(frozen=True)
 class ModelComparison:
     """What a comparison gave."""
 
@@ -32,7 +40,7 @@ class ModelComparison:
 
 
 def compare_models(
-    roughness: SelfAffine | Body,
+    roughness: SelfAffine | NamedBody,
     *,
     n: int = 256,
     surfaces: int = 20,
@@ -41,7 +49,7 @@ def compare_models(
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> ModelComparison:
-    """Compare the two models for a spectrum or for a surface.
+    """Compare the two models for a spectrum or for a surface that was read.
 
     Models count as agreeing up to a relative difference, the tolerance; progress is told of
     (surfaces done, surfaces in all). The rest is as for :func:`roughline.compare`.
@@ -55,10 +63,9 @@ def compare_models(
             f"q_roll / q_0 = {roughness.q_roll / roughness.q_low:.3g}"
         )
     else:
-        name = str(roughness.settings.get("file", "the surface"))
-        if isinstance(roughness, Line):
-            raise InputError(f"{name} holds a line; the models are compared on a surface")
-        body, what = roughness, _what_is_in(name, roughness)
+        if isinstance(roughness.body, Line):
+            raise InputError(f"{roughness.name} holds a line; the models are compared on a surface")
+        body, what = roughness.body, _what_is_in(roughness.name, roughness.body)
     result = compare(
         body, n=n, surfaces=surfaces, force_bars=force_bars, rng=seed, progress=progress
     )

@@ -24,9 +24,9 @@ from roughline.facts.fact import Fact, WithFacts
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.question.arguments import (
     called_by,
+    given_pair,
     modulus,
     one_body,
-    pair_of,
     quantities,
     read_pair,
     refuse_unless_one_load,
@@ -177,7 +177,7 @@ class CreepQuestion:
     @property
     def pair(self) -> MaterialPair | None:
         """Both materials; None without them."""
-        return pair_of(self.materials, None)
+        return given_pair(self.materials, None)
 
     @property
     def half_space(self) -> HalfSpace:

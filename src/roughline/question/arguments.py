@@ -117,7 +117,9 @@ def refuse_unless_one_load(loads: Any, depths: Any) -> None:
         )
 
 
-def pair_of(materials: tuple[Solid, Solid] | None, hardness: float | None) -> MaterialPair | None:
+def given_pair(
+    materials: tuple[Solid, Solid] | None, hardness: float | None
+) -> MaterialPair | None:
     """Both materials with the hardness that is given, unless that is infinite; None without."""
     if materials is None:
         return None

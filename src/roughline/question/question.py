@@ -25,9 +25,9 @@ from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.question.arguments import (
     bodies,
+    given_pair,
     modulus,
     opposite,
-    pair_of,
     quantities,
     read_pair,
     refuse_unless_one_modulus,
@@ -285,7 +285,7 @@ class Question:
     @property
     def pair(self) -> MaterialPair | None:
         """Both materials, with the hardness that is given; None without materials."""
-        return pair_of(self.materials, self.hardness)
+        return given_pair(self.materials, self.hardness)
 
     @property
     def half_space(self) -> HalfSpace:

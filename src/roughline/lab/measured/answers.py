@@ -14,7 +14,7 @@ from roughline.assessment.assess import assess_body
 from roughline.assessment.assess_part import assess_map, assess_part
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
-from roughline.comparison.compared import compare_models
+from roughline.comparison.compared import NamedBody, compare_models
 from roughline.errors.words import speaking
 from roughline.facts.fact import own_words
 from roughline.facts.kinds import DATA, INTERVALS, LIMITS
@@ -178,7 +178,8 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
             "comparison",
             (source.key, reading),
             lambda: compare_models(
-                Topography.of(source.path, reading, None).body, progress=progress
+                NamedBody(Topography.of(source.path, reading, None).body, source.name),
+                progress=progress,
             ),
         )
     result = found.comparison
