@@ -131,6 +131,7 @@ def _unsolved(
         work=unknown(),
         dissipated_work=unknown(),
         pulling_fraction=unknown(),
+        largest_pressure=unknown(),
         border_share=unknown(),
         on_approach=np.zeros(count, dtype=bool),
         status=np.full(count, Status.INTERRUPTED, dtype=np.int8),
@@ -226,6 +227,7 @@ class _WrittenCurve:
         curve.work[at] = stored * scaled.force * scaled.height + dissipated
         curve.dissipated_work[at] = dissipated
         curve.pulling_fraction[at] = _pulling_nodes(contact) / nodes
+        curve.largest_pressure[at] = scaled.pressure * float(contact.pressure.max(initial=0.0))
         curve.border_share[at] = share_at_border(contact)
 
     def _keep_fields(self, at: list[int], contact: Contact, dents: Indentation | None) -> None:

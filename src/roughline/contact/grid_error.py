@@ -274,15 +274,21 @@ def _softer(
 ) -> tuple[SurfaceCurve, SurfaceCurve]:
     """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
 
-    Where pressures have no upper bound, or where no slope is added, both are the curve of n / 2
-    points.
+    Where no slope is added, or no pressure would be as large as the steeper one bears, both are the
+    curve of n / 2 points.
     """
-    if steepening == 1 or Bounds.of(law).largest_force(1.0) == np.inf:
-        return curve, curve
     # pressures and gaps of a surface so many times steeper, in units so many times larger
-    steeper = (law.scaled(times, times) for times in (grids.step, grids.step * steepening))
+    steeper = [law.scaled(times, times) for times in (grids.step, grids.step * steepening)]
+    if steepening == 1 or is_elastic(curve, float(np.min(steeper[1].bounds(None)[1]))):
+        return curve, curve
     as_steep, softer = (_pressed_again(curve, grids.half, each, press) for each in steeper)
     return as_steep, softer
+
+
+def is_elastic(curve: SurfaceCurve, hardness: float) -> bool:
+    """Whether nothing yields under the loads of a curve, nor would with another hardness."""
+    most = np.nanmax(curve.largest_pressure, initial=0.0)
+    return not np.nan_to_num(curve.plastic_fraction).any() and bool(most <= hardness)
 
 
 def _pressed_again(

@@ -14,12 +14,14 @@ import numpy as np
 
 from roughline.computing.arrays import Mask
 from roughline.contact.arguments import yielding_law
-from roughline.contact.curve import Curve
+from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.contact.grid_error import is_elastic
 from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.pressed import yields
+from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread
-from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
+from roughline.margins.variant import AS_ASKED, Curves, Variant, larger_name, repeated
 from roughline.question.case import Case
 from roughline.question.films import hardness_ends
 from roughline.question.kinds import nominal_area
@@ -79,6 +81,15 @@ class HardnessScatter(Cause):
         """None: it bounds what others leave open."""
         return None
 
+    def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
+        """That the softest body is known without being pressed."""
+        curve = curves.get(AS_ASKED)
+        ends = None if curve is None else hardness_ends(case.question, curve)
+        if curve is None or ends is None or not _is_known(case, curves, ends[0]):
+            return ()
+        most = max(float(np.nanmax(each.largest_pressure)) for each in _as_asked(case, curves))
+        return [Fact("softest_is_elastic", pressure=most, hardness=ends[0])]
+
     def nominal(self, case: Case) -> OfHardness | None:
         """What the ends are compared with, if it is not the body as asked: on a coarser grid."""
         if case.hardness is None or case.scatter_body is case.body:
@@ -106,14 +117,16 @@ def _hardness_in(case: Case, way: str, curve: Curve) -> float | None:
 def _as_hard(case: Case, way: str, body: Body, curves: Curves) -> LoadCase | Curve | None:
     """Press the body with another hardness, under the loads that it bears then.
 
-    As long as nothing yields, the curve as asked is that of a harder body as well.
+    As long as nothing yields, the curve as asked is that of a harder body as well, and of a softer
+    one that bears its largest pressure.
     """
     curve = curves.as_asked
     hardness = _hardness_in(case, way, curve)
     if not yields(curve):
         if hardness is None:
             return None
-        if body is case.body and hardness >= (curve.hardness or 0):
+        is_harder = body is case.body and hardness >= (curve.hardness or 0)
+        if is_harder or _is_known(case, curves, hardness):
             settings = {**curve.settings, "hardness": hardness}
             return replace(curve, law=yielding_law(hardness), settings=settings)
     loads = _loads_below(case, curve, hardness)
@@ -122,6 +135,19 @@ def _as_hard(case: Case, way: str, body: Body, curves: Curves) -> LoadCase | Cur
     measures = () if case.is_repeated_for_interface else case.measures
     of_hardness = case.loads.with_hardness(hardness, loads, curve)
     return replace(of_hardness, body=body, measures=measures)
+
+
+def _is_known(case: Case, curves: Curves, hardness: float) -> bool:
+    """Whether the curves as asked are those of the body with another hardness as well."""
+    pressed = _as_asked(case, curves)
+    is_same = case.scatter_body is case.body and not curves.stopped
+    return is_same and bool(pressed) and all(is_elastic(each, hardness) for each in pressed)
+
+
+def _as_asked(case: Case, curves: Curves) -> list[SurfaceCurve]:
+    """Curves of the body as asked, and of it repeated."""
+    found = (curves.get(name) for name in dict.fromkeys((AS_ASKED, larger_name(case, AS_ASKED))))
+    return [each for each in found if each is not None]
 
 
 def _loads_below(case: Case, curve: Curve, hardness: float | None) -> Mask:
