@@ -327,7 +327,7 @@ def _measured(
     """
     grids = {
         name: np.array([each.measured[name].values for each in (curve, *coarser)])
-        for name in curve.measured
+        for name in coarser[0].measured
     }
     steeper: Mapping[str, Measured] = {}
     pushed = curve.law.only_pushes
@@ -335,13 +335,13 @@ def _measured(
         # pressures and gaps of the steeper surface, in units so many times larger
         law = curve.law.scaled(steepening, steepening)
         steeper = _pressed_again(curve, surface, law, press, 1 / steepening).measured
-    found = {}
-    for name, each in curve.measured.items():
-        low, high = _ends_of_measure(grids[name], steepening**_MEASURE_EXPONENT)
+    found = {**curve.measured}
+    for name, on_grids in grids.items():
+        low, high = _ends_of_measure(on_grids, steepening**_MEASURE_EXPONENT)
         if steeper:
             opened = np.fmax(high, steeper[name].values)
-            high = np.where((grids[name] == 0).any(axis=0), opened, high)
-        found[name] = replace(each, low=low, high=high)
+            high = np.where((on_grids == 0).any(axis=0), opened, high)
+        found[name] = replace(found[name], low=low, high=high)
     return found
 
 

@@ -260,7 +260,8 @@ def press(
     curve = pressed(body, loads, law, wanted=wanted, progress=progress)
     if grid_error:
         try:
-            measured = partial(pressed, wanted=FieldRequest(measures=measures))
+            on_coarser = [each for each in measures if not each.of_this_grid]
+            measured = partial(pressed, wanted=FieldRequest(measures=on_coarser))
             curve = with_grid_error(curve, body, loads, measured)
         except KeyboardInterrupt:
             raise Interrupted(curve) from None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -69,11 +68,10 @@ def force_on(points: Mask) -> Measure:
 
     def share(fields: Fields) -> float:
         pushed = np.maximum(fields.pressure, 0.0)
-        if pushed.shape != points.shape:  # coarser, to judge the grid
-            return math.nan
         return float(pushed[points].sum() / pushed.sum()) if pushed.any() else 0.0
 
-    return Measure(_ON_FILLED, "s_f", "1", "share of the force that stands on filled points", share)
+    meaning = "share of the force that stands on filled points"
+    return Measure(_ON_FILLED, "s_f", "1", meaning, share, of_this_grid=True)
 
 
 def force_on_filled(curves: Curves) -> Real | None:

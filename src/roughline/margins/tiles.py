@@ -208,6 +208,11 @@ def coarse_shape(shape: tuple[int, int], points: int = POINTS_OF_TILES) -> tuple
     return shape
 
 
+def has_few_points(shape: tuple[int, int]) -> bool:
+    """Whether the border of a map is judged on its own points."""
+    return coarse_shape(shape, POINTS_OF_BORDER) == shape
+
+
 def coarsened(piece: Surface, points: int = POINTS_OF_TILES) -> Surface:
     """Return a map of many points on fewer, where its tiles keep enough."""
     shape = coarse_shape(piece.shape, points)
