@@ -21,6 +21,7 @@ from roughline.assessment.solution import (
     solve_scan,
 )
 from roughline.assessment.sought import find_sought
+from roughline.computing.linear_algebra import on_one_thread
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
@@ -120,10 +121,11 @@ def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | Non
     try:
         fluid = case.question.fluid
         keep_dents = fluid is not None and fluid.closure
-        curves = press_all(presses, case.loads.count, progress, keep_dents=keep_dents)
+        with on_one_thread():  # as each press is: once for all of them
+            curves = press_all(presses, case.loads.count, progress, keep_dents=keep_dents)
+            sought, is_stopped = find_sought(case, curves)
     except Stopped as stop:
         return stop.curves
-    sought, is_stopped = find_sought(case, curves)
     return replace(curves, sought=sought, stopped="sought" if is_stopped else "")
 
 

@@ -36,7 +36,6 @@ _TRIAL_STEP = 1.5  # step from one trial to the next, until one is above and the
 _MOST_TRIALS = 60  # rounds of loads, until the search gives up
 _NEVER = "does not seal under any load that was tried"
 _LARGEST_SHARE = 0.999  # of the largest load, at which nothing is left
-_DIGITS = 4  # of a crossing
 # In logarithms of the load:
 _LARGEST_STEP = 0.09  # between loads above and below, from where a line tells the crossing to 2 %
 _LARGEST_STEP_ON_LINE = 0.36  # the same where something is left under both
@@ -138,7 +137,7 @@ def crossing(trials: Trials) -> Hunt[float]:
     """
     for _ in range(_MOST_TRIALS):
         if trials.is_narrow:
-            return float(f"{trials.expected[0]:.{_DIGITS}g}")
+            return float(f"{trials.expected[0]:.4g}")
         loads = trials.to_try
         trials.add(loads, (yield loads))
     raise InputError(_NEVER, "surface")

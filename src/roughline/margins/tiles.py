@@ -92,7 +92,8 @@ class Tiles:
 
         Where the map is above its quarters by more than it scatters, as a map of a plateau is that
         its own plane tilts, the map is not large yet under this load, and its roll-off does not
-        count. `mean` says that the map stands for the mean of many, in which chance cancels.
+        count. What chance explains is no such sign: a larger scatter may leave less open there.
+        `mean` says that the map stands for the mean of many, in which chance cancels.
         """
         low, high = self._extrapolated(extrapolation, mean=mean)
         if extrapolation.roll_offs is not None:
