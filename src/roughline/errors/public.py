@@ -232,12 +232,8 @@ def _is_kind(value: Any, kind: str) -> bool:
     """Whether a value is of a kind; classes are known by their names, so that none is imported."""
     if kind in _KINDS:
         return _KINDS[kind][0](value)
-    return not _names(type(value)).isdisjoint(_MEMBERS.get(kind, (kind,)))
-
-
-@functools.lru_cache(maxsize=1024)
-def _names(kind: type) -> frozenset[str]:
-    return frozenset(each.__name__ for each in kind.__mro__)
+    names = {each.__name__ for each in type(value).__mro__}
+    return not names.isdisjoint(_MEMBERS.get(kind, (kind,)))
 
 
 def are_numbers(given: Any) -> bool:
