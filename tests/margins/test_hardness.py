@@ -65,3 +65,16 @@ def test_that_the_softest_body_is_not_pressed_is_told(monkeypatch, load, is_told
         most = float(result.curve.largest_pressure.max())
         assert told[0].numbers["pressure"] == pytest.approx(most)
         assert most < told[0].numbers["hardness"] < result.curve.hardness
+
+
+def test_a_map_that_does_not_yield_yet_seals_later_if_it_is_harder():
+    """The contact under the load is that of any hardness, and where it seals is not."""
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=2e-7, q_roll=2.5e4, q_high=8e4)
+    surface = spectrum.surface(32, 7)
+    body = rl.Surface(surface.heights, surface.sizes, "m", is_cut_out=True)
+    ask = rl.Fluid(closure=True, along="x")
+    result = rl.assess(rl.Question(body, "steel,copper", loads="0.02 N", ask=[ask]))
+    assert result.curve.plastic_fraction == [0.0]
+    answer = result.answers["sealing_pressure"]
+    (margin,) = (each for each in answer.margins if each.cause == "hardness")
+    assert margin.low < 0.9 * answer.values < 0.95 * margin.high

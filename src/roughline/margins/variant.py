@@ -207,8 +207,11 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
     """Press the same body periodically, under the forces that it bears."""
     first, curve = variant.needed(curves), curves.get(variant.name)
     is_as_asked = variant.name == AS_ASKED
-    if isinstance(first, Curve):  # as asked, or under no load
-        return curves.get(periodic(AS_ASKED)) if first.converged.any() else None
+    if isinstance(first, Curve):  # as asked, by a law that changes nothing, or under no load
+        same = curves.get(periodic(AS_ASKED)) if first.converged.any() else None
+        if same is None or not isinstance(first, SurfaceCurve):
+            return None
+        return replace(same, law=first.law, settings={**same.settings, **first.law.settings})
     if not isinstance(first, LoadCase) or curve is None:
         return None
     if first.lifted is not None and first.lifted.all():  # what seals is known nevertheless
