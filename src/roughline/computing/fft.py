@@ -133,6 +133,17 @@ def cosine_spectrum(quarter: Real, periods: tuple[int, int] = (0, 0)) -> None:
     share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, LINES_AT_A_TIME)
 
 
+def sine_spectrum(quarter: Real) -> None:
+    """Turn a periodic array that is odd along both axes, given as its quarter, into its spectrum.
+
+    Periods are even. What stands where it is its own opposite is taken as zero.
+    """
+    inner = quarter[1:-1, 1:-1]
+    found = -ducc0.fft.dst(np.ascontiguousarray(inner), axes=(0, 1), type=1, nthreads=1)
+    quarter[:] = 0.0
+    quarter[1:-1, 1:-1] = found
+
+
 def analyse(values: Real) -> _Complex:
     """Return the full spectrum of real values over a plane."""
     return ducc0.fft.c2c(values.astype(np.complex128), axes=(0, 1), forward=True, nthreads=1)

@@ -1,0 +1,106 @@
+"""The curve of a surface that is pressed and sheared, with friction between the bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.arrays import Mask, Real
+from roughline.contact.curve import SurfaceCurve
+from roughline.contact.fields import Fields
+from roughline.contact.quantities import OF_SLIDING
+from roughline.errors.public import public
+from roughline.halfspace.friction.law import Friction
+
+
+@public
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class SlidingCurve(SurfaceCurve):
+    """Contact quantities of a surface that is pressed and sheared, over its loads.
+
+    Those of :class:`~roughline.SurfaceCurve`, and what follows of friction. Vectors are along x and
+    y of the surface.
+
+    Attributes
+    ----------
+    friction : Friction
+        What the points in contact bear.
+    shear_force : ndarray, shape (loads, 2)
+        Total shear force on the half-space. [force]
+    slide : ndarray, shape (loads, 2)
+        How far the rough body has slid since first touch. [length]
+    shear_stiffness : ndarray, shape (loads, 2, 2)
+        Exact dQ/d(slide) on further shear, in about the direction in which points slip: those that
+        stick follow, and those that slip turn. [force / length]
+    shear_stiffness_back : ndarray, shape (loads, 2, 2)
+        Exact dQ/d(slide) on turning back, when all of the contact sticks. [force / length]
+    stick_fraction : ndarray, shape (loads,)
+        Share of the contact whose shear is below what it bears. [1]
+    shear_limit : ndarray, shape (loads,)
+        Largest shear force that friction bears; beyond it bodies slide. [force]
+    dissipated : ndarray, shape (loads,)
+        Energy that slip has dissipated since the load before. [energy]
+    """
+
+    friction: Friction = field(repr=False)
+    shear_force: Real
+    slide: Real
+    shear_stiffness: Real
+    shear_stiffness_back: Real
+    stick_fraction: Real
+    shear_limit: Real
+    dissipated: Real
+
+    @property
+    def drift(self) -> Real:
+        """The slide that is left where there is no shear force; NaN at other loads. [length]"""
+        without = ~self.shear_force.any(axis=1, keepdims=True)
+        return np.where(without, self.slide, np.nan)
+
+    def _variables(self) -> dict[str, Any]:
+        variables = super()._variables()
+        for each in OF_SLIDING:
+            kept = [one for one in self.fields if one is not None]
+            if "x" not in each.dims:
+                values = getattr(self, each.attribute)
+            elif kept:
+                values = np.array([getattr(one, each.attribute) for one in kept], float)
+                if not self._fields_are_of_some:
+                    among = np.full((len(self.fields), *values.shape[1:]), np.nan)
+                    among[self._with_fields] = values
+                    values = among
+            else:
+                continue
+            first = "field_load" if "x" in each.dims and self._fields_are_of_some else "load"
+            variables[each.name] = (
+                (first, *each.dims[1:]),
+                values,
+                each.attributes(self.unit),
+            )
+        return variables
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class SlidingFields(Fields):
+    """Fields of one load on the grid, with friction: those of :class:`~roughline.Fields`, and more.
+
+    Attributes
+    ----------
+    shear : ndarray, shape (nx, ny, 2)
+        Shear on the half-space, along x and y. [pressure]
+    slip : ndarray, shape (nx, ny, 2)
+        How far the rough body has slipped along the half-space since the load before. [length]
+    slip_total : ndarray, shape (nx, ny)
+        Length of the way that each point has slipped since first touch. Over a cycle, it is the
+        difference between its two ends. [length]
+    stick : ndarray of bool, shape (nx, ny)
+        Where the bodies touch and the shear is below what friction bears.
+    """
+
+    shear: Real
+    slip: Real
+    slip_total: Real
+    stick: Mask

@@ -1,0 +1,382 @@
+"""A path of loads with friction: each state follows from the last shear and the last slide.
+
+Displacements are linear in the tractions, so that the path has left nothing else. What a node has
+slipped since the last load is w = share · (slide - last slide) - (u - last u). The share is one at
+nodes that were in contact before. A node that joins slips from its contact on only: of the way
+along which the bodies come nearer by D it misses the part gap / D before, with its gap at the last
+load [1]_. Along a straight path, with no displacement across shear (n = 0), that is exact.
+
+References
+----------
+.. [1] R. D. Mindlin and H. Deresiewicz, "Elastic spheres in contact under varying oblique forces",
+   J. Appl. Mech. 20, 327-344 (1953): under dQ/dF < mu nothing slips.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from roughline.computing.arrays import InGrid, Mask, Real
+from roughline.halfspace.friction.discs import Discs, DiscSearch, Sheared
+from roughline.halfspace.friction.law import Friction
+from roughline.halfspace.friction.tangents import ShearTangents, shear_tangents
+from roughline.halfspace.inverse.approximate_inverse import preconditioner
+from roughline.halfspace.inverse.cache import inverse_on
+from roughline.halfspace.operators.grid_nodes import GridNodes
+from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
+from roughline.halfspace.search.path import LoadPath
+from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
+
+_SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
+_MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
+_LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
+_MOST_TURNS = 40  # of corrections by the exact operator
+
+
+@dataclass(frozen=True)
+class ShearLoad:
+    """One load along the surface, by its force or by the slide; the other is None."""
+
+    force: tuple[float, float] | None = None  # total shear force [force]
+    slide: tuple[float, float] | None = None  # of the indenter [length]
+
+
+@dataclass(frozen=True, eq=False)
+class Slid:
+    """State of a contact with friction under one load."""
+
+    contact: Contact
+    outcome: Outcome
+    shear: Real  # on the contact nodes, shape (nodes, 2), on the half-space [pressure]
+    displacement: Real  # there, along the surface [length]
+    slide: Real  # of the indenter, shape (2,) [length]
+    force: Real  # shape (2,)
+    slip: Real  # since the last load, shape (nodes, 2) [length]
+    sticks: Mask
+    limit: float  # largest shear force that friction bears [force]
+    residual: float  # over its scale [1]
+    convolutions: int
+    tangents: ShearTangents | None = None
+
+    @property
+    def contact_as_solved(self) -> Contact:
+        """The contact, with how far friction is from its conditions, and without what is lost."""
+        contact, solved = self.contact, self.outcome is Outcome.CONVERGED
+        residuals = replace(contact.residuals, slip=self.residual if self.shear.size else 0.0)
+        return replace(
+            contact,
+            outcome=self.outcome,
+            residuals=residuals,
+            convolutions=self.convolutions,
+            response=contact.response if solved else None,
+        )
+
+    @property
+    def dissipated(self) -> float:
+        """Energy that the slip since the last load has dissipated. [force length]"""
+        area = self.contact.problem.grid.cell_area
+        return area * float(np.vdot(self.shear, self.slip))
+
+
+class SlidePath:
+    """The contact with friction along a path of loads."""
+
+    def __init__(self, problem: Problem, friction: Friction, method: Method) -> None:
+        self._path = LoadPath(problem, method)
+        self._problem, self._friction, self._method = problem, friction, method
+        self._last: Slid | None = None
+        self._lost = False  # after a load that was not solved
+
+    @cached_property
+    def _exact(self) -> ShearConvolution:
+        grid = self._problem.grid
+        workspace = grid.inverse.operator.workspace
+        return shear_on_grid(grid.half_space, grid.shape, grid.spacing, workspace)
+
+    def under(self, load: Load, shear: ShearLoad) -> Slid:
+        """Return the state under the next load."""
+        last = self._last
+        if self._lost:
+            return _unknown(self._path.under(load), Outcome.UNKNOWN_SURFACE)
+        if last is not None and last.contact.load == load:
+            contact = replace(last.contact, convolutions=0)
+        else:
+            contact = self._path.under(load)
+        if contact.outcome is not Outcome.CONVERGED or contact.response is None:
+            if contact.outcome is Outcome.CONVERGED:  # apart: nothing is sheared
+                slide = np.zeros(2) if shear.slide is None else np.array(shear.slide)
+                if shear.slide is None and last is not None:
+                    slide = last.slide
+                self._last = _apart(contact, slide)
+                return self._last
+            self._lost = True
+            return _unknown(contact, contact.outcome)
+        found = _Step(self._exact, self._friction, self._method, contact, last).under(shear)
+        self._lost = found.outcome is not Outcome.CONVERGED
+        if not self._lost:
+            self._last = found
+        return found
+
+
+def slide_path(
+    problem: Problem,
+    friction: Friction,
+    loads: Sequence[tuple[Load, ShearLoad]],
+    method: Method,
+) -> Iterator[Slid]:
+    """Solve for the state under each load in turn."""
+    path = SlidePath(problem, friction, method)
+    for load, shear in loads:
+        yield path.under(load, shear)
+
+
+class _Step:
+    """The step from the last state to the next one, whose normal contact is known."""
+
+    def __init__(
+        self,
+        exact: ShearConvolution,
+        friction: Friction,
+        method: Method,
+        contact: Contact,
+        last: Slid | None,
+    ) -> None:
+        grid = contact.problem.grid
+        self._exact, self._method, self._contact, self._last = exact, method, contact, last
+        self._nodes = nodes = grid.nodes(contact.nodes)
+        self._bound = friction.bound(contact.pressure, contact.nodes)
+        self._operators = _Operators(exact, grid, nodes)
+        self._area = grid.cell_area
+        self.convolutions = contact.convolutions
+        self._slide_before = np.zeros(2) if last is None else last.slide
+        self._moved_before, self._start = self._before()
+        self._missed = self._missed_share()
+        strength = float(self._bound.sum()) / float(contact.pressure.sum())
+        self._scale = contact.length_scale * strength
+
+    def _before(self) -> tuple[Real, Real]:
+        """Return the displacements and the shear at the last load, on the nodes of this one."""
+        nodes, last = self._contact.nodes, self._last
+        moved, shear = np.zeros((2, nodes.size, 2))
+        if last is None or not last.shear.any():
+            return moved, shear
+        of_last = last.contact.nodes
+        places = np.minimum(np.searchsorted(of_last, nodes), of_last.size - 1)
+        known = of_last[places] == nodes
+        shear[known] = last.shear[places[known]]
+        if known.all():
+            return last.displacement[places], shear
+        sources = self._contact.problem.grid.nodes(of_last)
+        self.convolutions += 2
+        return self._exact.displacement(last.shear, sources, self._nodes), shear
+
+    def _missed_share(self) -> Real:
+        """Return the part of the way that nodes miss before they join."""
+        contact, last, nodes = self._contact, self._last, self._contact.nodes
+        touch = contact.problem.touch
+        if last is None or not last.contact.nodes.size:
+            before = touch if last is None else min(last.contact.depth, contact.depth)
+            gap = contact.separation.ravel()[nodes] - before
+        else:
+            before = last.contact.depth
+            gap = np.zeros(nodes.size)
+            joined = ~np.isin(nodes, last.contact.nodes, assume_unique=True)
+            gap[joined] = last.contact.gap_at(InGrid(nodes[joined]))
+        nearer = contact.depth - before
+        if not nearer > 0:
+            return np.zeros(nodes.size)
+        return np.clip(gap / nearer, 0.0, 1.0)
+
+    def under(self, load: ShearLoad) -> Slid:
+        """Return the state under a load along the surface."""
+        limit = self._area * float(self._bound.sum())
+        tolerance = self._method.rtol * self._scale
+        if load.slide is not None:
+            way = np.array(load.slide) - self._slide_before
+            target = self._moved_before + (1 - self._missed)[:, np.newaxis] * way
+            found = self._solved(target, None, np.zeros(2), self._start, tolerance)
+            return self._state(found, way, limit)
+        assert load.force is not None
+        force = np.array(load.force)
+        if not np.hypot(*force) < _SLIDES_FROM * limit:
+            return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
+        total = force / self._area
+        way = self._guessed_way(force)
+        if not self._missed.any():
+            found = self._solved(self._moved_before, total, way, self._start, tolerance)
+            return self._state(found, found.level, limit)
+        return self._state(*self._joined(total, way, tolerance), limit)
+
+    def _guessed_way(self, force: Real) -> Real:
+        """Return about how far the indenter slides: as it comes nearer, along a straight path."""
+        contact, last = self._contact, self._last
+        before = np.zeros(2) if last is None else last.force
+        if last is not None and last.tangents is not None and last.contact.load == contact.load:
+            stiffness = last.tangents.back
+            rigid = not np.isfinite(stiffness).all()
+            way = np.zeros(2) if rigid else np.linalg.solve(stiffness, force - before)
+            return np.asarray(way, np.float64)
+        pushed = contact.force - (0.0 if last is None else last.contact.force)
+        nearer = contact.depth - (contact.problem.touch if last is None else last.contact.depth)
+        factor = contact.problem.grid.half_space.even_shear[1]
+        assert contact.response is not None
+        rigid = contact.response.unloading.stiffness
+        if pushed > 0 and nearer > 0:
+            return (force - before) / pushed * nearer * factor
+        return (force - before) / rigid * factor if rigid > 0 else np.zeros(2)
+
+    def _joined(self, total: Real, way: Real, tolerance: float) -> tuple[Sheared, Real]:
+        """Return the shear and the way of the indenter, of which joining nodes miss a part.
+
+        The way that they miss follows from the way that is found: a fixed point of two numbers, by
+        Broyden's method. It begins with the slope that it has where all of the contact sticks.
+        """
+        contact, missed = self._contact, self._missed[:, np.newaxis]
+        assert contact.response is not None
+        rigid = contact.response.unloading.stiffness
+        last = self._last
+        pushed = contact.force - (0.0 if last is None else last.contact.force)
+        nearer = contact.depth - (contact.problem.touch if last is None else last.contact.depth)
+        growth = pushed / (rigid * nearer) if rigid * nearer > 0 else 1.0
+        slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
+        start, level, before = self._start, way, None
+        for _ in range(_MOST_GUESSES):
+            target = self._moved_before - missed * way
+            found = self._solved(target, total, level, start, tolerance)
+            start, level = found.shear, found.level
+            off = way - found.level
+            if float(np.abs(off).max()) <= tolerance:
+                break
+            if before is not None:
+                step, change = way - before[0], off - before[1]
+                slope = slope + np.outer(change - slope @ step, step) / float(step @ step)
+            before = way, off
+            way = way - np.linalg.lstsq(slope, off, rcond=None)[0]
+        return found, found.level
+
+    def _solved(
+        self, target: Real, total: Real | None, level: Real, start: Real, tolerance: float
+    ) -> Sheared:
+        """Return the shear on the discs, to the tolerance by the exact operator."""
+        discs = Discs(self._bound, target, total, self._exact.diagonal)
+        found = self._operators.found(discs, start, level, tolerance)
+        self.convolutions += self._operators.convolutions
+        return found
+
+    def _state(self, found: Sheared, way: Real, limit: float) -> Slid:
+        """Return the state with some shear."""
+        scale = self._scale
+        force = self._area * found.shear.sum(axis=0)
+        off = self._area * found.missing / limit if limit else 0.0
+        residual = max(found.residual / scale if scale else 0.0, off)
+        converged = residual <= self._method.rtol
+        sticks = ~_slips(found, self._bound, self._exact.diagonal)
+        tangents = None
+        if converged:
+            tangents = shear_tangents(
+                self._operators, self._contact, found.shear, sticks, self._method
+            )
+            self.convolutions += tangents.convolutions
+        return Slid(
+            self._contact,
+            Outcome.CONVERGED if converged else Outcome.STALLED,
+            found.shear,
+            found.displacement,
+            self._slide_before + way,
+            force,
+            found.slip,
+            sticks,
+            limit,
+            residual,
+            self.convolutions,
+            tangents,
+        )
+
+
+def _slips(found: Sheared, bound: Real, diagonal: float) -> Mask:
+    """Return which nodes are at their bound and slip."""
+    size = np.hypot(found.shear[:, 0], found.shear[:, 1])
+    return size >= bound * (1 - 1e-10)
+
+
+class _Operators:
+    """How shear displaces a set of nodes: exactly, and nearly, at the cost of the contact."""
+
+    def __init__(self, exact: ShearConvolution, grid: Grid, nodes: GridNodes) -> None:
+        self._exact, self.nodes = exact, nodes
+        half_space, self._factor = grid.half_space.even_shear
+        inverse = inverse_on(half_space, grid.shape, grid.spacing)
+        self._restricted = inverse.restricted.on(nodes)
+        self._precondition = preconditioner(inverse, nodes)
+        self.convolutions = 0
+        self.diagonal = exact.diagonal
+
+    def exact(self, shear: Real) -> Real:
+        """Return the displacements by the exact operator."""
+        self.convolutions += 2
+        return self._exact.displacement(shear, self.nodes, self.nodes)
+
+    def rough(self, shear: Real) -> Real:
+        """Return the displacements as if shear along and across displaced alike, and roughly."""
+        assert self._restricted is not None
+        moved = np.empty_like(shear)
+        for axis in range(2):
+            part = np.ascontiguousarray(shear[:, axis])
+            moved[:, axis] = self._restricted.displacement(part, self.nodes, self.nodes)
+        moved *= self._factor
+        return moved
+
+    def inverse(self, moved: Real) -> Real:
+        """Return about the shear that displaces so."""
+        shear = np.empty_like(moved)
+        for axis in range(2):
+            shear[:, axis] = self._precondition(np.ascontiguousarray(moved[:, axis]))
+        shear /= self._factor
+        return shear
+
+    def found(self, discs: Discs, start: Real, level: Real, tolerance: float) -> Sheared:
+        """Return the shear on the discs, to the tolerance by the exact operator.
+
+        Where there is a rough operator, it is corrected for what it misses of the shear so far.
+        """
+        self.convolutions = 0
+        first = Sheared(start, level, start, start, math.inf, 0.0)
+        exact = DiscSearch(self.exact, self.inverse)
+        if self._restricted is None:
+            return exact.found(discs, first, tolerance=tolerance)
+        rough = DiscSearch(self.rough, self.inverse)
+        shear, before = discs.within(start), math.inf
+        for _ in range(_MOST_TURNS):
+            now = discs.judged(shear, level, self.exact(shear))
+            if now.residual <= tolerance and now.missing <= 1e-12 * float(discs.bound.sum()):
+                return now
+            if now.residual > 0.7 * before:
+                break
+            before = now.residual
+            corrected = replace(discs, target=discs.target - now.displacement + self.rough(shear))
+            aim = max(0.3 * tolerance, 0.05 * now.residual)
+            better = rough.found(corrected, now, tolerance=aim)
+            shear, level = better.shear, better.level
+        return exact.found(discs, replace(first, shear=shear, level=level), tolerance=tolerance)
+
+
+def _unknown(contact: Contact, outcome: Outcome) -> Slid:
+    """Return a load that was not solved."""
+    nothing = np.full((contact.nodes.size, 2), math.nan)
+    unknown = np.full(2, math.nan)
+    sticks = np.zeros(contact.nodes.size, dtype=bool)
+    parts = contact, outcome, nothing, nothing, unknown, unknown, nothing, sticks
+    return Slid(*parts, math.nan, math.nan, contact.convolutions)
+
+
+def _apart(contact: Contact, slide: Real) -> Slid:
+    """Return bodies that are apart."""
+    nothing = np.zeros((contact.nodes.size, 2))
+    sticks = np.zeros(contact.nodes.size, dtype=bool)
+    parts = contact, Outcome.CONVERGED, nothing, nothing, slide, np.zeros(2), nothing, sticks
+    return Slid(*parts, 0.0, 0.0, contact.convolutions)
