@@ -33,6 +33,7 @@ from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
 from roughline.contact.shear_loads import GivenShear
 from roughline.contact.sliding import SlidingCurve
+from roughline.contact.sliding_profile import press_sheared_profile
 from roughline.contact.solver import AS_USUAL, Solver
 from roughline.contact.status import Status
 from roughline.contact.strain import warn_of_strain
@@ -245,12 +246,15 @@ def press(
     given, shear = GivenLoads(depths, forces, n_loads), GivenShear(friction, shear_forces, slides)
     shear.refuse_beside(n_loads=n_loads is not None, grid_error=grid_error)
     if isinstance(body, Line | Profile):
-        shear.refuse_springs(type(body).__name__)
         stickiness = given_stickiness(law, hardness, body)
         _refuse_fields(body, half_space, grid_error or fields is not False, measures)
         springs = _half_space_of_springs(body, half_space)
         if isinstance(body, Line):
+            shear.refuse_line()
             return _complete(body, press_line(body, springs, given), throw)
+        if not shear.is_nothing:
+            sheared_curve = press_sheared_profile(body, springs, stickiness, given, shear)
+            return _complete(body, sheared_curve, throw)
         return _complete(body, press_profile(body, springs, stickiness, given), throw)
     if not isinstance(body, Surface):
         raise InputError(

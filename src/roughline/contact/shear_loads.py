@@ -43,12 +43,12 @@ class GivenShear:
         """Whether nothing of it is given."""
         return self.friction is None and self.shear_forces is None and self.slides is None
 
-    def refuse_springs(self, name: str) -> None:
-        """Refuse friction of springs, whose contact has no area."""
+    def refuse_line(self) -> None:
+        """Refuse friction of a line, whose contacts have no areas that bear shear."""
         if not self.is_nothing:
             raise InputError(
-                f"friction, shear_forces and slides belong to the full model; the reduced model of "
-                f"a {name} has none of these: leave them out, or press a Surface"
+                "friction, shear_forces and slides are given, and the springs of a Line bear no "
+                "shear: press a Profile of a body of revolution, whose springs do, or a Surface"
             )
 
     def refuse_beside(self, *, n_loads: bool, grid_error: bool) -> None:
