@@ -150,11 +150,6 @@ def _refuse_half_space(half_space: HalfSpace) -> None:
             f"half_space is {half_space.boundary}, and friction is solved on one that is free or "
             "periodic along both axes: give periodic=True or False"
         )
-    if half_space.is_coupled:
-        raise InputError(
-            f"half_space is {half_space!r}, in which pressure displaces along the surface; "
-            "friction is solved where it does not, as between bodies of one material: give beta=0.0"
-        )
 
 
 def checked_vectors(name: str, given: Any) -> Real:

@@ -167,6 +167,29 @@ class HalfSpace(ABC):
             "needs: make it periodic, or leave friction out"
         )
 
+    def coupling_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements along the surface under pressure on one cell.
+
+        Parameters
+        ----------
+        first, spacing
+            As of :meth:`kernel`.
+        rows : tuple of ndarray
+            Overwritten: displacements towards the cell, along x and along y. Each is odd in its own
+            distance. [length / pressure]
+
+        Raises
+        ------
+        InputError
+            If it has none.
+        """
+        raise InputError(
+            f"{type(self).__name__} has no coupling_kernel, which friction on a free half-space "
+            "needs where pressure displaces along the surface: make it periodic"
+        )
+
     @property
     def even_shear(self) -> tuple[HalfSpace, float]:
         """A half-space and a factor: times it, its spectrum is the mean of along and across.
@@ -391,6 +414,19 @@ class TwoBodies(HalfSpace):
         self.second.shear_kernel(first, spacing, others)
         for each, other in zip(rows, others, strict=True):
             each += other
+
+    def coupling_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements along the surface under pressure on one cell."""
+        others = np.empty_like(rows[0]), np.empty_like(rows[0])
+        for each in rows:
+            each[:] = 0.0
+        for body, sign in ((self.first, 1.0), (self.second, -1.0)):
+            if body.is_coupled:
+                body.coupling_kernel(first, spacing, others)
+                for each, other in zip(rows, others, strict=True):
+                    each += sign * other
 
     def refuse(self, spacing: tuple[float, float]) -> None:
         """Refuse grids that do not resolve one of the two."""

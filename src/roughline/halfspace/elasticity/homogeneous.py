@@ -139,6 +139,18 @@ class Homogeneous(HalfSpace):
         yy -= along  # as x² / r³ and y² / r³ add up to 1 / r
         xy[:] = across_shear(x, y, *spacing, n / self.E_star)
 
+    def coupling_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements along the surface under pressure on one cell."""
+        # here because compiled loops load slowly
+        from roughline.halfspace.elasticity.shear_kernel import by_pressure
+
+        x, y = (np.arange(n) for n in rows[0].shape)
+        dx, dy = spacing
+        rows[0][:] = by_pressure(x + first, y, dx, dy, self.beta / self.E_star)
+        rows[1][:] = by_pressure(y, x + first, dy, dx, self.beta / self.E_star).T
+
     @property
     def is_pushed_everywhere(self) -> bool:  # type: ignore[override]
         """Whether the surface is free: the kernel is positive everywhere then."""

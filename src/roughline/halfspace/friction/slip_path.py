@@ -10,6 +10,8 @@ References
 ----------
 .. [1] R. D. Mindlin and H. Deresiewicz, "Elastic spheres in contact under varying oblique forces",
    J. Appl. Mech. 20, 327-344 (1953): under dQ/dF < mu nothing slips.
+.. [2] P. D. Panagiotopoulos, "A nonlinear programming approach to the unilateral contact-, and
+   friction-boundary value problem in the theory of elasticity", Ing.-Arch. 44, 421-432 (1975).
 """
 
 from __future__ import annotations
@@ -29,13 +31,16 @@ from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
-from roughline.halfspace.search.path import LoadPath
+from roughline.halfspace.search.path import LoadPath, known, settled
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
+from roughline.halfspace.search.tangent import response
 
 _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
 _MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
 _LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
 _MOST_TURNS = 40  # of corrections by the exact operator
+_MOST_ALTERNATIONS = 60  # between pressures and shear
+_ALTERNATION_SHARE = 0.3  # of the tolerance, to which both agree
 
 
 @dataclass(frozen=True)
@@ -100,27 +105,84 @@ class SlidePath:
 
     def under(self, load: Load, shear: ShearLoad) -> Slid:
         """Return the state under the next load."""
-        last = self._last
         if self._lost:
-            return _unknown(self._path.under(load), Outcome.UNKNOWN_SURFACE)
-        if last is not None and last.contact.load == load:
-            contact = replace(last.contact, convolutions=0)
+            contact = self._last.contact if self._last else self._path.under(load)
+            return _unknown(replace(contact, load=load), Outcome.UNKNOWN_SURFACE)
+        if self._problem.grid.half_space.is_coupled:
+            found = self._coupled(load, shear)
         else:
-            contact = self._path.under(load)
-        if contact.outcome is not Outcome.CONVERGED or contact.response is None:
-            if contact.outcome is Outcome.CONVERGED:  # apart: nothing is sheared
-                slide = np.zeros(2) if shear.slide is None else np.array(shear.slide)
-                if shear.slide is None and last is not None:
-                    slide = last.slide
-                self._last = _apart(contact, slide)
-                return self._last
-            self._lost = True
-            return _unknown(contact, contact.outcome)
-        found = _Step(self._exact, self._friction, self._method, contact, last).under(shear)
+            found = self._uncoupled(load, shear)
         self._lost = found.outcome is not Outcome.CONVERGED
         if not self._lost:
             self._last = found
         return found
+
+    def _uncoupled(self, load: Load, shear: ShearLoad) -> Slid:
+        """Find the pressures first, on which shear has no effect."""
+        last = self._last
+        if last is not None and last.contact.load == load:
+            contact = replace(last.contact, convolutions=0)
+        else:
+            contact = self._path.under(load)
+        if contact.outcome is not Outcome.CONVERGED:
+            return _unknown(contact, contact.outcome)
+        if contact.response is None:
+            return _apart(contact, shear, last)
+        return _Step(self._exact, self._friction, self._method, contact, last).under(shear)
+
+    def _coupled(self, load: Load, shear: ShearLoad) -> Slid:
+        """Find pressures under the last shear, and shear under these, in turn [2]_.
+
+        Shear displaces into the body as if that had another shape.
+        """
+        last, problem, exact = self._last, self._problem, self._exact
+        everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
+        start, state, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
+        if last is not None and last.contact.nodes.size:
+            start = last.contact.contact_set
+            state = last.contact.nodes, last.shear
+            lift = self._lift(*state, everywhere)
+        for _ in range(_MOST_ALTERNATIONS):
+            bodies = replace(problem, separation=problem.separation + lift)
+            if contact := known(bodies, load):
+                return _apart(replace(contact, problem=problem, load=load), shear, last)
+            contact, window = settled(bodies, load, start, self._method)
+            convolutions += contact.convolutions
+            contact = replace(contact, load=load)
+            if contact.outcome is not Outcome.CONVERGED:
+                return _unknown(contact, contact.outcome)
+            step = _Step(exact, self._friction, self._method, contact, last, state)
+            found = step.under(shear)
+            convolutions += step.convolutions
+            if found.outcome is not Outcome.CONVERGED:
+                return found
+            start, state = contact.contact_set, (contact.nodes, found.shear)
+            change = self._lift(*state, everywhere) - lift
+            lift, moved = lift + change, float(np.abs(change).max())
+            if moved <= _ALTERNATION_SHARE * self._method.rtol * contact.length_scale:
+                break
+        else:
+            return _unknown(contact, Outcome.MAX_ITERATIONS)
+        answer = response(contact, window, None, self._method)
+        off = moved / contact.length_scale
+        residuals = contact.residuals
+        contact = replace(
+            contact,
+            problem=problem,
+            looked_at=None,
+            gaps=(contact.gap + change).ravel(),
+            residuals=replace(
+                residuals, gap=residuals.gap + off, penetration=residuals.penetration + off
+            ),
+            response=answer,
+        )
+        return replace(found, contact=contact, convolutions=convolutions + answer.convolutions)
+
+    def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
+        """Return how shear displaces all of the grid into the body."""
+        grid = self._problem.grid
+        moved = self._exact.into_body(shear, grid.nodes(nodes), everywhere)
+        return moved.reshape(self._problem.separation.shape)
 
 
 def slide_path(
@@ -145,6 +207,7 @@ class _Step:
         method: Method,
         contact: Contact,
         last: Slid | None,
+        start: tuple[InGrid, Real] | None = None,
     ) -> None:
         grid = contact.problem.grid
         self._exact, self._method, self._contact, self._last = exact, method, contact, last
@@ -154,26 +217,33 @@ class _Step:
         self._area = grid.cell_area
         self.convolutions = contact.convolutions
         self._slide_before = np.zeros(2) if last is None else last.slide
+        self._pushed = exact.by_pressure(contact.pressure, nodes, nodes)
         self._moved_before, self._start = self._before()
+        if start is not None:
+            self._start = _on(contact.nodes, *start)
         self._missed = self._missed_share()
         strength = float(self._bound.sum()) / float(contact.pressure.sum())
         self._scale = contact.length_scale * strength
 
     def _before(self) -> tuple[Real, Real]:
-        """Return the displacements and the shear at the last load, on the nodes of this one."""
+        """Return how the nodes of this load were displaced at the last one, and their shear.
+
+        What their pressure displaces now is taken off: the shear has to add the rest.
+        """
         nodes, last = self._contact.nodes, self._last
         moved, shear = np.zeros((2, nodes.size, 2))
-        if last is None or not last.shear.any():
-            return moved, shear
-        of_last = last.contact.nodes
-        places = np.minimum(np.searchsorted(of_last, nodes), of_last.size - 1)
-        known = of_last[places] == nodes
-        shear[known] = last.shear[places[known]]
-        if known.all():
-            return last.displacement[places], shear
-        sources = self._contact.problem.grid.nodes(of_last)
-        self.convolutions += 2
-        return self._exact.displacement(last.shear, sources, self._nodes), shear
+        if last is None or not last.displacement.any():
+            return moved - self._pushed, shear
+        before = last.contact
+        shear = _on(nodes, before.nodes, last.shear)
+        if np.isin(nodes, before.nodes, assume_unique=True).all():
+            moved = _on(nodes, before.nodes, last.displacement)
+        else:
+            sources = before.problem.grid.nodes(before.nodes)
+            self.convolutions += 2
+            moved = self._exact.displacement(last.shear, sources, self._nodes)
+            moved += self._exact.by_pressure(before.pressure, sources, self._nodes)
+        return moved - self._pushed, shear
 
     def _missed_share(self) -> Real:
         """Return the part of the way that nodes miss before they join."""
@@ -212,20 +282,28 @@ class _Step:
             return self._state(found, found.level, limit)
         return self._state(*self._joined(total, way, tolerance), limit)
 
+    @property
+    def _rigid(self) -> float:
+        """Force per approach of the contact, about. [force / length]"""
+        contact = self._contact
+        if contact.response is not None:
+            return contact.response.unloading.stiffness
+        radius = math.sqrt(contact.nodes.size * self._area / math.pi)
+        return contact.problem.grid.half_space.disc_stiffness(radius)
+
     def _guessed_way(self, force: Real) -> Real:
         """Return about how far the indenter slides: as it comes nearer, along a straight path."""
         contact, last = self._contact, self._last
         before = np.zeros(2) if last is None else last.force
         if last is not None and last.tangents is not None and last.contact.load == contact.load:
             stiffness = last.tangents.back
-            rigid = not np.isfinite(stiffness).all()
-            way = np.zeros(2) if rigid else np.linalg.solve(stiffness, force - before)
-            return np.asarray(way, np.float64)
+            if not np.isfinite(stiffness).all():  # full contact, without a mean
+                return np.zeros(2)
+            return np.asarray(np.linalg.solve(stiffness, force - before), np.float64)
         pushed = contact.force - (0.0 if last is None else last.contact.force)
         nearer = contact.depth - (contact.problem.touch if last is None else last.contact.depth)
         factor = contact.problem.grid.half_space.even_shear[1]
-        assert contact.response is not None
-        rigid = contact.response.unloading.stiffness
+        rigid = self._rigid
         if pushed > 0 and nearer > 0:
             return (force - before) / pushed * nearer * factor
         return (force - before) / rigid * factor if rigid > 0 else np.zeros(2)
@@ -237,9 +315,7 @@ class _Step:
         Broyden's method. It begins with the slope that it has where all of the contact sticks.
         """
         contact, missed = self._contact, self._missed[:, np.newaxis]
-        assert contact.response is not None
-        rigid = contact.response.unloading.stiffness
-        last = self._last
+        rigid, last = self._rigid, self._last
         pushed = contact.force - (0.0 if last is None else last.contact.force)
         nearer = contact.depth - (contact.problem.touch if last is None else last.contact.depth)
         growth = pushed / (rigid * nearer) if rigid * nearer > 0 else 1.0
@@ -286,7 +362,7 @@ class _Step:
             self._contact,
             Outcome.CONVERGED if converged else Outcome.STALLED,
             found.shear,
-            found.displacement,
+            found.displacement + self._pushed,
             self._slide_before + way,
             force,
             found.slip,
@@ -296,6 +372,16 @@ class _Step:
             self.convolutions,
             tangents,
         )
+
+
+def _on(nodes: InGrid, others: InGrid, values: Real) -> Real:
+    """Return vectors, given on other nodes, on nodes; zero where they are not given."""
+    found = np.zeros((nodes.size, 2))
+    if others.size:
+        places = np.minimum(np.searchsorted(others, nodes), others.size - 1)
+        known = others[places] == nodes
+        found[known] = values[places[known]]
+    return found
 
 
 def _slips(found: Sheared, bound: Real, diagonal: float) -> Mask:
@@ -374,8 +460,11 @@ def _unknown(contact: Contact, outcome: Outcome) -> Slid:
     return Slid(*parts, math.nan, math.nan, contact.convolutions)
 
 
-def _apart(contact: Contact, slide: Real) -> Slid:
-    """Return bodies that are apart."""
+def _apart(contact: Contact, shear: ShearLoad, last: Slid | None) -> Slid:
+    """Return bodies that are apart: nothing is sheared."""
+    slide = np.zeros(2) if last is None else last.slide
+    if shear.slide is not None:
+        slide = np.array(shear.slide)
     nothing = np.zeros((contact.nodes.size, 2))
     sticks = np.zeros(contact.nodes.size, dtype=bool)
     parts = contact, Outcome.CONVERGED, nothing, nothing, slide, np.zeros(2), nothing, sticks
