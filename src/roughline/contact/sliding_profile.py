@@ -115,13 +115,14 @@ def press_sheared_profile(
         if each.stick_depth < curve.depth[i]:
             on[i] = ratio * 2 * half_space.E_star * each.stick_radius
     touches = curve.stiffness > 0
-    vectors = {
+    vectors: dict[str, Any] = {
         name: np.outer([getattr(each, name) for each in states], axis)
         for name in ("shear_force", "slide")
     }
     plane, tensor = np.eye(2), np.outer(axis, axis)
+    pressed_alone: dict[str, Any] = {each.name: getattr(curve, each.name) for each in fields(curve)}
     return SlidingLineCurve(
-        **{each.name: getattr(curve, each.name) for each in fields(curve)},
+        **pressed_alone,
         friction=loads.friction,
         **(vectors | {loads.control.removesuffix("s"): loads.values}),
         shear_stiffness=np.multiply.outer(back, plane) - np.multiply.outer(back - on, tensor),
