@@ -88,33 +88,44 @@ class Slid:
         return area * float(np.vdot(self.shear, self.slip))
 
 
+@dataclass(frozen=True, eq=False)
+class _Bodies:
+    """Untouched bodies, the friction between them, and how they are solved."""
+
+    problem: Problem
+    friction: Friction
+    method: Method
+
+    @cached_property
+    def exact(self) -> ShearConvolution:
+        """How shear displaces them."""
+        grid = self.problem.grid
+        workspace = grid.inverse.operator.workspace
+        return shear_on_grid(grid.half_space, grid.shape, grid.spacing, workspace)
+
+
 class SlidePath:
     """The contact with friction along a path of loads."""
 
     def __init__(self, problem: Problem, friction: Friction, method: Method) -> None:
         self._path = LoadPath(problem, method)
-        self._problem, self._friction, self._method = problem, friction, method
+        self._problem, self._method = problem, method
+        self._bodies = _Bodies(problem, friction, method)
         self._last: Slid | None = None
-        self._lost = False  # after a load that was not solved
-
-    @cached_property
-    def _exact(self) -> ShearConvolution:
-        grid = self._problem.grid
-        workspace = grid.inverse.operator.workspace
-        return shear_on_grid(grid.half_space, grid.shape, grid.spacing, workspace)
+        self._lost: Contact | None = None  # the first that was not solved
 
     def under(self, load: Load, shear: ShearLoad) -> Slid:
         """Return the state under the next load."""
-        if self._lost:
-            contact = self._last.contact if self._last else self._path.under(load)
-            return _unknown(replace(contact, load=load), Outcome.UNKNOWN_SURFACE)
+        if self._lost is not None:
+            return replace(_unknown(self._lost, Outcome.UNKNOWN_SURFACE), convolutions=0)
         if self._problem.grid.half_space.is_coupled:
             found = self._coupled(load, shear)
         else:
             found = self._uncoupled(load, shear)
-        self._lost = found.outcome is not Outcome.CONVERGED
-        if not self._lost:
+        if found.outcome is Outcome.CONVERGED:
             self._last = found
+        else:
+            self._lost = found.contact
         return found
 
     def _uncoupled(self, load: Load, shear: ShearLoad) -> Slid:
@@ -128,14 +139,14 @@ class SlidePath:
             return _unknown(contact, contact.outcome)
         if contact.response is None:
             return _apart(contact, shear, last)
-        return _Step(self._exact, self._friction, self._method, contact, last).under(shear)
+        return _Step(self._bodies, contact, last).under(shear)
 
     def _coupled(self, load: Load, shear: ShearLoad) -> Slid:
         """Find pressures under the last shear, and shear under these, in turn [2]_.
 
         Shear displaces into the body as if that had another shape.
         """
-        last, problem, exact = self._last, self._problem, self._exact
+        last, problem = self._last, self._problem
         everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
         start, state, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
         if last is not None and last.contact.nodes.size:
@@ -151,7 +162,7 @@ class SlidePath:
             contact = replace(contact, load=load)
             if contact.outcome is not Outcome.CONVERGED:
                 return _unknown(contact, contact.outcome)
-            step = _Step(exact, self._friction, self._method, contact, last, state)
+            step = _Step(self._bodies, contact, last, state)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -181,7 +192,7 @@ class SlidePath:
     def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
         """Return how shear displaces all of the grid into the body."""
         grid = self._problem.grid
-        moved = self._exact.into_body(shear, grid.nodes(nodes), everywhere)
+        moved = self._bodies.exact.into_body(shear, grid.nodes(nodes), everywhere)
         return moved.reshape(self._problem.separation.shape)
 
 
@@ -202,17 +213,16 @@ class _Step:
 
     def __init__(
         self,
-        exact: ShearConvolution,
-        friction: Friction,
-        method: Method,
+        bodies: _Bodies,
         contact: Contact,
         last: Slid | None,
         start: tuple[InGrid, Real] | None = None,
     ) -> None:
-        grid = contact.problem.grid
-        self._exact, self._method, self._contact, self._last = exact, method, contact, last
+        grid, exact = bodies.problem.grid, bodies.exact
+        self._exact, self._method, self._contact, self._last = exact, bodies.method, contact, last
+        self._untouched = bodies.problem
         self._nodes = nodes = grid.nodes(contact.nodes)
-        self._bound = friction.bound(contact.pressure, contact.nodes)
+        self._bound = bodies.friction.bound(contact.pressure, contact.nodes)
         self._operators = _Operators(exact, grid, nodes)
         self._area = grid.cell_area
         self.convolutions = contact.convolutions
@@ -248,10 +258,10 @@ class _Step:
     def _missed_share(self) -> Real:
         """Return the part of the way that nodes miss before they join."""
         contact, last, nodes = self._contact, self._last, self._contact.nodes
-        touch = contact.problem.touch
+        touch = self._untouched.touch
         if last is None or not last.contact.nodes.size:
             before = touch if last is None else min(last.contact.depth, contact.depth)
-            gap = contact.separation.ravel()[nodes] - before
+            gap = self._untouched.separation.ravel()[nodes] - before
         else:
             before = last.contact.depth
             gap = np.zeros(nodes.size)
@@ -301,7 +311,7 @@ class _Step:
                 return np.zeros(2)
             return np.asarray(np.linalg.solve(stiffness, force - before), np.float64)
         pushed = contact.force - (0.0 if last is None else last.contact.force)
-        nearer = contact.depth - (contact.problem.touch if last is None else last.contact.depth)
+        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
         factor = contact.problem.grid.half_space.even_shear[1]
         rigid = self._rigid
         if pushed > 0 and nearer > 0:
@@ -317,7 +327,7 @@ class _Step:
         contact, missed = self._contact, self._missed[:, np.newaxis]
         rigid, last = self._rigid, self._last
         pushed = contact.force - (0.0 if last is None else last.contact.force)
-        nearer = contact.depth - (contact.problem.touch if last is None else last.contact.depth)
+        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
         growth = pushed / (rigid * nearer) if rigid * nearer > 0 else 1.0
         slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
         start, level, before = self._start, way, None
