@@ -21,7 +21,7 @@ from math import cosh, exp, log, tanh
 
 from roughline.exact._checks import positive
 
-_NEAREST, _FARTHEST = -340.0, log(35.0)  # of ln(artanh(c / a)): 0 and 1 to rounding
+_LOWEST_LOGARITHM, _HIGHEST_LOGARITHM = -340.0, log(35.0)  # of ln(artanh(c / a)): 0 and 1 to rounding
 
 
 def disc_stick_ratio(friction: float, beta: float) -> float:
@@ -80,6 +80,6 @@ def _ratio_where(excess: Callable[[float, float, float, float], float]) -> float
         k = tanh(artanh)
         return excess(artanh, k, float(ellipkm1(cosh(artanh) ** -2)), float(ellipkm1(k**2)))
 
-    if at(_FARTHEST) <= 0:
+    if at(_HIGHEST_LOGARITHM) <= 0:
         return 1.0
-    return tanh(exp(float(brentq(at, _NEAREST, _FARTHEST, xtol=1e-15, rtol=1e-14))))
+    return tanh(exp(float(brentq(at, _LOWEST_LOGARITHM, _HIGHEST_LOGARITHM, xtol=1e-15, rtol=1e-14))))

@@ -40,7 +40,7 @@ from roughline.exact.goodman import disc_stick_ratio
 _NODES_PER_PANEL = 8
 _PANEL_RATIO = 0.4  # of neighbours, towards c and towards the edge
 _LARGEST_RATIO = 1 - 1e-5  # of c and a; closer, panels at the edge are lost to rounding
-_NEAR = 4.0  # half-lengths of a panel within which its Cauchy integrals take Legendre's Q
+_LEGENDRE_REACH = 4.0  # half-lengths of a panel within which its Cauchy integrals take Legendre's Q
 
 _X, _W = np.polynomial.legendre.leggauss(_NODES_PER_PANEL)
 # rows: coefficients of Legendre polynomials of values at the nodes
@@ -224,7 +224,7 @@ def _cauchy(edges: Real, at: Real) -> Real:
     columns = []
     for start, end in pairwise(edges):
         y = (2 * at - start - end) / (end - start)
-        close = np.abs(y) < _NEAR
+        close = np.abs(y) < _LEGENDRE_REACH
         Q = [np.log(np.abs((1 + y[close]) / (1 - y[close]))) / 2]
         Q.append(y[close] * Q[0] - 1)
         for n in range(2, _NODES_PER_PANEL):
