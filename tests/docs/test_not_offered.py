@@ -34,8 +34,7 @@ SUBJECTS = {
 """Subjects of the page, with the words by which their readers search."""
 OFFERED = re.compile(
     r"delamin|debond|viscoel|loss_mod"
-    r"|lubric|wear|archard|temperature|heating|impact|damping|anisotrop|hardening"
-    r"|slid",
+    r"|lubric|wear|archard|temperature|heating|impact|damping|anisotrop|hardening",
     re.IGNORECASE,
 )
 """What a name would be called that offers one of them: then the page has to change."""

@@ -35,7 +35,7 @@ class SlidingLineCurve(LineCurve):
     Those of :class:`~roughline.LineCurve`, and what follows of friction, as a
     :class:`~roughline.SlidingCurve` has it. All is exact where Poisson's ratio is zero, for any
     history of loads whose shear is along one line. With other ratios shear is not quite along the
-    slide where springs slip, and slides are within 1 % of the exact ones.
+    slide where springs slip, and slides of a ball are too large by up to 0.3 %.
 
     Attributes
     ----------

@@ -21,7 +21,10 @@ from math import cosh, exp, log, tanh
 
 from roughline.exact._checks import positive
 
-_LOWEST_LOGARITHM, _HIGHEST_LOGARITHM = -340.0, log(35.0)  # of ln(artanh(c / a)): 0 and 1 to rounding
+_LOWEST_LOGARITHM, _HIGHEST_LOGARITHM = (
+    -340.0,
+    log(35.0),
+)  # of ln(artanh(c / a)): 0 and 1 to rounding
 
 
 def disc_stick_ratio(friction: float, beta: float) -> float:
@@ -82,4 +85,6 @@ def _ratio_where(excess: Callable[[float, float, float, float], float]) -> float
 
     if at(_HIGHEST_LOGARITHM) <= 0:
         return 1.0
-    return tanh(exp(float(brentq(at, _LOWEST_LOGARITHM, _HIGHEST_LOGARITHM, xtol=1e-15, rtol=1e-14))))
+    return tanh(
+        exp(float(brentq(at, _LOWEST_LOGARITHM, _HIGHEST_LOGARITHM, xtol=1e-15, rtol=1e-14)))
+    )
