@@ -2,9 +2,9 @@
 How much does a ball dissipate that is shaken sideways?
 =======================================================
 
-Under a shear that goes back and forth, the rim of a ball's contact slips, and force over slide is a
-loop (Mindlin and Deresiewicz). Its area is what a cycle dissipates. Where the normal force rises and
-falls with the shear, or against it, the loop is narrower, and its middle moves.
+Under a shear that goes back and forth, the rim of a ball's contact slips, and force over slide is
+a loop (Mindlin and Deresiewicz). Its area is what a cycle dissipates. Where the normal force rises
+and falls with the shear, or against it, the loop is narrower, and its middle moves.
 """
 
 import numpy as np
