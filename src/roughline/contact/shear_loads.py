@@ -150,6 +150,10 @@ def _refuse_half_space(half_space: HalfSpace) -> None:
             f"half_space is {half_space.boundary}, and friction is solved on one that is free or "
             "periodic along both axes: give periodic=True or False"
         )
+    if not any(half_space.repeats):  # which is refused if it does not know its kernel
+        half_space.shear_kernel(
+            0, (1.0, 1.0), (np.empty((1, 1)), np.empty((1, 1)), np.empty((1, 1)))
+        )
 
 
 def checked_vectors(name: str, given: Any) -> Real:

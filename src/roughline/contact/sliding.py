@@ -21,7 +21,8 @@ class SlidingCurve(SurfaceCurve):
     """Contact quantities of a surface that is pressed and sheared, over its loads.
 
     Those of :class:`~roughline.SurfaceCurve`, and what follows of friction. Vectors are along x and
-    y of the surface.
+    y of the surface. Where pressure displaces along the surface, as between two materials, no
+    stiffness is known, and all of them are NaN.
 
     Attributes
     ----------

@@ -363,7 +363,7 @@ class _Step:
         converged = residual <= self._method.rtol
         sticks = ~_slips(found, self._bound, self._exact.diagonal)
         tangents = None
-        if converged:
+        if converged and not self._contact.problem.grid.half_space.is_coupled:
             tangents = shear_tangents(
                 self._operators, self._contact, found.shear, sticks, self._method
             )
