@@ -24,7 +24,7 @@ from functools import cached_property
 import numpy as np
 
 from roughline.computing.arrays import InGrid, Mask, Real
-from roughline.halfspace.friction.discs import Discs, DiscSearch, Sheared
+from roughline.halfspace.friction.discs import Discs, DiscSearch, Linear, Sheared
 from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.friction.tangents import ShearTangents, shear_tangents
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
@@ -39,6 +39,7 @@ _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no mor
 _MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
 _LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
 _MOST_TURNS = 40  # of corrections by the exact operator
+_TURN_SHARE = 0.1  # of what the rough operator leaves wrong, to which it is solved with
 _MOST_ALTERNATIONS = 60  # between pressures and shear
 _ALTERNATION_SHARE = 0.3  # of the tolerance, to which both agree
 
@@ -137,7 +138,7 @@ class SlidePath:
             contact = self._path.under(load)
         if contact.outcome is not Outcome.CONVERGED:
             return _unknown(contact, contact.outcome)
-        if contact.response is None:
+        if contact.response is None or not contact.nodes.size:
             return _apart(contact, shear, last)
         return _Step(self._bodies, contact, last).under(shear)
 
@@ -162,6 +163,8 @@ class SlidePath:
             contact = replace(contact, load=load)
             if contact.outcome is not Outcome.CONVERGED:
                 return _unknown(contact, contact.outcome)
+            if not contact.nodes.size:
+                return _apart(replace(contact, problem=problem), shear, last)
             step = _Step(self._bodies, contact, last, state)
             found = step.under(shear)
             convolutions += step.convolutions
@@ -260,7 +263,7 @@ class _Step:
         contact, last, nodes = self._contact, self._last, self._contact.nodes
         touch = self._untouched.touch
         if last is None or not last.contact.nodes.size:
-            before = touch if last is None else min(last.contact.depth, contact.depth)
+            before = touch if last is None else last.contact.depth
             gap = self._untouched.separation.ravel()[nodes] - before
         else:
             before = last.contact.depth
@@ -301,12 +304,19 @@ class _Step:
         radius = math.sqrt(contact.nodes.size * self._area / math.pi)
         return contact.problem.grid.half_space.disc_stiffness(radius)
 
+    @property
+    def _back(self) -> Real | None:
+        """The tangent of turning back, where it is known of the same contact."""
+        last = self._last
+        if last is None or last.tangents is None or last.contact.load != self._contact.load:
+            return None
+        return last.tangents.back
+
     def _guessed_way(self, force: Real) -> Real:
         """Return about how far the indenter slides: as it comes nearer, along a straight path."""
-        contact, last = self._contact, self._last
+        contact, last, stiffness = self._contact, self._last, self._back
         before = np.zeros(2) if last is None else last.force
-        if last is not None and last.tangents is not None and last.contact.load == contact.load:
-            stiffness = last.tangents.back
+        if stiffness is not None:
             if not np.isfinite(stiffness).all():  # full contact, without a mean
                 return np.zeros(2)
             return np.asarray(np.linalg.solve(stiffness, force - before), np.float64)
@@ -365,7 +375,7 @@ class _Step:
         tangents = None
         if converged and not self._contact.problem.grid.half_space.is_coupled:
             tangents = shear_tangents(
-                self._operators, self._contact, found.shear, sticks, self._method
+                self._operators, self._contact, found.shear, sticks, self._method, self._back
             )
             self.convolutions += tangents.convolutions
         return Slid(
@@ -417,8 +427,12 @@ class _Operators:
         self.convolutions += 2
         return self._exact.displacement(shear, self.nodes, self.nodes)
 
-    def rough(self, shear: Real) -> Real:
-        """Return the displacements as if shear along and across displaced alike, and roughly."""
+    @property
+    def rough(self) -> Linear | None:
+        """Displacements as if shear along and across displaced alike, and roughly."""
+        return None if self._restricted is None else self._roughly
+
+    def _roughly(self, shear: Real) -> Real:
         assert self._restricted is not None
         moved = np.empty_like(shear)
         for axis in range(2):
@@ -443,7 +457,7 @@ class _Operators:
         self.convolutions = 0
         first = Sheared(start, level, start, start, math.inf, 0.0)
         exact = DiscSearch(self.exact, self.inverse)
-        if self._restricted is None:
+        if self.rough is None:
             return exact.found(discs, first, tolerance=tolerance)
         rough = DiscSearch(self.rough, self.inverse)
         shear, before = discs.within(start), math.inf
@@ -454,8 +468,10 @@ class _Operators:
             if now.residual > 0.7 * before:
                 break
             before = now.residual
-            corrected = replace(discs, target=discs.target - now.displacement + self.rough(shear))
-            aim = max(0.3 * tolerance, 0.05 * now.residual)
+            corrected = replace(
+                discs, target=discs.target - now.displacement + rough.operator(shear)
+            )
+            aim = max(0.3 * tolerance, _TURN_SHARE * now.residual)
             better = rough.found(corrected, now, tolerance=aim)
             shear, level = better.shear, better.level
         return exact.found(discs, replace(first, shear=shear, level=level), tolerance=tolerance)
