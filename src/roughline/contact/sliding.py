@@ -21,8 +21,9 @@ class SlidingCurve(SurfaceCurve):
     """Contact quantities of a surface that is pressed and sheared, over its loads.
 
     Those of :class:`~roughline.SurfaceCurve`, and what follows of friction. Vectors are along x and
-    y of the surface. Where pressure displaces along the surface, as between two materials, no
-    stiffness is known, and all of them are NaN.
+    y of the surface. Where pressure displaces along the surface, as between two materials,
+    `stiffness` is that under a constant shear force, and the tangential ones are those under a
+    constant force.
 
     Attributes
     ----------

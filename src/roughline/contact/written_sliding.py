@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -84,13 +84,7 @@ class WrittenSliding:
             self._kept[load] = shear, slipped, self._total.copy(), sticks
 
     def extended(self, curve: SurfaceCurve) -> SlidingCurve:
-        """Return a curve with what friction adds, NaN where it was not solved.
-
-        Of bodies that are coupled the normal stiffness depends on what slips, and is not known.
-        """
-        if curve.half_space.is_coupled:
-            unknown = np.full_like(curve.stiffness, np.nan)
-            curve = replace(curve, stiffness=unknown, unloading_stiffness=unknown.copy())
+        """Return a curve with what friction adds, NaN where it was not solved."""
         for values in (*self._vectors.values(), *self._tensors.values(), *self._numbers.values()):
             solved = curve.converged | (curve.status == Status.SLIDES)
             values[~solved] = np.nan

@@ -97,6 +97,21 @@ class Friction:
             bears = np.minimum(bears, _at(self.strength, nodes))
         return bears
 
+    def slope(self, pressure: Real, nodes: Indices) -> Real:
+        """Return how much more shear nodes bear under more pressure. [1]
+
+        Parameters
+        ----------
+        pressure, nodes
+            As of :meth:`bound`.
+        """
+        if self.coefficient is None:
+            return np.zeros(pressure.size)
+        slope = np.broadcast_to(_at(self.coefficient, nodes), pressure.shape)
+        if self.strength is None:
+            return slope.copy()
+        return np.where(slope * pressure < _at(self.strength, nodes), slope, 0.0)
+
     def scaled(self, pressure: float) -> Friction:
         """Return the same friction where pressures are in another unit."""
         strength: Any = self.strength

@@ -26,13 +26,14 @@ import numpy as np
 from roughline.computing.arrays import InGrid, Mask, Real
 from roughline.halfspace.friction.discs import Discs, DiscSearch, Linear, Sheared
 from roughline.halfspace.friction.law import Friction
-from roughline.halfspace.friction.tangents import ShearTangents, shear_tangents
+from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangents, shear_tangents
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
 from roughline.halfspace.search.path import LoadPath, known, settled
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
+from roughline.halfspace.search.response import Response
 from roughline.halfspace.search.tangent import response
 
 _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
@@ -156,8 +157,8 @@ class SlidePath:
             lift = self._lift(*state, everywhere)
         for _ in range(_MOST_ALTERNATIONS):
             bodies = replace(problem, separation=problem.separation + lift)
-            if contact := known(bodies, load):
-                return _apart(replace(contact, problem=problem, load=load), shear, last)
+            if apart := known(bodies, load):
+                return _apart(replace(apart, problem=problem, load=load), shear, last)
             contact, window = settled(bodies, load, start, self._method)
             convolutions += contact.convolutions
             contact = replace(contact, load=load)
@@ -190,7 +191,10 @@ class SlidePath:
             ),
             response=answer,
         )
-        return replace(found, contact=contact, convolutions=convolutions + answer.convolutions)
+        tangents, stiffness = step.coupled_tangents(found)
+        contact = replace(contact, response=_with_stiffness(answer, stiffness))
+        convolutions += answer.convolutions + tangents.convolutions
+        return replace(found, contact=contact, convolutions=convolutions, tangents=tangents)
 
     def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
         """Return how shear displaces all of the grid into the body."""
@@ -223,7 +227,7 @@ class _Step:
     ) -> None:
         grid, exact = bodies.problem.grid, bodies.exact
         self._exact, self._method, self._contact, self._last = exact, bodies.method, contact, last
-        self._untouched = bodies.problem
+        self._untouched, self._friction = bodies.problem, bodies.friction
         self._nodes = nodes = grid.nodes(contact.nodes)
         self._bound = bodies.friction.bound(contact.pressure, contact.nodes)
         self._operators = _Operators(exact, grid, nodes)
@@ -294,6 +298,13 @@ class _Step:
             found = self._solved(self._moved_before, total, way, self._start, tolerance)
             return self._state(found, found.level, limit)
         return self._state(*self._joined(total, way, tolerance), limit)
+
+    def coupled_tangents(self, found: Slid) -> tuple[ShearTangents, tuple[float, float]]:
+        """Return the tangents of bodies that are coupled, and the normal stiffness on both."""
+        contact, friction = self._contact, self._friction
+        slope = friction.slope(contact.pressure, contact.nodes)
+        state = found.shear, found.sticks, slope
+        return coupled_tangents(self._operators, contact, state, self._method)
 
     @property
     def _rigid(self) -> float:
@@ -427,6 +438,16 @@ class _Operators:
         self.convolutions += 2
         return self._exact.displacement(shear, self.nodes, self.nodes)
 
+    def by_pressure(self, pressure: Real) -> Real:
+        """Return the displacements along the surface under pressure."""
+        self.convolutions += 2
+        return self._exact.by_pressure(pressure, self.nodes, self.nodes)
+
+    def into_body(self, shear: Real) -> Real:
+        """Return the displacements into the body under shear."""
+        self.convolutions += 2
+        return self._exact.into_body(shear, self.nodes, self.nodes)
+
     @property
     def rough(self) -> Linear | None:
         """Displacements as if shear along and across displaced alike, and roughly."""
@@ -475,6 +496,14 @@ class _Operators:
             better = rough.found(corrected, now, tolerance=aim)
             shear, level = better.shear, better.level
         return exact.found(discs, replace(first, shear=shear, level=level), tolerance=tolerance)
+
+
+def _with_stiffness(answer: Response, stiffness: tuple[float, float]) -> Response:
+    """Return how a contact answers, with the stiffness of bodies that are coupled."""
+    on, back = stiffness
+    return Response(
+        replace(answer.loading, stiffness=on), replace(answer.unloading, stiffness=back)
+    )
 
 
 def _unknown(contact: Contact, outcome: Outcome) -> Slid:
