@@ -22,7 +22,11 @@ SUBJECTS = {
     "Adhesion of bodies that yield, and other laws of attraction": ("Adhesion", "Tamaas"),
     "Sheets, and layers that slip or come off": ("bonded", "finite elements"),
     "Rubber that recedes": ("viscoelastic", "loss modulus", "unloading", "Tamaas"),
-    "Friction on strips and layers": ("sliding", "hysteresis", "ASPHER"),
+    "Friction on strips and layers, of bodies that yield or stick": (
+        "sliding",
+        "hysteresis",
+        "ASPHER",
+    ),
     "Lubrication": ("EHL", "oil"),
     "Wear": ("Archard", "running-in"),
     "Heat and temperature": ("frictional heating", "flash temperature"),
