@@ -18,7 +18,7 @@ import roughline as rl
 from roughline import campaign, plot
 from roughline.cli import app
 from roughline.cli.help import PanelsFirst
-from roughline.contact.quantities import OF_SLIDING, QUANTITIES
+from roughline.contact.quantities import QUANTITIES, SLIDING_QUANTITIES
 from roughline.engineering import formulas, leak
 from roughline.engineering.described import chemical_formulas
 from roughline.engineering.fluids import fluids
@@ -303,7 +303,7 @@ def page_of_quantities() -> str:
             each.dimension or "",
             ", ".join(each.dims),
         )
-        for each in (*QUANTITIES.values(), *OF_SLIDING)
+        for each in (*QUANTITIES.values(), *SLIDING_QUANTITIES)
     ]
     header = ("name", "symbol", "meaning", "unit", "over")
     return f"# Output quantities of a curve\n\n{table(header, rows)}"

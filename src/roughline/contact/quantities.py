@@ -286,7 +286,7 @@ _DECLARED = (
 _VECTORS, _TENSORS = ("load", "axis"), ("load", "axis", "moved_axis")
 _of_friction = partial(Quantity, of_lines=False)
 
-OF_SLIDING = (
+SLIDING_QUANTITIES = (
     _of_friction("shear_force", "Q", "force", "total shear force on the half-space", dims=_VECTORS),
     _of_friction("slide", r"\delta", "length", "slide of the rough body", dims=_VECTORS),
     _of_friction(

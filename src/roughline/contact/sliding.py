@@ -10,7 +10,7 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.fields import Fields
-from roughline.contact.quantities import OF_SLIDING
+from roughline.contact.quantities import SLIDING_QUANTITIES
 from roughline.errors.public import public
 from roughline.halfspace.friction.law import Friction
 
@@ -63,7 +63,7 @@ class SlidingCurve(SurfaceCurve):
 
     def _variables(self) -> dict[str, Any]:
         variables = super()._variables()
-        for each in OF_SLIDING:
+        for each in SLIDING_QUANTITIES:
             kept = [one for one in self.fields if one is not None]
             if "x" not in each.dims:
                 values = getattr(self, each.attribute)

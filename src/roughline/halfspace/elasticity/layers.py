@@ -83,7 +83,7 @@ def _climb_twisted(
 @compiled
 def _climb(
     waves: Floats,
-    others: Floats,
+    others: Floats,  # displacements along the surface by shear and by pressure, if there is room
     soft: Real,
     poisson: Real,
     thickness: Real,
@@ -91,9 +91,6 @@ def _climb(
     base_poisson: float,
 ) -> None:
     """Carry the compliance of the base up through the layers, and write it over each wavenumber.
-
-    The others, where there is room for them, are the displacements along the surface by shear and
-    by pressure.
 
     The wave has the displacements u sin(q x) along x and w cos(q x) into the body, the shear stress
     T sin(q x) and the stress N cos(q x), both over q. Terms a and b of what decays downwards give,

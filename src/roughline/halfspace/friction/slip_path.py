@@ -141,7 +141,7 @@ class SlidePath:
             return _unknown(contact, contact.outcome)
         if contact.response is None or not contact.nodes.size:
             return _apart(contact, shear, last)
-        return _Step(self._bodies, contact, last).under(shear)
+        return _SlideStep(self._bodies, contact, last).under(shear)
 
     def _coupled(self, load: Load, shear: ShearLoad) -> Slid:
         """Find pressures under the last shear, and shear under these, in turn [2]_.
@@ -166,7 +166,7 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            step = _Step(self._bodies, contact, last, state)
+            step = _SlideStep(self._bodies, contact, last, state)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -215,7 +215,7 @@ def slide_path(
         yield path.under(load, shear)
 
 
-class _Step:
+class _SlideStep:
     """The step from the last state to the next one, whose normal contact is known."""
 
     def __init__(
@@ -238,7 +238,7 @@ class _Step:
         self._moved_before, self._start = self._before()
         if start is not None:
             self._start = _on(contact.nodes, *start)
-        self._missed = self._missed_share()
+        self._late = self._share_before_contact()
         strength = float(self._bound.sum()) / float(contact.pressure.sum())
         self._scale = contact.length_scale * strength
 
@@ -262,7 +262,7 @@ class _Step:
             moved += self._exact.by_pressure(before.pressure, sources, self._nodes)
         return moved - self._pushed, shear
 
-    def _missed_share(self) -> Real:
+    def _share_before_contact(self) -> Real:
         """Return the part of the way that nodes miss before they join."""
         contact, last, nodes = self._contact, self._last, self._contact.nodes
         touch = self._untouched.touch
@@ -285,7 +285,7 @@ class _Step:
         tolerance = self._method.rtol * self._scale
         if load.slide is not None:
             way = np.array(load.slide) - self._slide_before
-            target = self._moved_before + (1 - self._missed)[:, np.newaxis] * way
+            target = self._moved_before + (1 - self._late)[:, np.newaxis] * way
             found = self._solved(target, None, np.zeros(2), self._start, tolerance)
             return self._state(found, way, limit)
         assert load.force is not None
@@ -294,7 +294,7 @@ class _Step:
             return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
         total = force / self._area
         way = self._guessed_way(force)
-        if not self._missed.any():
+        if not self._late.any():
             found = self._solved(self._moved_before, total, way, self._start, tolerance)
             return self._state(found, found.level, limit)
         return self._state(*self._joined(total, way, tolerance), limit)
@@ -345,7 +345,7 @@ class _Step:
         The way that they miss follows from the way that is found: a fixed point of two numbers, by
         Broyden's method. It begins with the slope that it has where all of the contact sticks.
         """
-        contact, missed = self._contact, self._missed[:, np.newaxis]
+        contact, late = self._contact, self._late[:, np.newaxis]
         rigid, last = self._rigid, self._last
         pushed = contact.force - (0.0 if last is None else last.contact.force)
         nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
@@ -353,7 +353,7 @@ class _Step:
         slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
         start, level, before = self._start, way, None
         for _ in range(_MOST_GUESSES):
-            target = self._moved_before - missed * way
+            target = self._moved_before - late * way
             found = self._solved(target, total, level, start, tolerance)
             start, level = found.shear, found.level
             off = way - found.level

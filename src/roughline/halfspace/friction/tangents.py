@@ -37,7 +37,7 @@ class ShearTangents:
     convolutions: int = 0
 
 
-class Maps(Protocol):
+class ShearMaps(Protocol):
     """How shear displaces the nodes: exactly, roughly, and about how that is undone."""
 
     def exact(self, shear: Real) -> Real:
@@ -52,7 +52,7 @@ class Maps(Protocol):
 
 
 def shear_tangents(
-    maps: Maps,
+    maps: ShearMaps,
     contact: Contact,
     shear: Real,
     sticks: Mask,
@@ -77,7 +77,7 @@ def shear_tangents(
     return ShearTangents(grid.cell_area * found, back, spent + more)
 
 
-class CoupledMaps(Maps, Protocol):
+class CoupledMaps(ShearMaps, Protocol):
     """The same of bodies in which pressure displaces along the surface, and shear into the body."""
 
     nodes: GridNodes
@@ -192,7 +192,7 @@ class _CoupledStuck:
 class _Stuck:
     """A contact of which some nodes follow a slide along the rims of their discs alone."""
 
-    def __init__(self, maps: Maps, slips: Indices, rim: Real) -> None:
+    def __init__(self, maps: ShearMaps, slips: Indices, rim: Real) -> None:
         self._maps, self._slips, self._rim, self._there = maps, slips, rim, rim[slips]
 
     def _allowed(self, vectors: Real) -> Real:
