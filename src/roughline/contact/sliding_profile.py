@@ -10,7 +10,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.contact.curve import LineCurve
 from roughline.contact.loads import GivenLoads
-from roughline.contact.quantities import OF_SLIDING
+from roughline.contact.quantities import SLIDING_QUANTITIES
 from roughline.contact.revolution import press_profile
 from roughline.contact.shear_loads import GivenShear, ShearLoads
 from roughline.errors import InputError
@@ -77,7 +77,7 @@ class SlidingLineCurve(LineCurve):
 
     def _variables(self) -> dict[str, Any]:
         variables = super()._variables()
-        for each in OF_SLIDING:
+        for each in SLIDING_QUANTITIES:
             if "x" not in each.dims:
                 values = getattr(self, each.attribute)
                 variables[each.name] = (each.dims, values, each.attributes(self.unit))
