@@ -115,12 +115,12 @@ class Homogeneous(HalfSpace):
 
     def shear_spectrum(self, q: Real) -> tuple[Real, Real]:
         """Return 2 / (E* q), and 1 + n of it across."""
-        along = 2 / (self.E_star * q)
+        along = self.spectrum(q)
         return along, (1 + self._n) * along
 
     def coupling_spectrum(self, q: Real) -> Real:
         """Return 2 beta / (E* q)."""
-        return 2 * self.beta / (self.E_star * q)
+        return self.beta * self.spectrum(q)
 
     def shear_kernel(
         self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real, Real]

@@ -49,7 +49,7 @@ def shear_compliance(
     an elastic base, and pressure does not. [length / pressure]
     """
     young, poisson, thickness = layers
-    soft, base_soft = (1 + poisson) / young, (1 + base_poisson) / base_young
+    base_soft, soft = (1 + base_poisson) / base_young, (1 + poisson) / young
     waves = np.array(q, dtype=np.float64).reshape(-1)
     others, across = np.zeros((2, waves.size)), np.zeros(waves.size)
     _climb_twisted(waves, soft, thickness, base_soft, across)
@@ -74,8 +74,9 @@ def _climb_twisted(
         if q == 0:
             continue
         c = 2 * base_soft / q
-        for j in range(thickness.size - 1, -1, -1):
-            stiff, t = q / (2 * soft[j]), np.tanh(q * thickness[j])
+        for above in range(thickness.size):
+            j = thickness.size - 1 - above
+            stiff, t = q / (2 * soft[j]), np.tanh(thickness[j] * q)
             c = (c * stiff + t) / (1 + c * stiff * t) / stiff
         across[i] = c
 
