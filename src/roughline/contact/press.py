@@ -190,8 +190,9 @@ def press(
     -------
     SurfaceCurve or LineCurve
         Depth, force and exact stiffness for each load. Of a surface also the stiffness on
-        unloading, the real contact area, how much yields, the indentation and the work. A line and
-        a profile give a :class:`~roughline.LineCurve`, which has no fields.
+        unloading, the real contact area, how much yields, the indentation and the work; with
+        friction it is a :class:`~roughline.SlidingCurve`. A line and a profile give a
+        :class:`~roughline.LineCurve`, which has no fields.
 
     Raises
     ------

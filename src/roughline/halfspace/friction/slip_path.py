@@ -353,7 +353,7 @@ class _SlideStep:
         slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
         start, level, before = self._start, way, None
         for _ in range(_MOST_GUESSES):
-            target = self._moved_before - late * way
+            target, way_taken = self._moved_before - late * way, way
             found = self._solved(target, total, level, start, tolerance)
             start, level = found.shear, found.level
             off = way - found.level
@@ -364,7 +364,9 @@ class _SlideStep:
                 slope = slope + np.outer(change - slope @ step, step) / float(step @ step)
             before = way, off
             way = way - np.linalg.lstsq(slope, off, rcond=None)[0]
-        return found, found.level
+        # what the joining nodes miss of the way is off by as much
+        residual = max(found.residual, float(np.abs(way_taken - found.level).max()))
+        return replace(found, residual=residual), found.level
 
     def _solved(
         self, target: Real, total: Real | None, level: Real, start: Real, tolerance: float
