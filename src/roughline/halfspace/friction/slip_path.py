@@ -40,8 +40,9 @@ _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no mor
 _MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
 _LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
 _MOST_TURNS = 40  # of corrections by the exact operator
-_TURN_SHARE = 0.1  # of what the rough operator leaves wrong, to which it is solved with
+_TURN_SHARE = 0.1  # of what is wrong before a turn, to which it is solved
 _MOST_ALTERNATIONS = 60  # between pressures and shear
+_ROUGHEST_TURN = 1e-2  # tolerance of the first of them
 _ALTERNATION_SHARE = 0.3  # of the tolerance, to which both agree
 
 
@@ -146,7 +147,8 @@ class SlidePath:
     def _coupled(self, load: Load, shear: ShearLoad) -> Slid:
         """Find pressures under the last shear, and shear under these, in turn [2]_.
 
-        Shear displaces into the body as if that had another shape.
+        Shear displaces into the body as if that had another shape. Both are solved as well as they
+        agree, and to the tolerance in the end.
         """
         last, problem = self._last, self._problem
         everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
@@ -155,31 +157,33 @@ class SlidePath:
             start = last.contact.contact_set
             state = last.contact.nodes, last.shear
             lift = self._lift(*state, everywhere)
+        rtol, error = self._method.rtol, 1.0
         for _ in range(_MOST_ALTERNATIONS):
+            aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
+            method = replace(self._method, rtol=aim)
             bodies = replace(problem, separation=problem.separation + lift)
             if apart := known(bodies, load):
                 return _apart(replace(apart, problem=problem, load=load), shear, last)
-            contact, window = settled(bodies, load, start, self._method)
+            contact, window = settled(bodies, load, start, method)
             convolutions += contact.convolutions
             contact = replace(contact, load=load)
             if contact.outcome is not Outcome.CONVERGED:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, state)
+            step = _SlideStep(self._bodies, contact, last, state, aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
                 return found
             start, state = contact.contact_set, (contact.nodes, found.shear)
             change = self._lift(*state, everywhere) - lift
-            lift, moved = lift + change, float(np.abs(change).max())
-            if moved <= _ALTERNATION_SHARE * self._method.rtol * contact.length_scale:
+            lift, error = lift + change, float(np.abs(change).max()) / contact.length_scale
+            if aim <= rtol and error <= _ALTERNATION_SHARE * rtol:
                 break
         else:
             return _unknown(contact, Outcome.MAX_ITERATIONS)
         answer = response(contact, window, None, self._method)
-        off = moved / contact.length_scale
         residuals = contact.residuals
         contact = replace(
             contact,
@@ -187,7 +191,7 @@ class SlidePath:
             looked_at=None,
             gaps=(contact.gap + change).ravel(),
             residuals=replace(
-                residuals, gap=residuals.gap + off, penetration=residuals.penetration + off
+                residuals, gap=residuals.gap + error, penetration=residuals.penetration + error
             ),
             response=answer,
         )
@@ -224,9 +228,11 @@ class _SlideStep:
         contact: Contact,
         last: Slid | None,
         start: tuple[InGrid, Real] | None = None,
+        rtol: float | None = None,
     ) -> None:
         grid, exact = bodies.problem.grid, bodies.exact
-        self._exact, self._method, self._contact, self._last = exact, bodies.method, contact, last
+        self._exact, self._contact, self._last = exact, contact, last
+        self._method = replace(bodies.method, rtol=rtol or bodies.method.rtol)
         self._untouched, self._friction = bodies.problem, bodies.friction
         self._nodes = nodes = grid.nodes(contact.nodes)
         self._bound = bodies.friction.bound(contact.pressure, contact.nodes)
