@@ -44,6 +44,22 @@ class SlidingCurve(SurfaceCurve):
         Largest shear force that friction bears; beyond it bodies slide. [force]
     dissipated : ndarray, shape (loads,)
         Energy that slip has dissipated since the load before. [energy]
+
+    Notes
+    -----
+    A point that stops slipping within a load ends it at what it bears, and counts as slipping.
+    Where pressure displaces along the surface, a contact that grows depends on how finely the loads
+    are cut: press with half as many to see by how much.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
+    >>> body, shears = rl.Homogeneous(1.0, poisson=0.3), rl.cycle(2e-3, per_cycle=4, cycles=1)
+    >>> asked = {"friction": rl.Friction(0.3), "forces": [0.01] * len(shears)}
+    >>> curve = rl.press(surface, half_space=body, shear_forces=shears, **asked)
+    >>> print((1e3 * curve.slide[:, 0]).round(3), curve.stick_fraction.round(2))
+    [ 0.     4.062  0.376 -4.062 -0.376  4.062] [1.   0.36 0.71 0.36 0.71 0.36]
     """
 
     friction: Friction = field(repr=False)
