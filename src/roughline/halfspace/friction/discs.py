@@ -83,9 +83,7 @@ class DiscSearch:
     operator: Linear
     inverse: Linear
 
-    def found(
-        self, discs: Discs, start: Sheared, *, tolerance: float, share: float = 1e-12
-    ) -> Sheared:
+    def found(self, discs: Discs, start: Sheared, *, tolerance: float, share: float) -> Sheared:
         """Return the shear on the discs, from a start of which shear and level count.
 
         It is within the tolerance [length], and its total within a share of the sum of all bounds;

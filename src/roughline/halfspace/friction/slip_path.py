@@ -41,6 +41,8 @@ _MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
 _LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
 _MOST_TURNS = 40  # of corrections by the exact operator
 _TURN_SHARE = 0.1  # of what is wrong before a turn, to which it is solved
+_ROUGH_SHARE = 0.3  # the same of a turn with the rough operator, which goes farther than that
+_TOTAL_SHARE = 0.01  # of the tolerance, to which the shear force is kept
 _MOST_ALTERNATIONS = 60  # between pressures and shear
 _ROUGHEST_TURN = 1e-2  # tolerance of the first of them
 _ALTERNATION_SHARE = 0.3  # of the tolerance, to which both agree
@@ -379,7 +381,8 @@ class _SlideStep:
     ) -> Sheared:
         """Return the shear on the discs, to the tolerance by the exact operator."""
         discs = Discs(self._bound, target, total, self._exact.diagonal)
-        found = self._operators.found(discs, start, level, tolerance)
+        share = _TOTAL_SHARE * self._method.rtol
+        found = self._operators.found(discs, (start, level), tolerance, share)
         self.convolutions += self._operators.convolutions
         return found
 
@@ -478,21 +481,23 @@ class _Operators:
         shear /= self._factor
         return shear
 
-    def found(self, discs: Discs, start: Real, level: Real, tolerance: float) -> Sheared:
-        """Return the shear on the discs, to the tolerance by the exact operator.
+    def found(
+        self, discs: Discs, start: tuple[Real, Real], tolerance: float, share: float
+    ) -> Sheared:
+        """Return the shear on the discs from one and a level, as :class:`DiscSearch` does.
 
         Where there is a rough operator, it is corrected for what it misses of the shear so far.
         """
-        self.convolutions = 0
-        first = Sheared(start, level, start, start, math.inf, 0.0)
+        self.convolutions, (shear, level) = 0, start
+        first = Sheared(shear, level, shear, shear, math.inf, 0.0)
         exact = DiscSearch(self.exact, self.inverse)
         if self.rough is None:
-            return exact.found(discs, first, tolerance=tolerance)
+            return exact.found(discs, first, tolerance=tolerance, share=share)
         rough = DiscSearch(self.rough, self.inverse)
-        shear, before = discs.within(start), math.inf
+        shear, before = discs.within(shear), math.inf
         for _ in range(_MOST_TURNS):
             now = discs.judged(shear, level, self.exact(shear))
-            if now.residual <= tolerance and now.missing <= 1e-12 * float(discs.bound.sum()):
+            if now.residual <= tolerance and now.missing <= share * float(discs.bound.sum()):
                 return now
             if now.residual > 0.7 * before:
                 break
@@ -500,10 +505,11 @@ class _Operators:
             corrected = replace(
                 discs, target=discs.target - now.displacement + rough.operator(shear)
             )
-            aim = max(0.3 * tolerance, _TURN_SHARE * now.residual)
-            better = rough.found(corrected, now, tolerance=aim)
+            aim = max(0.3 * tolerance, _ROUGH_SHARE * now.residual)
+            better = rough.found(corrected, now, tolerance=aim, share=share)
             shear, level = better.shear, better.level
-        return exact.found(discs, replace(first, shear=shear, level=level), tolerance=tolerance)
+        begun = replace(first, shear=shear, level=level)
+        return exact.found(discs, begun, tolerance=tolerance, share=share)
 
 
 def _with_stiffness(answer: Response, stiffness: tuple[float, float]) -> Response:
