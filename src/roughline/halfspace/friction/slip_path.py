@@ -31,7 +31,7 @@ from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
-from roughline.halfspace.search.path import LoadPath, known, settled
+from roughline.halfspace.search.path import LoadPath
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
 from roughline.halfspace.search.response import Response
 from roughline.halfspace.search.tangent import response
@@ -164,9 +164,7 @@ class SlidePath:
             aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
             method = replace(self._method, rtol=aim)
             bodies = replace(problem, separation=problem.separation + lift)
-            if apart := known(bodies, load):
-                return _apart(replace(apart, problem=problem, load=load), shear, last)
-            contact, window = settled(bodies, load, start, method)
+            contact, window = self._path.settled_from(start, bodies, load, method)
             convolutions += contact.convolutions
             contact = replace(contact, load=load)
             if contact.outcome is not Outcome.CONVERGED:

@@ -173,10 +173,32 @@ class LoadPath:
         self, load: Load, problem: Problem, method: Method, spent: int = 0
     ) -> tuple[Contact, GridWindow]:
         """Solve the contact of bodies with fixed bounds, in the window in which they can touch."""
+        most = method.max_iterations
         if contact := _known(problem, load, for_first_time=self._furthest is None):
             return contact, GridWindow.everywhere(problem)
-        start, self._start = self._start, None
-        return settled(problem, load, start, method, spent)
+        if load.force is not None:
+            load = Load(force=_attainable(load.force, problem))
+        if self._start is None:
+            self._start, problem = first_guess(problem, load)
+        window = GridWindow.of(problem, load, self._start)
+        while True:
+            method = replace(method, max_iterations=max(1, most - spent))
+            turns = window.turns(load, self._start, method)
+            self._start = None
+            contact = window.contact(turns)
+            spent += contact.convolutions
+            holds = window.holds(contact)
+            if holds or spent >= most:
+                outcome = contact.outcome if holds else Outcome.MAX_ITERATIONS
+                return replace(contact, outcome=outcome, convolutions=spent), window
+            self._start, window = contact.contact_set, GridWindow.everywhere(problem)
+
+    def settled_from(
+        self, start: ContactSet | None, problem: Problem, load: Load, method: Method
+    ) -> tuple[Contact, GridWindow]:
+        """Solve the contact of other bodies from a start, and return it with its window."""
+        self._start = start
+        return self._settled(load, problem, method)
 
     def _guesses(self, nodes: InGrid) -> tuple[Real, Real] | None:
         """Return dp/dF of the contact before, on loading and on unloading, on nodes of this one."""
@@ -208,33 +230,6 @@ class LoadPath:
         self._followed = among(contact.nodes, follows), loading, unloading
         tangent = answer.loading if load.value > contact.load.value else answer.unloading
         self._start = _predicted(contact, tangent, load)
-
-
-def settled(
-    problem: Problem, load: Load, start: ContactSet | None, method: Method, spent: int = 0
-) -> tuple[Contact, GridWindow]:
-    """Solve the contact of bodies with fixed bounds from a start, and return it with its window."""
-    most = method.max_iterations
-    if load.force is not None:
-        load = Load(force=_attainable(load.force, problem))
-    if start is None:
-        start, problem = first_guess(problem, load)
-    window = GridWindow.of(problem, load, start)
-    while True:
-        method = replace(method, max_iterations=max(1, most - spent))
-        turns = window.turns(load, start, method)
-        contact = window.contact(turns)
-        spent += contact.convolutions
-        holds = window.holds(contact)
-        if holds or spent >= most:
-            outcome = contact.outcome if holds else Outcome.MAX_ITERATIONS
-            return replace(contact, outcome=outcome, convolutions=spent), window
-        start, window = contact.contact_set, GridWindow.everywhere(problem)
-
-
-def known(problem: Problem, load: Load) -> Contact | None:
-    """Return the contact where it needs no search: bodies apart, or no finite pressures do."""
-    return _known(problem, load, for_first_time=True)
 
 
 def _under(problem: Problem, contact: Contact) -> ContactSet:
