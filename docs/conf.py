@@ -57,7 +57,6 @@ WIDE = (
         "small-peers-table",
         "speed-table",
         "lab-table",
-        "sessions-table",
         "memory-table",
         "permeance-table",
         "yielding-table",

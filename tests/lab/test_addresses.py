@@ -14,7 +14,6 @@ from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, control_texts, page_question
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import read_state as published_state
-from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
 NUMBERS = [each for key, each in explore.NUMBERS.items() if key != "seed"]
@@ -174,7 +173,3 @@ def test_links_of_version_0_2_0_are_read():
     assert question.friction == 0.3
     assert question.reading.channel == "0"
     assert question.preparation.points == 64
-
-
-def test_the_fewest_points_that_a_lab_may_allow_can_be_chosen():
-    assert min(map(int, explore.CHOICES["n"].options)) == LEAST_POINTS

@@ -33,8 +33,8 @@ LENGTH, E_STAR, HEIGHT = 1e-3, 110e9, 1e-6
 
 
 def arguments(state, folder=None, **others):
-    session = {"max_points": 1024, "folder": str(folder), "names": {}}
-    return {"state": state, "session": session, "crowded": False, **others}
+    session = {"folder": str(folder), "names": {}}
+    return {"state": state, "session": session, **others}
 
 
 def answer(task, state, **others):
@@ -154,10 +154,6 @@ def test_a_coarse_answer_has_the_waves_of_its_grid():
     assert header["points"] == 128
     assert header["is_coarse"]
     assert arrays["topography"].shape == (128, 128)
-    crowded, _ = unpacked(
-        pictures.coarse({**arguments(state), "crowded": True}, lambda done, total: None)
-    )
-    assert crowded["points"] == 64
 
 
 def test_periodic_contacts_are_those_of_the_library(surface):

@@ -67,7 +67,7 @@ def said(header):
 
 def refused(**changed):
     """Return the sentences of texts that are not used after the first state."""
-    session = {"max_points": 1024}
+    session = {}
     before = read_state(STICKS, 1024).texts()
     asked = {"state": {**before, **changed}, "before": before, "session": session}
     state, sentences = usable_state(asked)

@@ -13,13 +13,11 @@ from lab.test_explore import (
     LENGTH,
     SMALL,
     answer,
-    arguments,
     loads,
     numbers_in,
     saved,
     saved_is_shown,
 )
-from lab.unpacked import unpacked
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.reading import read_state
@@ -268,10 +266,3 @@ def test_a_saved_table_has_the_apertures_of_the_plot(tmp_path):
     rows = saved_is_shown({**FLOWS, "hardness_bar": "0.3"}, tmp_path, "hardness_bar", "fluid")
     wanted = {"curve", "here", "back", "theory_critical-junction", "theory_bruggeman"}
     assert {name for panel, name in rows if panel == "aperture"} >= wanted
-
-
-def test_a_crowd_has_its_flow_on_fewer_points_first():
-    crowded = {**arguments({**FLOWS, "n": "512"}), "crowded": True}
-    header, arrays = unpacked(pictures.coarse(crowded, lambda done, total: None))
-    assert header["points"] == 64
-    assert arrays["flux"].shape == (64, 64)

@@ -85,7 +85,7 @@ def test_what_cannot_be_used_is_refused_where_it_stands(said, at):
 
 def test_a_layer_that_a_coarser_grid_does_not_resolve_is_refused_at_what_was_changed():
     before = {"n": "512", "t": "0.002"}
-    asked = {"state": {"t": "0.002", "n": "64"}, "before": before, "session": {"max_points": 1024}}
+    asked = {"state": {"t": "0.002", "n": "64"}, "before": before, "session": {}}
     state, refused = usable_state(asked)
     assert list(refused) == ["n"]
     assert "half a cell" in refused["n"]

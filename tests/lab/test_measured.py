@@ -92,14 +92,13 @@ class Page:
             "folder": str(self.folder),
             "files": self.files,
             "names": self.names,
-            "max_points": 1024,
             "max_memory": 4e9,
         }
 
     def outcome(self, task, state, **others):
         if (key := state.get("example")) in EXAMPLES:
             self.example(key, self.folder / "results")
-        arguments = {"state": state, "session": self.session, "crowded": False, **others}
+        arguments = {"state": state, "session": self.session, **others}
         return run_task(
             TASKS[f"measured.{task}"],
             arguments,

@@ -16,11 +16,11 @@ from roughline.paper.stated import stated_exponents
 from roughline.paper.tables import constant_table, exponent_table, three_digits
 from roughline.paper.windows import Windows
 
-SESSION = {"names": {}, "files": {}, "max_points": 64}
+SESSION = {"names": {}, "files": {}}
 
 
 def outcome(task, said=None, **more):
-    arguments = {"state": said or {}, "session": SESSION, "crowded": False, **more}
+    arguments = {"state": said or {}, "session": SESSION, **more}
     return run_task(TASKS[f"published.{task}"], arguments, lambda done, total: None)
 
 

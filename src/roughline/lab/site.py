@@ -55,7 +55,7 @@ def site() -> Site:
     """Return the lab: its page, parts and tasks."""
     return Site(
         page=page,
-        login_page=_login_page,
+        door=_door,
         parts=Path(str(files("roughline.lab").joinpath("static"))),
         tasks=TASKS,
     )
@@ -83,10 +83,9 @@ def page() -> str:
     )
 
 
-def _login_page(asks_token: bool, complaint: str, leads_to: str) -> str:
-    """Return the page that asks for the token or password, with a word on what was wrong."""
-    template = _environment().get_template("login.html.jinja")
-    return template.render(asks_token=asks_token, complaint=complaint, leads_to=leads_to)
+def _door(complaint: str) -> str:
+    """Return the page that asks for the token, with a word on what was wrong."""
+    return _environment().get_template("door.html.jinja").render(complaint=complaint)
 
 
 @cache

@@ -35,14 +35,10 @@ from roughline.question.loading import UNLOADING
 from roughline.report.shading import shaded
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 
-_COARSE_POINTS, _COARSER_POINTS = 128, 64
-"""Points along a side while a slider moves, and when many ask at once."""
-_MOST_LINES, _LINES_AT_FIRST = 20, 5
-"""Lines whose mean stiffness stands for the reduced model, and when many ask at once."""
+_COARSE_POINTS = 128  # along a side while a slider moves
+_LINES = 20  # whose mean stiffness stands for the reduced model
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
-_FIRST_POINTS = 256  # points along a side that come before the full grid when many ask at once
-_LEAST_COARSE_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
 _CURVE_FORCES, _THEORY_FORCES = np.geomspace(1e-3, 3, 13), np.geomspace(1e-3, 3, 31)
 _LEAST_AXIS_RANGES = {"stiffness": (1e-3, 1.3), "area": (1e-4, 1.0)}
@@ -50,18 +46,14 @@ _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
 def reduced(arguments: Arguments, progress: Progress) -> bytes:
-    """Mean stiffness of lines over force, and at the load of the state.
-
-    In a crowd it is that of fewer lines first; the page asks for the others by "refines".
-    """
+    """Mean stiffness of lines over force, and at the load of the state."""
     state, refused = usable_state(arguments)
-    count = _LINES_AT_FIRST if _is_first_step(arguments) else _MOST_LINES
-    return _message(state, refused, line(state, count))
+    return _message(state, refused, line(state))
 
 
-def line(state: ExploreState, count: int = _MOST_LINES) -> dict[str, Any]:
-    """What the page has of so many lines."""
-    lines = _state_lines(state, count)
+def line(state: ExploreState) -> dict[str, Any]:
+    """What the page has of lines."""
+    lines = _state_lines(state, _LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(each, state, forces).stiffness_bar for each in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
@@ -72,27 +64,21 @@ def line(state: ExploreState, count: int = _MOST_LINES) -> dict[str, Any]:
     return {
         "panels": {"stiffness": filled},
         "stiffness_bar_1d": float(mean[here]),
-        "strip": line_words(state, float(mean[here]), count),
-        "is_coarse": count < _MOST_LINES,
+        "strip": line_words(state, float(mean[here]), _LINES),
     }
 
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
     state, refused = usable_state(arguments)
-    crowded = arguments["crowded"] and state.roll_off > _LEAST_COARSE_ROLL_OFF
-    n = state.points(_COARSER_POINTS if crowded else _COARSE_POINTS)
+    n = state.points(_COARSE_POINTS)
     return _message(state, refused, *contact(state, n, progress, is_coarse=True))
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
-    """The contact on the grid of the state.
-
-    In a crowd it is on fewer points first; the page asks for the full grid by "refines".
-    """
+    """The contact on the grid of the state."""
     state, refused = usable_state(arguments)
-    n = state.points(_FIRST_POINTS) if _is_first_step(arguments) else state.n
-    return _message(state, refused, *contact(state, n, progress, is_coarse=n < state.n))
+    return _message(state, refused, *contact(state, state.n, progress, is_coarse=False))
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
@@ -212,11 +198,6 @@ def _message(
     """An answer, with what the page is told of its controls: what counts, and what does not."""
     header = {**_settled(state, refused), **content}
     return drawn(header, content.get("panels", {}), maps or {}, arrays)
-
-
-def _is_first_step(arguments: Arguments) -> bool:
-    """Whether many ask at once, and this page has no answer yet."""
-    return bool(arguments["crowded"]) and arguments.get("refines") is not True
 
 
 def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:

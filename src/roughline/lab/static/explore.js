@@ -79,7 +79,7 @@ class Explore {
 
   #save(name) {
     this.#waiting.ask("explore.download", "download", {...this.#seen, name}, {
-      answer: ({file}) => element("a", {href: `/results/${this.#link.session}/${file}?save=1`, download: name}).click(),
+      answer: ({file}) => element("a", {href: `results/${this.#link.session}/${file}?save=1`, download: name}).click(),
       error: (...said) => this.#refuse(...said),
     });
   }
@@ -154,16 +154,8 @@ class Explore {
   #askNow() {
     const turn = ++this.#turn, args = this.#controls.asked;
     const error = (sentence, at) => this.#refuse(sentence, at, turn);
-    this.#link.stop("finer lines");
     this.#link.ask("explore.reduced", "reduced", args, {
-      answer: (header) => {
-        this.#draw(() => this.#drawLine(header, args, turn));
-        if (header.is_coarse && turn === this.#turn) { // many ask at once
-          this.#link.ask("explore.reduced", "finer lines", {...args, refines: true}, {
-            answer: (finer) => this.#draw(() => this.#drawLine(finer, args, turn))});
-        }
-      },
-      error,
+      answer: (header) => this.#draw(() => this.#drawLine(header, args, turn)), error,
     });
     this.#link.ask("explore.coarse", "coarse", args, {
       answer: (header) => this.#draw(() => this.#drawContact(header, args, turn)), error});
@@ -186,7 +178,6 @@ class Explore {
     });
     ask("full", "full", args, (header) => {
       this.#drawContact(header, args, turn);
-      if (header.is_coarse) return; // many ask at once
       for (const each of this.#stale) {
         if (each !== "curve" && !header.state[each]) { this.#dim([each], false); continue; } // it is refused
         const task = each === "curve" ? "curve" : "further";

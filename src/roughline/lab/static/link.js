@@ -5,7 +5,7 @@ import {recall, remember} from "./remember.js";
 const SOON = 1500, LATER = 15_000; // until it is tried again, at first and at most [ms]
 const PATIENCE = 10_000; // with a server that does not say whether it is there [ms]
 const ELSEWHERE = 4001; // another tab, made as a copy of this one, goes on with the session
-const REFUSED = [1008, 1009]; // what the page said was too much
+const REFUSED = 1009; // what the page said was too much
 
 export class Link {
   #socket = null; #waiting = new Map(); #number = 0; #told; #opened;
@@ -18,7 +18,7 @@ export class Link {
   ready = new Promise((resolve) => { this.#opened = resolve; });
 
   // told.open({isAgain, resumed, files, isElsewhere, version}) when the page is connected, and
-  // told.closed(reason, isLoggedOut) when it is not.
+  // told.closed(reason, isUnknown) when it is not.
   constructor(told) {
     this.#told = told;
     this.#open();
@@ -71,7 +71,7 @@ export class Link {
   }
 
   #open() {
-    const address = new URL(`/link?${new URLSearchParams({session: recall("session") ?? ""})}`, location);
+    const address = new URL(`link?${new URLSearchParams({session: recall("session") ?? ""})}`, document.baseURI);
     address.protocol = address.protocol.replace("http", "ws");
     this.#socket = new WebSocket(address);
     this.#socket.binaryType = "arraybuffer";
@@ -87,7 +87,7 @@ export class Link {
       return;
     }
     this.#told.closed(reason, false);
-    if (REFUSED.includes(code)) {
+    if (code === REFUSED) {
       const lost = this.#waiting;
       this.#waiting = new Map();
       for (const each of lost.values()) each.error?.("the lab refused the connection: ask again when it is back", "");
@@ -107,10 +107,10 @@ export class Link {
     this.#again();
   }
 
-  // Open it again if the server is there and this browser is logged in, which a websocket cannot tell.
+  // Open it again if the server is there and this browser is known, which a websocket cannot tell.
   async #again() {
     this.#timer = null;
-    const status = await fetch("/here", {cache: "no-store", signal: AbortSignal.timeout(PATIENCE)})
+    const status = await fetch("here", {cache: "no-store", signal: AbortSignal.timeout(PATIENCE)})
       .then((reply) => reply.status, () => 0);
     if (status === 0 || status === 401) {
       this.#told.closed("", status === 401);

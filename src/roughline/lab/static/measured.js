@@ -283,7 +283,7 @@ class Measured {
         this.refuse("", "file");
         this.#showAsked(read);
         Object.assign(this.find("[data-example-file]"), {
-          hidden: !this.#controls.said.example, href: `/results/${this.#link.session}/${read.name}?save=1`, download: read.name,
+          hidden: !this.#controls.said.example, href: `results/${this.#link.session}/${read.name}?save=1`, download: read.name,
         });
         this.#settle("file", asked, read.refused, OF_READING);
         this.showResult("file", true);

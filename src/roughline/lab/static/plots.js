@@ -6,7 +6,7 @@ import {takeHands} from "./hands.js";
 const documents = [], recoloured = [];
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
 const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
-  const script = element("script", {src: `/bokeh/${name}`, async: false}); // the second needs the first
+  const script = element("script", {src: `bokeh/${name}`, async: false}); // the second needs the first
   script.addEventListener("load", resolve);
   document.head.append(script);
 })));

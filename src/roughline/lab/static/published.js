@@ -53,7 +53,7 @@ class Published {
     this.#controls.take(texts);
     TASKS.forEach((task) => this.#ask(task));
     this.#panels = panelsOf(this.#root, (made) => ({...withWindows(made), ...trustMap(this.#trust)}));
-    this.#constants = await (await fetch("/lab/paper/figures.json")).json();
+    this.#constants = await (await fetch("lab/paper/figures.json")).json();
     this.#take("constants", this.#constants);
     this.#showCurves();
     const {plots} = await this.#panels;
