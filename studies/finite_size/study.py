@@ -10,7 +10,7 @@ from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.units import decimal
 from studies.finite_size.claims import BETWEEN, MANY, between_ends, claims
 from studies.finite_size.crossover import BETWEEN_THEM, Passing
-from studies.finite_size.figures import crossover_figure, panels
+from studies.finite_size.figures import crossover_figure
 from studies.finite_size.measure import (
     SEVERAL,
     crossing,
@@ -205,6 +205,5 @@ STUDY = Study(
     verdicts=lambda: claims_table({"Verdict": claims()}),
     told=told,
     figures={"crossover": crossover_figure},
-    panels=panels,
 )
 publish, reduce = STUDY.publish, REDUCED.reduce

@@ -7,6 +7,7 @@ import json
 import shutil
 from collections import Counter
 from collections.abc import Sequence
+from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -33,14 +34,13 @@ from roughline.plot.style import save, styled
 from roughline.report.json_output import plain
 from roughline.report.page import render_markdown
 from roughline.statistics.averages import relative_difference
-from studies.paper import shown
 from studies.paper.lab_figures import lab_figures
 from studies.paper.trust import trust_map_figure, trust_page
 from studies.reduced_data import finished, refuse_other_settings
-from studies.study import DOCS, PICTURES, show
+from studies.study import DOCS
 
 PLAN = Path(__file__).parent / "plan.toml"
-FIGURES = PICTURES / "figures.json"
+FIGURES = Path(str(files("roughline.lab").joinpath("static", "paper.json")))
 """Data of the lab's figures of the paper."""
 _FIGURES = DOCS / "figures" / "paper"
 DATA = published_folder()
@@ -132,7 +132,6 @@ def publish() -> None:
     results = published_results()
     _publish_paper(results)
     _publish_map()
-    show(shown.summary(results), shown.drawings(results))
     data = json.dumps(plain(lab_figures(results)), ensure_ascii=False)
     # five digits are more than a figure shows
     rounded = json.loads(data, parse_float=lambda x: float(f"{float(x):.5g}"))

@@ -22,7 +22,7 @@ from studies.sealing.body import (
     Case,
 )
 from studies.sealing.claims import BELOW, BEYOND, KINDS, THEORIES, claims
-from studies.sealing.figures import SHOWN, panels, sealing_figure
+from studies.sealing.figures import SHOWN, sealing_figure
 from studies.sealing.measure import (
     Data,
     area_shift,
@@ -279,6 +279,5 @@ STUDY = Study(
     verdicts=lambda: claims_table({"Verdict": claims(data())}),
     told=lambda: told(data()),
     figures={"sealing": lambda: sealing_figure(data())},
-    panels=lambda: panels(data()),
 )
 publish = STUDY.publish

@@ -22,9 +22,7 @@ from roughline.lab.measured.panels import PANELS as MEASURED
 from roughline.lab.published import controls as published
 from roughline.lab.published.panels import PANELS as PUBLISHED
 from roughline.lab.server.tasks import Place, Site
-from roughline.paper.studies import study_summaries
 from roughline.report.typeset import typeset
-from roughline.statistics.verdict import Verdict
 
 _PANELS = {"measured": MEASURED, "published": PUBLISHED}
 
@@ -79,7 +77,6 @@ def page() -> str:
         examples=EXAMPLES,
         materials=list(materials()),
         fluids=list(fluids()),
-        studies=study_summaries(),
     )
 
 
@@ -94,10 +91,5 @@ def _environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
     )
-    environment.filters |= {"typeset": typeset, "verdict": _verdict}
+    environment.filters |= {"typeset": typeset}
     return environment
-
-
-def _verdict(text: str) -> str:
-    """The verdict that a text begins with; empty if it is none."""
-    return next((each for each in Verdict if text.startswith(each)), "")
