@@ -68,8 +68,8 @@ WITH_UNITS = some(
 @given(STATES, WITH_UNITS)
 def test_an_address_of_explore_gives_its_state_again(said, with_units):
     asked = {"state": said | with_units}
-    state, _ = usable(asked, lambda used: explore_state(used, 1024), lambda found: {})
-    assert explore_state(state.address(), 1024) == state
+    state, _ = usable(asked, explore_state, lambda found: {})
+    assert explore_state(state.address()) == state
 
 
 @settings(max_examples=150, deadline=None)
@@ -160,13 +160,13 @@ OF_0_2_0 = {
 
 def test_links_of_version_0_2_0_are_read():
     said = dict(parse_qsl(OF_0_2_0["explore"]))
-    state = explore_state(said, 1024)
+    state = explore_state(said)
     assert set(said) - {"H", "v", "view", "theme"} <= set(state.texts())
     again = state.texts()
     for key in ("rms", "slope", "seed", "n", "boundary", "F", "shown", "L", "E", "theories"):
         assert again[key] == said[key]
     published = published_state(dict(parse_qsl(OF_0_2_0["published"]))).address()
-    assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&view")[0])).items()
+    assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&claims")[0])).items()
     said = control_texts({"state": dict(parse_qsl(OF_0_2_0["measured"]))})
     question = page_question(said, Source(Path("a.nc"), "a.nc", "key"))
     assert question.loading.headings == ["2 MPa"]

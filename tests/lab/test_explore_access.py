@@ -96,7 +96,7 @@ def press_by_keys(page):
     page.wait_for_selector("#explore-code", state="hidden")
     assert page.evaluate("() => document.activeElement.dataset.code") == "command"
     page.focus("#saved")
-    for _ in range(5):
+    for _ in range(2):
         page.keyboard.press("ArrowDown")
     assert page.input_value("#saved") == "curve.csv"
     page.focus("#save")

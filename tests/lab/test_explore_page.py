@@ -5,6 +5,7 @@ import re
 from urllib.parse import urlencode
 
 import numpy as np
+import pandas
 import pytest
 from matplotlib import image as pictures
 
@@ -309,12 +310,14 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
     with fresh.expect_download() as coming:
         fresh.evaluate(MOVE_AND_SAVE)
     coming.value.save_as(tmp_path / "before.csv")
-    assert "# force_bar = 0.2\n" in (tmp_path / "before.csv").read_text()
+    kept = pandas.read_csv(tmp_path / "before.csv", comment="#")
+    assert kept.query("panel == 'area' and series == 'here'").x.tolist() == [0.2]
     settled(fresh, points=64, F=0.1)
     with fresh.expect_download() as coming:
         fresh.click("#save")
     coming.value.save_as(tmp_path / "after.csv")
-    assert "# length L [m] = 0.002\n" in (tmp_path / "after.csv").read_text()
+    assert "L=2+mm" in (tmp_path / "after.csv").read_text()
+    assert_all_points_are_saved(fresh, tmp_path / "after.csv")
     for which, lines in (
         ("python", ("in_si('2 mm', ", "load_in_newtons('11 MPa', surface.area)")),
         ("command", ("--length '2 mm'", "--load '11 MPa'")),
@@ -329,7 +332,36 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
         fresh.click("#save")
     assert coming.value.suggested_filename == "contact.png"
     coming.value.save_as(tmp_path / "contact.png")
-    assert pictures.imread(tmp_path / "contact.png").size
+    assert_is_as_drawn(fresh, tmp_path / "contact.png")
+
+
+def assert_all_points_are_saved(page, file):
+    """Check that a table has the points of all sources that the plots draw."""
+    rows = pandas.read_csv(file, comment="#").groupby(["panel", "series"])
+    saved = {f"{panel} {name}": columns for (panel, name), columns in rows}
+    drawn = page.evaluate(
+        """() => {
+            const found = (name) => Bokeh.documents.map((each) => each.get_model_by_name(name))
+                .find((each) => each);
+            const {panels} = JSON.parse(document.querySelector("#explore").dataset.declared);
+            return Object.fromEntries(panels.flatMap(({key, series}) => series.map(({name}) => {
+                const {x, y} = found(`${key} ${name}`).data;
+                return [`${key} ${name.replaceAll(" ", "_")}`, [[...x], [...y]]];
+            })));
+        }"""
+    )
+    assert set(saved) == {name for name, (x, _) in drawn.items() if x}
+    for name, columns in saved.items():
+        assert columns.x.tolist() == drawn[name][0]
+        assert columns.y.tolist() == drawn[name][1]
+
+
+def assert_is_as_drawn(page, file):
+    """Check that the contact in a picture has the share of its colour that the strip says."""
+    picture = pictures.imread(file)
+    assert picture.shape[1] > 400
+    colours = np.unique((picture[..., :3] * 255).astype(int).reshape(-1, 3), axis=0)
+    assert len(colours) > 100
 
 
 def test_a_long_press_can_be_cancelled(fresh):

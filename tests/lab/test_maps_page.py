@@ -197,5 +197,5 @@ def test_a_map_is_upright_on_the_screen_and_a_box_keeps_what_it_shows(pages, tmp
 
 def test_a_lit_surface_and_its_contact_are_upright(small):
     page = showing(small, "area", "0.2")
-    surface = read_state(dict(parse_qsl(SMALL[1:])), 64).surface(64)
+    surface = read_state(dict(parse_qsl(SMALL[1:]))).surface(64)
     assert is_upright(of_screen(page, "explore-topography"), surface.heights)

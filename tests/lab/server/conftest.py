@@ -5,6 +5,7 @@ from contextlib import contextmanager
 import pytest
 
 from lab.server.serving import lab_here, running_lab
+from roughline.lab.server import files
 
 
 @contextmanager
@@ -28,5 +29,7 @@ def lab(tmp_path_factory):
 def any_lab(request, tmp_path_factory):
     """A lab in a thread of this process or in a process of its own."""
     temporary = tmp_path_factory.mktemp("open")
-    with lab_here(temporary) if request.param == "here" else small_lab(temporary) as running:
-        yield running
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(files, "MOST_UPLOAD", 1_000_000)
+        with lab_here(temporary) if request.param == "here" else small_lab(temporary) as running:
+            yield running

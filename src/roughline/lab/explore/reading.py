@@ -35,8 +35,7 @@ def usable_state(arguments: Arguments) -> tuple[ExploreState, dict[str, str]]:
 
 def state_in(arguments: Arguments) -> ExploreState:
     """The state that a page asks about, all of whose texts can be used."""
-    texts = sent_texts(arguments)
-    return replace(read_state(texts), typed_texts=texts)
+    return read_state(sent_texts(arguments))
 
 
 def read_state(texts: Texts) -> ExploreState:
@@ -76,7 +75,7 @@ def read_state(texts: Texts) -> ExploreState:
     state = replace(state, added=tuple(added))
     state = replace(state, F=_force_bar(texts.get("F", str(ExploreState.F)), state))
     _refuse_together(state)
-    return state
+    return replace(state, typed_texts=texts)
 
 
 def _refuse_waves(state: ExploreState) -> None:

@@ -15,7 +15,16 @@ import roughline as rl
 from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.errors.checks import shown
 from roughline.halfspace.laws.bounds import Bounds
-from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_code, as_text, has_unit
+from roughline.lab.controls import (
+    VERSION,
+    Control,
+    ControlError,
+    Texts,
+    as_code,
+    as_text,
+    has_unit,
+    is_number,
+)
 from roughline.lab.explore.controls import CHOICES, NUMBERS, ScaledControl
 from roughline.lab.maps import Map
 from roughline.lab.panels import Panel, PanelContent, Series
@@ -299,7 +308,11 @@ class ExploreState:
         return texts
 
     def address(self) -> dict[str, str]:
-        """What the address says of this state: the version, and what is not the default."""
+        """What the address says of this state: the version, and what is not the default.
+
+        What is more than a number stands there as it was typed: under another height a pressure is
+        another F̄, and stays the pressure.
+        """
         default = ExploreState().texts()
         default |= {
             control.key: as_text(control.default)
@@ -312,7 +325,8 @@ class ExploreState:
             for key, text in self.texts().items()
             if text != default.get(key) or key in ("D_f", "F", "n", "seed")
         }
-        return {"v": VERSION, **texts}
+        typed = {key: text.strip() for key, text in self.typed_texts.items() if key in texts}
+        return {"v": VERSION, **texts, **{k: x for k, x in typed.items() if not is_number(x)}}
 
     def _spectrum(self, n: int, height: float) -> rl.SelfAffine:
         q_low = 2 * math.pi / self.length

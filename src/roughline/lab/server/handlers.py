@@ -107,8 +107,8 @@ class _Page(Guarded):
     @property
     def _without_token(self) -> str:
         """The address of this page, less the token in it; behind a proxy it has a path before."""
-        said = parse_qsl(self.request.query, keep_blank_values=True)
-        rest = [part for part in said if part[0] != "token"]
+        parts = parse_qsl(self.request.query, keep_blank_values=True)
+        rest = [part for part in parts if part[0] != "token"]
         return f"./?{urlencode(rest)}" if rest else "./"
 
 

@@ -67,7 +67,7 @@ class Lane:
         own = [each for each in self._waiting.values() if each.session == request.session]
         if request.key not in self._waiting and len(own) >= MOST_PARTS:
             return request.answer(TOO_MANY)
-        if not self._lasting:
+        if not self._lasting and request.key not in self._waiting:  # it has its place in turn
             self.withdraw(*request.key)
         self._waiting[request.key] = request
         self._start()

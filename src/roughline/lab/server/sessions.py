@@ -87,14 +87,14 @@ class Session:
                 self._tell(slot, before, before.outcome)
             return
         asked = self.asked[slot] = _PageRequest(number, task, arguments, self.line)
-        started = told = time.monotonic()
+        started = latest = time.monotonic()
 
         def progress(done: int, total: int) -> None:
-            nonlocal told
+            nonlocal latest
             now = time.monotonic()
-            is_time = now - told >= _PROGRESS_INTERVAL or done in (0, total)
+            is_time = now - latest >= _PROGRESS_INTERVAL or done in (0, total)
             if self.line is not None and self.line is asked.line and is_time:
-                told = now
+                latest = now
                 left = (now - started) * (total - done) / done if done else None
                 self.line.send({"id": asked.number, "done": done, "total": total, "left": left})
 

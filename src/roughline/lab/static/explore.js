@@ -6,6 +6,7 @@ import {element} from "./elements.js";
 import {onDraw} from "./hands.js";
 import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
 import {panelsOf} from "./panels.js";
+import {pictureOf, save} from "./saving.js";
 import {Strip} from "./strip.js";
 import {fillCaption, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
@@ -77,7 +78,19 @@ class Explore {
     return {state: {...state, ...texts, shown: this.#controls.said.shown ?? "area"}, points};
   }
 
-  #save(name) {
+  async #save(name) {
+    if (name.endsWith(".png")) {
+      const wanted = name === "contact.png" ? "contact" : "line curve";
+      const panels = [...this.#root.querySelectorAll(".panel[data-task]:not(.empty)")]
+        .filter((each) => each.offsetParent && wanted.includes(each.dataset.task));
+      save(name, await pictureOf(this.#plots, panels));
+      return;
+    }
+    if (name.endsWith(".csv")) {
+      const remarks = [`roughline ${document.body.dataset.version}`, `lab_link = ${location.search}`];
+      save(name, new Blob([this.#panels.table(remarks)], {type: "text/csv"}));
+      return;
+    }
     this.#waiting.ask("explore.download", "download", {...this.#seen, name}, {
       answer: ({file}) => element("a", {href: `results/${this.#link.session}/${file}?save=1`, download: name}).click(),
       error: (...said) => this.#refuse(...said),

@@ -86,6 +86,25 @@ class Panels {
     if (this.#declared[key].task === what) document.querySelector(`#${plot}`).classList.remove("dimmed");
   }
 
+  // All points that are drawn, as a table: the panel and the series of each, and the ends of what is known of its y.
+  table(remarks) {
+    const rows = [], columns = ["x", "y", "low", "high"];
+    const heads = Object.values(this.#declared).map(({key, x, y}) => `panel ${key}: x is ${x}, y is ${y}`);
+    for (const panels of this.#answers.values()) {
+      for (const [key, {series, legends}] of Object.entries(panels)) {
+        for (const [name, points] of Object.entries(series)) {
+          const words = legends?.[name] ?? this.#declared[key].series.find((each) => each.name === name)?.legend;
+          if (points.x.length) heads.push(`series ${key} ${name}: ${words}`);
+          points.x.forEach((_, i) => {
+            const numbers = columns.map((column) => points[column]?.[i] ?? "nan");
+            rows.push([key, name.replaceAll(" ", "_"), ...numbers].join(","));
+          });
+        }
+      }
+    }
+    return [`panel,series,${columns}`, ...[...remarks, ...heads].map((each) => `# ${each.replace(/\s+/g, " ")}`), ...rows, ""].join("\n");
+  }
+
   #plot(key) { return `${this.#view}-${key}`; }
   #find(key, selector) { return document.querySelector(`#${this.#plot(key)} ${selector}`); }
   #remark(key, text) { this.#find(key, "[data-remarks]")?.replaceChildren(...typeset(text)); }
