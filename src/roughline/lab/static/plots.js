@@ -80,10 +80,11 @@ class Plots {
 
   // Give a source its columns; a legend names what there is.
   set(name, columns) {
-    const source = this.model(name);
+    const source = this.model(name), [first] = Object.values(columns);
+    for (const column of Object.keys(source.data)) if (!(column in columns)) delete source.data[column]; // the shortest counts
     Object.assign(source.data, columns); // a new table would have Bokeh look for models in it
     source.change.emit();
-    this.#counts[name] = Object.values(columns)[0].length;
+    this.#counts[name] = first.length;
     for (const {item, names} of this.#named.get(name) ?? []) {
       const isThere = names.some((each) => this.#counts[each]);
       if (item.hidden === isThere) item.hidden = !isThere;
