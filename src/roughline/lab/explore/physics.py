@@ -17,7 +17,7 @@ from roughline.lab.panels import Panel
 
 PHYSICS: tuple[type[Physics], ...] = (LayerPhysics, YieldingPhysics, AdhesionPhysics, FluidPhysics)
 """All kinds, in the order of their ticks."""
-_STRIP = ("stiffness_3d", "stiffness_1d", "area", "pressure", "depth", "force", "roughness")
+_STRIP = ("stiffness_3d", "area", "pressure", "depth", "force", "roughness")
 
 
 def numbers() -> dict[str, Control]:

@@ -38,11 +38,11 @@ function tools(match_aspect = false) {
   return [new Bokeh.PanTool(), new Bokeh.BoxZoomTool({match_aspect}), ...zooms, new Bokeh.ResetTool(), new Bokeh.SaveTool()];
 }
 
-// What the legend of a plot names: of each glyph its source, its words, and how it looks.
+// What has a name in a plot: of each glyph its source, its words, and its colours.
 const legends = new WeakMap();
 export function legendOf(plot) { return legends.get(plot) ?? []; }
 
-// Let a plot draw the columns of a source, which several glyphs may share, and name it in its legend.
+// Let a plot draw the columns of a source, which several glyphs may share, and name it.
 export function draw(plot, kind, source_name, {colours = {}, legend, ...look} = {}) {
   const fields = Object.fromEntries(Object.entries(COLUMNS[kind]).map(([key, field]) => [key, {field}]));
   if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
@@ -53,7 +53,7 @@ export function draw(plot, kind, source_name, {colours = {}, legend, ...look} = 
   const drawn = plot[kind]({...fields, ...look, source});
   drawn.setv({selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
   drawn.glyph.tags = [{colours}];
-  if (legend) legends.set(plot, [...legendOf(plot), {source: source.name, legend, kind, look, colours}]);
+  if (legend) legends.set(plot, [...legendOf(plot), {source: source.name, legend, colours}]);
   return drawn;
 }
 

@@ -49,6 +49,7 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
 class Panels {
   #view; #declared;
   #answers = new Map(); // what the last of each kind has for panels, those that came last at the end
+  #drawn = new Map(); // columns by their sources, as text
 
   constructor(plots, view, declared) {
     this.plots = plots;
@@ -62,7 +63,7 @@ class Panels {
     this.#answers.delete(what);
     this.#answers.set(what, panels);
     for (const [key, {series}] of Object.entries(before)) {
-      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.plots.empty(`${key} ${name}`);
+      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.#empty(`${key} ${name}`);
       if (panels[key]) continue;
       this.#fillRows(key);
       this.#remark(key, "");
@@ -86,6 +87,11 @@ class Panels {
     if (this.#declared[key].task === what) document.querySelector(`#${plot}`).classList.remove("dimmed");
   }
 
+  #empty(source) {
+    this.#drawn.delete(source);
+    this.plots.empty(source);
+  }
+
   #plot(key) { return `${this.#view}-${key}`; }
   #find(key, selector) { return document.querySelector(`#${this.#plot(key)} ${selector}`); }
   #remark(key, text) { this.#find(key, "[data-remarks]")?.replaceChildren(...typeset(text)); }
@@ -105,15 +111,18 @@ class Panels {
     const foot = start * (end / start) ** FOOT;
     const known = Object.entries(columns).map(([column, values]) => [column, values.map((value) => value ?? NaN)]);
     const drawn = Object.fromEntries(known);
-    if (isLogarithmic) drawn.y = drawn.y.map((value) => (value === 0 ? foot : value));
-    this.plots.set(`${key} ${name}`, drawn);
+    if (isLogarithmic && drawn.y) drawn.y = drawn.y.map((value) => (value === 0 ? foot : value));
+    const text = JSON.stringify(drawn), source = `${key} ${name}`;
+    if (this.#drawn.get(source) === text) return; // one series is drawn anew, not all
+    this.#drawn.set(source, text);
+    this.plots.set(source, drawn);
   }
 
   // Put zeros of all answers at the foot of an axis whose range has changed.
   #placeZeros(key) {
     for (const panels of this.#answers.values()) {
       for (const [name, columns] of Object.entries(panels[key]?.series ?? {})) {
-        if (columns.y.includes(0)) this.#mark(key, name, columns);
+        if (columns.y?.includes(0)) this.#mark(key, name, columns);
       }
     }
   }
