@@ -56,7 +56,8 @@ force = {force}  # N
 print("k / (E* L)", curve.stiffness[0] / (E_star * length))
 print("area_fraction_corrected", curve.area_fraction_corrected[0])
 print("depth over rms height", curve.depth[0] / surface.rms_height)
-{answers}print(*facts_on_press(surface, curve), sep="\n")
+{answers}for fact in facts_on_press(surface, curve):
+    print(fact)
 """
 
 

@@ -8,7 +8,7 @@ import {colour, onRecolour} from "./plots.js";
 import {fillCaption} from "./tables.js";
 
 export const NOTHING = {image: [], x: [], y: [], dw: [], dh: []};
-const BORDERS = {left: 60, right: 40, top: 8, bottom: 46}; // for the axes and their names [px]
+const BORDERS = {left: 66, right: 40, top: 8, bottom: 46}; // for the axes and their names [px]
 const LOWEST = 48; // frame of a map that is much longer than wide [px]
 const HIGHEST = 0.38, AT_LEAST = 280; // frame, in heights of the window, and [px]
 const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
@@ -19,7 +19,7 @@ const CLEAR = "#00000000", VEIL = 0.72; // where the relief is seen: all of it, 
 const ON_RELIEF = {ink: "touch", plastic: "yields"}; // colours that stand out from grey
 const LIGHT = [-0.5, -0.5, Math.SQRT1_2], SLOPE = 0.35; // from the upper left; rms, so that smooth surfaces show
 const GREYS = { // of the relief by the theme: flat, per brightness, per height from the mean to the ends, darkest, brightest
-  light: [205, 70, 44, 105, 255], dark: [58, 60, 30, 10, 110],
+  light: [205, 70, 44, 105, 255], dark: [66, 64, 34, 12, 120],
 };
 
 // An empty map, whose numbers get the colours of a palette. Rings may be drawn on it in a colour.
@@ -31,8 +31,8 @@ export function mapFigure(name, {hasRelief = false, rings = "", ranges}) {
   draw(made, "image", name, {color_mapper: mapper});
   for (const grid of made.grids) grid.visible = false;
   if (rings) {
-    for (const [line_width, shown] of [[5, "paper"], [2, rings]]) { // the one is seen around the other
-      draw(made, "scatter", `${name} rings`, {size: 14, line_width, fill_alpha: 0, colours: {line_color: shown}});
+    for (const [line_width, shown] of [[4, "paper"], [1.5, rings]]) { // the one is seen around the other
+      draw(made, "scatter", `${name} rings`, {size: 22, line_width, fill_alpha: 0, colours: {line_color: shown}});
     }
   }
   for (const [line_width, shown] of [[3, "paper"], [1.2, "text"]]) {
@@ -325,6 +325,10 @@ function scaleOf(title, unit, palette, [low, high], isLogarithmic) {
 // A few round numbers between two.
 function roundNumbers(low, high, isWhole) {
   if (!(high > low)) return [];
+  if (isWhole && high - low < 2) { // decades alone would be one figure
+    return [1, 2, 5].flatMap((factor) => Array.from({length: Math.ceil(high) - Math.floor(low) + 1},
+      (_, i) => Math.floor(low) + i + Math.log10(factor))).filter((value) => value >= low && value <= high).sort((a, b) => a - b);
+  }
   const rough = (high - low) / 4, power = 10 ** Math.floor(Math.log10(rough));
   const step = Math.max([1, 2, 5, 10].find((factor) => factor * power >= rough) * power, isWhole ? 1 : 0);
   const first = Math.ceil(low / step - 1e-9);

@@ -7,8 +7,6 @@ import {fillTable} from "./tables.js";
 const FILLED = ["scatter", "varea"]; // glyphs that have an inside
 const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
 const SLOPE = 0.6; // of the names of places [rad]
-const DECADES = Array.from({length: 13}, (_, i) => 10 ** (i - 6));
-const ROUND = DECADES.flatMap((decade) => [decade, 2 * decade, 5 * decade]); // Bokeh's own miss decades
 
 // Embed the panels that the page of a view has, and its other figures, which may change those of the panels.
 export async function panelsOf(root, others = () => ({})) {
@@ -38,9 +36,6 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
     });
   }
   if (isOfPlaces) {
-    const ticker = new Bokeh.FixedTicker({ticks: ROUND});
-    made.yaxes[0].setv({ticker, formatter: new Bokeh.BasicTickFormatter()});
-    made.ygrids[0].ticker = ticker;
     made.xgrids[0].visible = false;
   }
   return made;

@@ -3,6 +3,7 @@ import {element, typeset} from "./elements.js";
 import {legendOf} from "./figures.js";
 import {takeHands} from "./hands.js";
 
+const TYPE = "12px"; // of all words in pictures
 const BESIDE = 6; // of names from curves and edges [px]
 const documents = [], recoloured = [];
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
@@ -189,7 +190,8 @@ export function colour(name) {
 function recolour(made) {
   const text = colour("text"), line = colour("line"), paper = colour("paper"), grid = colour("grid");
   const labels = {axis_label_text_color: text, major_label_text_color: text, axis_line_color: line,
-    major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal"};
+    major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal",
+    axis_label_text_font_size: TYPE, major_label_text_font_size: TYPE};
   const looks = {
     Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: paper, outline_line_color: line},
     LinearAxis: labels,
