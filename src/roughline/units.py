@@ -223,6 +223,9 @@ def prefix(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, s
     if unit.startswith("kg"):  # which has a prefix of its own
         factor, prefixed = prefix(1e3 * value, unit.removeprefix("k"), digits)
         return 1e3 * factor, prefixed
+    if unit == "N/m³":  # a stiffness per area is said as a pressure over a distance
+        factor, prefixed = prefix(1e-3 * value, "Pa/mm", digits)
+        return 1e-3 * factor, prefixed
     exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
     power = _DIMENSIONS.get(unit, 1)  # that the prefix has; areas run from 0.01 to 10000
     thousands = 3 * ((exponent + 2 * (power - 1)) // (3 * power))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -30,6 +31,7 @@ from roughline.engineering.rules.mechanical import (
 )
 from roughline.facts.fact import Fact, by_weight
 from roughline.facts.listed import MOST_NAMED
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.measurement.homogeneity import ISOTROPIC_FROM
 from roughline.question.assumptions import Prediction, departures_behind, takes_down
 from roughline.question.case import COARSENED_FROM
@@ -37,8 +39,9 @@ from roughline.question.kinds import is_map
 from roughline.question.question import Question
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments
-from roughline.topography.body import Line, Surface
+from roughline.topography.body import Body, Line, Surface
 from roughline.topography.files.read import suspicions
+from roughline.units import engineering
 
 _LARGE_STRAIN = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
 _STEEP_SLOPE = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
@@ -171,8 +174,7 @@ def _on_filled_points(result: Assessment) -> list[Fact]:
 def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> Iterator[Fact]:
     """Say where an assumption breaks."""
     question, body = result.question, result.body
-    if body.rms_slope > _STEEP_SLOPE:
-        yield Fact("steep", slope=body.rms_slope, limit=_STEEP_SLOPE)
+    yield from _steep(body)
     yield from _strained(result)
     hardness = None if question.pair is None or result.curve.hardness else question.pair.hardness
     if hardness is not None and spectrum is not None and not question.coated:  # summits have none
@@ -190,14 +192,19 @@ def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> Iterato
         yield Fact("theories_without_adhesion")
 
 
+def _steep(body: Body) -> Iterator[Fact]:
+    if body.rms_slope > _STEEP_SLOPE:
+        yield Fact("steep", slope=body.rms_slope, limit=_STEEP_SLOPE)
+
+
+def _strains(of_loads: Sequence[tuple[float, Fact]]) -> list[tuple[float, Fact]]:
+    return [(x, Fact("strained", strain=each)) for x, each in of_loads if x > _LARGE_STRAIN]
+
+
 def _strained(result: Assessment) -> Iterator[Fact]:
     """Say how far bodies are strained beyond what is linear elastic, by what strains them most."""
     question, pressed = result.question, result.answers.get("contact_pressure")
-    found = [
-        (ratio, Fact("strained", strain=strain))
-        for ratio, strain in question.strains(result.body)
-        if ratio > _LARGE_STRAIN
-    ]
+    found = _strains(question.strains(result.body))
     if question.coated and pressed is not None:
         ratio = float(np.nanmax(pressed.values, initial=0.0)) / question.half_space.softest
         if ratio > _PRESSED:
@@ -208,18 +215,40 @@ def _strained(result: Assessment) -> Iterator[Fact]:
 
 def _on_full_contact(result: Assessment) -> Iterator[Fact]:
     """Say under which loads all points touch, or all but a few."""
-    curve, body = result.curve_as_asked, result.body
-    if not isinstance(curve, SurfaceCurve):
-        return
+    if isinstance(result.curve_as_asked, SurfaceCurve):
+        yield from _full_contact(result.body, result.curve_as_asked, result.headings)
+
+
+def _full_contact(body: Body, curve: SurfaceCurve, loads: Sequence[str]) -> Iterator[Fact]:
     # what repeats along both axes, and whose mean is not free, stands on a rigid base
     stands = "on base" if all(curve.half_space.repeats) else "punch"
     stands = "free" if curve.half_space.mean_is_free else stands
     open_points = np.rint((1 - curve.area_fraction) * body.heights.size)
-    loads = list(zip(result.headings, open_points, strict=True))
-    if full := tuple(name for name, n in loads if n == 0):
+    found = list(zip(loads, open_points, strict=True))
+    if full := tuple(name for name, n in found if n == 0):
         yield Fact("all_touch", loads=full, stands=stands)
-    if nearly := tuple(name for name, n in loads if 0 < n < RESOLVED_FROM):
+    if nearly := tuple(name for name, n in found if 0 < n < RESOLVED_FROM):
         yield Fact("nearly_all_touch", loads=nearly, points=RESOLVED_FROM)
+
+
+def facts_on_press(surface: Surface, curve: SurfaceCurve) -> list[Fact]:
+    """All that is worth telling of a surface that was pressed, the gravest first.
+
+    These are the facts of an assessment that rest on the body and its loads alone: what the curve
+    says, slopes and strains beyond those of half-spaces, and loads under which all points touch.
+    """
+    half_space = curve.half_space
+    side = math.inf if half_space.periodic is True else min(surface.sizes)
+    loads = [engineering(force, "N", 3) for force in curve.force]
+    of = "pressure" if isinstance(half_space, Homogeneous) else "layers"
+    ratios = [half_space.strain(max(force, 0.0) / surface.area, side) for force in curve.force]
+    strains = [
+        (ratio, Fact("strain_of_load", load=load, ratio=ratio, of=of, is_beside_fluid=False))
+        for load, ratio in zip(loads, ratios, strict=True)
+    ]
+    worst = [fact for _, fact in sorted(_strains(strains), key=lambda each: -each[0])[:1]]
+    found = [*_steep(surface), *worst, *_full_contact(surface, curve, loads)]
+    return by_weight([*found, *curve.facts])
 
 
 def _on_wide_intervals(result: Assessment) -> Iterator[Fact]:

@@ -43,6 +43,7 @@ class Map:
     sizes: Sequence[float] = (1.0, 1.0)  # sides, in the unit of its axes
     along: str = "/ L"  # that unit
     corner: Sequence[float] = (0.0, 0.0)  # where it lies in the frame
+    scale: float = 0.0  # of heights: their unit over that of its axes, where that is known
     table: tuple[list[str], list[list[str]]] | None = None  # for those who do not see it
 
     @property

@@ -111,7 +111,7 @@ _NUMBERS = (
         name="seed",
         low=0,
         high=999_999,
-        default=7,
+        default=20,
         meaning="Selects one of all random surfaces: the same seed gives the same surface, with "
         "more detail on a finer grid.",
         scale="whole",
@@ -155,11 +155,11 @@ _CHOICES = (
         key="shown",
         name="contact as",
         options={
-            **{"area": "area", "pressure": "pressure"},
-            **{"gap": "gap", "displacement": "displacement"},
+            **{"area": "area", "pressure": "pressure", "gap": "gap"},
+            **{"displacement": "displacement", "height": "heights", "white": "area on white"},
         },
         default="area",
-        meaning="Quantity that the second map shows.",
+        meaning="What lies on the relief of the surface.",
     ),
     Choice(
         key="theories",

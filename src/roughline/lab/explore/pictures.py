@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.contact.scaling import stiffness_bar
+from roughline.assessment.doubts import facts_on_press
+from roughline.comparison.trust import trust_map
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES
 from roughline.lab.explore.panels import curve_note, loads, selected_points
@@ -32,7 +33,6 @@ from roughline.lab.maps import Map, contact_maps, height_map
 from roughline.lab.panels import PanelContent, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.question.loading import UNLOADING
-from roughline.report.shading import shaded
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 
 _COARSE_POINTS = 128  # along a side while a slider moves
@@ -41,7 +41,7 @@ _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
 _MOST_ROWS = 40  # of the spectrum's table
 _CURVE_FORCES, _THEORY_FORCES = np.geomspace(1e-3, 3, 13), np.geomspace(1e-3, 3, 31)
-_LEAST_AXIS_RANGES = {"stiffness": (1e-3, 1.3), "area": (1e-4, 1.0)}
+_LEAST_AXIS_RANGES = {"stiffness": (1e-3, 2.5), "area": (1e-4, 1.0)}
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
@@ -165,16 +165,21 @@ def contact(
         "is_coarse": is_coarse,
         "panels": panels,
         "strip": strip,
+        "facts": [x.brief for x in facts_on_press(surface, pressed) if x.weight != "note"],
+        "stiffness_bar_3d": float(state.stiffness_bars(pressed.stiffness[0])),
+        "scatter": _scatter(state),
         "status": status(pressed, n, seconds, is_coarse=is_coarse),
     }
-    return content, maps, {"topography": shaded(surface)}
+    return content, maps, {}
 
 
 def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
     """The maps of a contact, by the words that choose them."""
     height = surface.rms_height
     maps = {
-        "height": height_map((surface.heights - surface.heights.mean()) / height, "/ h"),
+        "height": height_map(
+            (surface.heights - surface.heights.mean()) / height, "/ h", scale=height / state.length
+        ),
         **contact_maps(
             fields,
             pressure=(1 / state.E_star, "/ E*"),
@@ -186,6 +191,16 @@ def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[s
     for each in state.added:
         maps |= each.added_maps(fields, state)
     return maps
+
+
+def _scatter(state: ExploreState) -> float | None:
+    """How far single surfaces scatter about their mean stiffness, where that is known. [1]"""
+    if state.added or state.periodic:
+        return None
+    try:
+        return trust_map().at(state.D_f, state.F, 1 / state.roll_off).scatter
+    except rl.InputError:
+        return None
 
 
 def _message(
@@ -221,7 +236,7 @@ def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
 def _line_legend(state: ExploreState) -> str:
     """What the line of the reduced model is called, with what it leaves out."""
     without = unlike(state)
-    return f"1D {without}, mean and range" if without else "1D, mean and range of single lines"
+    return f"1D {without}, mean and range" if without else "1D, mean and range of lines"
 
 
 def _state_lines(state: ExploreState, count: int) -> tuple[rl.Line, ...]:
@@ -271,6 +286,6 @@ def _theories(
         remarks.append(f"{called}: {found.validity}")
         lines["area"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": found.area_fraction}
         if found.stiffness is not None:
-            values = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)
+            values = state.stiffness_bars(found.stiffness * surface.area)
             lines["stiffness"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": values}
     return lines, remarks

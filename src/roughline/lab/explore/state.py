@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.errors.checks import shown
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.lab.controls import (
@@ -276,8 +275,8 @@ class ExploreState:
         return pressed.force / self.force(1.0)
 
     def stiffness_bars(self, stiffness: Any) -> Any:
-        """Stiffnesses of the full model, dimensionless over the E* of the state. [1]"""
-        return stiffness_bar(stiffness, self.E_star, self.length, PAPER_PUNCH)
+        """Stiffnesses k / (E* L), of both models alike, over the E* of the state. [1]"""
+        return stiffness / (self.E_star * self.length)
 
     def over_force(self, pressed: rl.SurfaceCurve) -> dict[str, NDArray[np.float64]]:
         """What panels over force show of loads, by their keys."""

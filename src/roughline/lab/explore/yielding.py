@@ -97,7 +97,7 @@ class YieldingPhysics(Physics):
                 key="unloading",
                 symbol="k̄_u (3D)",
                 value=figure(state.stiffness_bars(unloading), digits),
-                meaning="Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs "
+                meaning="Stiffness on unloading k_u / (E* L): all of the contact springs "
                 "back, while on loading the spots at the hardness bear no more. Ultrasound and "
                 "currents depend on it.",
                 below=up_to_three_digits(unloading, ends, "N/m"),

@@ -4,16 +4,16 @@ import {bindCode} from "./code.js";
 import {Controls} from "./controls.js";
 import {element} from "./elements.js";
 import {onDraw} from "./hands.js";
-import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
+import {Maps, layersOf, mapFigure, onRelief, profileFigure, sharedRanges} from "./maps.js";
 import {panelsOf} from "./panels.js";
 import {pictureOf, save} from "./saving.js";
 import {Strip} from "./strip.js";
-import {fillCaption, fillTable} from "./tables.js";
+import {fillCaption, fillList, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
-const MAPS = ["explore-topography", "explore-contact"];
+const MAP = "explore-contact";
 const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
 const LEFT_BY_OTHERS = "curves belong to the contact before";
 
@@ -48,7 +48,7 @@ class Explore {
     }
     for (const panel of this.#root.querySelectorAll(".panel:not(.wide)")) panel.classList.add("empty");
     for (const {key, task} of panels) this.#panelOf(key).dataset.task = task;
-    for (const map of MAPS) this.#find(`#${map}`).dataset.task = "contact";
+    this.#find(`#${MAP}`).dataset.task = "contact";
     bindTabs(this.#root, () => this.#placeCursors());
   }
 
@@ -64,7 +64,7 @@ class Explore {
       onDraw(this.#plots.root(`explore-${key}`), this.#find(`[data-draw="${key}"]`),
         (from, {x, y}) => { this.#plots.model(`${key} cursor`).location = cursor === "width" ? y : x; });
     }
-    this.#maps = new Maps(this.#plots, "explore", ["topography", "contact"], "profile");
+    this.#maps = new Maps(this.#plots, "explore", ["contact"], {profile: "profile", hasCross: true});
     this.#maps.frame([1, 1], "/ L");
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
@@ -203,6 +203,7 @@ class Explore {
   #drawLine(header, asked, turn) {
     this.#settled(header, asked, turn);
     this.#show("line", header);
+    this.#compare();
   }
 
   #drawContact(header, asked, turn) {
@@ -211,13 +212,15 @@ class Explore {
     this.#last = {...header, texts: Object.fromEntries(counted)};
     this.#settled(header, asked, turn);
     const {strip, points: n, numbers} = header;
-    for (const plot of MAPS) this.#plots.shows(plot, {what: "contact", points: n, numbers});
+    this.#plots.shows(MAP, {what: "contact", points: n, numbers});
     this.#show("contact", header);
     this.#drawField();
+    fillList(this.#find("[data-facts]"), header.facts);
+    this.#compare();
     this.#fillTables(strip);
     const wasStopped = header.is_coarse && turn === this.#stopped; // and says so already
     if (!wasStopped) this.#say(header.status, !header.is_coarse);
-    for (const plot of MAPS) this.#find(`#${plot}`).classList.remove("dimmed", "empty");
+    this.#find(`#${MAP}`).classList.remove("dimmed", "empty");
   }
 
   #drawCurves(what, header) {
@@ -226,11 +229,21 @@ class Explore {
     if (this.#last && Object.keys(header.maps).length) this.#drawField();
   }
 
+  // Say in words how the surface stands beside lines, once both are of the same state.
+  #compare() {
+    const line = this.#answers.get("line"), place = this.#find("[data-compared]");
+    if (!line || !this.#last || !sameState(line.state, this.#last.state) || !(this.#last.stiffness_bar_3d > 0)) return;
+    const {numbers: {D_f, F}, stiffness_bar_3d: stiffness, scatter} = this.#last, ratio = stiffness / line.stiffness_bar_1d - 1;
+    const size = `${Math.round(100 * Math.abs(ratio))} % ${ratio < 0 ? "softer" : "stiffer"} than`;
+    const words = `This surface is ${Math.round(100 * ratio) ? size : "as stiff as"} lines with its waves`;
+    const trust = `?${new URLSearchParams({view: "published", v: "1", map_D_f: D_f, map_F: F})}#trust-title`;
+    place.replaceChildren(words, ...(scatter === null ? ["."] : [`; single surfaces scatter by ${Math.round(100 * scatter)} % `,
+      element("a", {href: trust, textContent: "(trust map)"}), "."]));
+  }
+
   #fillTables(strip) {
-    const rows = (kept) => strip.filter(kept).map(({symbol, value, below, meaning}) => [symbol, value, below, meaning]);
-    const columns = ["quantity", "value", "with unit, interval", "meaning"];
-    fillTable("explore-topography", columns, rows(({key}) => key === "roughness"));
-    fillTable("explore-contact", columns, rows(({key}) => key !== "roughness"));
+    fillTable(MAP, ["quantity", "value", "with unit, interval", "meaning"],
+      strip.map(({symbol, value, below, meaning}) => [symbol, value, below, meaning]));
   }
 
   #answers = new Map(); // the last of each kind: of the line, the contact, the curves, and of what is added
@@ -258,8 +271,9 @@ class Explore {
     const {shown: wanted} = this.#controls.said, {maps, arrays} = this.#fields, shown = wanted in maps ? wanted : "area";
     if (!(shown in maps)) return; // the load was not solved
     const {rings} = maps[shown];
-    fillCaption(this.#find('[data-caption="shown"]'), maps[shown]);
-    this.#maps.show("topography", arrays.topography, maps.height);
+    const isLit = wanted !== "white", {caption, meanings} = maps[shown];
+    fillCaption(this.#find('[data-caption="shown"]'), {caption, meanings: isLit ? onRelief(meanings) : meanings});
+    this.#maps.lay("contact", isLit ? arrays.height : null);
     this.#maps.show("contact", arrays[shown], maps[shown]);
     this.#plots.set("contact rings", {x: rings.map(([x]) => x), y: rings.map(([, y]) => y)});
     this.#maps.tell(layersOf(maps, arrays));
@@ -349,14 +363,9 @@ class Explore {
   }
 }
 
-// Both maps with their profile.
+// The picture with its profile.
 function maps() {
-  const ranges = sharedRanges();
-  return {
-    "explore-topography": mapFigure("topography", {isOfColours: true, ranges}),
-    "explore-contact": mapFigure("contact", {rings: "here", ranges}),
-    "explore-profile": profileFigure(),
-  };
+  return {[MAP]: mapFigure("contact", {hasRelief: true, rings: "mark", ranges: sharedRanges()}), "explore-profile": profileFigure()};
 }
 
 function sameState(first, second) { return JSON.stringify(first) === JSON.stringify(second); }

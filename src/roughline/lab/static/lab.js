@@ -102,6 +102,15 @@ help.addEventListener("click", () => {
   help.setAttribute("aria-expanded", String(!helpText.hidden));
 });
 
+// Escape takes the help away until one comes to its control anew.
+addEventListener("keydown", ({key}) => {
+  if (key !== "Escape") return;
+  for (const control of document.querySelectorAll(".control:is(:hover, :focus-within)")) {
+    control.classList.add("told");
+    for (const type of ["pointerleave", "focusout"]) control.addEventListener(type, () => control.classList.remove("told"), {once: true});
+  }
+});
+
 const copyLink = document.querySelector("#copy-link");
 copyLink.addEventListener("click", () => copy(location.href, copyLink));
 
@@ -113,9 +122,10 @@ document.querySelectorAll(".drawer").forEach((drawer) => {
   });
 });
 
-function start() {
-  const said = address.read();
+async function start() {
+  const said = address.read(), place = document.getElementById(location.hash.slice(1));
   const name = new URLSearchParams(location.search).get("view") ?? FIRST;
-  show(VIEWS.includes(name) ? name : FIRST, said);
+  await show(VIEWS.includes(name) ? name : FIRST, said);
+  place?.scrollIntoView();
 }
 start();
