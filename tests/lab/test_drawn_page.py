@@ -38,6 +38,7 @@ MOVES = """async ([count, seed]) => {
     }
 }"""
 
+
 def drawn_of(page):
     """Return points drawn by series; what is held by a source must all be drawn."""
     found = page.evaluate(DRAWN)
@@ -53,7 +54,9 @@ def test_after_any_moves_all_that_is_held_is_drawn(pages, moves, seed):
     settled(page, points=64)
     page.evaluate(MOVES, [moves, seed])
     settled(page, points=64)
-    link = page.evaluate("() => new Promise((done) => setTimeout(() => done(location.search), 400))")
+    link = page.evaluate(
+        "() => new Promise((done) => setTimeout(() => done(location.search), 400))"
+    )
     other = pages.open(link)
     settled(other, points=64)
     assert drawn_of(page) == drawn_of(other)

@@ -6,19 +6,21 @@ import re
 import shlex
 import subprocess
 import sys
+import zlib
 
 import numpy as np
 import pytest
 import xarray
 
 import roughline as rl
-from lab.unpacked import unpacked
+from lab.unpacked import HALF_A_STEP, assert_sent, unpacked
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.panels import BACK
 from roughline.lab.explore.reading import read_state
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
+from roughline.lab.server.link import PACKING
 from roughline.question.loading import UNLOADING
 from roughline.units import supported_digits
 
@@ -66,7 +68,6 @@ def curve(surface):
 def test_a_message_is_read_as_it_was_written():
     arrays = {
         "marks": np.arange(5, dtype=np.uint8),
-        "heights": np.linspace(0, 1, 6).reshape(2, 3),
         "colours": np.array([[2**32 - 1]], dtype=np.uint32),
     }
     header, read = unpacked(frame({"value": math.nan, "text": "k̄"}, arrays))
@@ -77,21 +78,62 @@ def test_a_message_is_read_as_it_was_written():
         assert header["arrays"][name]["offset"] % 8 == 0
 
 
+@pytest.mark.parametrize(
+    "values",
+    [
+        np.random.default_rng(1).normal(size=(7, 5)),
+        np.where(np.eye(6) > 0, np.nan, np.arange(36.0).reshape(6, 6)),
+        np.full((3, 4), 2.5),
+        np.full((2, 2), np.nan),
+        np.array([[-1e30, 1e30, 0.0]]),
+    ],
+    ids=["random", "unknown", "flat", "nothing known", "wide"],
+)
+def test_numbers_are_sent_in_sixteen_bits_and_their_ends_are_exact(values):
+    message = frame({}, {"map": values, "above": 1 - values}, {"above": "map"})
+    header, arrays = unpacked(message)
+    assert header["arrays"]["map"]["dtype"] == "packed"
+    if np.isfinite(values).any():
+        assert_sent(arrays["map"], values)
+        assert np.nanmin(arrays["map"]) == np.nanmin(values)
+        assert np.nanmax(arrays["map"]) == pytest.approx(np.nanmax(values), rel=1e-12)
+        most = 2 * HALF_A_STEP * np.ptp(values[np.isfinite(values)])
+        np.testing.assert_allclose(arrays["above"], np.maximum(1 - values, 0), rtol=0, atol=most)
+    else:
+        assert np.isnan(arrays["map"]).all()
+
+
+@pytest.mark.parametrize("shown", ["area", "pressure", "gap"])
+@pytest.mark.parametrize("n", ["128", "512"])
+def test_a_rest_crosses_the_line_in_six_hundred_kilobytes(n, shown):
+    message = pictures.full(arguments({"n": n, "shown": shown}), lambda done, total: None)
+    packed = zlib.compressobj(PACKING, zlib.DEFLATED, -15)  # as a websocket does
+    sent = len(packed.compress(message)) + len(packed.flush())
+    assert sent < 600_000 * (int(n) / 512) ** 2 + 40_000 * (n == "128")
+    kept = pictures.full(arguments({"n": n, "shown": "displacement"}), lambda done, total: None)
+    assert unpacked(kept)[0]["strip"] == unpacked(message)[0]["strip"]
+
+
 def test_the_contact_is_that_of_the_library(curve):
     header, arrays = answer(pictures.full, SMALL)
     fields = curve.fields[0]
     assert loads(header, "stiffness", "here")[1] == pytest.approx(curve.stiffness_bar, rel=1e-12)
     assert loads(header, "area", "here")[1].tolist() == curve.area_fraction_corrected.tolist()
     np.testing.assert_array_equal(arrays["area"], fields.contact.T)
-    pressures = (
-        (fields.pressure / E_STAR).astype("f4").T
-    )  # of which a product may round another way
-    np.testing.assert_array_max_ulp(arrays["pressure"], pressures, maxulp=1)
-    for name in ("gap", "displacement"):
-        wanted = getattr(fields, name) / HEIGHT
-        if name == "gap":
-            wanted = np.where(fields.contact, np.nan, wanted)  # as what is told of a point
-        np.testing.assert_allclose(arrays[name], wanted.T, rtol=1e-6, atol=1e-7)
+    assert_sent(arrays["pressure"].T, fields.pressure / E_STAR)
+    assert "displacement" not in arrays
+    _, arrays = answer(pictures.full, {**SMALL, "shown": "displacement"})
+    assert_sent(arrays["displacement"].T, fields.displacement / HEIGHT)
+
+
+def test_heights_and_the_gap_above_them_are_those_of_the_library(curve, surface):
+    _, arrays = answer(pictures.full, SMALL)
+    fields, heights = curve.fields[0], (surface.heights - surface.heights.mean()) / HEIGHT
+    assert_sent(arrays["height"].T, heights)
+    gap = np.where(fields.contact, np.nan, fields.gap / HEIGHT)  # as what is told of a point
+    np.testing.assert_array_equal(np.isnan(arrays["gap"].T), fields.contact)
+    most = HALF_A_STEP * (np.ptp(heights) + np.nanmax(heights + gap) - np.nanmin(heights + gap))
+    np.testing.assert_allclose(arrays["gap"].T, gap, rtol=1e-12, atol=most)
 
 
 def test_the_answer_strip_says_what_the_library_says(curve, surface):

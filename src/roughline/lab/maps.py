@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import roughline as rl
 
 _PALEST_FLUX = -2.0  # decimal logarithm of it over its mean
-_NO_FLOW = -9.0  # stands for the logarithm where nothing flows
+_NO_FLOW = -3.0  # stands for the logarithm where nothing flows
 _PRESSED_SHARE = 1e-6  # of the largest pressure: where less presses, the paper shows
 _MEANINGS = {  # of colours of the theme
     "ink": "in contact",

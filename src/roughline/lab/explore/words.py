@@ -42,7 +42,9 @@ def contact_words(
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
-        return [item("stiffness_3d", "stiffness k", "not solved", f"The load was not solved: {reason}")]
+        return [
+            item("stiffness_3d", "stiffness k", "not solved", f"The load was not solved: {reason}")
+        ]
     return [
         *_stiffness_and_area(pressed, state),
         *_pressure_and_depth(pressed, fields, state),

@@ -178,7 +178,7 @@ class Lane:
     def _spare(self) -> Process:
         """A process that stands by, or a new one."""
         while self._idle:
-            process = self._idle.pop(0)
+            process = self._idle.pop()  # the one that has worked last, which knows the surface
             if process.is_alive:
                 return process
             self._threads.submit(process.end)

@@ -19,7 +19,7 @@ from roughline.lab.server.sessions import Session
 MOST_BYTES = 2**16  # longest message of a page; files come another way
 _LONGEST_SLOT, _LONGEST_TEXT, _MOST_DEPTH = 40, 2000, 6
 _MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
-_PACKING = 4  # of 9: how hard bytes are packed, against the time that this takes
+PACKING = 4  # of 9: how hard bytes are packed, against the time that this takes
 _LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
 
 
@@ -42,7 +42,7 @@ class Link(Guarded, WebSocketHandler):
 
     def get_compression_options(self) -> dict[str, Any]:
         """Pack what is sent: pictures on a slow line wait for their bytes."""
-        return {"compression_level": _PACKING}
+        return {"compression_level": PACKING}
 
     def open(self, *args: str, **kwargs: str) -> None:
         """Begin a session, or go on with the one that the page had before."""

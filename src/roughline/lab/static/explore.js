@@ -13,7 +13,7 @@ import {bindTabs} from "./tabs.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
-const MAP = "explore-contact";
+const MAP = "explore-contact", NOT_ASKED = ["white"]; // how the area is drawn, which is always there
 const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
 const LEFT_BY_OTHERS = "curves belong to the contact before";
 
@@ -80,9 +80,9 @@ class Explore {
 
   async #save(name) {
     if (name.endsWith(".png")) {
-      const wanted = name === "contact.png" ? "contact" : "line curve";
-      const panels = [...this.#root.querySelectorAll(".panel[data-task]:not(.empty)")]
-        .filter((each) => each.offsetParent && wanted.includes(each.dataset.task));
+      const isMap = ({id}) => [MAP, "explore-profile"].includes(id);
+      const panels = [...this.#root.querySelectorAll(".panel:not(.empty)")]
+        .filter((each) => each.offsetParent && isMap(each) === (name === "contact.png"));
       save(name, await pictureOf(this.#plots, panels));
       return;
     }
@@ -132,7 +132,11 @@ class Explore {
 
   #changed(key, isFinal) {
     if (key === "shown") {
-      if (this.#last) { this.#drawField(); this.#writeAddress(this.#last.state); }
+      if (!this.#last) return;
+      this.#drawField();
+      this.#writeAddress(this.#last.state);
+      const {shown} = this.#controls.said;
+      if (![...NOT_ASKED, ...Object.keys(this.#fields.maps)].includes(shown)) this.#sharpen(); // it was not sent
       return;
     }
     this.#ofLink = "";

@@ -154,16 +154,34 @@ export class Link {
   }
 }
 
-const TYPES = {float32: Float32Array, uint8: Uint8Array, uint32: Uint32Array};
+const TYPES = {uint8: Uint8Array, uint32: Uint32Array};
 
 // A message of the server: its header, with the arrays in it as {values, shape, dtype}.
 function unpacked(buffer, start) {
   const length = new DataView(buffer).getUint32(start, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, start + 4, length)));
   const data = start + 4 + length;
-  for (const [name, {dtype, shape, offset}] of Object.entries(header.arrays)) {
+  const places = Object.entries(header.arrays);
+  for (const [name, {dtype, shape, offset, low, step}] of places) {
     const count = shape.reduce((product, n) => product * n, 1);
-    header.arrays[name] = {dtype, shape, values: new TYPES[dtype](buffer, data + offset, count)};
+    header.arrays[name] = dtype === "packed"
+      ? {dtype: "float32", shape, values: numbersOf(new Uint8Array(buffer, data + offset, 2 * count), shape[1], low, step)}
+      : {dtype, shape, values: new TYPES[dtype](buffer, data + offset, count)};
+  }
+  for (const [name, {above}] of places) {
+    if (above) header.arrays[name].values.forEach((sum, i, values) => { values[i] = Math.max(0, sum - header.arrays[above].values[i]); });
   }
   return header;
+}
+
+// Numbers of a map that the server has packed in 16 bits: second differences of steps, upper bytes first.
+function numbersOf(bytes, columns, low, step) {
+  const count = bytes.length / 2, steps = new Uint16Array(count), values = new Float32Array(count);
+  for (let i = 0; i < count; i += 1) {
+    const turned = bytes[i] * 256 + bytes[count + i], left = i % columns ? steps[i - 1] : 0;
+    const above = i < columns ? 0 : steps[i - columns] - (i % columns ? steps[i - columns - 1] : 0);
+    steps[i] = (turned >>> 1 ^ -(turned & 1)) + left + above; // which wraps at 2^16
+    values[i] = steps[i] ? low + step * (steps[i] - 1) : NaN;
+  }
+  return values;
 }
