@@ -264,7 +264,7 @@ def test_pages_set_symbols_as_reports_do(pages, published_results):
     page = pages.open("?view=measured")
     claims = judge_claims(published_results)
     texts = [text for text, _ in SET] + [t for each in claims for t in (each.statement, each.found)]
-    assert len(texts) > 60
+    assert len(texts) > 50
     written = page.evaluate(
         """async (texts) => {
             const {element, typeset} = await import("./lab/elements.js");
