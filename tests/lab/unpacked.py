@@ -7,12 +7,12 @@ import numpy as np
 HALF_A_STEP = 0.5001 / (2**16 - 2)  # of a map, over its range: that far numbers may be off
 
 
-def unpacked(message):
-    """The header of a message, and its arrays by name."""
+def unpacked(message, **held):
+    """The header of a message, and its arrays by name; some were held before."""
     length = int.from_bytes(message[:4], "little")
     header = json.loads(message[4 : 4 + length])
     places = header["arrays"]
-    arrays = {
+    arrays = held | {
         name: _array(message, place, 4 + length + place["offset"]) for name, place in places.items()
     }
     for name, place in places.items():

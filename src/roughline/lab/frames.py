@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -21,8 +22,9 @@ def frame(
     header: Mapping[str, Any],
     arrays: Mapping[str, NDArray[Any]] | None = None,
     above: Mapping[str, str] | None = None,
+    held: Collection[str] = (),
 ) -> bytes:
-    """Put a header and arrays into one message.
+    """Put a header and arrays into one message, without those that are held already.
 
     It is the length of the header (4 bytes, least first), the header as JSON with the type, shape
     and place of each array, padding, and the arrays. Numbers that JSON has not become null; arrays
@@ -31,12 +33,14 @@ def frame(
     """
     above = above or {}
     chunks, places, offset = [], {}, 0
-    for name, values in (arrays or {}).items():
+    arrays = arrays or {}
+    for name in [each for each in arrays if each not in held]:
+        values = arrays[name]
         place: dict[str, Any] = {"dtype": str(values.dtype), "shape": values.shape}
         if values.dtype in (np.uint8, np.uint32):
             content = np.ascontiguousarray(values).tobytes()
         else:
-            below = (arrays or {})[above[name]] if name in above else 0.0
+            below = arrays[above[name]] if name in above else 0.0
             low, step, content = packed(values + below)
             place |= {"dtype": "packed", "low": low, "step": step, "above": above.get(name, "")}
         places[name] = {**place, "offset": offset}
@@ -73,15 +77,23 @@ def drawn(
     header: Mapping[str, Any],
     panels: Mapping[str, PanelContent],
     maps: Mapping[str, Map],
-    arrays: Mapping[str, NDArray[Any]] | None = None,
+    above: Mapping[str, str] | None = None,
+    held: Collection[str] = (),
 ) -> bytes:
-    """Put what panels and maps show into a message with a header, and further arrays."""
-    arrays = {**(arrays or {}), **{name: each.values for name, each in maps.items()}}
+    """Put what panels and maps show into a message with a header.
+
+    Numbers of maps are packed as sums if they are counted `above` those of another, and are left
+    out of maps that the page has `held`, by their names.
+    """
     looks = {
         "panels": {key: vars(each) for key, each in panels.items()},
         "maps": {name: each.look for name, each in maps.items()},
     }
-    is_pressed = "gap" in maps and "height" in maps and maps["gap"].unit == maps["height"].unit
-    above = {"gap": "height"} if is_pressed else {}  # heights and gap together are the other body
     # rows of an image run along x
-    return frame({**header, **looks}, {name: values.T for name, values in arrays.items()}, above)
+    arrays = {name: each.values.T for name, each in maps.items()}
+    return frame({**header, **looks}, arrays, above, held)
+
+
+def digest(asked: object) -> str:
+    """A short name for what is asked."""
+    return sha256(repr(asked).encode()).hexdigest()[:12]

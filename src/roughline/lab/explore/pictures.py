@@ -29,7 +29,7 @@ from roughline.lab.explore.words import (
     status,
     unlike,
 )
-from roughline.lab.frames import drawn
+from roughline.lab.frames import digest, drawn
 from roughline.lab.maps import Map, contact_maps, height_map
 from roughline.lab.panels import PanelContent, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
@@ -40,7 +40,7 @@ _COARSE_POINTS = 128  # along a side while a slider moves
 _LINES = 20  # whose mean stiffness stands for the reduced model
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
-_TOLD = ("height", "area", "pressure", "gap")  # maps of which points are told; others if shown
+_TOLD = ("height", "area", "gap")  # maps of which points are told; with them goes what is shown
 _MOST_ROWS = 40  # of the spectrum's table
 _last: dict[tuple[ExploreState, int, bool], tuple[rl.SurfaceCurve, float]] = {}
 """What was pressed last in this process, by state and grid, and how long it took: when another map
@@ -77,13 +77,15 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
     state, refused = usable_state(arguments)
     n = state.points(_COARSE_POINTS)
-    return _message(state, refused, *contact(state, n, progress, is_coarse=True))
+    found = contact(state, n, progress, is_coarse=True)
+    return _message(state, refused, *found, arguments.get("heights"))
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on the grid of the state."""
     state, refused = usable_state(arguments)
-    return _message(state, refused, *contact(state, state.n, progress, is_coarse=False))
+    found = contact(state, state.n, progress, is_coarse=False)
+    return _message(state, refused, *found, arguments.get("heights"))
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
@@ -141,8 +143,8 @@ def further(arguments: Arguments, progress: Progress) -> bytes:
 
 def contact(
     state: ExploreState, n: int, progress: Progress, *, is_coarse: bool
-) -> tuple[dict[str, Any], dict[str, Map], dict[str, NDArray[Any]]]:
-    """The contact on a grid: words, maps and arrays; unless coarse with what finer grids change."""
+) -> tuple[dict[str, Any], dict[str, Map]]:
+    """The contact on a grid: words and maps; unless coarse with what finer grids change."""
     started = time.perf_counter()
     surface = state.surface(n)
     key = replace(state, shown=ExploreState.shown), n, is_coarse
@@ -172,6 +174,7 @@ def contact(
     content = {
         "points": n,
         "is_coarse": is_coarse,
+        "heights": digest((state.spectrum(n), n, state.seed)),
         "panels": panels,
         "strip": strip,
         "facts": [x.brief for x in facts_on_press(surface, pressed) if x.weight != "note"],
@@ -179,7 +182,7 @@ def contact(
         "scatter": _scatter(state),
         "status": status(pressed, n, seconds, is_coarse=is_coarse),
     }
-    return content, maps, {}
+    return content, maps
 
 
 def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
@@ -199,7 +202,8 @@ def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[s
     }
     for each in state.added:
         maps |= each.added_maps(fields, state)
-    return {name: each for name, each in maps.items() if name in (*_TOLD, state.shown)}
+    shown = state.shown if state.shown in maps and state.shown not in _TOLD else "pressure"
+    return {name: maps[name] for name in (*_TOLD, shown)}
 
 
 def _scatter(state: ExploreState) -> float | None:
@@ -217,11 +221,16 @@ def _message(
     refused: Mapping[str, str],
     content: dict[str, Any],
     maps: Mapping[str, Map] | None = None,
-    arrays: Mapping[str, NDArray[Any]] | None = None,
+    heights_held: object = (),
 ) -> bytes:
-    """An answer, with what the page is told of its controls: what counts, and what does not."""
-    header = {**_settled(state, refused), **content}
-    return drawn(header, content.get("panels", {}), maps or {}, arrays)
+    """An answer, with what the page is told of its controls: what counts, and what does not.
+
+    Heights do not cross the line again if the page has held them, by the key of their surface.
+    """
+    header, maps = {**_settled(state, refused), **content}, maps or {}
+    is_held = isinstance(heights_held, list) and content.get("heights") in heights_held
+    above = {"gap": "height"} if "gap" in maps else {}  # both together are the other body
+    return drawn(header, content.get("panels", {}), maps, above, ["height"] * is_held)
 
 
 def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:

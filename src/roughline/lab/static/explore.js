@@ -4,6 +4,7 @@ import {bindCode} from "./code.js";
 import {Controls} from "./controls.js";
 import {element} from "./elements.js";
 import {onDraw} from "./hands.js";
+import {settle} from "./link.js";
 import {Maps, layersOf, mapFigure, onRelief, profileFigure, sharedRanges} from "./maps.js";
 import {panelsOf} from "./panels.js";
 import {pictureOf, save} from "./saving.js";
@@ -14,6 +15,7 @@ import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
 const MAP = "explore-contact", NOT_ASKED = ["white"]; // how the area is drawn, which is always there
+const SURFACES = 4; // whose heights are held
 const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
 const LEFT_BY_OTHERS = "curves belong to the contact before";
 
@@ -174,8 +176,22 @@ class Explore {
     this.#link.ask("explore.reduced", "reduced", args, {
       answer: (header) => this.#draw(() => this.#drawLine(header, args, turn)), error,
     });
-    this.#link.ask("explore.coarse", "coarse", args, {
-      answer: (header) => this.#draw(() => this.#drawContact(header, args, turn)), error});
+    this.#link.ask("explore.coarse", "coarse", {...args, heights: this.#held}, {
+      answer: (header) => { this.#hold(header); this.#draw(() => this.#drawContact(header, args, turn)); }, error});
+  }
+
+  #heights = new Map(); // those that came last, of a coarse and of a fine grid, by the keys of their surfaces
+
+  get #held() { return [...this.#heights.keys()]; }
+
+  // Keep the heights of an answer, or take those that were not sent again.
+  #hold({heights, arrays}) {
+    if (!arrays.gap) return; // the load was not solved
+    arrays.height ??= this.#heights.get(heights);
+    this.#heights.delete(heights);
+    this.#heights.set(heights, arrays.height);
+    if (this.#heights.size > SURFACES) this.#heights.delete(this.#held[0]);
+    settle(arrays);
   }
 
   #sharpen() {
@@ -193,7 +209,8 @@ class Explore {
       error,
       progress,
     });
-    ask("full", "full", args, (header) => {
+    ask("full", "full", {...args, heights: this.#held}, (header) => {
+      this.#hold(header);
       this.#drawContact(header, args, turn);
       for (const each of this.#stale) {
         if (each !== "curve" && !header.state[each]) { this.#dim([each], false); continue; } // it is refused

@@ -161,15 +161,11 @@ function unpacked(buffer, start) {
   const length = new DataView(buffer).getUint32(start, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, start + 4, length)));
   const data = start + 4 + length;
-  const places = Object.entries(header.arrays);
-  for (const [name, {dtype, shape, offset, low, step}] of places) {
+  for (const [name, {dtype, shape, offset, low, step, above}] of Object.entries(header.arrays)) {
     const count = shape.reduce((product, n) => product * n, 1);
     header.arrays[name] = dtype === "packed"
-      ? {dtype: "float32", shape, values: numbersOf(new Uint8Array(buffer, data + offset, 2 * count), shape[1], low, step)}
+      ? {dtype: "float32", shape, above, values: numbersOf(new Uint8Array(buffer, data + offset, 2 * count), shape[1], low, step)}
       : {dtype, shape, values: new TYPES[dtype](buffer, data + offset, count)};
-  }
-  for (const [name, {above}] of places) {
-    if (above) header.arrays[name].values.forEach((sum, i, values) => { values[i] = Math.max(0, sum - header.arrays[above].values[i]); });
   }
   return header;
 }
@@ -184,4 +180,11 @@ function numbersOf(bytes, columns, low, step) {
     values[i] = steps[i] ? low + step * (steps[i] - 1) : NaN;
   }
   return values;
+}
+
+// Take from arrays that were sent as sums what they are above.
+export function settle(arrays) {
+  for (const {above, values} of Object.values(arrays)) {
+    if (above) values.forEach((sum, i) => { values[i] = Math.max(0, sum - arrays[above].values[i]); });
+  }
 }
