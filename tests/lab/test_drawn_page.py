@@ -1,11 +1,12 @@
-"""What is drawn is what is held: after any moves each series is drawn as on a page that begins so."""
+"""What is drawn is what is held: after any moves a page is drawn as one that begins so."""
 
 import pytest
 
 from lab.explore_driven import SMALL, settled
 
 # Points of each series: those that its source holds, column by column, and those that are drawn.
-DRAWN = """() => Object.fromEntries(Bokeh.documents.flatMap((made) => made.roots()).flatMap((root) =>
+DRAWN = """() => Object.fromEntries(
+    Bokeh.documents.flatMap((made) => made.roots()).flatMap((root) =>
     root.renderers.map((renderer) => {
         const {name, data} = renderer.data_source, {glyph} = Bokeh.index.find_one(renderer) ?? {};
         const held = Object.values(data).map((column) => column.length);
@@ -38,6 +39,7 @@ MOVES = """async ([count, seed]) => {
     }
 }"""
 
+
 def drawn_of(page):
     """Return points drawn by series; what is held by a source must all be drawn."""
     found = page.evaluate(DRAWN)
@@ -53,7 +55,9 @@ def test_after_any_moves_all_that_is_held_is_drawn(pages, moves, seed):
     settled(page, points=64)
     page.evaluate(MOVES, [moves, seed])
     settled(page, points=64)
-    link = page.evaluate("() => new Promise((done) => setTimeout(() => done(location.search), 400))")
+    link = page.evaluate(
+        "() => new Promise((done) => setTimeout(() => done(location.search), 400))"
+    )
     other = pages.open(link)
     settled(other, points=64)
     assert drawn_of(page) == drawn_of(other)
