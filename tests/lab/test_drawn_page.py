@@ -1,11 +1,12 @@
-"""What is drawn is what is held: after any moves each series is drawn as on a page that begins so."""
+"""What is drawn is what is held: after any moves a page is drawn as one that begins so."""
 
 import pytest
 
 from lab.explore_driven import SMALL, settled
 
 # Points of each series: those that its source holds, column by column, and those that are drawn.
-DRAWN = """() => Object.fromEntries(Bokeh.documents.flatMap((made) => made.roots()).flatMap((root) =>
+DRAWN = """() => Object.fromEntries(
+    Bokeh.documents.flatMap((made) => made.roots()).flatMap((root) =>
     root.renderers.map((renderer) => {
         const {name, data} = renderer.data_source, {glyph} = Bokeh.index.find_one(renderer) ?? {};
         const held = Object.values(data).map((column) => column.length);

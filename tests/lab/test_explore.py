@@ -14,6 +14,7 @@ import xarray
 
 import roughline as rl
 from lab.unpacked import HALF_A_STEP, assert_sent, unpacked
+from roughline.assessment.doubts import facts_on_press
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.panels import BACK
@@ -21,7 +22,9 @@ from roughline.lab.explore.reading import read_state
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.server.link import PACKING
+from roughline.margins.grid import intervals_of_grid
 from roughline.question.loading import UNLOADING
+from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
 SMALL = {"n": "64", "D_f": "2.4", "seed": "3", "F": "0.2", "cutoff": "0.0625"}
@@ -122,7 +125,8 @@ def test_a_rest_crosses_the_line_in_six_hundred_kilobytes(n, shown):
 def test_the_contact_is_that_of_the_library(curve):
     header, arrays = answer(pictures.full, SMALL)
     fields = curve.fields[0]
-    assert loads(header, "stiffness", "here")[1] == pytest.approx(curve.stiffness_bar, rel=1e-12)
+    wanted = curve.stiffness / (E_STAR * LENGTH)
+    assert loads(header, "stiffness", "here")[1] == pytest.approx(wanted, rel=1e-12)
     assert loads(header, "area", "here")[1].tolist() == curve.area_fraction_corrected.tolist()
     np.testing.assert_array_equal(arrays["area"], fields.contact.T)
     assert_sent(arrays["pressure"].T, fields.pressure / E_STAR)
@@ -146,16 +150,19 @@ def test_the_answer_strip_says_what_the_library_says(curve, surface):
     said = {item["key"]: item for item in header["strip"]}
     k, error = curve.stiffness[0], curve.stiffness_error[0]
     ends = k / (1 + error / k), k + error
-    k_bar = f"{curve.stiffness_bar[0]:.{supported_digits(k, ends, 3)}g}"
-    assert said["stiffness_3d"]["value"] == k_bar
-    assert numbers_in(said["stiffness_3d"]["below"])[1:] == [
-        float(f"{end / 1e6:.3g}") for end in ends
-    ]
-    assert said["stiffness_3d"]["below"].count("MN/m") == 2
+    value, _, interval = up_to_three_digits(k, ends, "N/m").partition(" (")
+    over_sides = figure(k / (E_STAR * LENGTH), supported_digits(k, ends, 3))
+    assert said["stiffness_3d"]["value"] == value
+    assert said["stiffness_3d"]["below"] == f"({interval} k / (E* L) {over_sides}"
+    assert interval.endswith("MN/m)")
     area = 100 * curve.area_fraction_corrected[0]
     assert float(said["area"]["value"].rstrip("%")) == pytest.approx(area, rel=0.05)
-    in_contact = curve.force[0] / (curve.area_fraction[0] * surface.area) / E_STAR
-    assert said["pressure"]["value"] == f"{in_contact:.3g} E*"
+    in_contact = curve.force[0] / (curve.area_fraction[0] * surface.area)
+    low, high = (end[0] for end in intervals_of_grid(curve).area)
+    ends = in_contact * area / 100 / high, in_contact * area / 100 / low
+    value, _, interval = up_to_three_digits(in_contact, ends, "Pa").partition(" (")
+    assert said["pressure"]["value"] == value
+    assert said["pressure"]["below"] == f"({interval} {figure(in_contact / E_STAR)} E*"
     assert said["depth"]["value"] == f"{curve.depth[0] / HEIGHT:#.3g} h"
     assert said["roughness"]["value"] == "1.00 µm"
     assert said["roughness"]["below"] == f"slope {surface.rms_slope:.3g}"
@@ -182,7 +189,7 @@ def test_the_curve_is_that_of_the_library(surface):
     header, _ = answer(pictures.curve, {**SMALL, "theories": "persson"})
     forces, stiffness = loads(header, "stiffness")
     pressed = rl.press(surface, E_star=E_STAR, forces=forces * (E_STAR * HEIGHT * LENGTH))
-    np.testing.assert_allclose(stiffness, pressed.stiffness_bar, rtol=1e-9)
+    np.testing.assert_allclose(stiffness, pressed.stiffness / (E_STAR * LENGTH), rtol=1e-9)
     given, areas = loads(header, "area", "theory persson")
     pressures = given * E_STAR * HEIGHT * LENGTH / surface.area
     wanted = rl.theory("persson", surface, E_STAR, pressures)
@@ -194,14 +201,15 @@ def test_a_coarse_answer_has_the_waves_of_its_grid():
     header, arrays = answer(pictures.coarse, state)
     assert header["points"] == 128
     assert header["is_coarse"]
-    assert arrays["topography"].shape == (128, 128)
+    assert arrays["height"].shape == (128, 128)
 
 
 def test_periodic_contacts_are_those_of_the_library(surface):
     header, _ = answer(pictures.full, {**SMALL, "boundary": "periodic"})
     force = 0.2 * E_STAR * HEIGHT * LENGTH
     pressed = rl.press(surface, E_star=E_STAR, forces=[force], periodic=True)
-    assert loads(header, "stiffness", "here")[1] == pytest.approx(pressed.stiffness_bar)
+    wanted = pressed.stiffness / (E_STAR * LENGTH)
+    assert loads(header, "stiffness", "here")[1] == pytest.approx(wanted)
 
 
 def test_an_rms_slope_is_that_of_the_surface():
@@ -320,7 +328,8 @@ def test_as_python_gives_the_same_numbers(curve):
         [sys.executable, "-c", header["text"]], capture_output=True, text=True, check=True
     )
     numbers = [float(line.split()[-1]) for line in done.stdout.splitlines()]
-    wanted = [curve.stiffness_bar[0], curve.area_fraction_corrected[0], curve.depth[0] / HEIGHT]
+    k = curve.stiffness[0] / (E_STAR * LENGTH)
+    wanted = [k, curve.area_fraction_corrected[0], curve.depth[0] / HEIGHT]
     np.testing.assert_allclose(numbers, wanted, rtol=1e-9)
 
 
@@ -334,9 +343,9 @@ def test_as_command_gives_the_same_numbers(invoke, tmp_path, monkeypatch):
 
 
 SHOWN = {
-    "stiffness": ("stiffness_3d", 1e-6),
-    "unloading_stiffness": ("unloading", 1e-6),
-    "area_fraction": ("area", 100),
+    "stiffness": ("stiffness_3d", "N/m"),
+    "unloading_stiffness": ("unloading", "N/m"),
+    "area_fraction": ("area", "%"),
 }
 
 
@@ -344,9 +353,26 @@ def intervals_are_those_of(state, report, *names):
     """Check that the strip has the intervals of a report."""
     page = {item["key"]: item for item in answer(pictures.full, state)[0]["strip"]}
     for name in names:
-        key, scale = SHOWN[name]
-        ends = [float(f"{end[0] * scale:.3g}") for end in report[f"{name}_interval"]]
-        assert numbers_in(page[key]["below"])[-2:] == ends
+        key, unit = SHOWN[name]
+        ends = [end[0] for end in report[f"{name}_interval"]]
+        wanted = up_to_three_digits(report[name][0], ends, unit).partition(" (")[2]
+        assert wanted
+        assert f"({wanted}" in page[key]["below"]
+
+
+def test_what_stands_against_a_press_is_told_by_the_page_and_by_the_code_alike():
+    steep = {"n": "64", "D_f": "2.9", "h": "0.1", "F": "10"}
+    header, _ = answer(pictures.full, steep)
+    surface = read_state(steep).surface(64)
+    force = 10 * E_STAR * surface.rms_height * LENGTH
+    pressed = rl.press(surface, E_star=E_STAR, forces=[force], throw=False)
+    facts = facts_on_press(surface, pressed)
+    assert [fact.kind for fact in facts if fact.is_grave] == ["steep", "strained"]
+    assert header["facts"] == [fact.brief for fact in facts if fact.weight != "note"]
+    text = answer(code.code, steep, which="python")[0]["text"]
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[3:] == [str(fact) for fact in facts]
+    assert answer(pictures.full, SMALL)[0]["facts"] == []
 
 
 def saved(name, state, tmp_path, **others):
@@ -426,7 +452,7 @@ def test_plastic_spots_are_those_of_the_library(yielding):
     assert said["plastic"]["value"] == f"{100 * yielding.plastic_fraction[0]:#.3g}%"
     assert said["indentation"]["value"] == f"{yielding.indentation[0] / HEIGHT:#.3g} h"
     k_u = yielding.unloading_stiffness[0] / 1e6
-    assert float(said["unloading"]["below"].split(" MN/m")[0]) == pytest.approx(k_u, rel=0.05)
+    assert float(said["unloading"]["value"].split(" MN/m")[0]) == pytest.approx(k_u, rel=0.05)
     elastic = {item["key"] for item in answer(pictures.full, SMALL)[0]["strip"]}
     assert said.keys() - elastic == {"unloading", "plastic", "indentation"}
 

@@ -9,7 +9,6 @@ import pytest
 import roughline as rl
 from lab.test_explore import E_STAR, HEIGHT, LENGTH, SMALL, answer, loads
 from lab.unpacked import assert_sent
-from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.reading import read_state, usable_state
@@ -35,7 +34,7 @@ def pressed():
 
 def test_numbers_are_over_the_modulus_of_the_base(pressed):
     header, arrays = answer(pictures.full, COATED)
-    wanted = stiffness_bar(pressed.stiffness, E_STAR, LENGTH, PAPER_PUNCH)
+    wanted = pressed.stiffness / (E_STAR * LENGTH)
     force, found = loads(header, "stiffness", "here")
     assert force == pytest.approx([0.2])
     assert found == pytest.approx(wanted, rel=1e-9)
@@ -123,9 +122,10 @@ def test_it_goes_with_all_others(more):
 def test_code_gives_the_same_numbers(pressed, invoke, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     exec(answer(code.code, COATED, which="python")[0]["text"], {})
-    numbers = [float(line.split()[-1]) for line in capsys.readouterr().out.splitlines()]
-    wanted = stiffness_bar(pressed.stiffness, E_STAR, LENGTH, PAPER_PUNCH)
-    assert numbers[:2] == pytest.approx([*wanted, *pressed.area_fraction_corrected], rel=1e-9)
+    out = capsys.readouterr().out.splitlines()
+    numbers = [float(line.split()[-1]) for line in out[:2]]
+    wanted = pressed.stiffness / (E_STAR * LENGTH)
+    assert numbers == pytest.approx([*wanted, *pressed.area_fraction_corrected], rel=1e-9)
     for line in answer(code.code, COATED, which="command")[0]["text"].splitlines():
         done, told, errors = invoke(*shlex.split(line)[1:], *["--json"] * line.count("press"))
         assert done == 0, errors

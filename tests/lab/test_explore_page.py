@@ -13,6 +13,7 @@ import roughline as rl
 from lab.explore_driven import SMALL, address, drawn, image, sentence, settled, strip, table, typed
 from lab.relay import Relay
 from lab_in_browser import NO_LINE, Pages, RunningLab
+from roughline.comparison.trust import trust_map
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
@@ -55,9 +56,11 @@ def test_it_opens_on_a_surface_that_is_solved(pages, query, points):
     drawn(page, points=points, D_f=2.2, F=0.1)
     said = re.compile(rf"^{points}², \d+ convolutions, residual \S+ certified, .* s$")
     page.locator("#explore [data-status]").filter(has_text=said).wait_for()
-    surface = spectrum(2.2, 2 / points).surface(points, 7)
+    surface = spectrum(2.2, 2 / points).surface(points, 20)
     pressed = rl.press(surface, E_star=E_STAR, forces=[0.1 * SCALE], fields=True)
-    assert strip(page)["stiffness_3d"][0] == figure(float(pressed.stiffness_bar[0]))
+    shown, unit = strip(page)["stiffness_3d"][0].split()
+    assert float(shown) == pytest.approx(pressed.stiffness[0] / 1e6, rel=0.05)  # two digits
+    assert unit == "MN/m"
     assert sum(image(page, "contact")) == pressed.fields[0].contact.sum()
     page.context.close()
 
@@ -75,22 +78,21 @@ def test_strip_and_tables_say_what_the_library_says(fresh):
     of_k = interval(k, pressed.stiffness_error[0])
     of_area = interval(area, pressed.area_fraction_error[0])
     of_area = of_area[0], min(of_area[1], pressed.area_fraction_most[0])
-    assert said["stiffness_3d"] == [
-        figure(pressed.stiffness_bar[0], supported_digits(k, of_k, 3)),
-        up_to_three_digits(k, of_k, "N/m"),
-    ]
+    value, _, ends = up_to_three_digits(k, of_k, "N/m").partition(" (")
+    over_disc = figure(k / (E_STAR * LENGTH), supported_digits(k, of_k, 3))
+    assert said["stiffness_3d"] == [value, f"({ends} k / (E* L) {over_disc}"]
     assert said["area"][0] == figure(100 * area, supported_digits(area, of_area, 3)) + "%"
     assert said["force"] == ["22.0 N", "22.0 MPa over the nominal area"]
     assert said["roughness"][0] == "1.00 µm"
     under_map = {row[0]: row[1] for row in table(fresh, "contact")}
-    assert under_map["k̄ (3D)"] == said["stiffness_3d"][0]
-    assert under_map["contact"] == said["area"][0]
-    assert all(row[3] for row in table(fresh, "contact") + table(fresh, "topography"))
+    assert under_map["stiffness k"] == said["stiffness_3d"][0]
+    assert under_map["contact area"] == said["area"][0]
+    assert all(row[3] for row in table(fresh, "contact"))
     curve = rl.press(surface, E_star=E_STAR, forces=np.geomspace(1e-3, 3, 13) * SCALE)
     rows = table(fresh, "stiffness")
     assert [row[0] for row in rows[:13]] == [figure(x) for x in curve.force_bar]
     assert [row[1].removesuffix(" *") for row in rows[:13]] == [
-        figure(x) for x in curve.stiffness_bar
+        figure(x) for x in curve.stiffness / (E_STAR * LENGTH)
     ]
     assert ["*" in row[1] for row in rows[:13]] == [not each for each in curve.resolved]
     assert [row[1].removesuffix(" *") for row in table(fresh, "area")] == [
@@ -110,9 +112,15 @@ def the_line_is_in_strip_and_table(fresh):
         rl.press(line, E_star=E_STAR, forces=[0.2 * E_STAR * line.rms_height * LENGTH])
         for line in lines
     ]
-    wanted = figure(float(np.mean([each.stiffness_bar[0] for each in stiffness])))
-    assert strip(fresh)["stiffness_1d"][0] == wanted
-    assert ["0.200", wanted, "1D"] in table(fresh, "stiffness")
+    mean = float(np.mean([each.stiffness_bar[0] for each in stiffness]))
+    assert ["0.200", figure(mean), "1D"] in table(fresh, "stiffness")
+    pressed = rl.press(spectrum().surface(64, 3), E_star=E_STAR, forces=[0.2 * SCALE])
+    ratio = pressed.stiffness[0] / (E_STAR * LENGTH) / mean - 1
+    said = fresh.inner_text("#explore [data-compared]")
+    words = f"This surface is {abs(ratio):.0%} {'softer' if ratio < 0 else 'stiffer'} than lines"
+    assert said.startswith(words.replace("%", " %"))
+    scatter = trust_map().at(2.4, 0.2).scatter
+    assert f"single surfaces scatter by {scatter:.0%}".replace("%", " %") in said
 
 
 @pytest.mark.parametrize("shown", ["pressure", "gap", "displacement"])

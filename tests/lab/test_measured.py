@@ -496,6 +496,14 @@ def test_what_cannot_be_used_is_said_at_its_control(page, rough, said, task, at,
     assert found == at
 
 
+@pytest.mark.parametrize(
+    ("adhesion", "mended"), [("50 mJ/m^2", ["adhesion"]), ("sticky", []), ("", [])]
+)
+def test_what_elastic_bodies_would_have_is_known(page, rough, adhesion, mended):
+    header, _ = page.ask("bodies", {**page.bring(rough), **PAIR, "adhesion": adhesion}, sides=None)
+    assert header["mended_if_elastic"] == mended
+
+
 def test_bodies_and_loads_are_said_as_soon_as_they_can_be_read(page):
     said = {**PAIR, "loads": "2 MPa; 10 N"}
     header, _ = page.ask("bodies", said, sides=[1e-3, 0.5e-3])

@@ -183,8 +183,8 @@ def _loads_in_window(
     inside = inside_window(force, window)
     if np.count_nonzero(inside) < 3:
         raise InputError(
-            f"the window {low:g} to {high:g} holds too few loads, {np.count_nonzero(inside)}; at least 3 "
-            f"are needed: widen it (the loads span {force.min():g} to {force.max():g})"
+            f"the window {low:g} to {high:g} holds too few loads, {np.count_nonzero(inside)}; at "
+            f"least 3 are needed: widen it (the loads span {force.min():g} to {force.max():g})"
         )
     stiffness = stiffness[:, inside]
     bad = ~(np.isfinite(stiffness) & (stiffness > 0))

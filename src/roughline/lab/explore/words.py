@@ -24,9 +24,9 @@ def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
             key="stiffness_1d",
             symbol="k (1D)",
             value=up_to_three_digits(stiffness * state.E_star * state.length, None, "N/m"),
-            meaning=f"Stiffness of the reduced model, mean of {lines} lines with the same waves. It "
-            "is made for the free half-space of one material, dry and elastic.",
-            below=f"k / (E* L) {figure(stiffness)}" + (f", {unlike(state)}" * bool(unlike(state))),
+            meaning=f"Stiffness of the reduced model, mean of {lines} lines with the same waves. "
+            "It is made for the free half-space of one material, dry and elastic.",
+            below=unlike(state),
         )
     ]
 
@@ -71,12 +71,11 @@ def _stiffness_and_area(pressed: rl.SurfaceCurve, state: ExploreState) -> list[I
             key="stiffness_3d",
             symbol="stiffness k",
             value=value_of(stiffness, of_k, "N/m") + (" *" if unsure else ""),
-            meaning="Stiffness of the full model: the exact slope dF/dd. The interval shows how far "
-            "finer grids may change it."
+            meaning="Stiffness of the full model: the exact slope dF/dd. The interval shows how "
+            "far finer grids may change it."
             + " It is that at a given reach of the pull: along a branch the slope is less." * sticks
             + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
-            below=f"{ends_of(stiffness, of_k, 'N/m')} k / (E* L) "
-            f"{figure(state.stiffness_bars(stiffness), supported_digits(stiffness, of_k, _DIGITS))}",
+            below=beside_stiffness(stiffness, of_k, state),
         ),
         item(
             key="area",
@@ -147,6 +146,12 @@ def ends_of(value: float, ends: tuple[float, float] | None, unit: str) -> str:
     """The interval of a value in brackets, rounded as the value is; nothing where there is none."""
     _, bracket, interval = up_to_three_digits(value, ends, unit).partition(" (")
     return bracket.strip() + interval
+
+
+def beside_stiffness(value: float, ends: tuple[float, float] | None, state: ExploreState) -> str:
+    """The interval of a stiffness, and what it is over the modulus and the side."""
+    over_side = figure(state.stiffness_bars(value), supported_digits(value, ends, _DIGITS))
+    return f"{ends_of(value, ends, 'N/m')} k / (E* L) {over_side}".strip()
 
 
 def first(ends: Any) -> tuple[float, float] | None:

@@ -14,7 +14,7 @@ from attrs import evolve
 from roughline.assessment.notes import facts_on_hardness, facts_on_loads
 from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
-from roughline.lab.controls import STRANGE, ControlError
+from roughline.lab.controls import STRANGE, ControlError, sent_texts
 from roughline.lab.explore.controls import CHOICES as EXPLORED
 from roughline.lab.frames import frame
 from roughline.lab.measured import controls as c
@@ -63,8 +63,14 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     meanings = []
     if body is not None and question.loads:
         meanings = [*map(str, facts_on_loads(question, body))]
+    elastic = {
+        "elastic": "yes",
+        **{k: x for k, x in sent_texts(arguments).items() if k != "elastic"},
+    }
+    still = used_in({**arguments, "state": elastic}, read)[1] if refused else {}
     header = {
         "refused": refused,
+        "mended_if_elastic": [key for key in refused if key not in still],
         "tables": {"measured-bodies": [["", ""], rows]},
         "lists": {"loads": meanings, "bodies-notes": notes},
         "words": {

@@ -236,7 +236,7 @@ class Explore {
     this.#plots.shows(MAP, {what: "contact", points: n, numbers});
     this.#show("contact", header);
     this.#drawField();
-    fillList(this.#find("[data-facts]"), header.facts);
+    this.#tell(header.facts);
     this.#compare();
     this.#fillTables(strip);
     const wasStopped = header.is_coarse && turn === this.#stopped; // and says so already
@@ -250,14 +250,25 @@ class Explore {
     if (this.#last && Object.keys(header.maps).length) this.#drawField();
   }
 
+  // Say above the numbers what is known against them.
+  #tell(facts) {
+    const list = this.#find("[data-facts]"), said = facts.join("; ");
+    if ((list.dataset.said ?? "") === said) return; // else a screen reader would say it again
+    list.dataset.said = said;
+    fillList(list, facts);
+  }
+
   // Say in words how the surface stands beside lines, once both are of the same state.
   #compare() {
     const line = this.#answers.get("line"), place = this.#find("[data-compared]");
-    if (!line || !this.#last || !sameState(line.state, this.#last.state) || !(this.#last.stiffness_bar_3d > 0)) return;
+    if (!line || !this.#last || !sameState(line.state, this.#last.state)) return;
+    if (!(this.#last.stiffness_bar_3d > 0)) { place.textContent = place.dataset.said = ""; return; } // the load was not solved
     const {numbers: {D_f, F}, stiffness_bar_3d: stiffness, scatter} = this.#last, ratio = stiffness / line.stiffness_bar_1d - 1;
     const size = `${Math.round(100 * Math.abs(ratio))} % ${ratio < 0 ? "softer" : "stiffer"} than`;
-    const words = `This surface is ${Math.round(100 * ratio) ? size : "as stiff as"} lines with its waves`;
+    const words = `This surface is ${Math.round(100 * ratio) ? size : "as stiff as"} lines with its waves${line.strip[0].below && `, ${line.strip[0].below}`}`;
     const trust = `?${new URLSearchParams({view: "published", v: "1", map_D_f: D_f, map_F: F})}#trust-title`;
+    if (place.dataset.said === `${words} ${scatter} ${trust}`) return;
+    place.dataset.said = `${words} ${scatter} ${trust}`;
     place.replaceChildren(words, ...(scatter === null ? ["."] : [`; single surfaces scatter by ${Math.round(100 * scatter)} % `,
       element("a", {href: trust, textContent: "(trust map)"}), "."]));
   }

@@ -255,7 +255,7 @@ export class Maps {
 }
 
 // Brightness of a surface that is lit from the upper left, as red, green, blue and opacity in one number of each point.
-function reliefOf({values, shape: [rows, columns]}, [width, height]) {
+export function reliefOf({values, shape: [rows, columns]}, [width, height]) {
   const across = new Float32Array(values.length), down = new Float32Array(values.length), shown = new Uint32Array(values.length);
   let squares = 0, low = Infinity, high = -Infinity;
   for (let i = 0, row = 0; row < rows; row++) {

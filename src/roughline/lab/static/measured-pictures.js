@@ -101,7 +101,7 @@ class Pictures {
     const told = this.#view.find(`[data-caption="measured-${name}"]`);
     if (!look) {
       this.#plots.set(name, NOTHING);
-      told.textContent = "the load was not solved";
+      fillCaption(told, {caption: "the load was not solved", meanings: {}});
       return;
     }
     const {rings, sizes, corner, table} = look;

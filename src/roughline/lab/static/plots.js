@@ -127,14 +127,15 @@ class Plots {
       return {item, x, y};
     });
     for (const {item, x, y} of shown.sort((one, other) => one.y - other.y)) {
-      const {offsetWidth: width, offsetHeight: high} = item;
+      const {width, high} = sizeOf(item);
       const isBeside = x + 2 * BESIDE + width < bbox.right, isAbove = y - BESIDE - high > bbox.top;
       const left = isBeside ? x + 2 * BESIDE : Math.max(bbox.right - width - BESIDE, bbox.left + BESIDE);
       let top = isBeside ? y - high / 2 : isAbove ? y - BESIDE - high : y + BESIDE;
       top = Math.min(Math.max(top, bbox.top + BESIDE), bbox.bottom - high - BESIDE);
       for (const each of taken) if (left < each.right && left + width > each.left && top < each.bottom && top + high > each.top) top = each.bottom;
       taken.push({left, right: left + width, top, bottom: top + high});
-      item.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
+      const place = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
+      if (item.style.transform !== place) item.style.transform = place;
     }
   }
 
@@ -171,6 +172,14 @@ export function recolourAll() {
 
 // Call when the theme was changed.
 export function onRecolour(told) { recoloured.push(told); }
+
+const sizes = new WeakMap(); // of names; to ask for one makes the browser lay out the page
+
+function sizeOf(item) {
+  const {textContent: text} = item;
+  if (sizes.get(item)?.text !== text) sizes.set(item, {text, width: item.offsetWidth, high: item.offsetHeight});
+  return sizes.get(item);
+}
 
 // The last point of a source that is known: of marks and lines x and y, of bands their middle.
 function lastOf({x = [], y, low, high}) {
