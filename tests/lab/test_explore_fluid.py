@@ -66,7 +66,7 @@ def test_without_the_tick_no_flow_is_computed(monkeypatch):
 
 
 def test_the_flux_is_that_of_the_library(curve):
-    header, arrays = answer(pictures.full, FLOWS)
+    header, arrays = answer(pictures.full, {**FLOWS, "shown": "flux"})
     flow = rl.flow(curve.fields[0])
     flux = np.hypot(*flow.flux) * LENGTH / flow.inflow
     shown, is_open = arrays["flux"].T, flow.gap > 0
@@ -103,7 +103,7 @@ def test_the_strip_says_how_much_comes_through_with_its_interval(curve):
 
 
 def test_what_is_sealed_is_said_and_its_map_shows_how_far_the_fluid_comes(surface):
-    header, arrays = answer(pictures.full, SEALED)
+    header, arrays = answer(pictures.full, {**SEALED, "shown": "flux"})
     pressed = rl.press(surface, E_star=E_STAR, forces=[9 * SCALE], fields=True)
     flow = rl.flow(pressed.fields[0])
     assert flow.is_sealed
