@@ -355,7 +355,8 @@ def intervals_are_those_of(state, report, *names):
     for name in names:
         key, unit = SHOWN[name]
         ends = [end[0] for end in report[f"{name}_interval"]]
-        wanted = up_to_three_digits(report[name][0], ends, unit).partition(" (")[2]
+        of = {"area_fraction": "area_fraction_corrected"}.get(name, name)
+        wanted = up_to_three_digits(report["curve"][of][0], ends, unit).partition(" (")[2]
         assert wanted
         assert f"({wanted}" in page[key]["below"]
 

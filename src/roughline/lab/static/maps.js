@@ -19,7 +19,7 @@ const CLEAR = "#00000000", VEIL = 0.72; // where the relief is seen: all of it, 
 const ON_RELIEF = {ink: "touch", plastic: "yields"}; // colours that stand out from grey
 const LIGHT = [-0.5, -0.5, Math.SQRT1_2], SLOPE = 0.35; // from the upper left; rms, so that smooth surfaces show
 const GREYS = { // of the relief by the theme: flat, per brightness, per height from the mean to the ends, darkest, brightest
-  light: [205, 70, 44, 105, 255], dark: [66, 64, 34, 12, 120],
+  light: [200, 50, 60, 95, 255], dark: [66, 44, 50, 12, 125],
 };
 
 // An empty map, whose numbers get the colours of a palette. Rings may be drawn on it in a colour.
