@@ -40,7 +40,7 @@ _COARSE_POINTS = 128  # along a side while a slider moves
 _LINES = 20  # whose mean stiffness stands for the reduced model
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
-_POINTED_AT = ("height", "area", "gap")  # maps of which points are told; with them goes what is shown
+_POINTED_AT = ("height", "area", "gap")  # maps of which points are told; what is shown is sent too
 _MOST_ROWS = 40  # of the spectrum's table
 _last: dict[tuple[ExploreState, int, bool], tuple[rl.SurfaceCurve, float]] = {}
 """What was pressed last in this process, by state and grid, and how long it took: when another map
