@@ -21,8 +21,8 @@ export function plot([x_axis_label, y_axis_label], [x_range, y_range], look = {}
   for (const axis of made.axes) {
     axis.major_label_policy = new Bokeh.NoOverlap();
   }
-  for (const [axes, range] of [[made.xaxes, made.x_range], [made.yaxes, made.y_range]]) {
-    for (const axis of axes) if (axis.type === "LogAxis") keepDecades(axis, range);
+  for (const [[axis], [grid], range] of [[made.xaxes, made.xgrids, made.x_range], [made.yaxes, made.ygrids, made.y_range]]) {
+    if (axis.type === "LogAxis") keepDecades(axis, grid, range);
   }
   made.toolbar.setv({logo: null, autohide: true});
   return made;
@@ -31,14 +31,16 @@ export function plot([x_axis_label, y_axis_label], [x_range, y_range], look = {}
 const ROUND = [1, 2, 5], FEW = 2; // of a decade; decades, below which they alone would be too few
 
 // Let a logarithmic axis have decades, and within few of them round numbers too.
-function keepDecades(axis, range) {
+function keepDecades(axis, grid, range) {
   const {ticker: decades, formatter: powers} = axis, ofFew = new Bokeh.BasicTickFormatter();
   ofFew.doFormat = (ticks) => ticks.map(inFewDigits);
   const choose = () => {
     const [low, high] = [range.start, range.end].map(Math.log10).sort((a, b) => a - b);
     const isFew = high - low < FEW, from = Math.floor(low);
     const ticks = isFew ? Array.from({length: Math.ceil(high) - from}, (_, i) => ROUND.map((each) => each * 10 ** (from + i))).flat() : [];
-    axis.setv({ticker: isFew ? new Bokeh.FixedTicker({ticks}) : decades, formatter: isFew ? ofFew : powers});
+    const ticker = isFew ? new Bokeh.FixedTicker({ticks}) : decades;
+    axis.setv({ticker, formatter: isFew ? ofFew : powers});
+    grid.ticker = ticker;
   };
   range.change.connect(choose);
   choose();
