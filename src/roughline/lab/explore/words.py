@@ -70,7 +70,7 @@ def _stiffness_and_area(pressed: rl.SurfaceCurve, state: ExploreState) -> list[I
         item(
             key="stiffness_3d",
             symbol="stiffness k",
-            value=value_of(stiffness, of_k, "N/m") + (" *" if unsure else ""),
+            value=value_in_words(stiffness, of_k, "N/m") + (" *" if unsure else ""),
             meaning="Stiffness of the full model: the exact slope dF/dd. The interval shows how "
             "far finer grids may change it."
             + " It is that at a given reach of the pull: along a branch the slope is less." * sticks
@@ -80,11 +80,11 @@ def _stiffness_and_area(pressed: rl.SurfaceCurve, state: ExploreState) -> list[I
         item(
             key="area",
             symbol="contact area",
-            value=value_of(area, of_area, "%"),
+            value=value_in_words(area, of_area, "%"),
             meaning="Real contact area over the nominal one, corrected for the steps of its "
             "outline. The interval shows how much finer grids, with finer roughness, may change "
             "it.",
-            below=ends_of(area, of_area, "%"),
+            below=interval_in_words(area, of_area, "%"),
         ),
     ]
 
@@ -103,10 +103,10 @@ def _pressure_and_depth(
         item(
             key="pressure",
             symbol="pressure p_c",
-            value=value_of(in_contact, ends, "Pa"),
+            value=value_in_words(in_contact, ends, "Pa"),
             meaning="Mean pressure within the contact, over the cells that touch. The interval is "
             "that of the contact area.",
-            below=f"{ends_of(in_contact, ends, 'Pa')} {figure(in_contact / state.E_star)} E*"
+            below=f"{interval_in_words(in_contact, ends, 'Pa')} {figure(in_contact / state.E_star)} E*"
             + over_hardness,
         ),
         item(
@@ -137,12 +137,12 @@ def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool)
     )
 
 
-def value_of(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+def value_in_words(value: float, ends: tuple[float, float] | None, unit: str) -> str:
     """A value with the digits that its interval supports, and its unit."""
     return up_to_three_digits(value, ends, unit).partition(" (")[0]
 
 
-def ends_of(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+def interval_in_words(value: float, ends: tuple[float, float] | None, unit: str) -> str:
     """The interval of a value in brackets, rounded as the value is; nothing where there is none."""
     _, bracket, interval = up_to_three_digits(value, ends, unit).partition(" (")
     return bracket.strip() + interval
@@ -151,7 +151,7 @@ def ends_of(value: float, ends: tuple[float, float] | None, unit: str) -> str:
 def beside_stiffness(value: float, ends: tuple[float, float] | None, state: ExploreState) -> str:
     """The interval of a stiffness, and what it is over the modulus and the side."""
     over_side = figure(state.stiffness_bars(value), supported_digits(value, ends, _DIGITS))
-    return f"{ends_of(value, ends, 'N/m')} k / (E* L) {over_side}".strip()
+    return f"{interval_in_words(value, ends, 'N/m')} k / (E* L) {over_side}".strip()
 
 
 def first(ends: Any) -> tuple[float, float] | None:

@@ -13,7 +13,7 @@ from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
-from roughline.lab.explore.words import beside_stiffness, first, item, load_rows, value_of
+from roughline.lab.explore.words import beside_stiffness, first, item, load_rows, value_in_words
 from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
 from roughline.margins.grid import intervals_of_grid
@@ -94,7 +94,7 @@ class YieldingPhysics(Physics):
             item(
                 key="unloading",
                 symbol="k_u",
-                value=value_of(unloading, ends, "N/m"),
+                value=value_in_words(unloading, ends, "N/m"),
                 meaning="Stiffness on unloading: all of the contact springs back, while on "
                 "loading the spots at the hardness bear no more. Ultrasound and currents depend "
                 "on it.",
