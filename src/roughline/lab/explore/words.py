@@ -106,8 +106,8 @@ def _pressure_and_depth(
             value=value_in_words(in_contact, ends, "Pa"),
             meaning="Mean pressure within the contact, over the cells that touch. The interval is "
             "that of the contact area.",
-            below=f"{interval_in_words(in_contact, ends, 'Pa')} {figure(in_contact / state.E_star)} E*"
-            + over_hardness,
+            below=f"{interval_in_words(in_contact, ends, 'Pa')} "
+            f"{figure(in_contact / state.E_star)} E*{over_hardness}",
         ),
         item(
             key="depth",
