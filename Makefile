@@ -11,7 +11,7 @@ PEERS_PYTHON ?= $(BIN)/python
 unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab lab-sessions lab-attack paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs measured-figures validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -141,13 +141,6 @@ constants: $(VENV)/installed
 lab-benchmark: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_moves.py
 
-lab-sessions: $(VENV)/installed
-	$(BIN)/python benchmarks/lab_sessions.py
-
-# Half an hour: 20 minutes of attack, and the time that a session waits for its page. Linux only.
-lab-attack: $(VENV)/installed
-	$(BIN)/python benchmarks/lab_attack.py
-
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
 	$(BIN)/python -m studies reduce paper out/study.zarr
@@ -215,6 +208,9 @@ $(TOOLS)/installed:
 	$(PYTHON) -m venv $(TOOLS)
 	$(TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check build twine uv
 	touch $@
+
+measured-figures: $(VENV)/installed
+	$(BIN)/python docs/draw_measured.py
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

@@ -2,9 +2,9 @@
 
 ``make constants MAPS=...`` solves small cases again with one constant changed at a time, with the
 measured maps that are named, in half an hour of a quiet core, and writes
-``docs/constants-table.md`` and ``docs/constants-table.csv``. Rows go to a file as they are made;
-what is there is not made again, so remove the folder after a change of the code. A constant is
-tried on the cases of its room, and there on the parts that use it.
+a part of ``docs/intervals_hold.md``, and all numbers beside its table. Rows go to a file as they
+are made; what is there is not made again, so remove the folder after a change of the code. A
+constant is tried on the cases of its room, and there on the parts that use it.
 """
 
 import argparse
@@ -243,8 +243,11 @@ def written(rows, maps):
     """Write the table and the page."""
     from page import Page  # here because it loads the package
 
-    page = Page("constants-table.md", "Constants of the margins", "constants")
-    with (DOCS / "constants-table.csv").open("w", encoding="utf-8", newline="") as file:
+    page = Page("constants", "intervals_hold.md", "constants")
+    (DOCS / "data" / "constants").mkdir(parents=True, exist_ok=True)
+    with (DOCS / "data" / "constants" / "numbers.csv").open(
+        "w", encoding="utf-8", newline=""
+    ) as file:
         table = csv.DictWriter(file, COLUMNS, extrasaction="ignore", lineterminator="\n")
         table.writeheader()
         for row in rows:
@@ -259,20 +262,18 @@ def written(rows, maps):
         f"{len(rows)} numbers decide how wide intervals are and what is said of them. A run, a "
         f"page or a definition gives {len(rows) - unknown - needless} of them. {needless} limit "
         f"the time of a search, the order of remarks and the like. What chose the other {unknown} "
-        "was not found; a run that counts intervals with them is named where there is one.\n"
+        "was not found; a run that counts intervals with them is named where there is one."
     )
     page.say(
         f"Each is doubled alone, and small cases are solved again, of made surfaces{named}. A "
         "share that would pass one is halved, of a number within a tenth of one the difference "
-        "from one is doubled, and of values that are tried there are twice as many. Told are "
-        "values, of answers and of fitted laws; widths, which are logarithms of upper over lower "
-        "ends, as the geometric mean of the ratios of those that change, and the ratio farthest "
-        "from one; intervals that come, go, open to nothing or infinity, or shut; and facts that "
-        "come (+) and go (−). What changes nothing guards what the cases do not hold: which, is "
-        "read from the code, and tried by no run. All numbers stand in [a "
-        "table](constants-table.csv).\n"
+        "from one is doubled. Told are values of answers and of fitted laws; widths (logarithms of "
+        "upper over lower ends), as the geometric mean of the ratios of those that change, and the "
+        "ratio farthest from one; intervals that come, go, or open to nothing or infinity; and "
+        "facts that come (+) and go (−). [All numbers](data/constants/numbers.csv)."
     )
-    page.table("constant", "value", "what it bounds", "what chose it", "if it is doubled")
+    columns = ("what it bounds", "what chose it", "if it is doubled")
+    page.table("constant", "value", *columns, at_most=4)
     for row in rows:
         changes = changes_in_words(row)
         if row["guards"]:
@@ -280,8 +281,8 @@ def written(rows, maps):
         how = "" if row["changed"] in ("× 2", "") else f"{row['changed']}: "
         page.row(
             f"{row['file']} {row['constant']}",
-            row["value"].replace("|", "\\|"),
-            row["bounds"].replace("|", "\\|"),
+            row["value"],
+            row["bounds"],
             row["chosen"],
             how + changes,
         )

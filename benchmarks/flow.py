@@ -2,8 +2,8 @@
 
 Each row has a process of its own. SuperLU comes with SciPy; PyAMG and reynoldsflow 0.1.3 take part
 where they are installed. All of them solve the same equations: the permeances of reynoldsflow and
-of roughline are those of one discretisation. Writes ``docs/flow-table.md``; with numbers, such as
-``python benchmarks/flow.py 512 1024``, it prints the rows of these grids alone.
+of roughline are those of one discretisation. Writes a part of ``docs/measured.md``; with numbers,
+such as ``python benchmarks/flow.py 512 1024``, it prints the rows of these grids alone.
 """
 
 import argparse
@@ -122,7 +122,8 @@ def rows(page, grids):
     names = [
         name for name in SOLVERS if name in ("roughline", "SuperLU") or name.lower() in installed
     ]
-    page.table("cells", "gap", "solver", "s", "GB", "permeance over ours, less 1", "imbalance")
+    columns = ("s", "GB", "permeance over ours, less 1", "imbalance")
+    page.table("cells", "gap", "solver", *columns, at_most=8)
     for n in grids:
         for kind in (OPEN, HALF, NEAR):
             reference = None
@@ -144,7 +145,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("grids", nargs="*", type=int)
     asked = parser.parse_args().grids
-    page = Page("flow-table.md", "Flow beside other solvers", "flow-benchmark")
+    page = Page("flow", "measured.md", "flow-benchmark")
     rows(page, asked or (512, 1024, 2048))
     if not asked:
         page.save()

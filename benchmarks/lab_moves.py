@@ -1,4 +1,4 @@
-"""How soon the lab answers in a browser: ``make lab-benchmark`` writes ``docs/lab-table.md``.
+"""How soon the lab answers in a browser: ``make lab-benchmark`` writes its part of the handbook.
 
 A headless Chromium opens the page of a fresh server and drags sliders with the mouse. A move counts
 from the time stamp of the slider's event until the frame after Bokeh has painted the picture that
@@ -174,19 +174,20 @@ def drag(page, key, moves):
 
 def write(times, rates, browser, save):
     """Write the medians and percentiles, or print them alone."""
-    page = Page("lab-table.md", "How soon the lab answers, measured", "lab-benchmark")
-    page.say(f"Headless Chromium {browser} without a graphics card, on the same machine.\n")
+    page = Page("lab", "measured.md", "lab-benchmark")
+    page.say(f"Headless Chromium {browser} without a graphics card, on the same machine.")
     measures = ("median", "95th percentile", "longest", "measured", "wanted (median)")
     page.table("from, to", *measures)
     for name, target in TARGETS.items():
         parts = (shown(part) for part in percentiles(times[name]))
         page.row(name, *parts, len(times[name]), shown(target))
-    page.say("\n## Long drags\n")
+    page.heading("Long drags")
     page.say(
         f"{DRAG:g} s from end to end and back with a mouse that moves every "
-        f"{1e3 * MOUSE:.0f} ms; pictures per second, of all surfaces:\n"
+        f"{1e3 * MOUSE:.0f} ms; pictures per second, of all surfaces:"
     )
-    page.table("slider, full grid", "reduced curve: least, median", "contact on 128²", "wanted")
+    columns = ("reduced curve: least, median", "contact on 128²", "wanted")
+    page.table("slider, full grid", *columns, at_most=0)
     for (key, points), found in rates.items():
         lines, contacts = (sorted(column) for column in zip(*found, strict=True))
         page.row(
@@ -196,7 +197,7 @@ def write(times, rates, browser, save):
             f"{FEWEST_PICTURES} of the curve" if points == 128 else "-",
         )
     page.say(
-        "\nA move counts from the event of the slider until the frame in which the picture of this "
+        "A move counts from the event of the slider until the frame in which the picture of this "
         "value is on the screen. Sliders are dragged with the mouse over the loads, fractal "
         f"dimensions and cutoffs of {len(SURFACES)} surfaces; the times of 512² and 1024² points "
         "hold the 250 ms without a move after which a slider counts as at rest."

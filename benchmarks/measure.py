@@ -1,4 +1,4 @@
-"""Measure both models on this machine and write docs/speed-table.md: ``make benchmark``.
+"""Measure both models on this machine and write a part of docs/measured.md: ``make benchmark``.
 
 Times of one run belong together; on another machine, or with other work beside, they differ. The
 ratios to a plain zero-padded convolution and to a plain inverse FFT of the same run travel better.
@@ -55,8 +55,8 @@ def our_convolution(n, precision):
 
 
 def convolutions(page):
-    page.say("## One convolution\n")
-    page.table("grid", "plain, zero-padded", "ours, double", "ours, single")
+    page.heading("One convolution")
+    page.table("grid", "plain, zero-padded", "ours, double", "ours, single", at_most=0)
     for n in (512, 1024, 2048):
         plain = plain_convolution(n)
         ours = (our_convolution(n, precision) for precision in ("float64", "float32"))
@@ -66,7 +66,7 @@ def convolutions(page):
 
 def paths(page, n_loads=20):
     """Time whole paths from first touch to saturation, stiffness included, and cold loads."""
-    page.say(f"\n## Full model: {n_loads} loads from first touch to saturation\n")
+    page.heading(f"Full model: {n_loads} loads from first touch to saturation")
     counts = ("plain convolutions", "own convolutions")
     page.table("grid", "H", "per load", *counts, "last k", "residual")
     for n in (512, 1024, 2048):
@@ -79,7 +79,7 @@ def paths(page, n_loads=20):
             own = f"{curve.convolutions.mean():.0f}, at most {curve.convolutions.max()}"
             last = (f"{curve.stiffness_bar[-1]:.2f}", f"{curve.residual.max():.0e}")
             page.row(f"{n}²", hurst, *times, own, *last)
-    page.say("\n## Full model: one cold load, H = 0.8\n")
+    page.heading("Full model: one cold load, H = 0.8")
     page.table("grid", "contact", "time", "plain convolutions")
     for n in (512, 1024, 2048):
         plain = plain_convolution(n)
@@ -90,8 +90,8 @@ def paths(page, n_loads=20):
 
 def growth(page, n_loads=6):
     """Fit how time and convolutions per load grow with the number of points."""
-    page.say(f"\n## Full model: growth with the grid, H = 0.8, {n_loads} loads to saturation\n")
-    page.table("grid", "per load", "convolutions per load")
+    page.heading(f"Full model: growth with the grid, H = 0.8, {n_loads} loads to saturation")
+    page.table("grid", "per load", "convolutions per load", at_most=0)
     sizes, times, counts = [256, 512, 1024, 2048, 4096], [], []
     forces = np.geomspace(0.1, 3.0, n_loads)
     for n in sizes:
@@ -103,7 +103,7 @@ def growth(page, n_loads=6):
     points = np.log(np.square(sizes))
     exponents = [np.polyfit(points, np.log(values), 1)[0] for values in (times, counts)]
     page.say(
-        f"\nTime per load grows like N^{exponents[0]:.2f} with the number of points N, "
+        f"Time per load grows like N^{exponents[0]:.2f} with the number of points N, "
         f"convolutions per load like N^{exponents[1]:.2f}."
     )
 
@@ -119,7 +119,7 @@ def press_lines(task):
 
 def reduced_model(page, n_lines=500):
     """Time lines: one, and the paper's ensemble for six fractal dimensions."""
-    page.say("\n## Reduced model: lines of 2^20 points, 200 loads\n")
+    page.heading("Reduced model: lines of 2^20 points, 200 loads")
     n, forces = 2**20, np.geomspace(1e-5, 10, 200)
     spectrum, modes = rl.SelfAffine(hurst=0.8, rms_height=1.0), np.ones(2**19 + 1, dtype=complex)
     numpys = seconds(lambda: np.fft.irfft(modes), 15)
@@ -142,13 +142,13 @@ def reduced_model(page, n_lines=500):
     with ProcessPoolExecutor(CORES, context) as pool:
         done, wall = once(lambda: sum(pool.map(press_lines, tasks)))
     page.say(
-        f"\n{n_lines} lines for each of six fractal dimensions: {wall:.0f} s on {CORES} cores, "
+        f"{n_lines} lines for each of six fractal dimensions: {wall:.0f} s on {CORES} cores, "
         f"{wall / done * 1e3:.1f} ms a line."
     )
 
 
 def start_up(page):
-    page.say("\n## Start-up\n")
+    page.heading("Start-up")
     empty, ours, usage = (
         seconds(lambda a=a: subprocess.run(a, check=True, stdout=subprocess.DEVNULL))
         for a in (
@@ -170,7 +170,7 @@ def main():
     only = parser.parse_args().only
     warm = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7)
     rl.press(warm, E_star=1.0, forces=[0.01, 0.02, 0.3])  # compiles
-    page = Page("speed-table.md", "Speed, measured", "benchmark")
+    page = Page("speed", "measured.md", "benchmark")
     for part in parts:
         if only in (None, part.__name__):
             part(page)

@@ -1,9 +1,9 @@
 """Count how often intervals hold on surfaces as they are made and measured.
 
-``make intervals`` asks what users ask, and writes ``docs/intervals-table.md``; ``make coverage``,
-``make grid-error``, ``make interface-stiffness`` and ``make part-coverage`` each count one study;
-``make leak-coverage`` counts what flows, and writes ``docs/leak-coverage-table.md``, and ``make
-seal-coverage`` the pressure that seals, in ``docs/seal-coverage-table.md``.
+``make intervals`` asks what users ask, ``make leak-coverage`` counts what flows, and ``make
+seal-coverage`` the pressure that seals; each writes its part of ``docs/intervals_hold.md``. ``make
+coverage``, ``make grid-error``, ``make interface-stiffness`` and ``make part-coverage`` each count
+one study.
 The truth is the full model's answer for the parent, or for the finer surface that an instrument
 saw. An interval that is not printed counts as silent. Rows go to a file as they are made; what is
 there is not made again. ``--files`` takes measured maps, whose quarters are asked instead.
@@ -24,14 +24,10 @@ OF_LEAKS = {"leak": LEAK}
 OF_SEALS = {"seal": SEAL}
 OTHERS = {"finer": FINER, "tiled": TILED, "mine": MINE, "pieces": PIECE}
 STUDIES = {**OF_THE_PAGE, **OF_LEAKS, **OF_SEALS, **OTHERS}
-PAGES = {
-    (*OF_THE_PAGE,): (
-        "intervals-table.md",
-        "Intervals on surfaces as they are measured",
-        "intervals",
-    ),
-    (*OF_LEAKS,): ("leak-coverage-table.md", "Intervals of what flows", "leak-coverage"),
-    (*OF_SEALS,): ("seal-coverage-table.md", "Intervals of what seals", "seal-coverage"),
+PARTS = {
+    (*OF_THE_PAGE,): "intervals",
+    (*OF_LEAKS,): "leak-coverage",
+    (*OF_SEALS,): "seal-coverage",
 }
 
 
@@ -52,17 +48,12 @@ def main():
         tables.append(recorded(arguments.folder / f"{name}.csv", trials, study.rows_of))
     rows = pd.concat(tables, ignore_index=True)
     of_these = tuple(arguments.studies)
-    page = Page(*PAGES.get(of_these, PAGES[*OF_THE_PAGE,]))
-    page.say(
-        "Held: share of the printed intervals that hold the truth. Silent: share for which no "
-        "interval is printed, because the data break an assumption. Half width: median factor from "
-        "the middle to the ends. Too wide: by how much the logarithms of all intervals of a row "
-        "could be divided so that 95 of 100 still hold."
-    )
+    part = PARTS.get(of_these, PARTS[*OF_THE_PAGE,])
+    page = Page(part, "intervals_hold.md", part)
     beside = "A map or a scan does not show what lies beside it."
-    page.say(f"\nFewer than nine in ten hold for: {', '.join(misses(rows))}. {beside}")
+    page.say(f"Fewer than nine in ten hold for: {', '.join(misses(rows))}. {beside}")
     written(rows, STUDIES, page)
-    if of_these in PAGES and share == 1.0 and not quarters:
+    if of_these in PARTS and share == 1.0 and not quarters:
         page.save()
 
 

@@ -1,9 +1,9 @@
 """Measure the peak memory of presses beside its estimate: ``make memory``.
 
 Each press has a process of its own. All of them take some ten minutes and 3 GB, and write
-``docs/memory-table.md``; ``python benchmarks/memory.py 16384 free 0.3`` prints a row for a grid, a
-boundary and reduced forces. With ``--hardness 3`` the bodies yield where the pressure is a third of
-the mean contact pressure of elastic ones, half of E* times the rms slope.
+a part of ``docs/measured.md``; ``python benchmarks/memory.py 16384 free 0.3`` prints a row for a
+grid, a boundary and reduced forces. With ``--hardness 3`` the bodies yield where the pressure is a
+third of the mean contact pressure of elastic ones, half of E* times the rms slope.
 """
 
 import argparse
@@ -77,24 +77,25 @@ def main():
         forces = tuple(asked.forces) or SEVERAL
         print(" | ".join(cells(asked.points, asked.boundary, forces, asked.hardness)))
         return
-    page = Page("memory-table.md", "Memory, measured", "memory")
+    page = Page("memory", "measured.md", "memory")
     page.say(
         "Bytes a point are those above the interpreter, the generation of the surface included; "
         "the estimate is that of a press with the contact that the loads are expected to bring "
         "about, and the 8 bytes of the heights; `rl.estimate` adds a margin, and the interpreter "
         "with its libraries. H = 0.8, a process for each row. Seconds are those of a load, where "
-        "other programs may have run beside.\n"
+        "other programs may have run beside."
     )
-    measures = ("in contact", "bytes a point", "estimated", "", "peak", "a load", "residual")
-    page.table("grid", "half-space", "F̄", *measures)
+    held = ("bytes a point", "estimated", "estimate over it", "peak")
+    measures = ("in contact", *held, "a load", "residual")
+    page.table("grid", "half-space", "F̄", *measures, at_most=6)
     for row in ELASTIC:
         page.row(*elsewhere(cells, *row))
-    page.say("\n## Bodies that yield\n")
+    page.heading("Memory of bodies that yield")
     page.say(
         "$p_c$ is the mean contact pressure of the elastic bodies, half of $E^*$ times the rms "
-        f"slope. Loads rise and fall: F̄ = {', '.join(f'{f:g}' for f in HISTORY)}.\n"
+        f"slope. Loads rise and fall: F̄ = {', '.join(f'{f:g}' for f in HISTORY)}."
     )
-    page.table("grid", "half-space", "$p_c/H$", "F̄", *measures)
+    page.table("grid", "half-space", "$p_c/H$", "F̄", *measures, at_most=0)
     for row in YIELDING:
         page.row(*elsewhere(cells, *row))
     page.save()

@@ -24,11 +24,8 @@ MODULES = (
     "fluid/reopening.py",
     "fluid/sealing_pressure.py",
     "fluid/trials.py",
-    *(
-        f"assessment/{name}.py"
-        for name in ("border_of_flow", "bounds", "doubts", "notes", "part_remarks")
-    ),
-    *(f"question/{name}.py" for name in ("assumptions", "case", "extrapolation", "films")),
+    *(f"assessment/{name}.py" for name in ("bounds", "facts", "part_facts")),
+    *(f"question/{name}.py" for name in ("assumptions", "case", "extrapolation", "films", "meant")),
     "measurement/*.py",
     "statistics/bootstrap.py",
     "statistics/places.py",

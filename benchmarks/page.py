@@ -1,7 +1,9 @@
-"""Pages of the handbook that benchmarks write, and what they measure: times and memory."""
+"""What benchmarks write into the handbook, and what they measure: times and memory."""
 
+import csv
 import multiprocessing
 import platform
+import re
 import resource
 import statistics
 import sys
@@ -14,30 +16,82 @@ import numpy as np
 import roughline as rl
 from roughline.computing.cores import available_cores, processor_name
 
+DOCS = Path(__file__).parents[1] / "docs"
+SHOWN = 10  # rows of a table on its page; the others are in its file
+
 
 class Page:
-    """A page in ``docs/``, printed while it is measured."""
+    """What a benchmark writes into a page of ``docs/``, printed while it is measured.
 
-    def __init__(self, name, title, target):
-        self.path = Path(__file__).parents[1] / "docs" / name
-        self.lines = []
-        self.say(f"# {title}\n")
-        self.say(f"Written by `make {target}`: {machine()}.\n")
+    It stands between two comments of the page, which name it. A table is a file of ``docs/data/``,
+    of which the page shows some rows.
+    """
 
-    def say(self, line):
-        """Add a line, and print it."""
-        print(line, flush=True)
-        self.lines.append(line)
+    def __init__(self, part, page, target, conditions=None):
+        self.part, self.path = part, DOCS / page
+        self.begin = f"<!-- {part}: `make {target}` writes this -->"
+        self.end = f"<!-- end of {part} -->"
+        self.file = f"data/{part}.csv"  # of the next table
+        self.tables, self.parts = {}, []  # rows by file; paragraphs, and files of tables
+        self.say(f"Written by `make {target}`: {conditions or machine()}.")
 
-    def table(self, *columns):
+    def say(self, paragraph):
+        """Add a paragraph, and print it."""
+        print(paragraph, "", sep="\n", flush=True)
+        self.parts.append(paragraph.strip())
+
+    def heading(self, text):
+        """Begin a section, whose table has a file of its own."""
+        self.say(f"### {text}")
+        self.file = f"data/{self.part}/{file_name(text)}.csv"
+
+    def table(self, *columns, shown=None, at_most=SHOWN):
+        """Begin a table; the page shows a number of its rows, evenly from those that it may show.
+
+        These are all, or those of which ``shown`` is true.
+        """
+        self.tables[self.file] = [], shown or (lambda row: True), at_most
+        self.parts.append(self.file)
         self.row(*columns)
-        self.row(*["---"] * len(columns))
 
     def row(self, *cells):
-        self.say(f"| {' | '.join(map(str, cells))} |")
+        cells = [str(each) for each in cells]
+        print(*cells, sep=" | ", flush=True)
+        self.tables[self.file][0].append(cells)
 
     def save(self):
-        self.path.write_text("\n".join(self.lines) + "\n", encoding="utf-8")
+        """Write the page and the files of the tables."""
+        for file, (rows, *_) in self.tables.items():
+            path = DOCS / file
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("w", encoding="utf-8", newline="") as opened:
+                csv.writer(opened, lineterminator="\n").writerows(rows)
+        text = self.path.read_text("utf-8")
+        before, _, rest = text.partition(self.begin)
+        _, ended, after = rest.partition(self.end)
+        if not ended:
+            raise SystemExit(f"{self.path} has no lines {self.begin} and {self.end}")
+        said = [self._in_short(each) if each in self.tables else each for each in self.parts]
+        written = "\n\n".join([self.begin, *said, self.end])
+        self.path.write_text(f"{before}{written}{after}", encoding="utf-8")
+
+    def _in_short(self, file):
+        """Return a table as Markdown, with a link to the whole of it."""
+        (head, *rows), shown, at_most = self.tables[file]
+        some = [row for row in rows if shown(row)]
+        if len(some) > at_most:
+            places = np.linspace(0, len(some) - 1, at_most).round().astype(int)
+            some = [some[place] for place in places]
+        count = f"all {len(rows)} rows" if len(some) < len(rows) else "these rows"
+        lines = [head, ["---"] * len(head), *some] if some else []
+        cells = ([cell.replace("|", "\\|") for cell in row] for row in lines)
+        table = [f"| {' | '.join(row)} |" for row in cells]
+        return "\n".join([*table, "", f"[As CSV, {count}]({file})."]).strip()
+
+
+def file_name(text):
+    """Return a heading as the name of a file."""
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
 
 
 def machine():

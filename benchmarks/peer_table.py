@@ -1,5 +1,6 @@
-"""The table of roughline beside other programs, made of measured rows."""
+"""What the handbook says of roughline beside other programs, made of measured rows."""
 
+from page import SHOWN, Page
 from peer_programs import SMALL, program_of
 
 PEERS = ("ASPHER", "Tamaas", "ContactMechanics")
@@ -9,36 +10,29 @@ SAME = """\
 All press the same surfaces, free and fractal down to the grid, and are asked for 1e-6, each in its
 own measure. Only roughline's times include a stiffness, with every load."""
 
-LARGE_GRIDS = """Every timing is a
-process of its own that has pressed another grid before (480² points; others 256², as ASPHER takes
-powers of two only): machine code is loaded, thread pools run, and neither tables, plans of
-transforms nor memory of the timed grid are there."""
+LARGE_GRIDS = """Every timing is a process of its own that has pressed another grid before:
+machine code is loaded, thread pools run, and neither tables, plans of transforms nor memory of the
+timed grid are there. Tamaas and ContactMechanics press the smaller grids only."""
 
-SMALL_GRIDS = """Every timing is a
-process of its own that has pressed another surface on the same grid before and then presses this
-one again and again, the shortest press counts: what a program keeps from one surface to the next,
-tables, plans of transforms and memory, is there. No load is begun from the pressures of another.
+SMALL_GRIDS = """Small grids are pressed in a process that has pressed another surface on the same
+grid before and then presses this one again and again; the shortest press counts. What a program
+keeps from one surface to the next is there, but no load is begun from the pressures of another.
 ASPHER's coarsest grid is 64², its default, but 32² where the grid itself is 64²."""
 
-ALL_GRIDS = """\
-All may use as many threads. Programs take turns; the best of the runs counts, and what takes 2 s or
-more runs once.
-
-ASPHER counts with the best of its engines in double precision at that load: an H² product that
-touches the candidate contact only, and FFT. "Fourier" is the former with the preconditioner that
-the latter has here, over the whole grid; "single first" finds the contact in single precision and
-ends in double precision, as roughline does. An engine that takes longer than 2 s and longer than
-another has taken is stopped.
-
-Ratios are the other program's time over roughline's: below one, roughline is slower. A dash
-stands where a program was not run{smaller_only}.
-"""
+ALL_GRIDS = """All may use as many threads. Programs take turns; the best of the runs counts.
+ASPHER counts with the best of its engines at that load: an H² product that touches the candidate
+contact only, and FFT; "Fourier" is the former with the preconditioner of the latter, and "single
+first" finds the contact in single precision and ends in double. An engine that takes longer than
+2 s and longer than another has taken is stopped. Ratios are the other program's time over
+roughline's: below one, roughline is slower. A dash stands where a program was not run."""
 
 
-def table(rows):
-    sections = (head, convolutions, cold_loads, contact_areas, paths)
-    written = [[*write(rows)] for write in sections]
-    return "\n".join("\n".join(lines) + "\n" for lines in written if lines)
+def write(rows, part):
+    """Write the rows into the handbook."""
+    page = Page(part, "measured.md", "peers", conditions(rows))
+    for section in (head, convolutions, cold_loads, contact_areas, paths):
+        section(rows, page)
+    page.save()
 
 
 def of_kind(rows, kind):
@@ -48,28 +42,37 @@ def of_kind(rows, kind):
     return sorted(found, key=lambda row: [row.get(name, 0) for name in order])
 
 
-def tabled(heading, columns, rows, cells_of):
+def tabled(page, heading, columns, rows, cells_of, said="", at_most=SHOWN):
     """Give a heading and a table under it; nothing where there are no rows."""
-    if rows:
-        yield from (heading, f"| {' | '.join(columns)} |", "|---" * len(columns) + "|")
+    if not rows:
+        return
+    page.heading(heading)
+    if said:
+        page.say(said)
+    page.table(*columns, at_most=at_most)
     for row in rows:
-        yield f"| {' | '.join(cells_of(row))} |"
+        page.row(*cells_of(row))
 
 
-def head(rows):
+def are_small(rows):
+    """Whether all grids are small ones."""
+    return all(row["n"] <= SMALL for row in rows if "n" in row)
+
+
+def conditions(rows):
     """Name the machine and the programs."""
     (machine,) = of_kind(rows, "machine")
     programs = ", ".join(f"{name} {version}" for name, version in machine["programs"].items())
-    yield "# Beside other programs, measured\n"
-    yield (
-        f"Written by `make peers`: {programs}; {machine['processor']}, {machine['cores']} "
-        f"cores, {machine['vectors']}; Python {machine['python']}, NumPy {machine['numpy']}.\n"
+    return (
+        f"{programs}; {machine['processor']}, {machine['cores']} cores, {machine['vectors']}; "
+        f"Python {machine['python']}, NumPy {machine['numpy']}"
     )
-    small = all(row["n"] <= SMALL for row in rows if "n" in row)
-    yield f"{SAME} {SMALL_GRIDS if small else LARGE_GRIDS}"
-    smaller_only = "; Tamaas and ContactMechanics press the smaller grids only" * (not small)
-    yield ALL_GRIDS.format(smaller_only=smaller_only)
-    yield other_work(rows)
+
+
+def head(rows, page):
+    """Say how times are taken, where it is not said of the large grids."""
+    page.say(SMALL_GRIDS if are_small(rows) else f"{SAME} {LARGE_GRIDS} {ALL_GRIDS}")
+    page.say(other_work(rows))
 
 
 def ended(row):
@@ -94,13 +97,13 @@ def other_work(rows):
     )
 
 
-def convolutions(rows):
+def convolutions(rows, page):
     def cells(row):
         times = (f"{row[name] * 1e3:.1f} ms" for name in ("plain", "double", "single"))
         return [f"{row['n']}²", *times]
 
     columns = ("grid", "plain, zero-padded", "roughline, double", "single")
-    return tabled("## One convolution\n", columns, of_kind(rows, "convolution"), cells)
+    tabled(page, "One convolution beside", columns, of_kind(rows, "convolution"), cells, at_most=0)
 
 
 def best(row, program):
@@ -134,7 +137,7 @@ def ratio(theirs, ours, at_least=False):
         return "–"
     value = theirs / ours
     text = f"{'> ' if at_least else ''}{value:.2f}"
-    return f"**{text}, roughline is slower**" if value < 1 and not at_least else text
+    return f"{text}, roughline is slower" if value < 1 and not at_least else text
 
 
 def peers_in(rows):
@@ -147,7 +150,7 @@ def time_of(run):
     return run["seconds"] if run.get("converged") else run.get("stopped_after")
 
 
-def cold_loads(rows):
+def cold_loads(rows, page):
     found = of_kind(rows, "cold")
     peers = peers_in(found)
 
@@ -161,12 +164,14 @@ def cold_loads(rows):
             yield duration(run) + (f" ({engine})" if engine and "seconds" in run else "")
             yield ratio(time_of(run), ours["seconds"], "stopped_after" in run)
 
-    columns = [column for peer in peers for column in (peer, "over roughline")]
+    initials = {peer: "".join(filter(str.isupper, peer)) for peer in peers}
+    columns = [x for peer in peers for x in (peer, f"over roughline ({initials[peer]})")]
     columns = ("grid", "H", "F̄", "contact", "roughline", *columns)
-    return tabled("## One cold load\n", columns, found, cells)
+    of_small = " on a small grid" * are_small(rows)
+    tabled(page, f"One cold load{of_small}", columns, found, cells, at_most=6)
 
 
-def contact_areas(rows):
+def contact_areas(rows, page):
     found = of_kind(rows, "cold")
     peers = peers_in(found)
 
@@ -179,17 +184,18 @@ def contact_areas(rows):
             yield "–" if area is None else f"{area:.4%}{', differs' if far else ''}"
 
     columns = ("grid", "H", "F̄", "roughline", *peers)
-    yield from tabled("## Contact areas of these loads\n", columns, found, cells)
-    if found:
-        runs = [(row["force_bar"], best(row, peer)[1]) for row in found for peer in peers]
-        furthest = max((abs(run.get("force", f) / f - 1) for f, run in runs), default=0.0)
-        yield (
-            f"\nAreas that differ by more than {SAME_AREA:.0e} of themselves are marked. "
-            f"Mean pressures are met to {furthest:.0e}."
-        )
+    runs = [(row["force_bar"], best(row, peer)[1]) for row in found for peer in peers]
+    furthest = max((abs(run.get("force", f) / f - 1) for f, run in runs), default=0.0)
+    said = (
+        f"Areas that differ by more than {SAME_AREA:.0e} of themselves are marked. "
+        f"Mean pressures are met to {furthest:.0e}."
+    )
+    of_small = " on small grids" * are_small(rows)
+    heading = f"Contact areas of these loads{of_small}"
+    tabled(page, heading, columns, found, cells, said, at_most=0)
 
 
-def paths(rows):
+def paths(rows, page):
     def cells(row):
         _, ours = best(row, "roughline")
         each, counts = ours["seconds"] / row["n_loads"], ours["convolutions"]
@@ -199,18 +205,19 @@ def paths(rows):
         yield f"{sum(counts) / row['n_loads']:.0f}, at most {max(counts)}"
         yield from (*cold_path(rows, row, each), *warm_path(row, each))
 
-    heading = (
-        "## A path of loads from first touch to saturation\n\n"
+    said = (
         "Times are seconds a load, each run once. ASPHER's cold loads are those of roughline's "
         "path, each with the best of its engines; of some paths only every k-th is solved, as the "
         "table says, and one that is stopped counts with the time until then. Its warm loads start "
-        "from the pressures of the load before, with its FFT.\n"
+        "from the pressures of the load before, with its FFT."
     )
     columns = (
         *("grid", "H", "contact", "roughline", "plain convolutions", "own convolutions"),
-        *("ASPHER, cold", "over roughline", "its loads", "ASPHER, warm", "over roughline"),
+        *("ASPHER, cold", "cold over roughline", "its loads"),
+        *("ASPHER, warm", "warm over roughline"),
     )
-    return tabled(heading, columns, of_kind(rows, "path"), cells)
+    heading = "A path of loads from first touch to saturation"
+    tabled(page, heading, columns, of_kind(rows, "path"), cells, said)
 
 
 def cold_path(rows, path, each):

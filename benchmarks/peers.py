@@ -1,8 +1,8 @@
 """Time roughline and the other programs that are installed.
 
-``make peers`` runs all of it, in two or three hours on two cores: docs/small-peers-table.md, of
-grids up to 256², and docs/peers-table.md. ``--sizes 64 128 256`` does the former, in ten minutes.
-Rows are kept in a file beside their table as they are measured, and are not measured again until
+``make peers`` runs all of it, in two or three hours on two cores: the part of docs/measured.md on
+grids up to 256², and that on larger ones. ``--sizes 64 128 256`` does the former, in ten minutes.
+Rows are kept in ``out/`` as they are measured, and are not measured again until
 ``--fresh`` is given. The machine must do nothing else: threads that wait for each other lose most
 where a core is taken away.
 """
@@ -33,7 +33,7 @@ from peer_programs import (
 from roughline.computing.cores import available_cores, processor_name
 
 SIZES = (64, 128, 256, 512, 1024, 2048)
-TABLE = Path(__file__).parents[1] / "docs" / "peers-table.md"
+OUT = Path(__file__).parents[1] / "out"  # where measured rows are kept
 SHORT = 2.0  # what takes less is run again, and never stopped for the sake of another engine [s]
 LOADS = (0.8, 0.2), (0.03, 0.1, 0.4, 1.2)  # H, and F / (E* h L)
 SMALL_LOADS = (0.8,), (0.001, 0.03, 0.3, 1.0, 10.0)  # on small grids
@@ -44,8 +44,9 @@ KEY = ("kind", "n", "hurst", "force_bar", "n_loads", "load")
 class Rows:
     """The measured rows, kept in a file of one line of JSON each."""
 
-    def __init__(self, table, *, fresh, disturbed):
-        self.table, self.file = table, table.with_suffix(".jsonl")
+    def __init__(self, part, *, fresh, disturbed):
+        OUT.mkdir(exist_ok=True)
+        self.file = OUT / f"{part}.jsonl"
         if fresh:
             self.file.unlink(missing_ok=True)
         text = self.file.read_text() if self.file.exists() else ""
@@ -59,14 +60,13 @@ class Rows:
         return tuple(row.get(name) for name in KEY)
 
     def measure(self, function, **key):
-        """Return the row of this key; when there is none, measure it and write the table anew."""
+        """Return the row of this key; when there is none, measure it."""
         if self.key(key) not in self.rows:
             text = json.dumps({**key, **function()}, ensure_ascii=False)
             with self.file.open("a") as file:
                 file.write(text + "\n")
             print(text[:240], flush=True)
             self.rows[self.key(key)] = json.loads(text)
-            self.table.write_text(peer_table.table(self.rows.values()))
         return self.rows[self.key(key)]
 
 
@@ -166,9 +166,9 @@ def paths(rows, sizes, wanted):
                 engines.sort(key=lambda engine, winner=winner: engine != winner)
 
 
-def measure_table(wanted, table, sizes, here):
-    """Measure the rows of one table."""
-    rows = Rows(table, fresh=wanted.fresh, disturbed=wanted.disturbed)
+def measure_part(wanted, part, sizes, here):
+    """Measure the rows of one part of the page."""
+    rows = Rows(part, fresh=wanted.fresh, disturbed=wanted.disturbed)
     before = rows.measure(lambda: here, kind="machine")
     if before != {"kind": "machine", **here}:
         raise SystemExit(f"{rows.file} is of another machine or other programs: give --fresh")
@@ -177,7 +177,7 @@ def measure_table(wanted, table, sizes, here):
         rows.measure(partial(convolution, n), kind="convolution", n=n)
     cold_loads(rows, sizes, wanted)
     paths(rows, large, wanted)
-    table.write_text(peer_table.table(rows.rows.values()))
+    peer_table.write(rows.rows.values(), part)
 
 
 def main():
@@ -192,7 +192,6 @@ def main():
     add("--slow-sizes", type=int, nargs="*", default=SIZES[:4], help="Tamaas', ContactMechanics'")
     add("--repeats", type=int, default=3, help=f"runs of what takes less than {SHORT:.0f} s")
     add("--limit", type=float, default=600.0, help="seconds after which a run is stopped")
-    add("--table", type=Path, default=TABLE)
     add("--fresh", action="store_true", help="forget the rows measured before")
     add("--disturbed", action="store_true", help="measure rows again that other work disturbed")
     wanted = parser.parse_args()
@@ -204,10 +203,9 @@ def main():
     here = machine(cores)
     small, large = [n for n in wanted.sizes if n <= SMALL], [n for n in wanted.sizes if n > SMALL]
     if small:
-        table = wanted.table.with_name(f"small-{wanted.table.name}")
-        measure_table(wanted, table, small, here)
+        measure_part(wanted, "small-peers", small, here)
     if large:
-        measure_table(wanted, wanted.table, large, here)
+        measure_part(wanted, "peers", large, here)
 
 
 if __name__ == "__main__":

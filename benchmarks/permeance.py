@@ -1,6 +1,6 @@
 """Judge the flow: exact values, near sealing, the grid, luck, a rare gas: ``make permeance``.
 
-Writes ``docs/permeance-table.md``. Nothing in it is a time: it depends on the code alone.
+Writes a part of ``docs/flow.md``. Nothing in it is a time: it depends on the code alone.
 """
 
 import math
@@ -60,12 +60,12 @@ def dual(n):
 
 
 def exact_values(page):
-    page.say("## Beside exact values\n")
+    page.heading("Beside exact values")
     page.say(
         "Permeance found, over the exact one, less 1. The rate is the power of 1/n with which it "
-        "falls, by least squares; means over whole waves come nearer faster than any power.\n"
+        "falls, by least squares; means over whole waves come nearer faster than any power."
     )
-    page.table("gap", *(f"{n}²" for n in GRIDS), "rate")
+    page.table("gap", *(f"{n}²" for n in GRIDS), "rate", at_most=4)
     cases = {f"disc of contact, R = {R:g} of the cell": (disc, R) for R in RADII}
     cases |= {
         "wave, across its crests": (wave,),
@@ -142,13 +142,14 @@ def by_factors(gap):
 
 
 def near_sealing(page):
-    page.say("\n## Near sealing\n")
+    page.heading("Near sealing")
     page.say(
         "Two rough halves that a single cell joins: errors beside the same equations solved in "
         "fractions, without rounding. SuperLU is given those equations in double precision, and "
-        "its flow is taken at the inlet, where pressures are near 1, or at the outlet.\n"
+        "its flow is taken at the inlet, where pressures are near 1, or at the outlet."
     )
-    page.table("gap of the throat", "roughline", "its imbalance", "SuperLU, inlet", "outlet")
+    columns = ("roughline", "its imbalance", "SuperLU, inlet", "outlet")
+    page.table("gap of the throat", *columns, at_most=0)
     for throat in THROATS:
         gap = throttled(throat)
         flow, reference = rl.flow(gap, (9.0, 8.0), sides="y"), in_fractions(gap)
@@ -183,12 +184,12 @@ def spectrum_with(roll):
 
 
 def the_grid(page):
-    page.say("\n## The grid\n")
+    page.heading("The grid")
     page.say(
         f"{SURFACES} periodic surfaces, H = 0.8, roll-off at 4 waves along a side and the shortest "
         f"at {SHORTEST}, pressed with 2, 4, 8 and 16 cells for the shortest wave, both ways. "
         "Hydraulic aperture over that of the finest grid: geometric mean, and least and largest; "
-        "of cases that are open on both.\n"
+        "of cases that are open on both."
     )
     all_of = {
         cells: [flows(spectrum_with(4), cells * SHORTEST, i) for i in range(SURFACES)]
@@ -215,14 +216,14 @@ def spread(ratios):
 
 
 def luck(page):
-    page.say("\n## One map is one place\n")
+    page.heading("One map is one place")
     page.say(
         f"{MORE_SURFACES} periodic surfaces of each spectrum, H = 0.8, four cells for the "
         f"shortest wave ({4 * SHORTEST}²), both ways. The flow is the cube of the aperture. It "
         "lies within a factor of its middle for 90 of 100 of these maps, the root of the ratio of "
         "the 95th to the 5th percentile; there is none where one of twenty is sealed. The last "
         "columns are the apertures between closed sides over those between periodic ones, of one "
-        "gap.\n"
+        "gap."
     )
     page.table(
         "roll-off, waves",
@@ -232,6 +233,7 @@ def luck(page):
         "factor of the flow",
         "closed sides over periodic",
         "sealed by them",
+        at_most=0,
     )
     for roll in ROLL_OFFS:
         found = [
@@ -255,12 +257,12 @@ def luck(page):
 
 
 def a_rare_gas(page):
-    page.say("\n## A rare gas\n")
+    page.heading("A rare gas")
     page.say(
         "Flow between flat plates by kinetic theory, the BGK equation solved, over that with slip "
-        "of the first order, and over that of `rl.flow`.\n"
+        "of the first order, and over that of `rl.flow`."
     )
-    page.table("mean free path over the gap", *FREE_PATHS)
+    page.table("mean free path over the gap", *FREE_PATHS, at_most=0)
     ratios = [kinetic(path) / (1 + 6 * path) for path in FREE_PATHS]
     plates = [rl.flow(np.ones((2, 2)), (1.0, 1.0), mean_free_path=path) for path in FREE_PATHS]
     page.row("kinetic theory over slip", *(f"{ratio:.2f}" for ratio in ratios))
@@ -269,7 +271,7 @@ def a_rare_gas(page):
 
 
 def main():
-    page = Page("permeance-table.md", "How good the flow is, measured", "permeance")
+    page = Page("permeance", "flow.md", "permeance")
     exact_values(page)
     near_sealing(page)
     the_grid(page)

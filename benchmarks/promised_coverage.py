@@ -109,26 +109,29 @@ def main():
     parser.add_argument("--folder", type=Path, default=Path("out/coverage"))
     parser.add_argument("--share", type=float, default=1.0, help="of all seeds")
     asked = parser.parse_args()
-    page = Page("coverage-table.md", "Intervals of bodies that are known", "coverage-table")
+    page = Page("coverage", "intervals_hold.md", "coverage-table")
     page.say(
         "Tests try one body of each law; here are many. Held: share of the printed intervals that "
         "hold the truth. Promised: least share, or both ends of it; where one is not kept, the "
         "command fails. Silent: share for which no interval is printed. Half width: median factor "
         "from the middle to the ends, of H the half width itself."
     )
+    told = [f"- {STUDIES[name][0].heading}: {STUDIES[name][0].asked}" for name in asked.studies]
+    page.say("\n".join(told))
+    columns = ("quantity", "intervals", "held", "promised", "silent", "half width", "first seed")
+    page.table("study", "bodies", *columns)
     broken = []
     for name in asked.studies:
         study, first, promised = STUDIES[name]
         trials = study.trials(name, study.kinds, first, asked.share)
         rows = recorded(asked.folder / f"{name}.csv", trials, study.rows_of)
-        page.say(f"\n## {study.heading}\n\n{study.asked} Seeds from {first} on.\n")
-        page.table("bodies", "quantity", "intervals", "held", "promised", "silent", "half width")
         by = [*study.groups, "quantity"]
         for group, some in rows.groupby(by, sort=False):
             promise = OTHERS.get((name, *group), promised)
             found = found_of(some)
             shares = f"{found['held']:.1%}", promise, f"{found['silent']:.1%}"
-            page.row(*group, found["intervals"], *shares, f"{found['half width']:.2f}")
+            cells = found["intervals"], *shares, f"{found['half width']:.2f}", first
+            page.row(study.heading, *group, *cells)
             if not promise.kept(found):
                 broken.append(f"{name}, {', '.join(map(str, group))}: {found}, promised {promise}")
     if asked.share == 1.0 and asked.studies == [*STUDIES]:

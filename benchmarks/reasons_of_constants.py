@@ -73,7 +73,7 @@ CHOSEN = {
         _SIDE_TOLERANCE=_PART,
         _CHANCE=_PART,
     ),
-    **_of("assessment/border_of_flow", _COUNTED_RATIO=_LEAK, _END_ROUNDING=_DOUBLE),
+    **_of("margins/border_of_flow", COUNTED_RATIO=_LEAK, _END_ROUNDING=_DOUBLE),
     **_of("margins/scans", _LEAST_HEIGHTS="by definition: the scatter of a skewness"),
     **_of(
         "margins/scans",
@@ -99,7 +99,6 @@ CHOSEN = {
     **_of(
         "measurement/departures",
         HEIGHT_ROUNDING=_DOUBLE,
-        _SIGMA="by definition: the normal distribution",
         _NO_ROLL_OFF_GRAVITY="needs none: the order of remarks",
         _LEVELLED_GRAVITY="needs none: the order of remarks",
         _MOST_SEARCHED="needs none: a limit of the time",
@@ -218,15 +217,14 @@ GUARDS = {
         _CHANCE="parts with waves longer than a map, near what chance allows",
     ),
     **_of(
-        "assessment/border_of_flow",
-        _COUNTED_RATIO="borders that move a flow little",
+        "margins/border_of_flow",
+        COUNTED_RATIO="borders that move a flow little",
         _END_ROUNDING="ends that are equal to rounding",
     ),
     **_of(
-        "assessment/doubts",
-        _PRESSED="soft layers, and bodies pressed so hard that slopes are not all",
-        _WARNED_FILLED_SHARE="maps whose filled points bear some of the force",
-        _GRAVE_FILLED_SHARE="maps whose filled points bear most of the force",
+        "margins/filling",
+        _WARNED_SHARE="maps whose filled points bear some of the force",
+        _GRAVE_SHARE="maps whose filled points bear most of the force",
     ),
     **_of("margins/larger_surface", _PUNCH_MATTERS="pieces alone, pressed nearly into a punch"),
     **_of(

@@ -1,4 +1,4 @@
-"""Press thousands of random bodies: ``make robustness`` writes ``docs/robustness-table.md``."""
+"""Press thousands of random bodies: ``make robustness`` writes a part of ``docs/measured.md``."""
 
 import argparse
 import math
@@ -58,8 +58,8 @@ def main():
         again = ended(asked.seed, number)["seconds"]
         rows.loc[number, "seconds"] = min(rows.seconds[number], again)
     rows["slowness"] = slowness_of(rows)
-    page = Page("robustness-table.md", "Random problems, and how they ended", "robustness")
-    page.say(f"{len(rows)} problems, seed {asked.seed}.\n")
+    page = Page("robustness", "measured.md", "robustness")
+    page.say(f"{len(rows)} problems, seed {asked.seed}.")
     page.table("bodies", "problems", "loads", "certified", "refused", SLOWEST)
     for kind in [*sorted(set(rows.kind)), "all"]:
         here = rows[(rows.kind == kind) | (kind == "all")]

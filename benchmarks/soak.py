@@ -4,7 +4,7 @@
 
 Kills are kill -9 of the client, of a worker, or of the scheduler of a cluster of its own, an
 interrupt, and kill -9 of the client with a chunk cut off afterwards. A campaign that ends is
-compared with an undisturbed one, and the next begins. Writes ``docs/soak-table.md``.
+compared with an undisturbed one, and the next begins. Writes a part of ``docs/measured.md``.
 """
 
 import collections
@@ -133,11 +133,11 @@ def main(kills: int, seed: int) -> None:
         soak = Soak(Path(folder), seed)
         soak.disturb(kills)
     minutes = (time.monotonic() - started) / 60
-    page = Page("soak-table.md", "Campaigns under disturbances", "soak")
+    page = Page("soak", "measured.md", "soak")
     page.say(
         f"Of seed {seed}: {sum(soak.kills.values())} kills in {soak.runs} runs of {soak.campaigns} "
         f"campaigns of {soak.cases} cases, {minutes:.0f} minutes. Every "
-        "campaign ended with the same bytes as one that was not disturbed.\n"
+        "campaign ended with the same bytes as one that was not disturbed."
     )
     page.table("disturbance", "times")
     for kind, name in KINDS.items():

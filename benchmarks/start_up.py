@@ -3,8 +3,8 @@
 Each command describes or presses one surface of 256 x 256 points, or the map of an instrument, and
 runs in a process of its own; commands and bare imports take turns, so that whatever else the
 machine does falls on all of them. The work itself is what the same command takes in a process that
-has run it before. ``make start-up MAPS=...`` writes ``docs/start-up-table.md``, with the measured
-maps that are named.
+has run it before. ``make start-up MAPS=...`` writes a part of ``docs/measured.md``, with the
+measured maps that are named.
 """
 
 import contextlib
@@ -66,8 +66,8 @@ def main():
                 times[name].append(once(ran)[1])
         work = {name: seconds_of_work(arguments) for name, arguments in asked.items()}
     bare = statistics.median(times.pop("the import"))
-    page = Page("start-up-table.md", "How soon a command answers, measured", "start-up")
-    page.say(f"`import SurfaceTopography` takes {bare:.2f} s, the median of {ROUNDS}, as below.\n")
+    page = Page("start-up", "measured.md", "start-up")
+    page.say(f"`import SurfaceTopography` takes {bare:.2f} s, the median of {ROUNDS}, as below.")
     page.table("command", "time", "its work", "time over the import", "without its work")
     for name, each in times.items():
         whole = statistics.median(each)

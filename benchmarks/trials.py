@@ -157,8 +157,10 @@ def written(rows, studies, page):
     """Write a table for each study: quantities and groups down, what is counted across."""
     for name, of_study in rows.groupby("study", sort=False):
         study = studies[name]
-        page.say(f"\n## {study.heading}\n\n{study.asked}\n")
-        page.table("surfaces", "quantity", "intervals", *study.columns)
+        page.heading(study.heading)
+        page.say(study.asked)
+        columns = ("surfaces", "quantity", "intervals", *study.columns)
+        page.table(*columns, shown=lambda row: row[0] == "all")
         for quantity, some in of_study.groupby("quantity", sort=False):
             parts = [("all", some)]
             parts += [each for group in study.groups for each in some.groupby(group, sort=False)]

@@ -1,7 +1,7 @@
 """Elastic and elastic-plastic answers of measured maps beside each other.
 
 ``make yield-of-maps MAPS=folder`` takes a folder that holds the files below, of the test data of
-SurfaceTopography, and writes ``docs/yield-of-maps-table.md``.
+SurfaceTopography, and writes a part of ``docs/engineering.md``.
 """
 
 import argparse
@@ -48,14 +48,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     folder = parser.parse_args().folder
-    page = Page("yield-of-maps-table.md", "Measured maps, elastic and with yield", "yield-of-maps")
+    page = Page("yield-of-maps", "engineering.md", "yield-of-maps")
     page.say(
         "Values and intervals of `roughline press` for measured maps, with the hardness of the "
         "table of materials: di-1 is an atomic force microscope's map of 0.5 µm, al3d-1 and opd-1 "
         "are optical maps of some 0.1 mm. Elastic values have no interval here: that of the grid "
-        "would not cover what yield changes.\n"
+        "would not cover what yield changes."
     )
-    page.table(*COLUMNS)
+    page.table(*COLUMNS, at_most=4)
     for case in CASES:
         for row in rows(folder, *case):
             page.row(*row)

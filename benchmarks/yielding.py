@@ -2,7 +2,7 @@
 
 The hardness is a third of the mean elastic contact pressure of the (last) load. Times are the best
 of several, elastic and yielding in turn; memory is that of processes of their own.
-``make yielding`` writes ``docs/yielding-table.md``.
+``make yielding`` writes a part of ``docs/measured.md``.
 """
 
 import argparse
@@ -28,9 +28,10 @@ def timed(surface, forces, hardness):
 
 def add_times(page, repeats):
     timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7), [0.4], 10.0)  # compiles
-    page.say(f"\n## Time, the best of {repeats}\n")
+    page.heading(f"Time, the best of {repeats}")
     case = ("loads", "grid", "H", "of the contact yields")
-    page.table(*case, "elastic", "with yield", "ratio", "convolutions", "with yield")
+    measures = ("elastic", "with yield", "ratio", "convolutions", "its convolutions")
+    page.table(*case, *measures, at_most=4)
     for loads, forces in FORCES.items():
         for n in (512, 1024):
             for hurst in (0.2, 0.8):
@@ -58,8 +59,8 @@ def held(n, hardness):
 
 def add_memory(page):
     """Add the table of memory; processes count what the one that starts them holds."""
-    page.say("## Memory over the interpreter, the generation included\n")
-    page.table("loads", "grid", "H", "elastic", "with yield", "ratio")
+    page.heading("Memory over the interpreter, the generation included")
+    page.table("loads", "grid", "H", "elastic", "with yield", "ratio", at_most=0)
     for n in (1024, 2048):
         _, hardness = elsewhere(problem, n, 0.8, "12 loads")
         elastic, yielding = (elsewhere(held, n, each) for each in (np.inf, hardness))
@@ -71,7 +72,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeats", type=int, default=5)
     repeats = parser.parse_args().repeats
-    page = Page("yielding-table.md", "Elastic bodies and bodies that yield, measured", "yielding")
+    page = Page("yielding", "measured.md", "yielding")
     add_memory(page)
     add_times(page, repeats)
     page.save()

@@ -52,24 +52,9 @@ sphinx_gallery_conf = {
 WIDE = (
     *("paper", "trust", "averaging", "area", "finite_size", "sealing", "correlations"),
     "engineering",
-    *(
-        "peers-table",
-        "small-peers-table",
-        "speed-table",
-        "lab-table",
-        "sessions-table",
-        "memory-table",
-        "permeance-table",
-        "yielding-table",
-        "yield-of-maps-table",
-        "constants-table",
-        "made/validation",
-        "made/materials",
-        "made/fluids",
-        "made/formats",
-    ),
+    *("measured", "intervals_hold", "flow"),
+    *("made/validation", "made/materials", "made/fluids", "made/formats"),
     *("architecture", "conventions", "other_programs", "science"),
-    *("how-to/coverage", "how-to/grid_error", "how-to/interface_stiffness", "how-to/several_maps"),
 )
 
 html_theme = "pydata_sphinx_theme"

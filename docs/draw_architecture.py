@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch, Rectangle
 from matplotlib.path import Path as Curve
-from seams import PAGE, written
+from seams import FILE, PAGE, changes, written
 
 # Where a room stands in its row.
 PLACES = {
@@ -32,6 +32,7 @@ PLACES = {
     "campaign": 7.2,
     "plot": 1.1,
     "comparison": 6.2,
+    "ball": 1.1,
     "creep": 2.75,
     "engineering": 1.1,
     "theories": 7.9,
@@ -290,4 +291,5 @@ if __name__ == "__main__":
     draw(PICTURE)
     print(figures())
     PAGE.write_text(written(PAGE.read_text("utf-8")), "utf-8")
+    FILE.write_text(changes(), "utf-8")
     print(f"wrote {PICTURE.relative_to(ROOT)} and the counts of {PAGE.relative_to(ROOT)}")

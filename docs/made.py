@@ -18,7 +18,7 @@ import roughline as rl
 from roughline import campaign, plot
 from roughline.cli import app
 from roughline.cli.help import PanelsFirst
-from roughline.contact.quantities import QUANTITIES
+from roughline.contact.quantities import QUANTITIES, SLIDING_QUANTITIES
 from roughline.engineering import formulas, leak
 from roughline.engineering.described import chemical_formulas
 from roughline.engineering.fluids import fluids
@@ -74,9 +74,10 @@ SECTIONS = {
         *("HalfSpace", "Homogeneous", "Layered", "TwoBodies", "ContactLaw", "Unilateral"),
         *("Yielding", "Dugdale", "Exponential", "JKR"),
     ),
+    "Friction": (*("Friction", "SlidingCurve", "SlidingFields", "SlidingLineCurve", "cycle"),),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
-        *("Joint", "Friction", "Ultrasound", "Theories", "Adhesion", "Fluid"),
+        *("Joint", "Ultrasound", "Theories", "Adhesion", "Fluid"),
         *("export_table", "PartAssessment", "material", "Material", "Coated", "contact_modulus"),
         *("Rule", "Symbol", "rules", "own_words"),
         *("Cause", "OtherBodies", "Spread", "causes"),
@@ -133,6 +134,7 @@ GALLERY = (
     "thin_gasket",
     "ultrasound",
     "partial_slip",
+    "loop_of_a_ball",
     "theories",
     "campaign_on_a_cluster",
     "trust",
@@ -301,7 +303,7 @@ def page_of_quantities() -> str:
             each.dimension or "",
             ", ".join(each.dims),
         )
-        for each in QUANTITIES.values()
+        for each in (*QUANTITIES.values(), *SLIDING_QUANTITIES)
     ]
     header = ("name", "symbol", "meaning", "unit", "over")
     return f"# Output quantities of a curve\n\n{table(header, rows)}"

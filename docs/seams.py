@@ -1,12 +1,14 @@
 """What one has to open: counts of the solver and of changes, for the page on the architecture.
 
 What a change touched is asked of the history, by its commits. A clone without history keeps the
-numbers that the page has.
+numbers that the file has.
 """
 
 from __future__ import annotations
 
 import ast
+import csv
+import io
 import re
 import subprocess
 import sys
@@ -18,6 +20,7 @@ import grimp
 from architecture import ROOT, SOURCE, import_graph, layers
 
 PAGE = ROOT / "docs" / "architecture.md"
+FILE = ROOT / "docs" / "data" / "architecture" / "changes.csv"
 BEGIN, END = "<!-- counts: `make architecture` writes them -->", "<!-- end of counts -->"
 SOLVER = "halfspace"
 
@@ -114,29 +117,27 @@ def table_of_the_solver() -> str:
     return "\n".join([*lines, "", f"One press of a surface opens {opened} files of the package."])
 
 
-def table_of_changes(kept: str) -> str:
-    """Return the files and lines that changes touched; kept rows where history is missing."""
-    lines = ["| added | in | files of `src/` | lines by room |", "|---|---|---|---|"]
+def changes() -> str:
+    """Return the files and lines that changes touched, as CSV; kept rows without a history."""
+    kept = {(row[0], row[1]): row for row in csv.reader(FILE.read_text("utf-8").splitlines())}
+    rows = [["added", "in", "files of src/", "lines by room"]]
     for change in CHANGES:
-        where = f"`{change.test}`" if change.test else ", ".join(change.commits)
-        row = f"| {change.what} | {where} |"
-        counts = f"{_naming(change.test)} | " if change.test else _touched(change.commits)
-        if counts is None:
-            lines += [line for line in kept.splitlines() if line.startswith(row)]
-        else:
-            lines.append(f"{row} {counts} |")
-    return "\n".join(lines)
+        where = change.test or ", ".join(change.commits)
+        counts = (str(_naming(change.test)), "") if change.test else _touched(change.commits)
+        rows.append(kept[change.what, where] if counts is None else [change.what, where, *counts])
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def written(text: str) -> str:
     """Return a page with its counts as they are today."""
     before, _, rest = text.partition(BEGIN)
-    kept, _, after = rest.partition(END)
-    tables = f"{table_of_the_solver()}\n\n{table_of_changes(kept)}"
-    return f"{before}{BEGIN}\n\n{tables}\n\n{END}{after}"
+    after = rest.partition(END)[2]
+    return f"{before}{BEGIN}\n\n{table_of_the_solver()}\n\n{END}{after}"
 
 
-def _touched(commits: tuple[str, ...]) -> str | None:
+def _touched(commits: tuple[str, ...]) -> tuple[str, str] | None:
     """Tell the files of the package that commits touched, and lines by room; None if unknown."""
     if _git("rev-parse", "--is-shallow-repository") != "false":
         return None
@@ -155,9 +156,10 @@ def _touched(commits: tuple[str, ...]) -> str | None:
             added[room] += int(plus) if plus != "-" else 0  # which is said of what is no text
             removed[room] += int(minus) if minus != "-" else 0
     rooms = sorted(added, key=lambda room: (-added[room], room))
-    return f"{len(files)} | " + ", ".join(
+    lines = (
         f"{room} +{added[room]}" + (f" −{removed[room]}" if removed[room] else "") for room in rooms
     )
+    return str(len(files)), ", ".join(lines)
 
 
 def _git(*arguments: str) -> str | None:

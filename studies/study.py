@@ -1,28 +1,24 @@
-"""What all studies share: from claims, numbers and a text to a page, its figures, and the lab."""
+"""What all studies share: from claims, numbers and a text to a page and its figures."""
 
 from __future__ import annotations
 
-import json
+import csv
 import re
 import shutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from roughline.paper.results import published_folder
-from roughline.paper.studies import StudySummary
 from roughline.plot.style import save, styled
 from roughline.report.page import Table, markdown_table
 from roughline.statistics.verdict import Claim
-from studies.panels import StudyPanel
 
 DOCS = Path(__file__).parents[1] / "docs"
-SUMMARIES = published_folder() / "studies"
-PICTURES = published_folder().parents[1] / "lab" / "static" / "paper"
-_SHARPNESS = 88  # of pictures, which are compressed as photographs are
+_SHOWN = 10  # rows of a table on a page; all of them are in its file
+_IN_FILES_ALONE = {"Basis"}  # columns that a page leaves to the file
 
 
 @dataclass(frozen=True)
@@ -35,33 +31,20 @@ class Study:
     told: Callable[[], Mapping[str, object]]
     # draw the figures, by their file names without an ending
     figures: Mapping[str, Callable[[], Figure]] = field(default_factory=dict)
-    # returns the panels that the lab shows
-    panels: Callable[[], Sequence[StudyPanel]] | None = None
 
     @cached_property
     def page(self) -> str:
         """The page as Markdown."""
         text = (self.folder / "text.md").read_text(encoding="utf-8")
-        return filled(text, {"verdicts": self.verdicts(), **self.told()})
+        return filled(text, self._named, self.folder.name)
 
     @cached_property
-    def summary(self) -> StudySummary:
-        """The study in short, for the lab."""
-        title, answer, *_ = self.page.split("\n\n")
-        table = self.verdicts()
-        pictures = [each.picture(file) for file, each in self._panels.items()]
-        return StudySummary(
-            self.folder.name, title.removeprefix("# "), answer, table.header, table.rows, pictures
-        )
-
-    @cached_property
-    def _panels(self) -> dict[str, StudyPanel]:
-        """Its panels by the names of their files."""
-        panels = self.panels() if self.panels else ()
-        return {f"{self.folder.name}-{i}": each for i, each in enumerate(panels)}
+    def _named(self) -> Mapping[str, object]:
+        """What the text names."""
+        return {"verdicts": self.verdicts(), **self.told()}
 
     def publish(self) -> None:
-        """Write the page and its figures into ``docs``, and into the package what the lab shows."""
+        """Write page, figures and tables into ``docs``."""
         name, text = self.folder.name, self.page  # data that are refused leave all as it is
         folder = DOCS / "figures" / name
         shutil.rmtree(folder, ignore_errors=True)
@@ -71,29 +54,45 @@ class Study:
                 _, pdf = save(draw(), folder, file_name)
                 pdf.unlink()
         (DOCS / f"{name}.md").write_text(text, encoding="utf-8")
-        if self.panels:
-            show(self.summary, [each.figure for each in self._panels.values()])
+        write_tables(self._named, name)
 
 
-def show(summary: StudySummary, drawings: Sequence[Callable[[], Figure]]) -> None:
-    """Write into the package what the lab shows: words, and pictures for both themes."""
-    for folder in (SUMMARIES, PICTURES):
-        folder.mkdir(exist_ok=True)
-    for picture, draw in zip(summary.pictures, drawings, strict=True):
-        for theme in ("light", "dark"):
-            with styled(dark=theme == "dark"):
-                file = PICTURES / f"{picture.file}-{theme}.webp"
-                draw().savefig(file, pil_kwargs={"quality": _SHARPNESS, "method": 6})
-    kept = json.dumps(asdict(summary), ensure_ascii=False, indent=0) + "\n"
-    (SUMMARIES / f"{summary.name}.json").write_text(kept, encoding="utf-8")
-
-
-def filled(text: str, told: Mapping[str, object]) -> str:
+def filled(text: str, told: Mapping[str, object], study: str) -> str:
     """Return a text with the numbers and tables that it names; each paragraph is one line."""
     unwrapped = re.sub(r"(?<=\S)\n *(?=[^\s#|-])", " ", text)
     return unwrapped.format_map(
-        {name: markdown_table(x) if isinstance(x, Table) else x for name, x in told.items()}
+        {
+            name: _in_short(x, f"data/{study}/{name}.csv") if isinstance(x, Table) else x
+            for name, x in told.items()
+        }
     )
+
+
+def write_tables(told: Mapping[str, object], study: str) -> None:
+    """Write the tables that a text may name into the data of the handbook."""
+    folder = DOCS / "data" / study
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for name, table in told.items():
+        if isinstance(table, Table):
+            with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
+                csv.writer(file, lineterminator="\n").writerows([table.header, *table.rows])
+
+
+def _in_short(table: Table, file: str) -> str:
+    """Return a table as Markdown, ten rows of it at most, spread evenly, with a link to all."""
+    count = len(table.rows)
+    places = [*range(count)]
+    if count > _SHOWN:
+        places = [round(i * (count - 1) / (_SHOWN - 1)) for i in range(_SHOWN)]
+    columns = [i for i, name in enumerate(table.header) if name not in _IN_FILES_ALONE]
+    header, *rows = (
+        [row[i] for i in columns] for row in (table.header, *(table.rows[i] for i in places))
+    )
+    numbers = [columns.index(i) for i in table.numbers if i in columns]
+    shown = markdown_table(Table(header, rows, numbers))
+    which = f"all {count} rows" if count > _SHOWN else "these rows"
+    return f"{shown}\n\n[As CSV, {which}]({file})."
 
 
 def claims_table(judged: Mapping[str, Sequence[Claim]]) -> Table:
@@ -108,4 +107,4 @@ def claims_table(judged: Mapping[str, Sequence[Claim]]) -> Table:
         texts["Basis"] = [each.basis for each in claims]
     words = {name: [each.cases for each in of_it] for name, of_it in judged.items()}
     rows = list(zip(*texts.values(), *words.values(), strict=True))
-    return Table((*texts, *words), rows, (), len(texts))
+    return Table((*texts, *words), rows)

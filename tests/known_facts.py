@@ -30,7 +30,6 @@ _NAMED = {  # what stands for a longer or a shorter text than most, or is told a
     "pixel": [(1.2345e-4, 1.2345e-4)],
     "spacing": [(1.2345e-4, 1.2345e-4)],
     "shares": [(0.1,), (0.1, 0.2)],
-    "ratios": [(0.9, 1.1)],
     "left": [(0.9, 1.1)],
     "letter": ["S"],
     "what": ["map", "scan"],
@@ -44,8 +43,6 @@ _NAMED = {  # what stands for a longer or a shorter text than most, or is told a
     "maps": [("a",), ("a", "b")],
 }
 _MADE_OF = {
-    ("scatter_changes", "changes"): ["answer_changes"],
-    ("scatter_changes", "largest"): ["answer_changes"],
     ("resistance_of_layers", "added"): ["added_by_layers"],
     ("wide", "causes"): ["left_open"],
     ("border_moves_flow", "directions"): ["flow_at_border"],

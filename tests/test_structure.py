@@ -224,8 +224,8 @@ def _words_in_names(tree):
         yield from re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower().split("_")
 
 
-def test_words_that_say_no_quantity_stand_in_the_glossary():
-    text = (ROOT / "docs/conventions.md").read_text("utf-8")
+def test_words_that_say_no_quantity_stand_in_their_list():
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
     _, _, listed = text.partition("Words that have one meaning in the code:")
     known = re.findall(r"^\| (.*?) \|", listed.partition("\n## ")[0], flags=re.MULTILINE)
     found = {

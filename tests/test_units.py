@@ -54,7 +54,7 @@ def test_units_are_written_with_prefixes():
         (1.3e-13, "m²", "0.13 µm²"),
         (2.1e-9, "m²", "2100 µm²"),
         (1.499e5, "W/(m² K)", "149.9 kW/(m² K)"),
-        (1.3e14, "N/m³", "130 TN/m³"),
+        (1.3e14, "N/m³", "130 GPa/mm"),
     ],
 )
 def test_prefixes(value, unit, text):

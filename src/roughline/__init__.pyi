@@ -24,6 +24,10 @@ from roughline.contact.patches import Patches as Patches
 from roughline.contact.press import press as press
 from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
 from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
+from roughline.contact.shear_loads import cycle as cycle
+from roughline.contact.sliding import SlidingCurve as SlidingCurve
+from roughline.contact.sliding import SlidingFields as SlidingFields
+from roughline.contact.sliding_profile import SlidingLineCurve as SlidingLineCurve
 from roughline.contact.solver import Solver as Solver
 from roughline.contact.status import Status as Status
 from roughline.creep.creep import Creep as Creep
@@ -63,6 +67,7 @@ from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
 from roughline.halfspace.elasticity.half_space import TwoBodies as TwoBodies
 from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
 from roughline.halfspace.elasticity.layered import Layered as Layered
+from roughline.halfspace.friction.law import Friction as Friction
 from roughline.halfspace.laws.dugdale import Dugdale as Dugdale
 from roughline.halfspace.laws.exponential import Exponential as Exponential
 from roughline.halfspace.laws.jkr import JKR as JKR
@@ -77,7 +82,6 @@ from roughline.margins.spread import Spread as Spread
 from roughline.measurement.fit import fit_self_affine as fit_self_affine
 from roughline.measurement.roughness import roughness as roughness
 from roughline.question.asked import Adhesion as Adhesion
-from roughline.question.asked import Friction as Friction
 from roughline.question.asked import Joint as Joint
 from roughline.question.asked import Theories as Theories
 from roughline.question.asked import Ultrasound as Ultrasound

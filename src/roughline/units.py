@@ -23,9 +23,6 @@ _EXPONENT = re.compile(r"(?<=[^\W\d_])(-?\d+)\b")  # of "mm2", "m-3"
 _MIL = re.compile(r"\bmils?\b")  # the inch's thousandth, which the registry takes for an angle
 _DECIMAL_COMMA = re.compile(r"\d+,\d+")
 
-LEAST_CHANGE = 0.05
-"""A change below it is written as none. [%]"""
-
 SI = ("m", "m²", "N", "N/m", "Pa", "J")
 """Units that get a prefix where values are shown."""
 
@@ -223,6 +220,9 @@ def prefix(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, s
     if unit.startswith("kg"):  # which has a prefix of its own
         factor, prefixed = prefix(1e3 * value, unit.removeprefix("k"), digits)
         return 1e3 * factor, prefixed
+    if unit == "N/m³":  # a stiffness per area is said as a pressure over a distance
+        factor, prefixed = prefix(1e-3 * value, "Pa/mm", digits)
+        return 1e-3 * factor, prefixed
     exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
     power = _DIMENSIONS.get(unit, 1)  # that the prefix has; areas run from 0.01 to 10000
     thousands = 3 * ((exponent + 2 * (power - 1)) // (3 * power))
@@ -268,16 +268,3 @@ def digits_known(value: float, error: float | None) -> int:
     if error is None or not value > 0:
         return MOST_DIGITS
     return supported_digits(value, (value / (1 + error / value), value + error))
-
-
-def change_in_words(least: float, largest: float) -> str:
-    """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
-
-    def signed(ratio: float) -> str:
-        percent = 100 * (ratio - 1)
-        if abs(percent) < LEAST_CHANGE:
-            return "0"
-        return ("+" if percent > 0 else "") + decimal(percent, 2)
-
-    ends = signed(least), signed(largest)
-    return "no change" if ends == ("0", "0") else f"{ends[0]} to {ends[1]}%"

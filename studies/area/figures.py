@@ -1,4 +1,4 @@
-"""The study's figure, and the panels that the lab shows."""
+"""The study's figure."""
 
 from __future__ import annotations
 
@@ -12,12 +12,9 @@ from roughline.statistics.averages import average
 from roughline.theories import bush_gibson_thomas, persson
 from studies.area.claims import MIDDLE, common_law
 from studies.area.measure import BANDS, HURSTS, Sample, kappa, sample
-from studies.panels import StudyCurve, StudyPanel
 
 _KAPPA = r"$\kappa = A\,E^* \nabla h\,/\,F$"
 _SHOWN = (0.01, MIDDLE, 0.15)
-_LABEL = "κ = A E* ∇h / F"
-_AREAS, _NAYAKS, _KAPPAS = (4e-3, 0.2), (2.8, 200.0), (1.5, 2.7)
 
 
 def kappa_figure() -> Figure:
@@ -98,60 +95,3 @@ def _draw_over_nayak(axes: Axes) -> None:
 
 def _of_bands(hurst: float) -> list[Sample]:
     return [sample("main", band, hurst) for band in BANDS]
-
-
-def panels() -> list[StudyPanel]:
-    """Return what the lab shows."""
-    return [_over_area(), _over_nayak()]
-
-
-def _over_area() -> StudyPanel:
-    curves = []
-    for i, band in enumerate(BANDS):
-        area, mean, low, high = (each.tolist() for each in over_loads(sample("main", band, 0.8)))
-        curves.append(StudyCurve(f"q_high/q_roll = {band}", area, mean, low, high, i))
-    return StudyPanel(
-        "κ over the area in contact, Hurst 0.8",
-        "real contact area A / A_0",
-        _LABEL,
-        _AREAS,
-        _KAPPAS,
-        [*curves, *_theories(_AREAS)],
-    )
-
-
-def _over_nayak() -> StudyPanel:
-    law = common_law(MIDDLE)
-    curves = [StudyCurve("one law for all", _NAYAKS, [law(each) for each in _NAYAKS], dash="solid")]
-    for i, hurst in enumerate(HURSTS):
-        of_bands = [sample("main", band, hurst) for band in BANDS]
-        found = [kappa(one, MIDDLE) for one in of_bands]
-        curves.append(
-            StudyCurve(
-                f"Hurst {hurst:g}",
-                [one.nayak for one in of_bands],
-                [each.value for each in found],
-                [each.low for each in found],
-                [each.high for each in found],
-                2 * i,
-                marks=True,
-            )
-        )
-    return StudyPanel(
-        f"κ at {MIDDLE:.0%} in contact over Nayak's parameter",
-        "Nayak's parameter α = m_0 m_4 / m_2²",
-        _LABEL,
-        _NAYAKS,
-        _KAPPAS,
-        [*curves, *_theories(_NAYAKS)],
-    )
-
-
-def _theories(ends: tuple[float, float]) -> list[StudyCurve]:
-    return [
-        StudyCurve(f"{name} {value:.3f}", ends, (value, value), dash=dash)
-        for name, value, dash in (
-            ("Bush, Gibson, Thomas", bush_gibson_thomas.KAPPA, "dashed"),
-            ("Persson", persson.KAPPA, "dotted"),
-        )
-    ]

@@ -15,7 +15,7 @@ from studies.area.claims import (
     main_samples,
     over_law,
 )
-from studies.area.figures import kappa_figure, panels
+from studies.area.figures import kappa_figure
 from studies.area.measure import (
     AREAS,
     BANDS,
@@ -127,6 +127,5 @@ STUDY = Study(
     verdicts=lambda: claims_table({"Verdict": claims()}),
     told=told,
     figures={"kappa": kappa_figure},
-    panels=panels,
 )
 publish, reduce = STUDY.publish, REDUCED.reduce

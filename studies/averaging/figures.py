@@ -1,4 +1,4 @@
-"""The study's figure, and the panels that the lab shows."""
+"""The study's figure."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from studies.averaging.measure import (
     exponent,
     windows,
 )
-from studies.panels import StudyCurve, StudyPanel
 
 _FIXED = dict(zip(("force", "depth", "level"), colours(3), strict=True))
 _MARKS = {"arithmetic": ("o", "-"), "geometric": ("s", "--")}
@@ -25,7 +24,6 @@ _LAWS = dict(zip(PUBLISHED, ("--", ":", "-"), strict=True))
 _BESIDE = 0.012  # by which marks of the choices lie side by side, in fractal dimension
 _NAMES = {"surfaces": "full model, 3D", "lines": "reduced model, 1D"}
 _DIMENSIONS, _EXPONENTS = (1.95, 3.05), (0.38, 1.04)
-_DASHES = {"arithmetic": "solid", "geometric": "dashed"}
 
 
 def exponents_figure() -> Figure:
@@ -91,41 +89,3 @@ def _looks(axes: Axes) -> list[object]:
         )[0]
         for choice in choices()
     ]
-
-
-def panels() -> list[StudyPanel]:
-    """Return what the lab shows: exponents of surfaces."""
-    return [_panel(window) for window in windows("surfaces")[:2]]
-
-
-def _panel(window: ForceWindow) -> StudyPanel:
-    curves = []
-    for i, choice in enumerate(choices()):
-        found = {each: exponent("surfaces", window, choice, each) for each in DIMENSIONS}
-        covered = {each: one for each, one in found.items() if one.value == one.value}
-        if not covered:
-            continue
-        curves.append(
-            StudyCurve(
-                f"fixed {choice.fixed}, {choice.averaging}",
-                list(covered),
-                [each.value for each in covered.values()],
-                [each.low for each in covered.values()],
-                [each.high for each in covered.values()],
-                2 * (i // 2),
-                _DASHES[choice.averaging],
-            )
-        )
-    laws = [
-        StudyCurve(name, DIMENSIONS, [law(each) for each in DIMENSIONS], dash=dash)
-        for (name, law), dash in zip(PUBLISHED.items(), ("dashed", "dotted", "solid"), strict=True)
-    ]
-    return StudyPanel(
-        f"Exponents of 3D surfaces, F̄ = {window[0]:g} to {window[1]:g}",
-        "fractal dimension D_f",
-        "exponent α",
-        _DIMENSIONS,
-        _EXPONENTS,
-        [*curves, *laws],
-        is_log=False,
-    )

@@ -14,7 +14,7 @@ from roughline.report.page import Table
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 from roughline.statistics.verdict import Verdict, about
-from studies.averaging.figures import exponents_figure, panels
+from studies.averaging.figures import exponents_figure
 from studies.averaging.measure import (
     BODIES,
     DIMENSIONS,
@@ -146,6 +146,5 @@ STUDY = Study(
     verdicts=partial(_verdict_table, "surfaces"),
     told=told,
     figures={"exponents": exponents_figure},
-    panels=panels,
 )
 publish, reduce = STUDY.publish, fit

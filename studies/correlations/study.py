@@ -86,7 +86,6 @@ def told() -> dict[str, object]:
         "narrowest": narrowest,
         "widest": widest,
         "widest_elastic": widest_elastic,
-        "waves": ", ".join(map(str, BOXES)),
         "more_waves": sorted(BOXES)[1:],
         "over_mikic": _extremes(_ratio, ELASTIC),
         "over_cmy": _extremes(_ratio, FULL),

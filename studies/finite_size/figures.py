@@ -1,4 +1,4 @@
-"""The study's figure, and the panels that the lab shows."""
+"""The study's figure."""
 
 from __future__ import annotations
 
@@ -6,9 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughline.plot.style import PAGE, colours, new_figure
-from studies.finite_size.claims import GAMMAS
 from studies.finite_size.crossover import local_exponents, scaling_exponent_of
-from studies.finite_size.measure import crossing
 from studies.finite_size.samples import (
     BAND,
     GEOMETRIES,
@@ -19,7 +17,6 @@ from studies.finite_size.samples import (
     Sample,
     sample,
 )
-from studies.panels import StudyCurve, StudyPanel
 
 _STYLES: dict[Geometry, str] = {"periodic": "-", "free": "--", "lines": ":"}
 _WIDE_STYLE = "-."
@@ -29,8 +26,6 @@ _NAMES: dict[Geometry, str] = {
     "lines": "reduced",
 }
 _EXPONENTS, _GAMMAS = (0.45, 1.15), (0.0, 0.6)
-_HURST = 0.8
-_FORCES, _PRESSURES = (0.02, 700.0), (3e-5, 10.0)
 
 
 def crossover_figure() -> Figure:
@@ -85,50 +80,4 @@ def _name(figure: Figure, axes: Axes) -> None:
         ncols=10,
         columnspacing=1.2,
         handlelength=1.6,
-    )
-
-
-def panels() -> list[StudyPanel]:
-    """Return what the lab shows: periodic surfaces of Hurst exponent 0.8."""
-    return [_exponents(), _gammas()]
-
-
-def _exponents() -> StudyPanel:
-    curves = []
-    for i, size in enumerate(SIZES[BAND]):
-        one = sample("periodic", BAND, size, _HURST)
-        top = crossing("periodic", BAND, size, _HURST).gamma_force
-        local = local_exponents(one.force, one.stiffness).up_to(top)
-        x, y, low, high = (
-            each.tolist() for each in (local.force, local.value, local.low, local.high)
-        )
-        curves.append(StudyCurve(f"L/λ_r = {size}", x, y, low, high, i))
-    law = scaling_exponent_of(_HURST)
-    curves.append(StudyCurve("1/(1+H)", _FORCES, (law, law), dash="dashed"))
-    curves.append(StudyCurve("1", _FORCES, (1.0, 1.0), dash="dotted"))
-    return StudyPanel(
-        f"Local exponent over the force, Hurst {_HURST:g}",
-        "force F / (E* h λ_r)",
-        "d ln k / d ln F",
-        _FORCES,
-        (0.4, 1.2),
-        curves,
-    )
-
-
-def _gammas() -> StudyPanel:
-    curves = []
-    for i, size in enumerate(SIZES[BAND]):
-        one = sample("periodic", BAND, size, _HURST)
-        x, y = one.pressure.tolist(), one.gamma.tolist()
-        curves.append(StudyCurve(f"L/λ_r = {size}", x, y, colour=i))
-    for value, dash in zip(GAMMAS, ("dashed", "dotted"), strict=True):
-        curves.append(StudyCurve(f"{value:g}", _PRESSURES, (value, value), dash=dash))
-    return StudyPanel(
-        f"F / (k h) over the pressure, Hurst {_HURST:g}",
-        "pressure p λ_r / (E* h)",
-        "F / (k h)",
-        _PRESSURES,
-        (0.0, 0.6),
-        curves,
     )

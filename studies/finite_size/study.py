@@ -10,7 +10,7 @@ from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.units import decimal
 from studies.finite_size.claims import BETWEEN, MANY, between_ends, claims
 from studies.finite_size.crossover import BETWEEN_THEM, Passing
-from studies.finite_size.figures import crossover_figure, panels
+from studies.finite_size.figures import crossover_figure
 from studies.finite_size.measure import (
     SEVERAL,
     crossing,
@@ -55,7 +55,6 @@ def told() -> dict[str, object]:
     middle = [exponent_in(one, BETWEEN).value for (n, _), one in periodic.items() if n >= MANY]
     before, after = zip(*exponents_beside_gamma(), strict=True)
     sure, perhaps = zip(*map(decades_of_linear_law, periodic.values()), strict=True)
-    hurst_of = {"smoothest": max(HURSTS), "roughest": min(HURSTS)}
     by_hurst = {hurst: spread(pressures_near_one(BAND, SEVERAL, hurst)) for hurst in HURSTS}
     return {
         "lead_hurst": _LEAD_HURST,
@@ -78,10 +77,8 @@ def told() -> dict[str, object]:
             "one": spread(pressures_near_one(BAND, (1,))),
             "two": spread(pressures_near_one(BAND, (2,))),
             "wide": spread(pressures_near_one(WIDE, SIZES[WIDE])),
-            **{name: by_hurst[hurst] for name, hurst in hurst_of.items()},
         },
         "near_1_by_hurst": ", ".join(f"{x} at Hurst {hurst:g}" for hurst, x in by_hurst.items()),
-        "hurst_of": hurst_of,
         "most_by_size": most_by_size(),
         "gammas": spread((each for each in gammas if not math.isnan(each)), ".3f"),
         "before_gamma": spread(before),
@@ -205,6 +202,5 @@ STUDY = Study(
     verdicts=lambda: claims_table({"Verdict": claims()}),
     told=told,
     figures={"crossover": crossover_figure},
-    panels=panels,
 )
 publish, reduce = STUDY.publish, REDUCED.reduce

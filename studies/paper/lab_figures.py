@@ -1,4 +1,4 @@
-"""Data of the lab's figures of the paper that no computing changes: curves, exponents, κ, the map.
+"""Data of the lab's figures of the paper that no computing changes: curves, exponents, the map.
 
 The lab's script chooses among them, and asks its server for the fits in a window alone. What panels
 show is as they are declared.
@@ -15,22 +15,17 @@ from matplotlib.colors import to_hex
 
 from roughline.comparison.trust import TrustMap, trust_map
 from roughline.contact import scaling
-from roughline.paper.contact_area import mean_area
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import PaperResults
-from roughline.paper.tables import estimate_cell, three_digits, trust_cell
-from roughline.paper.windows import WINDOW_AREA
+from roughline.paper.tables import three_digits, trust_cell
 from roughline.plot.models import TRUST_LEVELS, trust_colours
 from roughline.statistics.averages import Averaging
-from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
-from roughline.theories import bush_gibson_thomas, persson
 
 AVERAGES: tuple[Averaging, ...] = ("arithmetic", "geometric")
 PUNCHES = {"paper": scaling.PAPER_PUNCH, "exact": scaling.EXACT_PUNCH, "raw": 1.0}
 """What the stiffness of surfaces is divided by, as the lab's choice calls it."""
 _MARKS = 24  # at most, of a curve
-_THEORIES = {"Bush, Gibson, Thomas": bush_gibson_thomas.KAPPA, "Persson": persson.KAPPA}
 
 
 def lab_figures(results: PaperResults) -> dict[str, Any]:
@@ -39,15 +34,14 @@ def lab_figures(results: PaperResults) -> dict[str, Any]:
     colours = [to_hex(colour) for colour in trust_colours()]
     between = [f"{a:+.0%} to {b:+.0%}" for a, b in pairwise(TRUST_LEVELS)]
     levels = [f"below {TRUST_LEVELS[0]:+.0%}", *between, f"above {TRUST_LEVELS[-1]:+.0%}"]
-    kappa, tables = _kappa(results)
     cells: dict[str, Any] = {}
+    tables: dict[str, Any] = {}
     for i in range(whole.roll_off_ratios.size):
         cells |= _cells(whole, i, colours)
         tables[f"published-trust-{whole.roll_off_ratios[i]:g}"] = _trust_table(whole, i)
     return {
-        "panels": {"kappa": {"series": kappa}, "exponents": {"series": _exponents(results)}},
+        "panels": {"exponents": {"series": _exponents(results)}},
         "sources": cells,
-        "windows": {"area": WINDOW_AREA},
         "tables": tables,
         "legend": list(zip(colours, levels, strict=True)),
         "curves": _curves(results),
@@ -55,8 +49,8 @@ def lab_figures(results: PaperResults) -> dict[str, Any]:
 
 
 def _curves(results: PaperResults) -> dict[str, Any]:
-    """Figure 3 by its mean, Figure 4 by its mean and normaliser, and the area law."""
-    found = {"area": _area_curves(results)}
+    """Figure 3 by its mean, Figure 4 by its mean and normaliser."""
+    found = {}
     for mean in AVERAGES:
         found[f"1D {mean}"] = _stiffness(results, "1D", 1.0, mean)
         for name, punch in PUNCHES.items():
@@ -80,18 +74,6 @@ def _stiffness(
     return {
         "panels": {f"stiffness-{model}": panel},
         "tables": {f"published-stiffness-{model}": _table("k̄", found)},
-    }
-
-
-def _area_curves(results: PaperResults) -> dict[str, Any]:
-    found = {}
-    for dimension in results.full.fractal_dimension.values:
-        one = results.full.sel(fractal_dimension=dimension)
-        area, resolved = mean_area(one)
-        found[float(dimension)] = MeanCurve(one.force_bar.values, area, area, area, resolved)
-    return {
-        "panels": {"area": {"series": _series(found)}},
-        "tables": {"published-area": _table("A/A_0", found)},
     }
 
 
@@ -145,41 +127,6 @@ def _exponents(results: PaperResults) -> dict[str, Any]:
         **found,
         "scaling": {"x": fine, "y": scaling_exponent(fine)},
         "linear": {"x": fine, "y": linear_exponent(fine)},
-    }
-
-
-def _kappa(results: PaperResults) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return κ of eq. 4 with its intervals and two theories: as series, and as a table."""
-    dimensions = [laws.fractal_dimension for laws in results.laws]
-    kappas = {
-        name: [getattr(laws, name).kappa for laws in results.laws]
-        for name in ("corrected", "cells")
-    }
-    series = {name: _marks(dimensions, found) for name, found in kappas.items()}
-    for name, kappa in _THEORIES.items():
-        series[name] = {"x": [1.9, 3.1], "y": [kappa, kappa]}
-    rows = [
-        [
-            f"{laws.fractal_dimension:.1f}",
-            *(
-                estimate_cell(each, " to ")
-                for law in (laws.corrected, laws.cells)
-                for each in (law.kappa, law.exponent)
-            ),
-        ]
-        for laws in results.laws
-    ]
-    rows += [[name, f"{kappa:.3f}", "1 exactly", "-", "-"] for name, kappa in _THEORIES.items()]
-    header = ["D_f", "κ", "exponent of A over F", "κ in cells", "exponent of A in cells"]
-    return series, {"published-kappa": {"header": header, "rows": rows}}
-
-
-def _marks(dimensions: list[float], found: list[IntervalEstimate]) -> dict[str, list[float]]:
-    return {
-        "x": dimensions,
-        "y": [each.value for each in found],
-        "low": [each.low for each in found],
-        "high": [each.high for each in found],
     }
 
 

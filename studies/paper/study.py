@@ -7,6 +7,7 @@ import json
 import shutil
 from collections import Counter
 from collections.abc import Sequence
+from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -33,14 +34,13 @@ from roughline.plot.style import save, styled
 from roughline.report.json_output import plain
 from roughline.report.page import render_markdown
 from roughline.statistics.averages import relative_difference
-from studies.paper import shown
 from studies.paper.lab_figures import lab_figures
-from studies.paper.trust import trust_map_figure, trust_page
+from studies.paper.trust import told_of_map, trust_map_figure, trust_page
 from studies.reduced_data import finished, refuse_other_settings
-from studies.study import DOCS, PICTURES, show
+from studies.study import DOCS, write_tables
 
 PLAN = Path(__file__).parent / "plan.toml"
-FIGURES = PICTURES / "figures.json"
+FIGURES = Path(str(files("roughline.lab").joinpath("static", "paper.json")))
 """Data of the lab's figures of the paper."""
 _FIGURES = DOCS / "figures" / "paper"
 DATA = published_folder()
@@ -132,7 +132,6 @@ def publish() -> None:
     results = published_results()
     _publish_paper(results)
     _publish_map()
-    show(shown.summary(results), shown.drawings(results))
     data = json.dumps(plain(lab_figures(results)), ensure_ascii=False)
     # five digits are more than a figure shows
     rounded = json.loads(data, parse_float=lambda x: float(f"{float(x):.5g}"))
@@ -152,7 +151,8 @@ def refuse_another_plan() -> None:
 def _publish_paper(results: PaperResults) -> None:
     """Draw the page "The paper, recomputed"."""
     with TemporaryDirectory() as folder:
-        text = render_markdown(*compose(results, Path(folder)), "figures/paper")
+        page = compose(results, Path(folder))
+        text = render_markdown(page.title, page.lead, page.sections, "figures/paper", page.headline)
         for picture in (Path(folder) / "figures").glob("*.png"):
             shutil.copy(picture, _FIGURES)
     (DOCS / "paper.md").write_text(text, encoding="utf-8")
@@ -166,4 +166,6 @@ def _publish_map() -> None:
     (_FIGURES / "trust_map.pdf").unlink()
     rows = np.loadtxt(DATA / "map_fine.csv", delimiter=",", skiprows=1)
     fine = TrustMap.from_rows(rows)
-    (DOCS / "trust.md").write_text(trust_page(trust, fine), encoding="utf-8")
+    told = told_of_map(trust, fine)
+    (DOCS / "trust.md").write_text(trust_page(told), encoding="utf-8")
+    write_tables(told, "trust")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -10,7 +11,7 @@ from roughline.comparison.trust import TrustMap
 from roughline.paper.tables import trust_cell
 from roughline.plot.models import add_bar, draw_trust
 from roughline.plot.style import PAGE, new_figure
-from roughline.report.page import Table, markdown_table
+from roughline.report.page import Table
 from roughline.statistics.verdict import Verdict, verdict
 from studies.study import filled
 
@@ -19,27 +20,30 @@ _FORCES = (1e-3, 1e-2, 1e-1, 1.0)
 _DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 
 
-def trust_page(trust: TrustMap, fine: TrustMap) -> str:
-    """Return the page about the map, and one with twice the waves and points at some places."""
+def trust_page(told: Mapping[str, object]) -> str:
+    """Return the page about the map."""
     text = (Path(__file__).parent / "trust.md").read_text(encoding="utf-8")
-    by_roll_off = [
-        f"## q_roll / q_0 = {each:g}\n\n{markdown_table(_roll_off_table(trust, float(each)))}"
-        for each in trust.roll_off_ratios
-    ]
-    return filled(
-        text,
-        {
-            "by_roll_off": "\n\n".join(by_roll_off),
-            "by_cutoff": _cutoff_table(trust, fine),
-            "verdicts": _counts_of_verdicts(trust),
-        },
-    )
+    return filled(text, told, "trust")
 
 
-def _roll_off_table(trust: TrustMap, roll_off: float) -> Table:
-    header = ("D_f", *(f"F̄ = {force:g}" for force in _FORCES))
+def told_of_map(trust: TrustMap, fine: TrustMap) -> dict[str, object]:
+    """Return what the page names; ``fine`` has twice the waves and points at some places."""
+    return {
+        "by_roll_off": _roll_off_table(trust),
+        "by_cutoff": _cutoff_table(trust, fine),
+        "verdicts": _counts_of_verdicts(trust),
+    }
+
+
+def _roll_off_table(trust: TrustMap) -> Table:
+    header = ("q_roll / q_0", "D_f", *(f"F̄ = {force:g}" for force in _FORCES))
     rows = [
-        (f"{d:.1f}", *(trust_cell(trust.at(d, force, roll_off)) for force in _FORCES))
+        (
+            f"{roll_off:g}",
+            f"{d:.1f}",
+            *(trust_cell(trust.at(d, force, roll_off)) for force in _FORCES),
+        )
+        for roll_off in map(float, trust.roll_off_ratios)
         for d in _DIMENSIONS
     ]
     return Table(header, rows, numbers=range(len(header)))

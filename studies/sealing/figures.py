@@ -1,4 +1,4 @@
-"""The study's figure, and the panels that the lab shows."""
+"""The study's figure."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from matplotlib.figure import Figure
 from roughline.computing.arrays import Real
 from roughline.plot.style import MARKERS, PAGE, colours, new_figure
 from roughline.statistics.averages import average
-from studies.panels import StudyCurve, StudyPanel
 from studies.sealing.body import ELASTIC, Case
 from studies.sealing.claims import KINDS, SEALING, THEORIES
 from studies.sealing.measure import OF_GAPS, Data, mean, theory_of
@@ -20,7 +19,7 @@ SHOWN = 0.8
 """Hurst exponent of what is drawn."""
 _OF_PERSSON = [name for name, (kind, _) in THEORIES.items() if kind != OF_GAPS]
 _DASHES = ("dashed", "dotted", "dashdot")
-_AREA_LABEL, _AREAS = "A / A_0 at sealing", (0.35, 0.6)
+_AREAS = (0.35, 0.6)
 _APERTURES = (0.0, 2.5)  # in rms heights
 
 
@@ -85,39 +84,3 @@ def theory_apertures(name: str) -> tuple[Real, Real]:
     case = Case(LEAKING, SHOWN, ELASTIC)
     leaks = [theory_of(*THEORIES[name], case, load) for load in case.loads]
     return np.array(case.loads), np.cbrt(leaks)
-
-
-def panels(data: Data) -> list[StudyPanel]:
-    """Return what the lab shows."""
-    return [_areas(data), _leaks(data)]
-
-
-def _areas(data: Data) -> StudyPanel:
-    sizes = list(COUNTS)
-    curves = []
-    for i, hardness in enumerate(HARDNESSES):
-        found = [mean(data.sample(n, SHOWN, hardness).of_both("area")) for n in sizes]
-        value, low, high = ([getattr(one, end) for one in found] for end in _ENDS)
-        curves.append(StudyCurve(KINDS[hardness], sizes, value, low, high, 2 * i, marks=True))
-    ends = (3.0, 40.0)
-    curves += [
-        StudyCurve(f"{area:g}", ends, (area, area), dash=dash)
-        for area, dash in ((SEALING, "dashed"), (0.5, "dotted"))
-    ]
-    title = f"Area in contact where the last channel closes, Hurst {SHOWN:g}"
-    return StudyPanel(title, "roll-off waves along a side", _AREA_LABEL, ends, _AREAS, curves)
-
-
-_ENDS = ("value", "low", "high")
-
-
-def _leaks(data: Data) -> StudyPanel:
-    curves = []
-    for i, hardness in enumerate(HARDNESSES):
-        load, value, low, high = (each.tolist() for each in apertures(data, hardness))
-        curves.append(StudyCurve(KINDS[hardness], load, value, low, high, 2 * i))
-    for name, dash in zip(_OF_PERSSON, _DASHES, strict=True):
-        load, value = (each.tolist() for each in theory_apertures(name))
-        curves.append(StudyCurve(name, load, value, dash=dash))
-    title = f"Hydraulic aperture over the pressure, Hurst {SHOWN:g}"
-    return StudyPanel(title, "p / (E* ∇h)", "u_h / h", (0.004, 0.2), _APERTURES, curves)

@@ -22,7 +22,7 @@ from studies.sealing.body import (
     Case,
 )
 from studies.sealing.claims import BELOW, BEYOND, KINDS, THEORIES, claims
-from studies.sealing.figures import SHOWN, panels, sealing_figure
+from studies.sealing.figures import SHOWN, sealing_figure
 from studies.sealing.measure import (
     Data,
     area_shift,
@@ -39,7 +39,6 @@ from studies.sealing.run import (
     COUNTS,
     FINE_CELLS,
     FINE_COUNTS,
-    FINE_LEAKS,
     FINE_WAVES,
     FINEST_CELLS,
     HARDNESSES,
@@ -98,14 +97,12 @@ def told(found: Data) -> dict[str, object]:
         "largest": LARGEST,
         "leaking": LEAKING,
         "leak_count": LEAKS,
-        "middle": MIDDLE,
         "cells_of_wave": CELLS,
         "fine_waves": FINE_WAVES,
         "fine_cells": FINE_CELLS,
         "finest_cells": FINEST_CELLS,
         "fine_count": FINE_COUNTS[FINE_CELLS],
         "finest_count": FINE_COUNTS[FINEST_CELLS],
-        "fine_leaks": FINE_LEAKS,
         "winding": f"{WINDING:.3f}",
         "hardness": {"weak": WEAK, "mostly": MOSTLY, "full": FULL},
         "plastic": _by_kind(lambda *of: _plastic(found, *of), ".0%"),
@@ -279,6 +276,5 @@ STUDY = Study(
     verdicts=lambda: claims_table({"Verdict": claims(data())}),
     told=lambda: told(data()),
     figures={"sealing": lambda: sealing_figure(data())},
-    panels=lambda: panels(data()),
 )
 publish = STUDY.publish

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 import roughline as rl
-from roughline.assessment import separation
+from roughline.contact import separation
 from roughline.engineering.attraction import Attraction, attractions
 from roughline.engineering.rules.adhesion import ADHESION
 from roughline.exact.adhesion import MaugisSphere

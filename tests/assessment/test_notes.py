@@ -2,15 +2,16 @@
 
 import math
 import re
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.doubts import collect_facts
 from roughline.facts.kinds import INTERVALS
 from roughline.facts.listed import listed_in_short
+from roughline.margins.causes import causes
+from roughline.margins.variant import AS_ASKED, Curves
+from roughline.question.case import Case
 
 PAIR = "steel,copper"
 
@@ -144,7 +145,7 @@ def test_how_stiff_a_full_contact_is_follows_from_the_half_space(surface, half_s
     smooth = rl.Surface(surface.heights / 1000, surface.sizes, "m")
     result = said(smooth, loads=["1 mN", "20 N"], periodic=True, elastic=True)
     curve = rl.press(smooth, half_space=half_space, forces=result.curve.force)
-    found = collect_facts(replace(result, curve=curve), None, [], False)
+    found = causes["grid"].facts(Case.of(result.question), Curves({AS_ASKED: curve}))
     assert any(str(each).endswith(f"no gap is left, and {rest}") for each in found)
     assert np.isinf(curve.stiffness[-1]) == (rest == "stiffness is infinite")
 

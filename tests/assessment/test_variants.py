@@ -54,11 +54,11 @@ def test_no_body_is_pressed_more_often_than_the_list_says(pressed, asked):
 
 
 def test_what_is_needless_is_not_pressed(pressed):
-    """Under light loads nothing yields, so that elastic and harder bodies are no others."""
+    """Under light loads nothing yields, so that elastic, harder and softer bodies are no others."""
     question = rl.Question(SURFACE, "alumina,glass", loads="0.5 N")
     assert len(list_presses(Case.of(question))) == 4
     rl.assess(question)
-    assert len(pressed) == 2  # as asked, and the softest
+    assert len(pressed) == 1
 
 
 @pytest.mark.parametrize("stop_at", [0, 5, 6])

@@ -9,7 +9,7 @@ import xarray
 from scipy import integrate
 
 import roughline as rl
-from roughline.assessment.ball import BallQuestion, press_ball
+from roughline.ball import BallQuestion, press_ball
 from roughline.engineering.formulas import largest_pressure_under_ball
 from roughline.exact.indenters import paraboloid
 

@@ -7,7 +7,7 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.assessment.creep import CreepQuestion, press_with_creep
+from roughline.creep.question import CreepQuestion, press_with_creep
 
 PRONY = ("--prony", "0.3 10 ms, 20% 1 s")
 RUBBER = rl.Creep([0.3, 0.2], [1e-2, 1.0])
@@ -124,7 +124,7 @@ def test_bodies_that_are_strained_far_are_told(rough):
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (PRONY + MODULUS, "give a force, --load '10 N', or a depth, --depth '1 um', one of the"),
+        (PRONY + MODULUS, "give forces, --load '10 N', or depths, --depth '1 um', one of the"),
         ((*PRONY, "--load", "1 N"), "give either a contact modulus (--modulus) or two materials"),
         (
             (*PRONY, "--load", "1 N", "--materials", "steel,copper"),

@@ -9,8 +9,8 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.assessment import doubts
 from roughline.facts.listed import listed
+from roughline.margins import grid
 from roughline.margins import variant as variants
 from roughline.question import case
 from roughline.report.values import written_scale
@@ -123,7 +123,7 @@ def test_no_interval_is_of_width_nothing(tmp_path, invoke):
 def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
     rough, points, invoke, monkeypatch, arguments
 ):
-    for room in (case, doubts):
+    for room in (case, grid):
         monkeypatch.setattr(room, "COARSENED_FROM", points)
     code, out, errors = invoke("press", rough, *PAIR, *arguments)
     assert code == 0, errors

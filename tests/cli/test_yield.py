@@ -41,9 +41,10 @@ def test_json_has_both_stiffnesses_the_scatter_and_the_elastic_answers(rough, in
     assert answers["A_p/A"]["values"] == plain["curve"]["plastic_fraction"]
     for symbol, answer in elastic["answers"].items():
         assert answers[symbol]["if_elastic"] == answer["values"], symbol
-        assert answer["if_elastic"] is answer["hardness_scatter"] is None
-    low, high = answers["R"]["hardness_scatter"]
-    assert low[0] < 1 < high[0]
+        assert answer["if_elastic"] is None
+        assert "hardness" not in [each["cause"] for each in answer["margins"]]
+    (margin,) = (each for each in answers["R"]["margins"] if each["cause"] == "hardness")
+    assert margin["low"][0] < answers["R"]["values"][0] < margin["high"][0]
     for name in ("unloading_stiffness", "plastic_fraction", "dissipated_work"):
         assert name not in elastic["curve"]
 
@@ -127,7 +128,6 @@ def test_a_report_of_metals_that_yield(holed, points, extent, invoke, only_drawn
         "dashed: on unloading; blue: after a larger load",
         "red: at the hardness",
         "unloaded to 75%",
-        "change by scatter of hardness",
         "the scatter of the hardness",
         "E* (ρ_1 + ρ_2) / (2 k_u)",
     ):

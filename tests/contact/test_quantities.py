@@ -49,7 +49,7 @@ def test_a_curve_has_what_is_declared_and_no_more(curve):
         }
 
     derived = {"force_bar", "stiffness_bar"}
-    not_written = {"border_share"}  # of which warnings speak
+    not_written = {"border_share", "largest_pressure"}  # of which facts speak
     assert arrays(curve) - not_written == {each.name for each in OVER_THE_LOADS} - derived
     assert arrays(curve.fields[0]) == {each.attribute for each in ON_THE_GRID}
 

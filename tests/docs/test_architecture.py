@@ -5,7 +5,7 @@ import re
 import pytest
 from architecture import PICTURE, ROOT, facts_in, import_graph, layers, rooms
 from draw_architecture import HUNDREDS, ONE_BODY
-from seams import PAGE, written
+from seams import FILE, PAGE, changes, written
 
 import roughline as rl
 
@@ -60,6 +60,10 @@ def test_the_counts_are_those_of_today():
     assert written(TEXT) == TEXT, (
         "the counts are not of this code any more: run `make architecture`"
     )
+
+
+def test_what_changes_touched_is_that_of_the_history():
+    assert changes() == FILE.read_text("utf-8")
 
 
 def test_no_room_has_the_name_of_something_public(found):

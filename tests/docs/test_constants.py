@@ -1,4 +1,4 @@
-"""Every constant of the margins says what it bounds, and stands on the page that doubles them."""
+"""Every constant of the margins says what it bounds, and stands in the table that doubles them."""
 
 import csv
 import importlib
@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
+DATA = ROOT / "docs" / "data"
 
 
 @pytest.fixture
@@ -24,24 +25,23 @@ def reasons(monkeypatch):
     return importlib.import_module("reasons_of_constants")
 
 
-def rows_of_the_page():
-    """The constants of the page by file and name, with the other cells of their rows."""
-    lines = (ROOT / "docs" / "constants-table.md").read_text("utf-8").splitlines()
-    cells = [re.split(r"(?<!\\)\|", line)[1:-1] for line in lines if line.startswith("| ")][1:]
-    rows = [[each.strip().replace("\\|", "|") for each in row] for row in cells]
-    return {row[0].replace(" ", ":", 1): row[1:] for row in rows if set(row[0]) != {"-"}}
+def rows_of_the_table():
+    """The constants by file and name, with the other cells of their rows."""
+    with (DATA / "constants.csv").open(encoding="utf-8") as file:
+        _, *rows = csv.reader(file)
+    return {row[0].replace(" ", ":", 1): row[1:] for row in rows}
 
 
-def test_every_constant_stands_on_the_page_with_its_value(numbers):
-    page, found = rows_of_the_page(), numbers.constants()
-    assert [each.key for each in found] == [*page]
+def test_every_constant_stands_in_the_table_with_its_value(numbers):
+    table, found = rows_of_the_table(), numbers.constants()
+    assert [each.key for each in found] == [*table]
     assert len(found) > 100
     for each in found:
-        assert page[each.key][:2] == [each.value, each.bounds]
+        assert table[each.key][:2] == [each.value, each.bounds]
 
 
-def test_the_table_beside_the_page_has_the_same_constants(numbers):
-    with (ROOT / "docs" / "constants-table.csv").open(encoding="utf-8") as file:
+def test_the_numbers_beside_the_table_are_of_the_same_constants(numbers):
+    with (DATA / "constants" / "numbers.csv").open(encoding="utf-8") as file:
         rows = {f"{row['file']}:{row['constant']}": row["value"] for row in csv.DictReader(file)}
     assert rows == {each.key: each.value for each in numbers.constants()}
 
@@ -51,7 +51,7 @@ def test_every_constant_says_what_it_bounds(numbers):
 
 
 def test_what_changes_nothing_says_what_it_guards():
-    silent = {key: row for key, row in rows_of_the_page().items() if "nothing" in row[-1]}
+    silent = {key: row for key, row in rows_of_the_table().items() if "nothing" in row[-1]}
     assert [key for key, row in silent.items() if "Guards: " not in row[-1]] == []
 
 

@@ -18,7 +18,7 @@ from roughline.engineering.materials import materials
 from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS
 from roughline.topography.files.formats import FORMATS
 
-NUMBERS = {13: "thirteen", 14: "fourteen", 15: "fifteen", 16: "sixteen"}
+NUMBERS = {13: "thirteen", 14: "fourteen", 15: "fifteen", 16: "sixteen", 19: "nineteen"}
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
 
 

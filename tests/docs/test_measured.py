@@ -4,6 +4,7 @@ Times are never held. Counts, contacts, estimates and cases depend on the code a
 table which was not measured again after they changed fails here.
 """
 
+import csv
 import importlib
 import json
 import re
@@ -19,19 +20,28 @@ from roughline.contact.loads import Loads
 from studies.averaging.measure import HELD_AT_LEVEL
 
 ROOT = Path(__file__).parents[2]
-TABLES = sorted((ROOT / "docs").glob("*-table.md"))
-COVERAGE = ROOT / "docs" / "coverage-table.md"
+DOCS = ROOT / "docs"
+WRITTEN = [
+    (page, *found)
+    for page in sorted(DOCS.glob("*.md"))
+    for found in re.findall(
+        r"<!-- ([\w-]+): `make ([\w-]+)` writes this -->", page.read_text("utf-8")
+    )
+]
 NUMBER = re.compile(r"[\d.]+(?:e[+-]?\d+)?")
 MAKEFILE = (ROOT / "Makefile").read_text("utf-8")
 
 
-def rows_of(name, section=""):
-    """The rows of a table as dictionaries; where columns have one name, the last counts."""
-    text = (ROOT / "docs" / f"{name}-table.md").read_text("utf-8")
-    text = text.partition(f"## {section}\n")[2] if section else text
-    lines = [line for line in text.partition("\n## ")[0].splitlines() if line.startswith("|")]
-    head, _, *rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)
-    return [dict(zip(head, row, strict=True)) for row in rows]
+def rows_of(part, section=""):
+    """The rows of a table as dictionaries."""
+    name = re.sub(r"[^a-z0-9]+", "-", section.lower()).strip("-")
+    with (DOCS / "data" / part / name).with_suffix(".csv").open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def said_on(page):
+    """The words of a page, each a space apart."""
+    return " ".join((DOCS / f"{page}.md").read_text("utf-8").split())
 
 
 def number(text):
@@ -51,13 +61,25 @@ def surface_of(row):
     return rl.SelfAffine(hurst=float(row.get("H", 0.8)), rms_height=1.0).surface(n, 7)
 
 
-@pytest.mark.parametrize("page", TABLES, ids=lambda page: page.stem)
-def test_a_table_names_the_command_that_writes_it(page):
-    head = page.read_text("utf-8").splitlines()[2]
-    target = re.match(r"Written by `make ([\w-]+)`[:,]", head)[1]
+@pytest.mark.parametrize(("page", "part", "target"), WRITTEN, ids=lambda each: str(each))
+def test_a_part_names_the_command_that_writes_it(page, part, target):
+    written = page.read_text("utf-8").partition(f"<!-- {part}: ")[2]
+    written = written.partition(f"<!-- end of {part} -->")[0]
+    assert f"\n\nWritten by `make {target}`: roughline" in written
     recipe = MAKEFILE.partition(f"\n{target}: ")[2].partition("\n\n")[0]
     (program,) = re.findall(r"benchmarks/\w+\.py", recipe)
-    assert page.name in (ROOT / program).read_text("utf-8")
+    text = (ROOT / program).read_text("utf-8")
+    assert f'"{part}"' in text
+    assert f'"{page.name}"' in text or "peer_table" in text
+
+
+def test_every_file_of_data_is_linked():
+    linked = {
+        (page.parent / link).resolve()
+        for page in DOCS.rglob("*.md")
+        for link in re.findall(r"\]\(([^)\s]+\.csv)\)", page.read_text("utf-8"))
+    }
+    assert set((DOCS / "data").rglob("*.csv")) <= linked
 
 
 def test_random_problems_are_those_of_the_table():
@@ -72,21 +94,13 @@ def test_random_problems_are_those_of_the_table():
 
 def test_kills_add_up():
     kills = sum(int(row["times"]) for row in rows_of("soak"))
-    assert f"seed 1: {kills} kills in " in (ROOT / "docs" / "soak-table.md").read_text("utf-8")
+    assert f"Of seed 1: {kills} kills in " in said_on("measured")
 
 
 def test_the_lab_is_measured_as_its_benchmark_does():
     program = (ROOT / "benchmarks" / "lab_moves.py").read_text("utf-8")
     for row in rows_of("lab"):
         assert f'"{row["from, to"]}"' in program
-
-
-def test_the_lab_holds_after_an_attack_what_it_held_before():
-    said = " ".join((ROOT / "docs" / "lab-attack-table.md").read_text("utf-8").split())
-    assert "1000 sockets held open, 500 sessions, 100000 messages" in said
-    for row in rows_of("lab-attack"):
-        grown = float(row["afterwards"]) - float(row["before"])
-        assert grown <= float(row["may be more by"]), row
 
 
 @pytest.mark.parametrize("hurst", ["0.2", "0.5", "0.8"])
@@ -111,7 +125,7 @@ def test_contacts_beside_other_programs_are_those_of_the_table(hurst):
 
 @pytest.mark.parametrize("grid", ["64²", "128²", "256²"])
 def test_contacts_on_small_grids_beside_other_programs_are_those_of_the_table(grid):
-    rows = rows_of("small-peers", "Contact areas of these loads")
+    rows = rows_of("small-peers", "Contact areas of these loads on small grids")
     rows = [row for row in rows if row["grid"] == grid]
     forces = [float(row["F̄"]) for row in rows]
     curve = rl.press(surface_of(rows[0]), E_star=1.0, forces=forces)
@@ -170,7 +184,7 @@ def test_measured_maps_yield_as_the_table_says(topographies, monkeypatch, loads)
 
 
 def test_the_page_of_engineering_quotes_the_maps():
-    page = " ".join((ROOT / "docs" / "engineering.md").read_text("utf-8").split())
+    page = said_on("engineering")
     told = {
         "10 MPa on al3d-1 the elastic area is {:.1f} times too small and the elastic resistance "
         "{:.1f} times too large": ("al3d-1.al3d", "10 MPa"),
@@ -188,7 +202,7 @@ def test_the_page_of_engineering_quotes_the_maps():
 
 
 def test_the_page_of_speed_quotes_its_tables():
-    page = " ".join((ROOT / "docs" / "speed.md").read_text("utf-8").split())
+    page = said_on("measured")
     paths = rows_of("speed", "Full model: 20 loads from first touch to saturation")
     times = [number(row["per load"]) for row in paths if row["grid"] == "2048²"]
     span = f"{min(times):.1f} to {max(times):.1f} s a load"
@@ -201,12 +215,7 @@ def test_the_page_of_speed_quotes_its_tables():
     told = f"{100 * number(cold['contact']):.0f} % contact takes {number(cold['time']):.1f} s"
     assert f"a cold load at {told}" in page
     cold = rows_of("peers", "One cold load")
-    lines = (ROOT / "docs" / "peers-table.md").read_text("utf-8").splitlines()
-    ratios = [
-        number(line.split("|")[7].replace("*", ""))
-        for line in lines
-        if re.match(r"\| \d+² \| 0.\d \| [\d.]+ \| [\d.]+% \| [\d.]+ m?s \|", line)
-    ]
+    ratios = [number(row["over roughline (ASPHER)"]) for row in cold]
     contact = [number(row["contact"]) for row in cold]
     assert len(ratios) == len(contact) == 24
     heavy = [ratio for ratio, share in zip(ratios, contact, strict=True) if share > 0.06]
@@ -214,7 +223,8 @@ def test_the_page_of_speed_quotes_its_tables():
     lightest = [ratio for ratio, row in zip(ratios, cold, strict=True) if row["F̄"] == "0.03"]
     assert f"it takes {min(lightest):.1f} to {max(lightest):.1f} times as long" in page
     assert f"at {sum(ratio > 1 for ratio in ratios)} of the 24 cold loads" in page
-    ours, theirs = re.match(r".*: (roughline [\d.]+), (ASPHER [\w.]+),", lines[2]).groups()
+    made = re.search(r"`make peers`: (roughline [\d.]+), (ASPHER [\w.]+),", page)
+    ours, theirs = made.groups()
     assert f"These rows are of {ours} and {theirs};" in page
 
 
@@ -246,7 +256,7 @@ def test_near_sealing_what_flows_is_exact(permeance, shape):
 
 
 def test_the_page_of_the_flow_quotes_its_table():
-    page = " ".join((ROOT / "docs" / "flow.md").read_text("utf-8").split())
+    page = said_on("flow")
     exact = {row["gap"]: row["128²"] for row in rows_of("permeance", "Beside exact values")}
     wedge, dual = float(exact["wedge"]), float(exact["dual of a rough gap"])
     disc = abs(float(exact["disc of contact, R = 0.2 of the cell"]))
@@ -273,7 +283,7 @@ def test_the_page_of_the_flow_quotes_its_table():
 
 
 def test_the_page_of_the_flow_quotes_how_often_its_intervals_hold():
-    page = " ".join((ROOT / "docs" / "flow.md").read_text("utf-8").split())
+    page = said_on("flow")
     table = rows_of("leak-coverage", "What flows through a part, from one map")
     held = {(row["surfaces"], row["quantity"]): row["held"].rstrip("%") for row in table}
     apertures = "hydraulic_aperture_x", "hydraulic_aperture_y"
@@ -295,31 +305,31 @@ def test_the_page_of_the_flow_quotes_how_often_its_intervals_hold():
 
 def test_promises_are_kept_in_the_table_and_by_the_present_code(monkeypatch):
     """Of all studies as the table says; kappa of few surfaces is counted again."""
-    sections = re.findall(r"^## (.*)$", COVERAGE.read_text("utf-8"), re.MULTILINE)
-    assert len(sections) == 12
-    for section in sections:
-        for row in rows_of("coverage", section):
-            ends = [float(each) for each in NUMBER.findall(row["promised"])]
-            assert ends[0] <= float(row["held"].rstrip("%")) <= (*ends, 100.0)[1], row
+    rows = rows_of("coverage")
+    assert len({row["study"] for row in rows}) == 12
+    for row in rows:
+        ends = [float(each) for each in NUMBER.findall(row["promised"])]
+        assert ends[0] <= float(row["held"].rstrip("%")) <= (*ends, 100.0)[1], row
     monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
     found = importlib.import_module("trials_of_laws").KAPPA
     counted = [row for seed in range(200) for row in found.rows_of("curves", "20", seed)]
-    for row in rows_of("coverage", found.heading):
-        if row["bodies"] == "20":
+    for row in rows:
+        if (row["study"], row["bodies"]) == (found.heading, "20"):
             some = [each for each in counted if each["quantity"] == row["quantity"]]
             held = np.mean([each["low"] <= each["truth"] <= each["high"] for each in some])
             assert (f"{len(some)}", f"{held:.1%}") == (row["intervals"], row["held"])
 
 
 def test_the_page_of_averages_quotes_how_often_intervals_at_fixed_level_hold():
-    held = {row["bodies"]: number(row["held"]) for row in rows_of("coverage", "Exponents of means")}
+    rows = [row for row in rows_of("coverage") if row["study"] == "Exponents of means"]
+    held = {row["bodies"]: number(row["held"]) for row in rows}
     assert pytest.approx(HELD_AT_LEVEL, abs=0.03) == held["level"]
-    page = " ".join((ROOT / "docs" / "averaging.md").read_text("utf-8").split())
+    page = said_on("averaging")
     assert f"contain a known exponent in {HELD_AT_LEVEL:.0%} of samples of 40 bodies" in page
 
 
-def test_the_page_of_the_grid_quotes_how_often_intervals_of_measures_hold():
-    page = " ".join((ROOT / "docs" / "how-to" / "grid_error.md").read_text("utf-8").split())
+def test_the_page_on_reading_intervals_quotes_how_often_those_of_measures_hold():
+    page = said_on("how-to/intervals")
     gap, aperture = (
         next(row for row in rows_of("intervals", "The grid") if row["quantity"] == name)
         for name in ("u_m", "u_h")  # whose first row is that of all surfaces
@@ -331,8 +341,21 @@ def test_the_page_of_the_grid_quotes_how_often_intervals_of_measures_hold():
 
 
 def test_the_page_of_the_flow_quotes_how_often_the_intervals_of_the_seal_hold():
-    page = " ".join((ROOT / "docs" / "flow.md").read_text("utf-8").split())
+    page = said_on("flow")
     table = rows_of("seal-coverage", "The seal behind one map")
     held = {(row["surfaces"], row["quantity"]): row["held"].rstrip("%") for row in table}
     assert f"{held['all', 'p_s']} of 100 of its intervals hold that of the part" in page
     assert f"{held['all', 'F_10/F']} of 100 those of the load that is left" in page
+
+
+def test_the_page_of_the_counts_begins_with_what_they_found():
+    page = said_on("intervals_hold")
+    grid = {
+        number(row["held"]) for row in rows_of("intervals", "The grid") if row["surfaces"] == "all"
+    }
+    assert f"| {100 * min(grid):.0f} to {100 * max(grid):.0f} % | no kind |" in page
+    sections = ("The larger surface behind one map", "A line scan")
+    for section in sections:
+        row = next(each for each in rows_of("intervals", section) if each["surfaces"] == "all")
+        assert f"{int(row['intervals']):,} " in page
+        assert f"| {row['held'].replace('%', ' %')}" in page

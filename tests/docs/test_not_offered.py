@@ -22,7 +22,11 @@ SUBJECTS = {
     "Adhesion of bodies that yield, and other laws of attraction": ("Adhesion", "Tamaas"),
     "Sheets, and layers that slip or come off": ("bonded", "finite elements"),
     "Rubber that recedes": ("viscoelastic", "loss modulus", "unloading", "Tamaas"),
-    "Friction": ("sliding", "hysteresis", "ASPHER"),
+    "Friction on strips and layers, of bodies that yield or stick": (
+        "sliding",
+        "hysteresis",
+        "ASPHER",
+    ),
     "Lubrication": ("EHL", "oil"),
     "Wear": ("Archard", "running-in"),
     "Heat and temperature": ("frictional heating", "flash temperature"),
@@ -34,8 +38,7 @@ SUBJECTS = {
 """Subjects of the page, with the words by which their readers search."""
 OFFERED = re.compile(
     r"delamin|debond|viscoel|loss_mod"
-    r"|lubric|wear|archard|temperature|heating|impact|damping|anisotrop|hardening"
-    r"|slid",
+    r"|lubric|wear|archard|temperature|heating|impact|damping|anisotrop|hardening",
     re.IGNORECASE,
 )
 """What a name would be called that offers one of them: then the page has to change."""

@@ -45,9 +45,8 @@ def test_an_even_hardness_of_each_node_is_that_of_all(surface, rtol):
         rl.sealing_pressure(surface, half_space=REPEATED, law=given, rtol=rtol)
         for given in (rl.Yielding(hardness), law)
     )
-    rounding, of_contacts = 1e-12, 1e-6  # the ends of intervals hang on gaps as they are solved
-    assert each.low == pytest.approx(one.low, rel=rounding)
-    assert each.interval == pytest.approx(one.interval, rel=of_contacts)
+    rounding = 1e-12
+    assert [each.low, *each.interval] == pytest.approx([one.low, *one.interval], rel=rounding)
 
 
 def test_a_law_of_each_node_is_taken_to_the_half_grid_and_the_quarters(surface):
@@ -62,7 +61,7 @@ def test_a_law_of_each_node_is_taken_to_the_half_grid_and_the_quarters(surface):
     assert found.on_quarters[:3] == pytest.approx(elastic.on_quarters[:3], rel=0.02)
     assert found.on_quarters[3] < 0.1 * surface.rms_slope
     half = rl.sealing_pressure(surface.coarsened(), law=UnevenHardness(hardness[::2, ::2]), **asked)
-    assert found.on_half == pytest.approx(half.value, rel=0.02)
+    assert found.on_half == pytest.approx(half.value, rel=0.01)
     curve = rl.press(surface, half_space=REPEATED, law=law, forces=[0.02])
     low, high = rl.reopening(curve, interval=True).interval
     assert 0 <= low < high <= 1
@@ -88,7 +87,7 @@ def test_the_half_grid_is_left_by_the_largest_load_before(surface, rtol):
         for forces in ([0.08, 0.05], [0.05])
     )
     coarse = rl.press(surface.coarsened(), forces=[0.08, 0.05], **given)
-    assert after.on_half == pytest.approx(rl.reopening(coarse, **asked).value, rel=0.02 + rtol / 2)
+    assert after.on_half == pytest.approx(rl.reopening(coarse, **asked).value, rel=0.01 + rtol / 2)
     assert after.on_half != pytest.approx(alone.on_half, rel=0.1)
 
 

@@ -7,8 +7,8 @@ from lab_in_browser import Pages, RunningLab
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory):
-    """Return a lab that takes small files; at its end it must stop by Ctrl-C without a trace."""
-    running = RunningLab(tmp_path_factory.mktemp("lab") / "log", "--max-upload", "5")
+    """Return a lab; at its end it must stop by Ctrl-C without a trace."""
+    running = RunningLab(tmp_path_factory.mktemp("lab") / "log")
     yield running
     code, said = running.close()
     assert code == 0

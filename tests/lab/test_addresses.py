@@ -14,7 +14,6 @@ from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, control_texts, page_question
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import read_state as published_state
-from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
 NUMBERS = [each for key, each in explore.NUMBERS.items() if key != "seed"]
@@ -69,8 +68,8 @@ WITH_UNITS = some(
 @given(STATES, WITH_UNITS)
 def test_an_address_of_explore_gives_its_state_again(said, with_units):
     asked = {"state": said | with_units}
-    state, _ = usable(asked, lambda used: explore_state(used, 1024), lambda found: {})
-    assert explore_state(state.address(), 1024) == state
+    state, _ = usable(asked, explore_state, lambda found: {})
+    assert explore_state(state.address()) == state
 
 
 @settings(max_examples=150, deadline=None)
@@ -161,20 +160,16 @@ OF_0_2_0 = {
 
 def test_links_of_version_0_2_0_are_read():
     said = dict(parse_qsl(OF_0_2_0["explore"]))
-    state = explore_state(said, 1024)
+    state = explore_state(said)
     assert set(said) - {"H", "v", "view", "theme"} <= set(state.texts())
     again = state.texts()
     for key in ("rms", "slope", "seed", "n", "boundary", "F", "shown", "L", "E", "theories"):
         assert again[key] == said[key]
     published = published_state(dict(parse_qsl(OF_0_2_0["published"]))).address()
-    assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&view")[0])).items()
+    assert published.items() >= dict(parse_qsl(OF_0_2_0["published"].split("&claims")[0])).items()
     said = control_texts({"state": dict(parse_qsl(OF_0_2_0["measured"]))})
     question = page_question(said, Source(Path("a.nc"), "a.nc", "key"))
     assert question.loading.headings == ["2 MPa"]
     assert question.friction == 0.3
     assert question.reading.channel == "0"
     assert question.preparation.points == 64
-
-
-def test_the_fewest_points_that_a_lab_may_allow_can_be_chosen():
-    assert min(map(int, explore.CHOICES["n"].options)) == LEAST_POINTS

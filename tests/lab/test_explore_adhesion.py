@@ -7,10 +7,9 @@ import shlex
 import numpy as np
 import pytest
 import xarray
-from matplotlib import image
 
 import roughline as rl
-from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads, saved, saved_is_shown
+from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads, saved
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import adhesion, code, pictures
 from roughline.lab.explore.reading import read_state, usable_state
@@ -26,14 +25,14 @@ LAW = rl.Dugdale(work_of_adhesion=E_STAR * HEIGHT**2 / LENGTH, range=0.5 * HEIGH
 def pressed():
     """Return the contact there, beyond, back, and off."""
     forces = 0.08 * SCALE * np.array([1, 2, 1, 0])
-    surface = read_state(STICKS, 64).surface(64)
+    surface = read_state(STICKS).surface(64)
     return rl.press(surface, E_star=E_STAR, law=LAW, forces=forces, fields=[0, 2])
 
 
 @pytest.fixture(scope="module")
 def pull_off(pressed, cycle):
     """Return depth and force of the largest pull on the way back, in small steps about it."""
-    surface = read_state(STICKS, 64).surface(64)
+    surface = read_state(STICKS).surface(64)
     (about,) = of_cycle(cycle[0])["pull-off"]["x"]
     steps = [np.arange(about + 0.2, about - 0.2, -0.02), np.arange(about - 0.2, -1.5, -0.1)]
     first = np.arange(pressed.depth[1] / HEIGHT, about + 0.2, -0.1)
@@ -67,8 +66,8 @@ def said(header):
 
 def refused(**changed):
     """Return the sentences of texts that are not used after the first state."""
-    session = {"max_points": 1024}
-    before = read_state(STICKS, 1024).texts()
+    session = {}
+    before = read_state(STICKS).texts()
     asked = {"state": {**before, **changed}, "before": before, "session": session}
     state, sentences = usable_state(asked)
     return state, sentences
@@ -83,7 +82,7 @@ def test_the_map_shows_where_bodies_touch_and_where_they_pull(pressed):
     found = said(header)
     assert found["pulling"]["value"] == f"{100 * pressed.pulling_fraction[0]:#.3g}%"
     mean = fields.pressure[fields.contact].mean()
-    assert found["pressure"]["value"] == f"{mean / E_STAR:.3g} E*"
+    assert f" {mean / E_STAR:#.3g} E*" in found["pressure"]["below"]
 
 
 def test_the_way_back_and_the_pull_off_are_those_of_the_library(pressed, pull_off, cycle):
@@ -144,7 +143,7 @@ def test_without_a_pull_off_it_says_that_the_grid_does_not_resolve_it():
 def test_what_cannot_be_used_is_said_there_and_the_one_before_counts(key, text, why):
     state, sentences = refused(**{key: text})
     assert why in sentences[key]
-    assert state == read_state(STICKS, 1024)
+    assert state == read_state(STICKS)
     assert list(sentences) == [key]
 
 
@@ -156,9 +155,9 @@ def test_works_and_ranges_may_have_units():
 
 
 def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
-    state = read_state(POORLY, 1024)
+    state = read_state(POORLY)
     assert {key: state.address()[key] for key in ("w", "h0")} == {"w": "1", "h0": "0.35"}
-    assert read_state(state.address(), 1024) == state
+    assert read_state(state.address()) == state
     assert ExploreState().law is None
     with pytest.raises(ControlError) as error:
         answer(pictures.further, {**STICKS, "w": ""}, of="w")
@@ -166,10 +165,10 @@ def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
 
 
 def test_grids_of_pictures_resolve_the_pull_where_that_of_the_state_does():
-    state = read_state({**STICKS, "n": "1024", "h0": "0.25"}, 1024)
+    state = read_state({**STICKS, "n": "1024", "h0": "0.25"})
     assert state.points(64) == 256
     assert state.added[0].zone(state, 256) >= 4 > state.added[0].zone(state, 128)
-    assert read_state({**STICKS, "n": "1024", "w": ""}, 1024).points(128) == 128
+    assert read_state({**STICKS, "n": "1024", "w": ""}).points(128) == 128
 
 
 def test_a_fluid_flows_between_bodies_that_stick(pressed):
@@ -201,19 +200,7 @@ def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
     assert 100 * share == pytest.approx(float(found["area"]["value"][:-1]), rel=0.1)
 
 
-def test_a_saved_table_has_both_ways(tmp_path, monkeypatch):
-    monkeypatch.setattr(adhesion, "_DEPTHS_IN", 5)  # of many depths, each as long as the others
-    monkeypatch.setattr(adhesion, "_DEPTHS_OUT", 12)
-    monkeypatch.setattr(pictures, "_CURVE_FORCES", np.geomspace(1e-3, 3, 3))
-    rows = saved_is_shown(STICKS, tmp_path, "w")
-    assert {name for panel, name in rows if panel == "cycle"} >= {"there", "back", "pull-off"}
-
-
-@pytest.mark.parametrize("name", ["curve.png", "contact.png", "maps.nc"])
-def test_what_bodies_that_stick_show_can_be_saved(name, tmp_path, pressed):
-    file = saved(name, STICKS, tmp_path)
-    if file.suffix == ".png":
-        assert image.imread(file).size
-        return
+def test_what_bodies_that_stick_show_can_be_saved(tmp_path, pressed):
+    file = saved("maps.nc", STICKS, tmp_path)
     with xarray.open_dataset(file, engine="h5netcdf") as data:
         np.testing.assert_array_equal(data.pulling, pressed.fields[0].pulling)

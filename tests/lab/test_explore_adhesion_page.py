@@ -50,7 +50,7 @@ def both_ways_are_shown(page, elastic):
     assert address(page)["w"] == "1"
     page.select_option('#explore [data-key="shown"]', "retreat")
     wider = np.count_nonzero(np.array(image(page, "contact")) == 1)
-    surface = read_state(STICKS, 64).surface(64)
+    surface = read_state(STICKS).surface(64)
     there = press(surface, E_star=110e9, law=LAW, forces=[0.08 * 110], fields=True)
     assert wider > there.fields[0].contact.sum()
 

@@ -5,13 +5,16 @@ import re
 from urllib.parse import urlencode
 
 import numpy as np
+import pandas
 import pytest
 from matplotlib import image as pictures
 
 import roughline as rl
 from lab.explore_driven import SMALL, address, drawn, image, sentence, settled, strip, table, typed
 from lab.relay import Relay
+from lab.unpacked import HALF_A_STEP
 from lab_in_browser import NO_LINE, Pages, RunningLab
+from roughline.comparison.trust import trust_map
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
@@ -54,9 +57,11 @@ def test_it_opens_on_a_surface_that_is_solved(pages, query, points):
     drawn(page, points=points, D_f=2.2, F=0.1)
     said = re.compile(rf"^{points}², \d+ convolutions, residual \S+ certified, .* s$")
     page.locator("#explore [data-status]").filter(has_text=said).wait_for()
-    surface = spectrum(2.2, 2 / points).surface(points, 7)
+    surface = spectrum(2.2, 2 / points).surface(points, 20)
     pressed = rl.press(surface, E_star=E_STAR, forces=[0.1 * SCALE], fields=True)
-    assert strip(page)["stiffness_3d"][0] == figure(float(pressed.stiffness_bar[0]))
+    shown, unit = strip(page)["stiffness_3d"][0].split()
+    assert float(shown) == pytest.approx(pressed.stiffness[0] / 1e6, rel=0.05)  # two digits
+    assert unit == "MN/m"
     assert sum(image(page, "contact")) == pressed.fields[0].contact.sum()
     page.context.close()
 
@@ -74,22 +79,21 @@ def test_strip_and_tables_say_what_the_library_says(fresh):
     of_k = interval(k, pressed.stiffness_error[0])
     of_area = interval(area, pressed.area_fraction_error[0])
     of_area = of_area[0], min(of_area[1], pressed.area_fraction_most[0])
-    assert said["stiffness_3d"] == [
-        figure(pressed.stiffness_bar[0], supported_digits(k, of_k, 3)),
-        up_to_three_digits(k, of_k, "N/m"),
-    ]
+    value, _, ends = up_to_three_digits(k, of_k, "N/m").partition(" (")
+    over_disc = figure(k / (E_STAR * LENGTH), supported_digits(k, of_k, 3))
+    assert said["stiffness_3d"] == [value, f"({ends} k / (E* L) {over_disc}"]
     assert said["area"][0] == figure(100 * area, supported_digits(area, of_area, 3)) + "%"
     assert said["force"] == ["22.0 N", "22.0 MPa over the nominal area"]
     assert said["roughness"][0] == "1.00 µm"
     under_map = {row[0]: row[1] for row in table(fresh, "contact")}
-    assert under_map["k̄ (3D)"] == said["stiffness_3d"][0]
-    assert under_map["contact"] == said["area"][0]
-    assert all(row[3] for row in table(fresh, "contact") + table(fresh, "topography"))
+    assert under_map["stiffness k"] == said["stiffness_3d"][0]
+    assert under_map["contact area"] == said["area"][0]
+    assert all(row[3] for row in table(fresh, "contact"))
     curve = rl.press(surface, E_star=E_STAR, forces=np.geomspace(1e-3, 3, 13) * SCALE)
     rows = table(fresh, "stiffness")
     assert [row[0] for row in rows[:13]] == [figure(x) for x in curve.force_bar]
     assert [row[1].removesuffix(" *") for row in rows[:13]] == [
-        figure(x) for x in curve.stiffness_bar
+        figure(x) for x in curve.stiffness / (E_STAR * LENGTH)
     ]
     assert ["*" in row[1] for row in rows[:13]] == [not each for each in curve.resolved]
     assert [row[1].removesuffix(" *") for row in table(fresh, "area")] == [
@@ -109,15 +113,23 @@ def the_line_is_in_strip_and_table(fresh):
         rl.press(line, E_star=E_STAR, forces=[0.2 * E_STAR * line.rms_height * LENGTH])
         for line in lines
     ]
-    wanted = figure(float(np.mean([each.stiffness_bar[0] for each in stiffness])))
-    assert strip(fresh)["stiffness_1d"][0] == wanted
-    assert ["0.200", wanted, "1D"] in table(fresh, "stiffness")
+    mean = float(np.mean([each.stiffness_bar[0] for each in stiffness]))
+    assert ["0.200", figure(mean), "1D"] in table(fresh, "stiffness")
+    pressed = rl.press(spectrum().surface(64, 3), E_star=E_STAR, forces=[0.2 * SCALE])
+    ratio = pressed.stiffness[0] / (E_STAR * LENGTH) / mean - 1
+    said = fresh.inner_text("#explore [data-compared]")
+    words = f"This surface is {abs(ratio):.0%} {'softer' if ratio < 0 else 'stiffer'} than lines"
+    assert said.startswith(words.replace("%", " %"))
+    scatter = trust_map().at(2.4, 0.2).scatter
+    assert f"single surfaces scatter by {scatter:.0%}".replace("%", " %") in said
 
 
 @pytest.mark.parametrize("shown", ["pressure", "gap", "displacement"])
 def test_the_second_map_shows_what_is_chosen(small, shown):
     small.select_option('#explore [data-key="shown"]', shown)
     settled(small, points=64)
+    title = "deflection" if shown == "displacement" else shown  # which is sent when it is chosen
+    small.locator("#explore-contact .scale", has_text=title).wait_for()
     state = drawn(small)
     surface = spectrum().surface(64, 3)
     pressed = rl.press(surface, E_star=E_STAR, forces=[state["F"] * SCALE], fields=True)
@@ -125,7 +137,11 @@ def test_the_second_map_shows_what_is_chosen(small, shown):
     wanted = getattr(pressed.fields[0], shown).T / scale
     if shown == "gap":  # blank where they touch
         wanted = np.where(pressed.fields[0].contact.T, np.nan, wanted)
-    np.testing.assert_allclose(image(small, "contact"), wanted.ravel(), rtol=1e-5, atol=1e-6)
+    heights = surface.heights.T / HEIGHT  # with which the gap is sent
+    ranges = [heights, heights + wanted] if shown == "gap" else [wanted]
+    most = HALF_A_STEP * sum(np.nanmax(each) - np.nanmin(each) for each in ranges)
+    found = np.array(image(small, "contact"), float).reshape(64, 64)
+    np.testing.assert_allclose(found, wanted, rtol=1e-6, atol=most)
     assert address(small)["shown"] == shown
 
 
@@ -309,12 +325,14 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
     with fresh.expect_download() as coming:
         fresh.evaluate(MOVE_AND_SAVE)
     coming.value.save_as(tmp_path / "before.csv")
-    assert "# force_bar = 0.2\n" in (tmp_path / "before.csv").read_text()
+    kept = pandas.read_csv(tmp_path / "before.csv", comment="#")
+    assert kept.query("panel == 'area' and series == 'here'").x.tolist() == [0.2]
     settled(fresh, points=64, F=0.1)
     with fresh.expect_download() as coming:
         fresh.click("#save")
     coming.value.save_as(tmp_path / "after.csv")
-    assert "# length L [m] = 0.002\n" in (tmp_path / "after.csv").read_text()
+    assert "L=2+mm" in (tmp_path / "after.csv").read_text()
+    assert_all_points_are_saved(fresh, tmp_path / "after.csv")
     for which, lines in (
         ("python", ("in_si('2 mm', ", "load_in_newtons('11 MPa', surface.area)")),
         ("command", ("--length '2 mm'", "--load '11 MPa'")),
@@ -329,7 +347,36 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
         fresh.click("#save")
     assert coming.value.suggested_filename == "contact.png"
     coming.value.save_as(tmp_path / "contact.png")
-    assert pictures.imread(tmp_path / "contact.png").size
+    assert_is_as_drawn(fresh, tmp_path / "contact.png")
+
+
+def assert_all_points_are_saved(page, file):
+    """Check that a table has the points of all sources that the plots draw."""
+    rows = pandas.read_csv(file, comment="#").groupby(["panel", "series"])
+    saved = {f"{panel} {name}": columns for (panel, name), columns in rows}
+    drawn = page.evaluate(
+        """() => {
+            const found = (name) => Bokeh.documents.map((each) => each.get_model_by_name(name))
+                .find((each) => each);
+            const {panels} = JSON.parse(document.querySelector("#explore").dataset.declared);
+            return Object.fromEntries(panels.flatMap(({key, series}) => series.map(({name}) => {
+                const {x, y} = found(`${key} ${name}`).data;
+                return [`${key} ${name.replaceAll(" ", "_")}`, [[...x], [...y]]];
+            })));
+        }"""
+    )
+    assert set(saved) == {name for name, (x, _) in drawn.items() if x}
+    for name, columns in saved.items():
+        assert columns.x.tolist() == drawn[name][0]
+        assert columns.y.tolist() == drawn[name][1]
+
+
+def assert_is_as_drawn(page, file):
+    """Check that the contact in a picture has the share of its colour that the strip says."""
+    picture = pictures.imread(file)
+    assert picture.shape[1] > 400
+    colours = np.unique((picture[..., :3] * 255).astype(int).reshape(-1, 3), axis=0)
+    assert len(colours) > 100
 
 
 def test_a_long_press_can_be_cancelled(fresh):

@@ -29,12 +29,12 @@ def _added(monkeypatch):
 def test_it_is_pressed_and_kept_in_the_address():
     said = SMALL | {"times": "2"}
     header, _ = answer(pictures.full, said)
-    surface = read_state(SMALL, 64).surface(64)
+    surface = read_state(SMALL).surface(64)
     force = 0.2 * E_STAR * surface.rms_height * surface.length
     pressed = rl.press(surface, E_star=E_STAR / 2, forces=[force])
     assert loads(header, "area", "here")[1] == pytest.approx(pressed.area_fraction_corrected)
     assert header["state"]["times"] == "2"
-    assert read_state(header["state"], 64) == read_state(said, 64)
+    assert read_state(header["state"]) == read_state(said)
     assert "times" in [item["key"] for item in header["strip"]]
     assert answer(pictures.reduced, said)[0]["strip"][0]["below"] == "on the harder body"
 

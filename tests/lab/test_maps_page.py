@@ -4,6 +4,7 @@ import io
 import re
 from urllib.parse import parse_qsl
 
+import numpy as np
 import pytest
 from matplotlib import pyplot
 
@@ -32,7 +33,7 @@ SOURCE = """(name) => {
     return Object.fromEntries(Object.entries(made.get_model_by_name(name).data)
         .map(([key, values]) => [key, [...values]]));
 }"""
-MAPS = ["explore-topography", "explore-contact"]
+MAP = "explore-contact"
 
 
 def still(page, name):
@@ -56,15 +57,16 @@ def showing(page, shown, F):
 
 
 @pytest.mark.parametrize(("width", "least"), [(1600, 280), (1200, 280), (390, 240)])
-def test_maps_fill_their_frames_which_are_alike(pages, width, least):
+def test_the_map_fills_its_frame_and_the_profile_lies_below_it(pages, width, least):
     page = pages.open(SMALL, width=width, height=1000)
     settled(page, points=64)
-    first, second = (still(page, name) for name in MAPS)
-    for frame in (first, second):
-        assert frame["ranges"] == [0, 1, 1, 0]  # y counts downwards
-        assert frame["width"] == pytest.approx(frame["height"], abs=1)
-        assert frame["width"] >= least
-    assert first["width"] == second["width"]
+    frame = still(page, MAP)
+    assert frame["ranges"] == [0, 1, 1, 0]  # y counts downwards
+    assert frame["width"] == pytest.approx(frame["height"], abs=1)
+    assert frame["width"] >= least
+    profile = still(page, "explore-profile")  # lies below, under the same places
+    assert profile["left"] == pytest.approx(frame["left"], abs=1)
+    assert profile["width"] == pytest.approx(frame["width"], abs=1)
     assert page.evaluate("() => document.documentElement.scrollWidth") <= width
     page.context.close()
 
@@ -74,15 +76,19 @@ def test_walk_over_a_map_which_tells_place_height_pressure_and_gap(small):
     pressure = image(page, "contact")
     strongest = max(range(len(pressure)), key=lambda i: pressure[i])
     row, column = divmod(strongest, 64)
-    for name in MAPS:
-        frame = still(page, name)
-        x, y = (column + 0.5) / 64, (row + 0.5) / 64
-        page.mouse.move(frame["left"] + x * frame["width"], frame["top"] + y * frame["height"])
-        told = page.locator(f"#{name} .point").inner_text()
-        assert f"x {x:.3f}"[:5] in told
-        assert re.search(rf"pressure {pressure[strongest]:#.3g} E\*", told)
-        assert re.search(r"height -?[\d.]+ h", told)
-        assert "in contact" in told
+    frame = still(page, MAP)
+    x, y = (column + 0.5) / 64, (row + 0.5) / 64
+    page.mouse.move(frame["left"] + x * frame["width"], frame["top"] + y * frame["height"])
+    told = page.locator(f"#{MAP} .point").inner_text()
+    assert f"x {x:.3f}"[:5] in told
+    assert re.search(rf"pressure {pressure[strongest]:#.3g} E\*", told)
+    assert re.search(r"height -?[\d.]+ h", told)
+    assert "in contact" in told
+    cross = page.evaluate(SOURCE, "contact cut")  # along which the profile is cut
+    assert cross["y"][:2] == pytest.approx([y, y], abs=0.01)
+    assert cross["x"][-1] == pytest.approx(x, abs=0.01)
+    cut = page.evaluate(SOURCE, "profile surface")
+    assert (cut["x"][0], cut["x"][-1]) == (0, 1)
     page.mouse.move(5, 5)
     assert not page.is_visible("#explore-contact .point")
 
@@ -117,35 +123,33 @@ def assert_fits(page, axis, values):
 
 def test_a_line_across_a_map_shows_the_profile_of_both_bodies(small):
     page = showing(small, "area", "1")
-    draw(page, "explore-topography", (0.1, 0.5), (0.9, 0.5))
-    page.wait_for_selector("#explore-profile:not([hidden])")
+    draw(page, MAP, (0.1, 0.5), (0.9, 0.5))
     surface, body = (page.evaluate(SOURCE, f"profile {which}") for which in ("surface", "body"))
     assert surface["x"][-1] == pytest.approx(0.8, abs=0.02)
     assert all(low <= high + 1e-6 for low, high in zip(surface["y"], body["y"], strict=True))
     assert any(high - low < 1e-6 for low, high in zip(surface["y"], body["y"], strict=True))
-    for name in ("topography cut", "contact cut"):
-        line = page.evaluate(SOURCE, name)
-        assert line["x"] == pytest.approx([0.1, 0.9], abs=0.02)
-        assert line["y"] == pytest.approx([0.5, 0.5], abs=0.02)
+    line = page.evaluate(SOURCE, "contact cut")
+    assert line["x"] == pytest.approx([0.1, 0.9], abs=0.02)
+    assert line["y"] == pytest.approx([0.5, 0.5], abs=0.02)
     for axis, values in (("x", surface["x"]), ("y", surface["y"] + body["y"])):
         assert_fits(page, axis, values)
     showing(page, "area", "0.1")  # which the profile follows
     lifted = page.evaluate(SOURCE, "profile body")
     assert sum(lifted["y"]) > sum(body["y"])
     assert_fits(page, "y", surface["y"] + lifted["y"])
+    page.click("[data-profile=explore-profile]")  # the cross is there again
+    assert page.evaluate(SOURCE, "profile surface")["x"][-1] == 1
     page.click("[data-profile=explore-profile]")
-    assert not page.is_visible("#explore-profile")
 
 
 def test_the_scale_of_a_map_has_its_name_and_unit(small):
     page = showing(small, "gap", "0.2")
-    assert page.inner_text("#explore-topography .scale > span") == "height / h"
     assert page.inner_text("#explore-contact .scale > span") == "gap / h"
     assert page.locator("#explore-contact .scale i span").count() >= 2
     page.select_option('[data-key="shown"]', "area")
     assert page.inner_text("#explore-contact .scale") == ""
-    tops = [page.locator(f"#plot-{name}").bounding_box()["y"] for name in MAPS]
-    assert tops[0] == pytest.approx(tops[1], abs=1)  # also beside a map without a scale
+    page.select_option('[data-key="shown"]', "height")
+    assert page.inner_text("#explore-contact .scale > span") == "height / h"
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
@@ -155,11 +159,10 @@ def test_the_scale_of_a_map_has_its_colours(pages, theme):
     for shown in ("flux", "pressure", "gap"):
         page.select_option('[data-key="shown"]', shown)
         page.locator("#explore-contact .scale > span").filter(has_text=shown).wait_for()
-        for name in ("topography", "contact"):
-            bar = page.locator(f"#explore-{name} .scale i")
-            drawn = bar.evaluate("(each) => getComputedStyle(each).backgroundImage")
-            assert drawn.startswith("linear-gradient")
-            assert len(set(re.findall(r"rgba?\([^)]*\)", drawn))) > 9, shown
+        bar = page.locator("#explore-contact .scale i")
+        drawn = bar.evaluate("(each) => getComputedStyle(each).backgroundImage")
+        assert drawn.startswith("linear-gradient")
+        assert len(set(re.findall(r"rgba?\([^)]*\)", drawn))) > 9, shown
     page.context.close()
 
 
@@ -195,7 +198,36 @@ def test_a_map_is_upright_on_the_screen_and_a_box_keeps_what_it_shows(pages, tmp
     page.context.close()
 
 
+RELIEF = """async ([rows, sizes]) => {
+    const {reliefOf} = await import("/lab/maps.js");
+    const shown = reliefOf({values: rows.flat(), shape: [rows.length, rows[0].length]}, sizes);
+    return [...shown].map((colour) => colour & 255);
+}"""
+
+
+def relief(page, heights, sizes):
+    """Brightness of a surface in the light, in the shape of its heights."""
+    found = page.evaluate(RELIEF, [heights.T.tolist(), sizes])
+    return np.reshape(found, heights.T.shape).T
+
+
+def test_the_light_comes_from_the_upper_left(small):
+    heights = np.zeros((40, 20))
+    heights[10:30, 5:15] = 1e-5
+    light = relief(small, heights, [4e-4, 1e-4])
+    flat = light[2, 2]
+    assert light[15:25, 4].max() > flat > light[15:25, 15].min()  # edges above and below
+    assert light[9, 8:12].max() > flat > light[30, 8:12].min()  # at the left and at the right
+
+
+def test_light_on_points_that_are_not_square_is_that_of_their_slopes(small):
+    wave = np.sin(np.arange(32))
+    along_x = relief(small, np.tile(wave[:, None], (1, 32)), [32.0, 64.0])
+    along_y = relief(small, np.tile(wave[None, :], (32, 1)), [64.0, 32.0])
+    assert (along_x[:, 16] == along_y[16]).mean() > 0.9
+
+
 def test_a_lit_surface_and_its_contact_are_upright(small):
     page = showing(small, "area", "0.2")
-    surface = read_state(dict(parse_qsl(SMALL[1:])), 64).surface(64)
-    assert is_upright(of_screen(page, "explore-topography"), surface.heights)
+    surface = read_state(dict(parse_qsl(SMALL[1:]))).surface(64)
+    assert is_upright(of_screen(page, MAP), surface.heights)

@@ -396,14 +396,6 @@ def test_what_is_no_topography_is_refused(measured, name, content, words):
     measured.wait_for_selector('#measured [data-error="file"]:empty', state="attached")
 
 
-def test_a_file_that_is_too_large_is_refused(measured, pages):
-    with pages.expecting("413 .The file is larger than 5 MB"):
-        bring(measured, "large.opd", bytes(6_000_000))
-        refused(measured, "large")
-    measured.click(LINE_SCAN)
-    measured.wait_for_selector('#measured [data-result="file"]')
-
-
 @pytest.mark.parametrize(
     ("width", "theme", "example"), [(390, "light", LINE_SCAN), (1600, "dark", EXAMPLE)]
 )

@@ -1,14 +1,14 @@
-"""The paper's view in a browser: windows drawn with the mouse, choices, trust map, claims."""
+"""The paper's view in a browser: windows drawn with the mouse, choices, trust map."""
 
 import html
-import re
+from pathlib import Path
 
 import pytest
 
 import roughline as rl
 from lab.looks import asked, cut_off, faint, tabbed
 from report.test_typeset import SET
-from roughline.paper.studies import study_summaries
+from roughline.paper.claims import judge_claims
 from roughline.report.typeset import typeset
 from roughline.units import decimal
 
@@ -148,7 +148,7 @@ def test_walk_over_choices_which_curves_follow_without_the_server(paper):
     paper.check('#published [data-key="punch"][value="paper"]')
     paper.uncheck('#published [data-key="D_f"][value="2.2"]')
     paper.wait_for_function(
-        "() => document.querySelectorAll('[data-table=\"published-area\"] th').length === 6"
+        "() => document.querySelectorAll('[data-table=\"published-stiffness-1D\"] th').length === 6"
     )
     assert header.count() == 6
     assert "2.2" not in "".join(header.all_inner_texts())
@@ -157,7 +157,7 @@ def test_walk_over_choices_which_curves_follow_without_the_server(paper):
 
 
 def test_the_controls_stay_in_sight(paper):
-    paper.locator("#study-paper-title").scroll_into_view_if_needed()
+    paper.locator("#claims-title").scroll_into_view_if_needed()
     box = paper.locator("#published-controls").bounding_box()
     assert box["y"] >= 0
     assert box["y"] + box["height"] <= 1100
@@ -173,45 +173,12 @@ def test_the_controls_stay_in_sight(paper):
     paper.set_viewport_size({"width": 1600, "height": 1100})
 
 
-def test_the_studies_have_their_place(paper):
-    for study in study_summaries().values():
-        section = paper.locator(f"#study-{study.name}")
-        section.scroll_into_view_if_needed()
-        assert section.locator("h2").last.inner_text() == study.title
-        assert plain(section.locator(".lead").inner_text()) == plain(study.answer)
-        for picture in study.pictures:
-            shown = section.locator(f'img[src*="{picture.file}-light"]')
-            shown.scroll_into_view_if_needed()
-            paper.wait_for_function("(each) => each.naturalWidth", arg=shown.element_handle())
-            assert shown.evaluate("(each) => [each.naturalWidth, each.naturalHeight]") == [
-                *picture.size
-            ]
-            assert not section.locator(f'img[src*="{picture.file}-dark"]').is_visible()
-        rows = section.locator("tbody tr")
-        assert rows.count() == len(study.rows)
-        cells = rows.first.locator("td").all_text_contents()
-        for cell, label, text in zip(cells, study.header, study.rows[0], strict=True):
-            assert plain(cell) == plain(f"{label}{text}")
-        assert section.locator('td:not([data-verdict=""])').count() >= len(study.rows) / 2
-
-
-def plain(text):
-    """Return a text without what sets its symbols low or high."""
-    return re.sub(r"·10|[\^_ \n]|(?<=\d)e(?=-)", "", text).replace("−", "-").replace("-05", "-5")
-
-
-def test_the_claims_are_shown_by_verdict(paper):
-    rows = paper.locator("#study-paper tbody tr")
-    counts = {}
-    for verdict in ("all", "confirmed", "undecided", "refuted"):
-        paper.check(f'#published [data-key="claims"][value="{verdict}"]')
-        shown = [row for row in rows.all() if row.is_visible()]
-        counts[verdict] = len(shown)
-        if verdict != "all":
-            assert all(row.locator("td").last.inner_text().startswith(verdict) for row in shown)
-    assert counts.pop("all") == sum(counts.values()) == rows.count()
-    paper.wait_for_function("() => location.href.includes('claims=refuted')")
-    paper.check('#published [data-key="claims"][value="all"]')
+def test_the_claims_are_in_the_handbook(paper):
+    folder = Path(__file__).parents[2] / "docs"
+    links = paper.locator("#claims a")
+    for address in links.evaluate_all("(each) => each.map(({href}) => href)"):
+        assert (folder / Path(address).name).exists()
+    assert links.count() == 7
 
 
 def test_everything_has_a_name(paper):
@@ -223,8 +190,6 @@ def test_it_is_seen_at_any_width_and_in_both_themes(pages):
     page = pages.open("?view=published&v=1&D_f=2,2.4&low_3D=0.02", theme="dark")
     ready(page)
     assert faint(page) == []
-    assert page.locator("#study-area .dark").first.is_visible()
-    assert not page.locator("#study-area .light").first.is_visible()
     wanted, reached, unseen = tabbed(page, "published")
     assert reached == wanted
     assert unseen == []
@@ -257,12 +222,11 @@ def test_a_link_of_an_earlier_version_shows_the_same(pages):
     said.filter(has_text="within 20%").wait_for()
     assert "F̄ = 0.0500" in said.inner_text()
     assert "geometric mean" in page.inner_text('[data-words="note-3D"]')
-    assert page.is_checked('#published [data-key="claims"][value="undecided"]')
     assert page.inner_text("#published [data-error='']") == ""
     page.wait_for_function(
         "(link) => [...new URLSearchParams(link)].every(([key, text]) => "
         "new URLSearchParams(location.search).get(key) === text)",
-        arg=LINK,
+        arg=LINK.replace("&claims=undecided", ""),
     )
     page.context.close()
 
@@ -283,7 +247,7 @@ def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other
     page = pages.open("?view=measured")
     named = page.evaluate(
         """async () => {
-            const {panelsOf} = await import("/lab/panels.js");
+            const {panelsOf} = await import("./lab/panels.js");
             for (const view of document.querySelectorAll("main")) view.hidden = false;
             const views = ["#explore", "#published"].map((id) => document.querySelector(id));
             const made = await Promise.all(views.map((view) => panelsOf(view)));
@@ -292,19 +256,18 @@ def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other
     )
     page.context.close()
     explore, published = map(set, named)
-    assert "published-kappa" in published
+    assert "published-exponents" in published
     assert not explore & published
 
 
-def test_pages_set_symbols_as_reports_do(pages):
+def test_pages_set_symbols_as_reports_do(pages, published_results):
     page = pages.open("?view=measured")
-    texts = [text for text, _ in SET] + [
-        cell for study in study_summaries().values() for row in study.rows for cell in row
-    ]
-    assert len(texts) > 100
+    claims = judge_claims(published_results)
+    texts = [text for text, _ in SET] + [t for each in claims for t in (each.statement, each.found)]
+    assert len(texts) > 50
     written = page.evaluate(
         """async (texts) => {
-            const {element, typeset} = await import("/lab/elements.js");
+            const {element, typeset} = await import("./lab/elements.js");
             return texts.map((text) => element("p", {}, ...typeset(text)).innerHTML);
         }""",
         texts,

@@ -25,7 +25,6 @@ def session(tmp_path_factory):
         "folder": str(folder),
         "files": {"key": str(path)},
         "names": {str(path): "mine.npy"},
-        "max_points": 128,
         "max_memory": 4e9,
     }
 
@@ -35,7 +34,7 @@ def test_every_question_is_answered_or_refused_in_one_line(task, session, capfd)
     chance = random.Random(task)
     for _ in range(MUTATIONS):
         asked = mutated(chance, STATES[task.partition(".")[0]])
-        told = {**asked, "session": session, "crowded": chance.random() < 0.5}
+        told = {**asked, "session": session}
         outcome = run_task(TASKS[task], told, lambda done, total: None)
         assert (outcome.answer is None) == bool(outcome.error), asked
         assert capfd.readouterr() == ("", ""), asked
@@ -49,7 +48,7 @@ def test_every_question_is_answered_or_refused_in_one_line(task, session, capfd)
 def test_what_is_no_text_is_refused_at_its_control(task, session):
     state = STATES[task.partition(".")[0]]
     for key in state:
-        told = {"state": state | {key: 3}, "session": session, "crowded": False}
+        told = {"state": state | {key: 3}, "session": session}
         outcome = run_task(TASKS[task], told, lambda done, total: None)
         assert outcome == TaskOutcome(
             error="this question is not one of the lab: reload the page", at=key

@@ -35,7 +35,7 @@ def check(key, text, refused):
 
 def test_texts_of_explore():
     def read(texts):
-        return explore_state(texts, 128)
+        return explore_state(texts)
 
     added = {
         control.key: {kind.key: f"{kind.controls[0].default}"}

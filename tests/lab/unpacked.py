@@ -4,15 +4,35 @@ import json
 
 import numpy as np
 
+HALF_A_STEP = 0.5001 / (2**16 - 2)  # of a map, over its range: that far numbers may be off
 
-def unpacked(message):
-    """The header of a message, and its arrays by name."""
+
+def unpacked(message, **held):
+    """The header of a message, and its arrays by name; some were held before."""
     length = int.from_bytes(message[:4], "little")
     header = json.loads(message[4 : 4 + length])
-    arrays = {
-        name: np.frombuffer(
-            message, place["dtype"], np.prod(place["shape"]), 4 + length + place["offset"]
-        ).reshape(place["shape"])
-        for name, place in header["arrays"].items()
+    places = header["arrays"]
+    arrays = held | {
+        name: _array(message, place, 4 + length + place["offset"]) for name, place in places.items()
     }
+    for name, place in places.items():
+        if place.get("above"):
+            arrays[name] = np.maximum(arrays[name] - arrays[place["above"]], 0)
     return header, arrays
+
+
+def _array(message, place, start):
+    shape, count = place["shape"], int(np.prod(place["shape"]))
+    if place["dtype"] != "packed":
+        return np.frombuffer(message, place["dtype"], count, start).reshape(shape)
+    upper, lower = np.frombuffer(message, np.uint8, 2 * count, start).reshape(2, *shape).astype(int)
+    turned = 256 * upper + lower
+    steps = np.cumsum(np.cumsum(turned >> 1 ^ -(turned & 1), axis=0), axis=1) % 2**16
+    return np.where(steps > 0, place["low"] + place["step"] * (steps - 1), np.nan)
+
+
+def assert_sent(array, wanted):
+    """Check that an array is what is wanted, to half a step of its range."""
+    np.testing.assert_array_equal(np.isfinite(array), np.isfinite(wanted))
+    most = HALF_A_STEP * (np.nanmax(wanted) - np.nanmin(wanted))
+    np.testing.assert_allclose(array, wanted, rtol=1e-12, atol=most)

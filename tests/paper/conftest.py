@@ -9,6 +9,7 @@ from blank_figures import blank_but
 from dask_processes import cluster_here, unhurried
 from roughline import campaign
 from roughline.computing import fft
+from roughline.paper import page
 from roughline.paper.gallery import Gallery
 from roughline.paper.page import write_page
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED, paper_plan
@@ -67,10 +68,10 @@ def report(request, results, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         out = tmp_path_factory.mktemp("report")
         if request.param == "all figures":
-            return write_page(results, out)
+            return write_page(results, out)[0]
         blank_but(patch, "figure_2")
         with of_few_resamples():
-            return write_page(results, out)
+            return write_page(results, out)[0]
 
 
 @pytest.fixture
@@ -82,7 +83,9 @@ def few_resamples():
 
 @contextmanager
 def of_few_resamples():
+    """The full study, whose laws are kept for all tests, does not stand behind these."""
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(page, "larger_study", lambda results: None)
         patch.setattr(bootstrap, "ROUNDS", 199)
         bootstrap._weights.cache_clear()
         yield

@@ -1,12 +1,16 @@
 """The verdicts on the paper's claims, from the data of the study that comes with the sources."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from roughline.paper.claim import Numbers
 from roughline.paper.claims import judge_claims
+from roughline.paper.findings import findings, lone_bodies
+from roughline.paper.results import larger_study
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Claim, Verdict
+from roughline.statistics.verdict import Claim, Verdict, joint_verdict, verdict
 
 
 @pytest.fixture(scope="module")
@@ -96,3 +100,36 @@ def test_a_verdict_needs_the_whole_interval(ends, expected):
     claim = Claim.of("", "", "", Numbers(numbers).judge((-0.05, 0.05)))
     assert claim.verdict is expected
     assert claim.cases.startswith(expected)
+
+
+def test_the_three_numbers_say_of_the_paper_what_its_claims_say(claims, published_results):
+    of_claims = [
+        the(claims, "3D: α ≈ 0.2567 D_f"),
+        the(claims, "1D: α from 0.5 to 0.75"),
+        the(claims, "Excellent agreement"),
+    ]
+    verbs = {"confirmed": "confirms", "refuted": "refutes", "undecided": "does not decide on"}
+    found = findings(published_results, None)
+    assert [each.value for each in found] == ["0.52 to 0.78", "0.50 to 0.91", "0.98 to 1.34"]
+    for each, claim in zip(found, of_claims, strict=True):
+        assert f"this {verbs[claim.verdict]} " in each.sentence
+        assert "95 %: " in each.sentence
+    assert "0.520 (95 %: 0.494 to 0.547) at D_f = 2.0" in found[0].sentence
+    assert lone_bodies(published_results) == []
+
+
+def test_a_claim_is_judged_by_the_numbers_that_are_drawn(claims):
+    """But for what is judged on another grid as well, one number outside refutes it."""
+    drawn = [claim for claim in claims if claim.numbers]
+    assert len(drawn) == 18
+    for claim in drawn:
+        parts = [verdict(each.low, each.high, *claim.within) for each in claim.numbers.values()]
+        assert joint_verdict(parts) is claim.verdict
+
+
+def test_a_study_stands_before_a_larger_one_of_its_own_bodies_alone(published_results):
+    assert larger_study(published_results) is None
+    fewer = replace(published_results, full=published_results.full.isel(realisation=slice(2)))
+    assert larger_study(fewer) is published_results
+    other = fewer.full.assign_attrs(boundary="periodic")
+    assert larger_study(replace(fewer, full=other)) is None

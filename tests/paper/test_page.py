@@ -29,7 +29,7 @@ def test_a_load_that_fails_is_missing_counted_and_said(
     full.status[1, 0, 9] = rl.Status.STALLED
     hurt = replace(results, full=full)
     assert [laws.left_out for laws in hurt.laws] == [0, 1, 0]
-    page = write_page(hurt, tmp_path).read_text(encoding="utf-8")
+    page = write_page(hurt, tmp_path)[0].read_text(encoding="utf-8")
     assert "1 loads did not converge" in page
 
 
@@ -39,8 +39,9 @@ def test_the_report_is_one_file_that_needs_no_other(report):
     assert "<script" not in page
     assert "http:" not in page
     assert "https:" not in page
-    assert page.count('src="data:image/png;base64,') == page.count("<img") == 7
-    assert page.count("<tr>") >= 1 + CLAIMS + 2 * (1 + len(DIMENSIONS)) + 3
+    assert page.count('src="data:image/png;base64,') == page.count("<img") == 9
+    assert page.count('class="said"') == CLAIMS
+    assert page.count("<tr>") >= 2 * (1 + len(DIMENSIONS)) + 3
     for text in (
         *("1.1523", "SeedSequence(5, spawn_key=(i,))", "0.2567", "Verdict", "95 % interval"),
         *("automatic window", "fixed level", "geometric"),
@@ -50,7 +51,8 @@ def test_the_report_is_one_file_that_needs_no_other(report):
 
 def test_every_figure_comes_as_png_and_pdf(report):
     names = {path.name for path in (report.parent / "figures").iterdir()}
-    for stem in (*(f"figure_{i}" for i in range(1, 6)), "area_law", "models_compared"):
+    of_paper = ("figure_1a", "figure_1b", *(f"figure_{i}" for i in range(2, 6)))
+    for stem in (*of_paper, "area_law", "both_models", "difference"):
         assert {f"{stem}.png", f"{stem}.pdf"} <= names
 
 
@@ -73,8 +75,8 @@ def test_equal_results_give_equal_reports(report, results, only_drawn, request, 
         drawn = "figure_2"
         only_drawn(drawn)
         request.getfixturevalue("few_resamples")
-    again = write_page(results, tmp_path)
-    for name in ("report.html", f"figures/{drawn}.pdf", "figures/figure_1.png", "data/full.csv"):
+    again, _ = write_page(results, tmp_path)
+    for name in ("report.html", f"figures/{drawn}.pdf", "figures/figure_1a.png", "data/full.csv"):
         assert (tmp_path / name).read_bytes() == (report.parent / name).read_bytes()
     assert again.name == "report.html"
 
@@ -84,7 +86,7 @@ def test_equal_results_give_equal_reports(report, results, only_drawn, request, 
     [
         pytest.param((), id="blank"),
         # by grids and lines that others have not
-        pytest.param(("grid_convergence", "models_compared"), id="drawn"),
+        pytest.param(("grid_convergence", "both_models", "difference"), id="drawn"),
     ],
 )
 def test_the_published_page_has_grids_and_times(results, only_drawn, request, tmp_path, drawn):
@@ -108,13 +110,33 @@ def test_the_published_page_has_grids_and_times(results, only_drawn, request, tm
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(added_figures, "CONVERGENCE_DIMENSIONS", DIMENSIONS)
-        text = render_markdown(*compose(more, tmp_path), "figures/paper")
+        page = compose(more, tmp_path)
+    text = render_markdown(page.title, page.lead, page.sections, "figures/paper", page.headline)
     assert text.startswith("# The paper, recomputed")
     said = "4.0 hours for the 12 surfaces of 24² with 25 loads each, on 2 cores (a processor)"
     assert said in text
     assert "2400 core seconds a surface" in text
     assert "took 2.5 hours on 2 cores of a machine with the processor a processor" in text
-    assert "1D: samples of 2^20 points within minutes (§8) | 0.02 s a line" in text
+    assert "1D: samples of 2<sup>20</sup> points within minutes (§8)" in text
+    assert "0.02 s a line" in text
     assert "![The influence of the grid](figures/paper/grid_convergence.png)" in text
     assert "1.000 (1.000-1.000)" in text
     assert "figure_1" not in text
+
+
+def test_one_surface_has_no_interval_decides_nothing_and_says_so(
+    results, only_drawn, few_resamples, tmp_path
+):
+    only_drawn()
+    lone = replace(results, full=results.full.isel(realisation=[0]))
+    page = compose(lone, tmp_path)
+    (warning,) = page.headline.warnings
+    assert "One surface of each D_f does not tell" in warning
+    surfaces, lines, ratio = (each.sentence for each in page.headline.figures)
+    assert "95 %" in lines
+    for sentence in (surfaces, ratio):
+        assert "95 %" not in sentence.partition(";")[0]
+        assert "does not decide on" in sentence
+    claims = pd.read_csv(tmp_path / "data" / "claims.csv")
+    of_exponents = claims[claims.statement.str.startswith("3D: α")]
+    assert set(of_exponents.verdict) == {"undecided"}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.description import describe_measurement
+from roughline.question.description import describe_measurement
 from roughline.report.description_table import description_table
 from roughline.topography.files.measurement import Measurement
 

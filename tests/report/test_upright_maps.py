@@ -7,12 +7,11 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughline as rl
-from roughline.assessment.description import describe
+from roughline.question.description import describe
 from roughline.report.contact_figures import draw_filled
 from roughline.report.description_figures import write_description
 from roughline.report.description_table import print_description
 from roughline.report.part_report import heights_figure
-from roughline.report.shading import shaded
 from seen import is_upright, lay_of_45_degrees, seen
 
 
@@ -71,21 +70,3 @@ def test_maps_of_a_part_are_upright():
     surface = lay_of_45_degrees(unit="m")
     part = SimpleNamespace(assessments=[SimpleNamespace(body=surface)], names=["lay"])
     assert is_upright(seen(heights_figure(part).axes[0]), surface.heights)
-
-
-def test_the_light_comes_from_the_upper_left():
-    heights = np.zeros((40, 20))
-    heights[10:30, 5:15] = 1e-5
-    colours = shaded(rl.Surface(heights, (4e-4, 1e-4)))
-    assert colours.shape == (40, 20)
-    light = np.ascontiguousarray(colours).view(np.uint8).reshape(40, 20, 4)[..., :3].sum(axis=-1)
-    flat = light[2, 2]
-    assert light[15:25, 4].max() > flat > light[15:25, 15].min()  # edges above and below
-    assert light[9, 8:12].max() > flat > light[30, 8:12].min()  # at the left and at the right
-
-
-def test_light_on_points_that_are_not_square_is_that_of_their_slopes():
-    i = np.arange(32)
-    along_x = rl.Surface(np.tile(np.sin(i)[:, None], (1, 32)), (32.0, 64.0))
-    along_y = rl.Surface(np.tile(np.sin(i)[None, :], (32, 1)), (64.0, 32.0))
-    assert (shaded(along_x)[:, 16] == shaded(along_y)[16]).mean() > 0.9

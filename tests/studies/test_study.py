@@ -13,7 +13,6 @@ from roughline.statistics.verdict import Verdict, around
 from studies import study as skeleton
 from studies.__main__ import main
 from studies.judged import Found, claim_on
-from studies.panels import StudyCurve, StudyPanel
 from studies.reduced_data import Reduced
 from studies.study import Study, claims_table, filled
 
@@ -61,7 +60,6 @@ class Toy:
             verdicts=lambda: claims_table({"Verdict": self.claims()}),
             told=self.told,
             figures={"exponents": self.figure},
-            panels=self.panels,
         )
 
     def measure(self):
@@ -95,11 +93,6 @@ class Toy:
         figure.add_subplot().plot(list(self.measure()), alphas, "o")
         return figure
 
-    def panels(self):
-        laws = self.measure()
-        curve = StudyCurve("α", list(laws), [law.exponent for law in laws.values()])
-        return [StudyPanel("α over D_f", "D_f", "α", (2, 3), (0, 1), [curve], False)]
-
 
 @pytest.fixture(scope="module")
 def toy(two_workers, tmp_path_factory):
@@ -112,10 +105,8 @@ def toy(two_workers, tmp_path_factory):
     return found
 
 
-def test_data_verdicts_page_figures_and_summary_come_from_the_skeleton(toy, tmp_path, monkeypatch):
+def test_data_verdicts_page_and_figures_come_from_the_skeleton(toy, tmp_path, monkeypatch):
     monkeypatch.setattr(skeleton, "DOCS", tmp_path / "docs")
-    monkeypatch.setattr(skeleton, "SUMMARIES", tmp_path / "summaries")
-    monkeypatch.setattr(skeleton, "PICTURES", tmp_path / "pictures")
     toy.study.publish()
     assert toy.reduced.data["lines"].stiffness.shape == (3, 12, 9)
     assert toy.reduced.unsolved_loads() == (0, 3 * 12 * 9)
@@ -129,13 +120,13 @@ def test_data_verdicts_page_figures_and_summary_come_from_the_skeleton(toy, tmp_
     assert f"{exponents[2]} on 12 lines.\n\n## Verdicts\n\n- One claim, at three" in page
     assert f"| {claim.statement} | {claim.found} | {claim.interval} | {claim.cases} |" in page
     assert f"| 3.0 | {exponents[2]} |\n" in page
+    assert "[As CSV, these rows](data/toy/table.csv)." in page
     assert (tmp_path / "docs" / "figures" / "toy" / "exponents.png").is_file()
-    kept = (tmp_path / "summaries" / "toy.json").read_text("utf-8")
-    assert '"title": "Do springs obey eq. 14?"' in kept
-    assert claim.cases in kept
-    assert f"α over D_f, from left to right: α: {float(exponents[0]):.2f}"[:-1] in kept
-    pictures = {path.name for path in (tmp_path / "pictures").iterdir()}
-    assert pictures == {"toy-0-light.webp", "toy-0-dark.webp"}
+    rows = (tmp_path / "docs" / "data" / "toy" / "table.csv").read_text("utf-8").splitlines()
+    assert rows == [
+        "D_f,α",
+        *(f"{d},{one}" for d, one in zip(toy.measure(), exponents, strict=True)),
+    ]
 
 
 def test_a_page_whose_data_are_refused_leaves_what_is_there(toy, tmp_path, monkeypatch):
@@ -152,10 +143,18 @@ def test_a_page_whose_data_are_refused_leaves_what_is_there(toy, tmp_path, monke
     assert figure.read_bytes() == b"drawn before"
 
 
+def test_a_page_shows_ten_rows_of_a_table_from_its_first_to_its_last():
+    rows = [(f"{i}", "said at length", f"{i * i}") for i in range(28)]
+    page = filled("{t}", {"t": Table(("i", "Basis", "i²"), rows, (0, 2))}, "toy")
+    assert page.splitlines()[:3] == ["| i | i² |", "| --: | --: |", "| 0 | 0 |"]
+    assert page.count("\n| ") == 11
+    assert "| 27 | 729 |\n\n[As CSV, all 28 rows](data/toy/t.csv)." in page
+
+
 def test_a_text_that_names_what_is_not_told_is_refused():
-    assert filled("a\nb\n\n- c\n  d\n- {e}\n", {"e": 1}) == "a b\n\n- c d\n- 1\n"
+    assert filled("a\nb\n\n- c\n  d\n- {e}\n", {"e": 1}, "toy") == "a b\n\n- c d\n- 1\n"
     with pytest.raises(KeyError, match="f"):
-        filled("{f}", {"e": 1})
+        filled("{f}", {"e": 1}, "toy")
 
 
 def test_numbers_are_told_each_or_by_the_smallest_and_the_largest():

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.assessment.description import describe
-from roughline.assessment.notes import what_was_prepared
-from roughline.topography.effects import effects
+from roughline.question.description import describe
+from roughline.topography.effects import effects, what_was_prepared
 from roughline.topography.files.read import suspicions
 from roughline.topography.line_levels import LEVELLINGS, line_levels
 from roughline.topography.preparation import Preparation

@@ -10,7 +10,7 @@ from roughline.assessment.answers import margins_by_cause, work_out_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.bounds import elastic_answers, widen_by_scatter
 from roughline.assessment.cost import Announce, announce_cost
-from roughline.assessment.doubts import collect_facts
+from roughline.assessment.facts import collect_facts
 from roughline.assessment.presses import list_presses
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import (
@@ -21,11 +21,12 @@ from roughline.assessment.solution import (
     solve_scan,
 )
 from roughline.assessment.sought import find_sought
+from roughline.computing.linear_algebra import on_one_thread
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import taken
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.facts.fact import Fact, own_words
+from roughline.facts.fact import Fact
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on_filled
 from roughline.margins.variant import AS_ASKED, Curves, Stopped, press_all
@@ -94,7 +95,7 @@ def assess_body(
     of_causes = [fact for each in causes for fact in each.facts(case, curves)]
     if titles := tuple(each.title for each in causes if each.name in curves.missing):
         of_causes.append(Fact("causes_missing", titles=titles))
-    facts = collect_facts(result, case.moments, of_causes, case.loads.grid_error)
+    facts = collect_facts(result, of_causes)
     return replace(result, facts=facts)
 
 
@@ -120,10 +121,11 @@ def _pressed(case: Case, announce: Announce | None, progress: LoadProgress | Non
     try:
         fluid = case.question.fluid
         keep_dents = fluid is not None and fluid.closure
-        curves = press_all(presses, case.loads.count, progress, keep_dents=keep_dents)
+        with on_one_thread():  # as each press is: once for all of them
+            curves = press_all(presses, case.loads.count, progress, keep_dents=keep_dents)
+            sought, is_stopped = find_sought(case, curves)
     except Stopped as stop:
         return stop.curves
-    sought, is_stopped = find_sought(case, curves)
     return replace(curves, sought=sought, stopped="sought" if is_stopped else "")
 
 
@@ -162,24 +164,9 @@ def _with_fluid_recorded(case: Case, curve: Curve) -> Curve:
 
 
 def _theories(question: Question, body: Body, curve: Curve) -> tuple[list[TheoryCurve], list[Fact]]:
-    """Theories at the mean pressures of the loads that were solved, rising, each once.
-
-    The second result says which are left out, as they do not hold of layers.
-    """
-    solved = np.unique(curve.force[curve.converged & (curve.force > 0)])
-    if not question.theories or not isinstance(body, Surface) or not solved.size:
+    """Theories that are asked for, at the loads of a curve, and which are left out, and why."""
+    if not question.theories or not isinstance(body, Surface):
         return [], []
-    from roughline.theories.theory import theory, why_not  # here because they load slowly
+    from roughline.theories.at_loads import theories_at_loads  # here because it loads slowly
 
-    pressures, half_space = solved / body.area, curve.half_space
-    left_out = {name: why_not(name, body, half_space) for name in question.theories}
-    found = [
-        theory(name, body, pressure=pressures, half_space=half_space)
-        for name, why in left_out.items()
-        if not why
-    ]
-    return found, [
-        Fact("without_answer", names=(name,), why=own_words(why))
-        for name, why in left_out.items()
-        if why
-    ]
+    return theories_at_loads(question.theories, body, curve)

@@ -16,15 +16,15 @@ from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.cost import Announce
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.assessment.part_remarks import differ_in_size, facts_of_part
+from roughline.assessment.part_facts import differ_in_size, facts_of_part
 from roughline.errors import InputError
-from roughline.errors.checks import refuse
 from roughline.errors.public import public
 from roughline.facts.fact import Fact, by_weight
 from roughline.margins.parts import BehindMaps, behind_maps
 from roughline.question.arguments import has_forces
 from roughline.question.assumptions import broken
 from roughline.question.loads import LoadProgress
+from roughline.question.maps import map_names, refuse_unlike
 from roughline.question.question import Question
 
 _MapProgress = Callable[[int, int], None]
@@ -127,9 +127,9 @@ def assess_part(
         On Ctrl-C before the first map was done.
     """
     answer = answer or partial(assess_map, announce=announce, progress=progress)
-    _refuse_unlike(questions)
+    refuse_unlike(questions)
     done = _PressedMaps()
-    todo = list(zip(names or _map_names(questions), questions, strict=True))
+    todo = list(zip(names or map_names(questions), questions, strict=True))
     for i, (name, question) in enumerate(todo):
         if map_progress is not None:
             map_progress(i, len(todo))
@@ -161,22 +161,6 @@ def assess_map(
     if isinstance(question.body, Path):
         asked = attrs.evolve(question, reading=replace(question.reading, name="this file"))
     return replace(assess_body(asked, announce=announce, progress=progress), question=question)
-
-
-def _map_names(questions: Sequence[Question]) -> list[str]:
-    """What maps are called: their files' names, with folders where these are the same."""
-    paths = [each.body if isinstance(each.body, Path) else None for each in questions]
-    names = [
-        f"map {i}" if path is None else question.name
-        for i, (path, question) in enumerate(zip(paths, questions, strict=True), 1)
-    ]
-    for depth in range(2, 1 + max((len(path.parts) for path in paths if path), default=0)):
-        repeated = {name for name in names if names.count(name) > 1}
-        names = [
-            str(Path(*path.parts[-depth:])) if path and name in repeated else name
-            for name, path in zip(names, paths, strict=True)
-        ]
-    return [f"{name} ({i})" if names.count(name) > 1 else name for i, name in enumerate(names, 1)]
 
 
 def _press(
@@ -267,25 +251,3 @@ def _bounded(answer: PartAnswer, answers: Mapping[str, PartAnswer]) -> PartAnswe
     most = factor * answers[bounds[0][0]].high
     high = np.where(np.isnan(answer.high), np.nan, np.fmin(answer.high, most))
     return replace(answer, high=high)
-
-
-def _refuse_unlike(questions: Sequence[Question]) -> None:
-    """Refuse questions that differ in more than their map, and how it is read."""
-    if not isinstance(questions, Sequence) or not all(
-        isinstance(each, Question) for each in questions
-    ):
-        refuse("questions", questions, "a list of Questions, one of each map, is needed")
-    if not questions:
-        raise InputError("there is no map; give at least one, better five")
-    for item in attrs.fields(Question):
-        if (
-            item.eq
-            and item.name not in ("body", "reading")
-            and any(
-                getattr(each, item.name) != getattr(questions[0], item.name) for each in questions
-            )
-        ):
-            raise InputError(
-                f"all maps of a part are asked the same question, but {item.name} differs between "
-                "them: give the same for all"
-            )

@@ -143,7 +143,7 @@ class Assessment(WithFacts):
     @property
     def headings(self) -> list[str]:
         """What each load that was asked for is called: as it was typed, or its number."""
-        return self.question.loading.headings or [str(i + 1) for i in self.asked]
+        return self.question.loading.names_of_loads(self.asked.tolist())
 
     @property
     def largest(self) -> int:

@@ -13,7 +13,7 @@ import numpy as np
 
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on
-from roughline.margins.variant import AS_ASKED, Curves, Variant, repeated
+from roughline.margins.variant import AS_ASKED, Curves, Variant, measures_of_map, repeated
 from roughline.question.case import Case
 from roughline.question.films import SPOT_RADIUS, find_film
 from roughline.question.loads import LoadCase
@@ -43,7 +43,7 @@ def list_presses(case: Case) -> list[Variant]:
 def _as_asked(case: Case) -> Variant:
     """The body as it was asked for, with the measures and fields that answers need of it."""
     loads, body = case.loads, case.body
-    measures = [] if case.is_repeated_for_interface else list(case.measures)
+    measures = [] if case.is_repeated_for_interface else measures_of_map(case)
     if case.filled_points is not None:
         measures.append(force_on(case.filled_points))
     if find_film(case.question) is not None:

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from roughline.assessment.notes import line_scan_limits
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
@@ -19,7 +18,7 @@ from roughline.facts.fact import Fact
 from roughline.margins.causes import causes
 from roughline.margins.larger_surface import LargerSurface, which_surface
 from roughline.margins.place import measures_of_tiles, tiled_curves
-from roughline.margins.scans import press_scan
+from roughline.margins.scans import limits_of_line, press_scan
 from roughline.margins.spread import Spread, Values, intervals_within, measured_within
 from roughline.margins.variant import AS_ASKED, Curves, larger_name
 from roughline.question.case import Case
@@ -116,7 +115,7 @@ def solve_scan(case: Case, body: Line) -> Solution:
         body, E_star=case.loads.half_space.E_star, forces=case.loads.forces, against=against
     )
     ends = scan.low, scan.high
-    is_too_steep = any(each.is_grave for each in line_scan_limits(case.question, body))
+    is_too_steep = any(each.is_grave for each in limits_of_line(case.question, body))
     known = not (is_too_steep or np.isnan(scan.low).any())
     sought = Sought(slip=slip_at_largest_load(case, Curves({AS_ASKED: scan.curve})))
     return Solution(scan.curve, Intervals(ends, ends) if known else None, sought=sought)

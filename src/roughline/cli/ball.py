@@ -8,56 +8,47 @@ import typer
 
 from roughline.cli import options
 from roughline.cli.options import print_json, writable_file
-from roughline.question.fields import BODIES, LOADS
 
 
 def ball_command(
     radius: Annotated[
         str,
-        typer.Option(
-            help='Radius of the ball, such as "10 mm"; of two balls 1 / (1 / R1 + 1 / R2).',
-            rich_help_panel=BODIES,
+        options.of_bodies(
+            help='Radius of the ball, such as "10 mm"; of two balls 1 / (1 / R1 + 1 / R2).'
         ),
     ],
     materials: options.Materials = None,
     modulus: options.Modulus = None,
     hardness: Annotated[
         str | None,
-        typer.Option(
-            help='Hardness of the softer body, such as "2 GPa" [default: of the materials].',
-            rich_help_panel=BODIES,
+        options.of_bodies(
+            help='Hardness of the softer body, such as "2 GPa" [default: of the materials].'
         ),
     ] = None,
     adhesion: Annotated[
         str | None,
-        typer.Option(
+        options.of_bodies(
             help='Work of adhesion, such as "50 mJ/m^2": the ball sticks as Johnson, Kendall and '
-            "Roberts have it [default: it only pushes].",
-            rich_help_panel=BODIES,
+            "Roberts have it [default: it only pushes]."
         ),
     ] = None,
     sphere: Annotated[
         bool,
-        typer.Option(
+        options.of_bodies(
             "--sphere",
             help="Take the ball as the sphere that it is [default: as Hertz's parabola].",
-            rich_help_panel=BODIES,
         ),
     ] = False,
     load: Annotated[
         list[str] | None,
-        typer.Option(
+        options.of_loads(
             help='A force, such as "10 N"; of a ball that sticks, a pull is negative; may be '
-            "repeated.",
-            rich_help_panel=LOADS,
+            "repeated."
         ),
     ] = None,
     depth: Annotated[
         list[str] | None,
-        typer.Option(
-            help='A depth since first touch, such as "200 nm"; may be repeated.',
-            rich_help_panel=LOADS,
-        ),
+        options.of_loads(help='A depth since first touch, such as "200 nm"; may be repeated.'),
     ] = None,
     out: options.CurveFile = None,
     json: options.Json = False,
@@ -78,7 +69,7 @@ def ball_command(
     roughline ball --radius "20 um" --materials "E=5 MPa nu=0.49, rigid" --adhesion "50 mJ/m^2"
     --load "1 uN" --load "0 N" --load "-2 uN"
     """
-    from roughline.assessment.ball import BallQuestion, press_ball
+    from roughline.ball import BallQuestion, press_ball
     from roughline.report.ball import ball_json, print_ball
 
     question = BallQuestion(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,6 +12,10 @@ from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable
 from roughline.errors.checks import refuse
 from roughline.question.fields import FILE, FieldValues
+
+if TYPE_CHECKING:
+    from roughline.comparison.compared import NamedBody
+    from roughline.question.reading import Reading
 
 
 @options.with_fields(FILE)
@@ -50,9 +54,8 @@ def compare_command(
     the package is read as well. For a surface in a file, that surface and random lines of its
     spectrum are pressed.
     """
-    from roughline.assessment.comparison import compare_models
+    from roughline.comparison.compared import compare_models
     from roughline.question.from_fields import build_reading
-    from roughline.question.source import Topography
     from roughline.report.comparison import print_comparison, write_comparison
     from roughline.report.json_output import comparison_json
     from roughline.report.progress import load_progress
@@ -70,7 +73,7 @@ def compare_command(
     with interruptible("nothing is written"), load_progress() as progress:
         with writable(out):
             result = compare_models(
-                spectrum if file is None else Topography.of(file, reading, None),
+                spectrum if file is None else _read(file, reading),
                 n=n,
                 surfaces=surfaces,
                 force_bars=force_bar,
@@ -85,6 +88,14 @@ def compare_command(
         print_json(comparison_json(result, files))
     else:
         print_comparison(result, files)
+
+
+def _read(file: Path, reading: Reading) -> NamedBody:
+    """The surface of a file."""
+    from roughline.comparison.compared import NamedBody
+    from roughline.question.source import Topography
+
+    return NamedBody(Topography.of(file, reading, None).body, reading.name or str(file))
 
 
 def _refuse(by_name: Mapping[str, Any], why: str) -> None:

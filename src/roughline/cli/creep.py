@@ -9,7 +9,7 @@ import typer
 
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable_file
-from roughline.question.fields import BODIES, FILE, LOADS, PREPARATION, FieldValues
+from roughline.question.fields import FILE, PREPARATION, FieldValues
 
 
 @options.with_fields(FILE, PREPARATION)
@@ -20,40 +20,36 @@ def creep_command(
     ],
     prony: Annotated[
         str,
-        typer.Option(
+        options.of_bodies(
             help="How the modulus relaxes: shares of the modulus at once, each with its relaxation "
-            'time, such as "0.3 10 ms, 0.4 1 s".',
-            rich_help_panel=BODIES,
+            'time, such as "0.3 10 ms, 0.4 1 s".'
         ),
     ],
     materials: options.Materials = None,
     modulus: options.Modulus = None,
     periodic: Annotated[
         bool,
-        typer.Option("--periodic", help="Repeat the surface periodically.", rich_help_panel=BODIES),
+        options.of_bodies("--periodic", help="Repeat the surface periodically."),
     ] = False,
     load: Annotated[
         list[str] | None,
-        typer.Option(
+        options.of_loads(
             help='A force, such as "10 N", or a mean pressure, such as "0.2 MPa": one is held from '
-            "time zero on, several are those at the --times.",
-            rich_help_panel=LOADS,
+            "time zero on, several are those at the --times."
         ),
     ] = None,
     depth: Annotated[
         list[str] | None,
-        typer.Option(
+        options.of_loads(
             help='A depth, such as "2 um", instead of a load: one is held, several are those at '
-            "the --times.",
-            rich_help_panel=LOADS,
+            "the --times."
         ),
     ] = None,
     times: Annotated[
         str | None,
-        typer.Option(
+        options.of_loads(
             help='When the contact is wanted, such as "0 s, 1 s, 1 min, 1 h" [default: from zero '
-            "to long after the last relaxation time].",
-            rich_help_panel=LOADS,
+            "to long after the last relaxation time]."
         ),
     ] = None,
     out: options.CurveFile = None,
@@ -79,7 +75,7 @@ def creep_command(
     roughline creep scan.x3p --modulus "50 MPa" --prony "0.5 1 s" --times "0 s, 1 min, 1 h"
     --load "0 N" --load "1 N" --load "1 N" --out creep.nc
     """
-    from roughline.assessment.creep import CreepQuestion, press_with_creep
+    from roughline.creep.question import CreepQuestion, press_with_creep
     from roughline.question.from_fields import build_preparation, build_reading
     from roughline.report.creep import creep_json, print_creep
 

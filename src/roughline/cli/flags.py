@@ -9,8 +9,7 @@ from roughline.question.fields import names_by
 
 _SPELLED = (
     *("hurst", "fractal_dimension", "length", "rms_height", "surfaces", "tolerance", "threads"),
-    *("workers", "scheduler", "host", "port", "password_file", "behind_proxy", "max_upload"),
-    *("max_points", "max_seconds", "max_memory", "max_disk"),
+    *("workers", "scheduler", "host", "port", "address"),
     *("radius", "prony", "times", "s_filter", "l_filter"),
 )
 """Arguments of other commands whose flags are spelled like them."""

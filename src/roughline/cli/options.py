@@ -16,7 +16,7 @@ import roughline as rl
 from roughline.cli import garbage
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
-from roughline.question.fields import ANSWERS, BODIES, FIELDS, Field
+from roughline.question.fields import ANSWERS, BODIES, FIELDS, LOADS, Field
 
 
 def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -66,35 +66,30 @@ def _field_option(field: Field) -> Any:
     return Annotated[kind | None, option]
 
 
-def _spectrum_option(text: str) -> Any:
-    """An option of a spectrum."""
-    return typer.Option(help=text, rich_help_panel="Spectrum")
+_spectrum_option = functools.partial(typer.Option, rich_help_panel="Spectrum")
+of_bodies = functools.partial(typer.Option, rich_help_panel=BODIES)
+of_loads = functools.partial(typer.Option, rich_help_panel=LOADS)
 
 
-Hurst = Annotated[float | None, _spectrum_option("Hurst exponent, 0 to 1.")]
+Hurst = Annotated[float | None, _spectrum_option(help="Hurst exponent, 0 to 1.")]
 FractalDimension = Annotated[
-    float | None, _spectrum_option("Fractal dimension, 2 to 3, instead of the Hurst exponent.")
+    float | None, _spectrum_option(help="Fractal dimension, 2 to 3, instead of the Hurst exponent.")
 ]
 RollOff = Annotated[
-    str | None, _spectrum_option('Wavelength above which the spectrum is flat, such as "0.2 mm".')
+    str | None,
+    _spectrum_option(help='Wavelength above which the spectrum is flat, such as "0.2 mm".'),
 ]
 Cutoff = Annotated[
     str | None,
-    _spectrum_option('Shortest wavelength, such as "5 um" [default: that of the grid].'),
+    _spectrum_option(help='Shortest wavelength, such as "5 um" [default: that of the grid].'),
 ]
 Materials = Annotated[
     str | None,
-    typer.Option(
-        help='Both materials, such as "steel,copper" or "E=3 GPa nu=0.38, rigid".',
-        rich_help_panel=BODIES,
-    ),
+    of_bodies(help='Both materials, such as "steel,copper" or "E=3 GPa nu=0.38, rigid".'),
 ]
 Modulus = Annotated[
     str | None,
-    typer.Option(
-        help='Contact modulus E* instead of the materials, such as "110 GPa".',
-        rich_help_panel=BODIES,
-    ),
+    of_bodies(help='Contact modulus E* instead of the materials, such as "110 GPa".'),
 ]
 CurveFile = Annotated[
     Path | None,

@@ -119,13 +119,17 @@ def paper(
     windows = {"window": window, "line-window": line_window}
     study = described_study(of_paper, windows, plan, store, out)
     with interruptible(continuation(study.store)), campaign_progress() as progress:
-        page = recompute(
+        page, headline = recompute(
             study, out, workers=workers, scheduler=scheduler, progress=progress, announce=announce
         )
     if json:
         print_json({"report": page})
-    else:
-        typer.echo(f"report: {page}")
+        return
+    for each in headline.warnings:
+        announce(f"warning: {each}")
+    for finding in headline.figures:
+        typer.echo(finding.sentence)
+    typer.echo(f"report: {page}")
 
 
 def described_study(

@@ -55,7 +55,7 @@ def info(
     plateau and a power law fitted to the spectrum; the last line says whether this fit describes
     the spectrum.
     """
-    from roughline.assessment.description import describe, with_texture
+    from roughline.question.description import describe, with_texture
     from roughline.question.from_fields import build_preparation, build_reading
     from roughline.report.curve_file import as_json, print_curve_file
     from roughline.report.description_table import print_description

@@ -133,6 +133,28 @@ def cosine_spectrum(quarter: Real, periods: tuple[int, int] = (0, 0)) -> None:
     share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, LINES_AT_A_TIME)
 
 
+def sine_spectrum(quarter: Real, odd: tuple[bool, bool]) -> None:
+    """Turn a periodic array that is even or odd along each axis, given as its quarter, in place.
+
+    Along odd axes it is a sine transform (DST-I), and what stands where such an array is its own
+    opposite is taken as zero. The spectrum is what comes out, times -i for each odd axis. Periods
+    are even.
+    """
+
+    def transform(lines: Real, axis: int) -> None:
+        if odd[axis]:
+            inner = lines[1:-1] if axis == 0 else lines[:, 1:-1]
+            found = ducc0.fft.dst(np.ascontiguousarray(inner), axes=(axis,), type=1, nthreads=1)
+            lines[:] = 0.0
+            inner[:] = found
+        else:
+            ducc0.fft.dct(lines, axes=(axis,), type=1, out=lines, nthreads=1)
+
+    nx, ny = quarter.shape
+    share_out_blocks(lambda a, b: transform(quarter[a:b], 1), nx, LINES_AT_A_TIME)
+    share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, LINES_AT_A_TIME)
+
+
 def analyse(values: Real) -> _Complex:
     """Return the full spectrum of real values over a plane."""
     return ducc0.fft.c2c(values.astype(np.complex128), axes=(0, 1), forward=True, nthreads=1)

@@ -288,6 +288,8 @@ class SurfaceCurve(Curve):
         resolve the pull. [force] and [length]
     pull_off_force_error : float
         Estimated discretisation error of `pull_off_force`; NaN unless asked for. [force]
+    largest_pressure : ndarray, shape (loads,)
+        Largest contact pressure: a body of no smaller hardness does not yield. [pressure]
     border_share : ndarray, shape (loads,)
         Share of the force that is carried near borders at which the surface ends. [1]
     convolutions : ndarray of int, shape (loads,)
@@ -323,6 +325,7 @@ class SurfaceCurve(Curve):
     dissipated_work: Real
     pulling_fraction: Real
     pull_off_force_error: float = math.nan
+    largest_pressure: Real = field(repr=False)
     border_share: Real = field(repr=False)
     convolutions: NDArray[np.int64]
     residual_of: Sequence[str] = field(repr=False)

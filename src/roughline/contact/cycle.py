@@ -25,7 +25,7 @@ _RETREAT_STEPS = 16  # on the way on which the pull-off is looked for
 _TRIAL_RTOL = 1e-3  # tolerance of the depths that are tried
 
 
-def cycle(
+def cycle_of_depths(
     surface: Surface,
     half_space: HalfSpace,
     law: ContactLaw,

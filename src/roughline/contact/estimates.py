@@ -29,7 +29,7 @@ from roughline.topography.body import Surface
 
 # Beside what the operator is asked for: the separation, a trial's field and the coarser grids, on
 # each point; and what lists and vectors of the contact were measured to take, for each of its nodes
-# (docs/memory-table.md). Lists are long where steps are restricted to nodes near the contact; with
+# (docs/measured.md). Lists are long where steps are restricted to nodes near the contact; with
 # more contact than that there are vectors alone. [bytes]
 _POINT_BYTES = 18
 _NEAR_CONTACT_BYTES = 210

@@ -24,6 +24,7 @@ from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.selection import among_loads, at_loads
 from roughline.contact.status import Status
+from roughline.contact.written_sliding import WrittenSliding
 from roughline.errors import Interrupted
 from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace
@@ -60,18 +61,24 @@ def press_surface(
     """Press a surface as :func:`roughline.press` does."""
     # where the order of loads does not matter, each is solved once, as they rise
     values, places = loads.values, np.arange(loads.values.size)
-    if law.memory == "none":
+    if law.memory == "none" and loads.shear is None:
         values, places = np.unique(loads.values, return_inverse=True)
     scaled = ScaledSurface.of(surface, half_space, loads)
     law_there = scaled.law(law)
     curve = _unsolved(scaled, half_space, loads, method, (law, law_there), wanted.measures)
     record = _WrittenCurve(curve, scaled, law_there, wanted)
+    sliding = loads.shear and WrittenSliding(curve, scaled, loads.shear)
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with linear_algebra.on_one_thread(), working_memory():
             path = _path(scaled, loads.control, values)
-            solved = solve_path(_problem(scaled, law_there, method), path, method)
+            bodies = _problem(scaled, law_there, method)
+            solved = (
+                sliding.contacts(bodies, path, method, wanted.loads)
+                if sliding
+                else solve_path(bodies, path, method)
+            )
             for i in range(len(path)):  # no contact is held while the next is solved
                 record.write(np.flatnonzero(places == i), next(solved))
                 if progress is not None:
@@ -79,6 +86,8 @@ def press_surface(
     except KeyboardInterrupt:
         interrupted = True
     curve = record.assembled(loads)
+    if sliding:
+        curve = sliding.extended(curve)
     if interrupted:
         raise Interrupted(curve)
     return curve
@@ -131,6 +140,7 @@ def _unsolved(
         work=unknown(),
         dissipated_work=unknown(),
         pulling_fraction=unknown(),
+        largest_pressure=unknown(),
         border_share=unknown(),
         on_approach=np.zeros(count, dtype=bool),
         status=np.full(count, Status.INTERRUPTED, dtype=np.int8),
@@ -226,6 +236,7 @@ class _WrittenCurve:
         curve.work[at] = stored * scaled.force * scaled.height + dissipated
         curve.dissipated_work[at] = dissipated
         curve.pulling_fraction[at] = _pulling_nodes(contact) / nodes
+        curve.largest_pressure[at] = scaled.pressure * float(contact.pressure.max(initial=0.0))
         curve.border_share[at] = share_at_border(contact)
 
     def _keep_fields(self, at: list[int], contact: Contact, dents: Indentation | None) -> None:

@@ -274,15 +274,21 @@ def _softer(
 ) -> tuple[SurfaceCurve, SurfaceCurve]:
     """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
 
-    Where pressures have no upper bound, or where no slope is added, both are the curve of n / 2
-    points.
+    Where no slope is added, or no pressure would be as large as the steeper one bears, both are the
+    curve of n / 2 points.
     """
-    if steepening == 1 or Bounds.of(law).largest_force(1.0) == np.inf:
-        return curve, curve
     # pressures and gaps of a surface so many times steeper, in units so many times larger
-    steeper = (law.scaled(times, times) for times in (grids.step, grids.step * steepening))
+    steeper = [law.scaled(times, times) for times in (grids.step, grids.step * steepening)]
+    if steepening == 1 or is_elastic(curve, float(np.min(steeper[1].bounds(None)[1]))):
+        return curve, curve
     as_steep, softer = (_pressed_again(curve, grids.half, each, press) for each in steeper)
     return as_steep, softer
+
+
+def is_elastic(curve: SurfaceCurve, hardness: float) -> bool:
+    """Whether nothing yields under the loads of a curve, nor would with another hardness."""
+    most = np.nanmax(curve.largest_pressure, initial=0.0)
+    return not np.nan_to_num(curve.plastic_fraction).any() and bool(most <= hardness)
 
 
 def _pressed_again(
@@ -321,7 +327,7 @@ def _measured(
     """
     grids = {
         name: np.array([each.measured[name].values for each in (curve, *coarser)])
-        for name in curve.measured
+        for name in coarser[0].measured
     }
     steeper: Mapping[str, Measured] = {}
     pushed = curve.law.only_pushes
@@ -329,13 +335,13 @@ def _measured(
         # pressures and gaps of the steeper surface, in units so many times larger
         law = curve.law.scaled(steepening, steepening)
         steeper = _pressed_again(curve, surface, law, press, 1 / steepening).measured
-    found = {}
-    for name, each in curve.measured.items():
-        low, high = _ends_of_measure(grids[name], steepening**_MEASURE_EXPONENT)
+    found = {**curve.measured}
+    for name, on_grids in grids.items():
+        low, high = _ends_of_measure(on_grids, steepening**_MEASURE_EXPONENT)
         if steeper:
             opened = np.fmax(high, steeper[name].values)
-            high = np.where((grids[name] == 0).any(axis=0), opened, high)
-        found[name] = replace(each, low=low, high=high)
+            high = np.where((on_grids == 0).any(axis=0), opened, high)
+        found[name] = replace(found[name], low=low, high=high)
     return found
 
 

@@ -14,6 +14,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.arguments import LARGEST_NUMBER, checked_count
 from roughline.contact.full_contact import in_full_contact
 from roughline.contact.quantities import RESOLVED_FROM
+from roughline.contact.shear_loads import ShearLoads
 from roughline.errors import InputError
 from roughline.errors.checks import shown
 from roughline.errors.words import called, named
@@ -47,6 +48,7 @@ class Loads:
 
     control: LoadControl  # what is prescribed
     values: Real  # [length] or [force]
+    shear: ShearLoads | None = None  # along the surface, where there is friction
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,8 @@ class Measure:
     intensive : bool, optional
         Whether it comes to a number as a surface grows, as a mean gap does and a largest one does
         not. What a larger surface has is then told by the parts of a map; it is not negative.
+    of_this_grid : bool, optional
+        Whether it belongs to one grid, and is not taken on coarser ones; it has no interval then.
 
     Raises
     ------
@@ -64,6 +66,7 @@ class Measure:
     meaning: str
     value: Callable[[Fields], float]
     intensive: bool = False
+    of_this_grid: bool = False
 
     def __post_init__(self) -> None:
         if not (isinstance(self.name, str) and self.name.isidentifier()):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TypedDict, TypeVar, Unpack, overload
 
@@ -30,6 +31,9 @@ from roughline.contact.loads import GivenLoads, Loads, refuse_beyond_precision, 
 from roughline.contact.measures import Measure, checked_measures
 from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
+from roughline.contact.shear_loads import GivenShear
+from roughline.contact.sliding import SlidingCurve
+from roughline.contact.sliding_profile import press_sheared_profile
 from roughline.contact.solver import AS_USUAL, Solver
 from roughline.contact.status import Status
 from roughline.contact.strain import warn_of_strain
@@ -38,6 +42,7 @@ from roughline.errors.checks import between, flag, refuse, shown
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.operators.cell import cell_compliance
 from roughline.topography.body import Body, Line, Surface
@@ -57,6 +62,9 @@ class _PressArguments(TypedDict, total=False):
     forces: ArrayLike | None
     n_loads: int | None
     periodic: Periodic | None
+    friction: Friction | None
+    shear_forces: ArrayLike | None
+    slides: ArrayLike | None
     fields: bool | Sequence[int]
     measures: Sequence[Measure]
     grid_error: bool
@@ -86,6 +94,9 @@ def press(
     forces: ArrayLike | None = None,
     n_loads: int | None = None,
     periodic: Periodic | None = None,
+    friction: Friction | None = None,
+    shear_forces: ArrayLike | None = None,
+    slides: ArrayLike | None = None,
     fields: bool | Sequence[int] = False,
     measures: Sequence[Measure] = (),
     grid_error: bool = False,
@@ -138,6 +149,15 @@ def press(
         name of an axis it repeats along that one, as a line seal or a roller does, and is free
         across. Depths then count from a place as far away across as the surface is wide, as
         :class:`~roughline.Homogeneous` says, and k holds what the half-space gives up to there.
+    friction : Friction, optional
+        What points in contact bear of shear. Loads are then a path: each state follows from the one
+        before, and the curve is a :class:`~roughline.SlidingCurve`. The half-space needs a
+        Poisson's ratio, as in ``half_space=rl.Homogeneous(1.0, poisson=0.3)``.
+    shear_forces, slides : array_like, shape (loads, 2) or (loads,), optional
+        With friction, the total shear force on the half-space [force] or how far the rough body has
+        slid [length] at each load, along x and y; numbers are along x. Default: no shear force.
+        Between two loads forces and slides change together, evenly; a load that turns on the way is
+        to be cut finely.
     fields : bool or sequence of int, optional
         Keep pressure, displacement, gap, contact, plastic points and indentation of every load,
         or of loads with these numbers (from 0).
@@ -171,8 +191,9 @@ def press(
     -------
     SurfaceCurve or LineCurve
         Depth, force and exact stiffness for each load. Of a surface also the stiffness on
-        unloading, the real contact area, how much yields, the indentation and the work. A line and
-        a profile give a :class:`~roughline.LineCurve`, which has no fields.
+        unloading, the real contact area, how much yields, the indentation and the work; with
+        friction it is a :class:`~roughline.SlidingCurve`. A line and a profile give a
+        :class:`~roughline.LineCurve`, which has no fields.
 
     Raises
     ------
@@ -223,13 +244,18 @@ def press(
         refuse("solver", solver, "an rl.Solver is needed, as rl.Solver(max_iterations=20000)")
     if progress is not None and not callable(progress):
         refuse("progress", progress, "a function of (loads done, loads in all) is needed")
-    given = GivenLoads(depths, forces, n_loads)
+    given, shear = GivenLoads(depths, forces, n_loads), GivenShear(friction, shear_forces, slides)
+    shear.refuse_beside(n_loads=n_loads is not None, grid_error=grid_error)
     if isinstance(body, Line | Profile):
         stickiness = given_stickiness(law, hardness, body)
         _refuse_fields(body, half_space, grid_error or fields is not False, measures)
         springs = _half_space_of_springs(body, half_space)
         if isinstance(body, Line):
+            shear.refuse_line()
             return _complete(body, press_line(body, springs, given), throw)
+        if not shear.is_nothing:
+            sheared_curve = press_sheared_profile(body, springs, stickiness, given, shear)
+            return _complete(body, sheared_curve, throw)
         return _complete(body, press_profile(body, springs, stickiness, given), throw)
     if not isinstance(body, Surface):
         raise InputError(
@@ -243,24 +269,27 @@ def press(
         law.refuse_grid(cell_compliance(half_space, body.shape, body.spacing))
     single = solver.precision == "float32"
     loads = surface_loads(body, half_space, given, rtol, single=single, law=law)
+    sheared = shear.checked(loads.control, loads.values, half_space, law, body.shape)
+    loads = replace(loads, shear=sheared)
     wanted = FieldRequest(kept_loads(fields, loads.values.size), measures)
     _refuse_beyond_memory(body, half_space, loads, law, wanted)
     if grid_error:
         refuse_few_points(body)
     # imported here because compiled loops load slowly
-    from roughline.contact.cycle import cycle
+    from roughline.contact.cycle import cycle_of_depths
     from roughline.contact.full import press_surface
     from roughline.halfspace.search.problem import Method
 
     method = Method(rtol, solver.max_iterations, solver.precision)
     if n_loads is not None and not law.only_pushes:
-        loads = cycle(body, half_space, law, loads.values.size, method)
+        loads = cycle_of_depths(body, half_space, law, loads.values.size, method)
         refuse_beyond_precision(body, half_space, loads, rtol, single)
     pressed = partial(press_surface, half_space=half_space, method=method)
     curve = pressed(body, loads, law, wanted=wanted, progress=progress)
     if grid_error:
         try:
-            measured = partial(pressed, wanted=FieldRequest(measures=measures))
+            on_coarser = [each for each in measures if not each.of_this_grid]
+            measured = partial(pressed, wanted=FieldRequest(measures=on_coarser))
             curve = with_grid_error(curve, body, loads, measured)
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
@@ -348,6 +377,8 @@ def _failure_message(curve: Curve) -> str:
                     f"; the largest is {-curve.pull_off_force:.4g}, at depth "
                     f"{curve.pull_off_depth:.4g}"
                 )
+            if status is Status.SLIDES and isinstance(curve, SlidingCurve):
+                parts[-1] += f"; it bears less than {curve.shear_limit[failed[0]]:.6g}"
             searched = status in (Status.STALLED, Status.MAX_ITERATIONS)
             if searched and isinstance(curve, SurfaceCurve):
                 worst = failed[curve.residual[failed].argmax()]
@@ -359,4 +390,6 @@ def _failure_message(curve: Curve) -> str:
         advice = "raise max_iterations (solver=rl.Solver(max_iterations=...)) or rtol"
     if statuses == {Status.PULLED_OFF}:
         advice = "give smaller pulls, or depths"
+    if statuses == {Status.SLIDES}:
+        advice = "give smaller shear forces, or slides"
     return "; ".join(parts) + f": {advice}, or take throw=False to keep the rest"

@@ -283,6 +283,36 @@ _DECLARED = (
     ),
 )
 
+_VECTORS, _TENSORS = ("load", "axis"), ("load", "axis", "moved_axis")
+_of_friction = partial(Quantity, of_lines=False)
+
+SLIDING_QUANTITIES = (
+    _of_friction("shear_force", "Q", "force", "total shear force on the half-space", dims=_VECTORS),
+    _of_friction("slide", r"\delta", "length", "slide of the rough body", dims=_VECTORS),
+    _of_friction(
+        "shear_stiffness",
+        "k_t",
+        "force/length",
+        r"tangential stiffness $dQ/d\delta$ on further shear",
+        dims=_TENSORS,
+    ),
+    _of_friction(
+        "shear_stiffness_back",
+        "",
+        "force/length",
+        r"tangential stiffness $dQ/d\delta$ on turning back, when all of the contact sticks",
+        dims=_TENSORS,
+    ),
+    _of_friction("stick_fraction", "", "1", "share of the contact that sticks"),
+    _of_friction("shear_limit", "", "force", "largest shear force that friction bears"),
+    _of_friction("dissipated", "", "energy", "energy dissipated by slip since the load before"),
+    _of_friction("shear", "q", "pressure", "shear on the half-space", dims=(*_ON_THE_GRID, "axis")),
+    _of_friction("slip", "", "length", "slip since the load before", dims=(*_ON_THE_GRID, "axis")),
+    _of_friction("slip_total", "", "length", "way slipped since first touch", dims=_ON_THE_GRID),
+    _of_friction("stick", "", "1", "1 where the bodies stick, else 0", dims=_ON_THE_GRID),
+)
+"""The output quantities that a curve with friction has beside those of others."""
+
 QUANTITIES: Mapping[str, Quantity] = MappingProxyType({each.name: each for each in _DECLARED})
 """All output quantities by name, in the order in which people read them."""
 

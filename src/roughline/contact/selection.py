@@ -28,7 +28,9 @@ def among_loads(curve: _CurveType, solved: Mask, others: Status = Status.INTERRU
 
     def spread(name: str, values: Any) -> Any:
         unknown = np.nan if values.dtype.kind == "f" else 0  # of what cannot be NaN
-        found = np.full(solved.size, others if name == "status" else unknown, values.dtype)
+        found = np.full(
+            (solved.size, *values.shape[1:]), others if name == "status" else unknown, values.dtype
+        )
         found[solved] = values
         return found
 

@@ -16,6 +16,7 @@ class Status(enum.IntEnum):
     UNKNOWN_SURFACE = 5
     PULLED_OFF = 6
     LIFTED = 7
+    SLIDES = 8
 
     @property
     def reason(self) -> str:
@@ -30,4 +31,5 @@ class Status(enum.IntEnum):
             "them left it is not known",
             Status.PULLED_OFF: "pulled off: no contact bears so large a pull",
             Status.LIFTED: "open: the fluid between the bodies lifts them apart",
+            Status.SLIDES: "slides: friction bears less than the shear force",
         }[self]

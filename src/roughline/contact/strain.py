@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 LARGEST_STRAIN = 1.0
 """Depth over the shorter side of a body, or mean pressure over E*, beyond any half-space."""
 
+LARGE_STRAIN = 0.1
+"""The same, or any strain, above which a warning says that bodies are not linear elastic."""
+
 LINEARITY = "half-spaces are linear elastic far below that only"
 
 _WRONG_UNIT_STRAIN = 10.0  # from which a unit is wrong, if heights and sides have the same one

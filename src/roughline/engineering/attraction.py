@@ -10,14 +10,11 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
-from roughline.computing.arrays import Real
 from roughline.contact.arguments import STICKING, sticking_law
-from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.described import table_rows
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
-from roughline.facts.fact import Fact
 from roughline.halfspace.laws.pulling_zone import resolves_pull_off
 from roughline.units import engineering, in_si
 
@@ -128,19 +125,3 @@ def attractions() -> Mapping[str, Attraction]:
         reach = float(row["range"]) if row["range"] else None
         found[name] = Attraction(name, float(row["work"]), reach, row["law"], row["source"])
     return MappingProxyType(found)
-
-
-@dataclass(frozen=True, eq=False)
-class Separation:
-    """What it takes to draw bodies apart once their largest load was on.
-
-    "In rows" are a value and, where they are known, both ends of its interval, (1 or 3,).
-    """
-
-    curve: SurfaceCurve  # over falling depths, from the largest load on
-    pull_off: Real  # largest pull under a force that falls, in rows [N]
-    area_fraction: Real  # that still touches under no load, in rows [1]
-    work: float  # that is done from no load on until the bodies are apart [J]
-    unsolved: Fact | None = (
-        None  # which load on the way was not solved, or why there is no pull-off
-    )

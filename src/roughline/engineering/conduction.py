@@ -18,6 +18,7 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
+from roughline.facts.fact import Fact
 
 _NAMES = {"resistivity": "electrical_spreading", "conductivity": "thermal_spreading"}
 
@@ -75,6 +76,30 @@ def _measured(pressed: Pressed, quantity: str, stiffness: Real) -> Real | None:
     with np.errstate(divide="ignore", invalid="ignore"):
         ratios = stiffness / stiffness[0]
         return pressed.pair.E_star * pressed.scale * rows[0] * np.where(ratios > 0, ratios, 1.0)
+
+
+def facts_on_currents(
+    pair: MaterialPair, *, is_repeated: bool, is_piece: bool, is_joint: bool
+) -> list[Fact]:
+    """Say what is not known of currents through coated bodies, and what layers add to them.
+
+    The body repeats or not; it is a piece that stands for no larger surface, or else the map of a
+    larger one, maybe a joint.
+    """
+    flows = (("resistivity", "electricity", "Ω m²"), ("conductivity", "heat", "m² K/W"))
+    added = tuple(
+        Fact("added_by_layers", value=value, unit=unit, what=what)
+        for quantity, what, unit in flows
+        if (layers := pair.resistances(quantity))
+        for value in [sum(rho * h for each in layers for rho, h in zip(*each, strict=False))]
+    )
+    found = []
+    if added and not is_repeated:
+        of_map = not (is_piece or is_joint)
+        found.append(Fact("currents_of_map_repeated" if of_map else "currents_of_the_piece"))
+    if added and (is_repeated or not is_piece):
+        found.append(Fact("resistance_of_layers", added=added))
+    return found
 
 
 def through_layers(validity: str, pressed: Pressed) -> Mapping[str, str]:

@@ -154,6 +154,22 @@ class MaterialPair:
             return None
         return Fact("property_unknown", what=what, quantity=quantity, bodies=bodies)
 
+    @property
+    def facts(self) -> list[Fact]:
+        """Of which body the hardness is not known, and of which layers the modulus is another."""
+        found = []
+        lacking, moduli = self.lacking("hardness"), (self.first.surface.E, self.second.surface.E)
+        if lacking and self.hardness is not None:
+            found.append(Fact("hardness_of_softer_taken", material=lacking[0]))
+        elif lacking:
+            is_softer = len(lacking) == 1 and not any(map(math.isinf, moduli))
+            found.append(Fact("no_hardness", materials=tuple(lacking), is_softer=is_softer))
+        for each in dict.fromkeys((*self.first.materials, *self.second.materials)):
+            if of := each.layer_E:
+                numbers = {"modulus": each.E, "of_layers": of}
+                found.append(Fact("layer_modulus_differs", material=each.name, **numbers))
+        return found
+
     def both(self, quantity: str) -> tuple[float, float] | None:
         """Return a property of both bodies; None if one does not have it, or is coated."""
         return None if self.coated else self.at_surfaces(quantity)

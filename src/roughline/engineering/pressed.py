@@ -11,8 +11,9 @@ from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.measures import Measured
+from roughline.contact.separation import Separation
 from roughline.contact.status import Status
-from roughline.engineering.attraction import Attraction, Separation
+from roughline.engineering.attraction import Attraction
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Closing, Fluid

@@ -152,22 +152,19 @@ def _held(
 
     @functools.wraps(function)
     def held(*positional: Any, **named: Any) -> Any:
-        if by_names and _fits(function, len(positional), *named):
-            return function(*positional, **named)
-        signature = _signature(function)
-        try:
-            given = signature.bind(*positional, **named).arguments
-        except TypeError:
-            raise _misfit(called, signature, positional, named) from None
-        for name, value in () if by_names else given.items():
-            if name not in read:
-                _refuse_other_kinds(name, value, signature.parameters[name])
+        if not _fits(function, len(positional), *named):
+            raise _misfit(called, _signature(function), positional, named)
+        if not by_names:
+            names, kinds = _kinds(function)
+            for name, value in (*zip(names, positional, strict=False), *named.items()):
+                if name in kinds and name not in read:
+                    _refuse_other_kinds(name, value, *kinds[name])
         return function(*positional, **named)
 
     return held
 
 
-@functools.lru_cache(maxsize=256)
+@functools.lru_cache(maxsize=1024)
 def _fits(function: Callable[..., Any], positional: int, *named: str) -> bool:
     """Whether a call with so many arguments by position, and these by name, fits a signature."""
     try:
@@ -182,25 +179,34 @@ def _signature(function: Callable[..., Any]) -> inspect.Signature:
     return inspect.signature(function)
 
 
-def _refuse_other_kinds(name: str, value: Any, parameter: inspect.Parameter) -> None:
-    """Refuse a value of none of the kinds that an annotation names, if all are in the tables."""
-    if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+@functools.cache
+def _kinds(function: Callable[..., Any]) -> tuple[list[str], dict[str, tuple[list[str], Any]]]:
+    """Names of the arguments by position, and the kinds and default of those that are looked at.
+
+    These are the ones of which the tables above have all kinds that the annotation names.
+    """
+    names, kinds = [], {}
+    for name, parameter in _signature(function).parameters.items():
+        if parameter.kind in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
+            names.append(name)
+        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+            continue
+        annotation = parameter.annotation
+        allowed = annotation.split(" | ") if isinstance(annotation, str) else [""]
+        if all(kind in _KINDS or kind in _CLASSES for kind in allowed):
+            kinds[name] = allowed, parameter.default
+    return names, kinds
+
+
+def _refuse_other_kinds(name: str, value: Any, kinds: list[str], default: Any) -> None:
+    """Refuse a value of none of the kinds that an annotation names."""
+    if value is default or any(_is_kind(value, kind) for kind in kinds):
         return
-    if value is parameter.default or not isinstance(parameter.annotation, str):
-        return
-    kinds = parameter.annotation.split(" | ")
-    if all(kind in _KINDS or kind in _CLASSES for kind in kinds) and not any(
-        _is_kind(value, kind) for kind in kinds
-    ):
-        words = [
-            _KINDS[kind][1] if kind in _KINDS else _CLASSES[kind]
-            for kind in kinds
-            if kind != "None"
-        ]
-        without_unit = " without a unit" if "float" in kinds and isinstance(value, str) else ""
-        refuse(
-            name, value, f"{' or '.join(words)}{without_unit} is needed{_how_to_make(value, kinds)}"
-        )
+    words = [
+        _KINDS[kind][1] if kind in _KINDS else _CLASSES[kind] for kind in kinds if kind != "None"
+    ]
+    without_unit = " without a unit" if "float" in kinds and isinstance(value, str) else ""
+    refuse(name, value, f"{' or '.join(words)}{without_unit} is needed{_how_to_make(value, kinds)}")
 
 
 def _how_to_make(value: Any, kinds: list[str]) -> str:

@@ -25,7 +25,7 @@ from typing import Any, Literal, get_args
 
 from roughline.errors.words import called
 from roughline.facts.listed import listed, listed_in_short
-from roughline.units import change_in_words, decimal, engineering, in_words
+from roughline.units import decimal, engineering, in_words
 
 Subject = Literal["What was done to the data", "What the intervals include", "Limits"]
 """What facts are about, as pages head them."""
@@ -140,8 +140,6 @@ def _several(values: tuple[Any, ...], how: str) -> str:
             return listed_in_short(words)
         case "count":
             return str(len(values))
-        case "change":
-            return change_in_words(*values)
         case "changed":
             return _changes(*values)
     if how in _JOINTS:

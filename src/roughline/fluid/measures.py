@@ -214,7 +214,7 @@ def measures_at_border(fluid: Rarefied, along: Along) -> Sequence[Measure]:
             value = functools.partial(_value_at_border, along, fluid, k, key)
             meaning = f"{of.meaning}, with the {what} along the border"
             name = names_at_border(of.name)[k]
-            listed.append(Measure(name, of.symbol, of.dimension, meaning, value))
+            listed.append(Measure(name, of.symbol, of.dimension, meaning, value, of_this_grid=True))
     return listed
 
 

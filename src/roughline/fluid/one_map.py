@@ -72,6 +72,6 @@ def factor_left_open(
     """
     logs = np.log(of_quarters)
     finer = max(abs(math.log(half / value)), math.log(of_grid))
-    of_size = student(logs.size) * float(logs.std(ddof=1)) / math.sqrt(logs.size)
+    of_size = student(logs.size - 1) * float(logs.std(ddof=1)) / math.sqrt(logs.size)
     step = 0.0 if tells else _EXTRAPOLATION * (float(logs.mean()) - math.log(value))
     return math.exp(math.hypot(finer, of_size, step))

@@ -158,14 +158,19 @@ def reopening(
     return _with_interval(found, search, curve.surface, law, history)
 
 
-def reopening_about(
-    curve: SurfaceCurve, load: int, expected: float, *, along: Along | Literal["both"]
-) -> Reopening:
-    """The share that :func:`reopening` finds, within about 2 %, if another surface tells one."""
-    search = _ShareSearch(curve.half_space, _TIMES, along, _RTOL)
-    left = _Relieved(curve.surface_after(load), curve.law, float(curve.force[load]))
-    (share,) = search.about([left], expected)
-    return Reopening(share, share, (math.nan, math.nan, math.nan), _TIMES, along)
+def reopenings_about(
+    curves: Sequence[SurfaceCurve], load: int, expected: float, *, along: Along | Literal["both"]
+) -> list[Reopening]:
+    """The shares that :func:`reopening` finds, within about 2 %, if another surface tells one.
+
+    They are of surfaces of one shape and one half-space, which are pressed side by side.
+    """
+    search = _ShareSearch(curves[0].half_space, _TIMES, along, _RTOL)
+    left = [
+        _Relieved(each.surface_after(load), each.law, float(each.force[load])) for each in curves
+    ]
+    unknown = (math.nan, math.nan, math.nan)
+    return [Reopening(each, each, unknown, _TIMES, along) for each in search.about(left, expected)]
 
 
 def _with_interval(
@@ -177,8 +182,8 @@ def _with_interval(
     def loaded(piece: Surface, its_law: ContactLaw) -> _Relieved:
         return _Relieved(piece, its_law, force * piece.area, not_yet=most * piece.area)
 
-    (half,) = search.about([loaded(*on_half(surface, law))], found.value)
-    of_quarters = search.about([loaded(*each) for each in quarters(surface, law)], found.value)
+    pieces = [loaded(*each) for each in (on_half(surface, law), *quarters(surface, law))]
+    half, *of_quarters = search.about(pieces, found.value)
     value, *others = np.array([found.value, half, *of_quarters]) + _NARROWEST_INTERVAL
     factor = factor_left_open(value, others[0], others[1:], tells=tells_of_larger(surface))
     low = (found.low + _NARROWEST_INTERVAL) / factor - _NARROWEST_INTERVAL

@@ -15,6 +15,7 @@ from roughline.computing.arrays import Mask
 from roughline.computing.notebook import in_notebook
 from roughline.computing.summary import summary
 from roughline.contact.arguments import checked_half_space, given_law
+from roughline.contact.curve import SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.full_contact import in_full_contact
 from roughline.contact.grid_error import grid_steepening
@@ -169,18 +170,16 @@ def sealing_pressure(
     return _with_interval(found, search, surface, law, grid_steepening(full))
 
 
-def sealing_pressure_about(
-    surface: Surface,
-    expected: float,
-    *,
-    half_space: HalfSpace,
-    law: ContactLaw,
-    along: Along | Literal["both"],
-) -> SealingPressure:
-    """The mean pressure that seals, within about 2 %, of a surface that is like another one."""
-    search = _PressureSearch(half_space, along, _RTOL)
-    (value,) = search.about([(surface, law)], expected)
-    return SealingPressure(value, value, (math.nan, math.nan), along)
+def sealing_pressures_about(
+    curves: Sequence[SurfaceCurve], expected: Sequence[float], *, along: Along | Literal["both"]
+) -> list[SealingPressure]:
+    """Mean pressures that seal the surfaces of curves, within about 2 %, if others tell some.
+
+    They are of one shape and one half-space, and are pressed side by side.
+    """
+    search = _PressureSearch(curves[0].half_space, along, _RTOL)
+    found = search.about([(each.surface, each.law) for each in curves], expected)
+    return [SealingPressure(each, each, (math.nan, math.nan), along) for each in found]
 
 
 def _with_interval(
@@ -191,8 +190,8 @@ def _with_interval(
     steepening: float,
 ) -> SealingPressure:
     """Return what was found with the ends that grid and size leave open."""
-    (half,) = search.about([on_half(surface, law)], found.value)
-    of_quarters = search.about(quarters(surface, law), found.value)
+    pieces = [on_half(surface, law), *quarters(surface, law)]
+    half, *of_quarters = search.about(pieces, [found.value] * len(pieces))
     tells = tells_of_larger(surface)
     left_open = partial(factor_left_open, found.value, half, of_quarters, tells=tells)
     most = min(found.high * left_open(of_grid=steepening), Bounds.of(law).largest_force(1.0))
@@ -233,11 +232,13 @@ class _PressureSearch:
         ((low, high),) = side_by_side([search], [press])
         return SealingPressure(low, high, (areas[low], areas[high]), self.along)
 
-    def about(self, surfaces: Sequence[tuple[Surface, ContactLaw]], expected: float) -> list[float]:
+    def about(
+        self, surfaces: Sequence[tuple[Surface, ContactLaw]], expected: Sequence[float]
+    ) -> list[float]:
         """The mean pressures that seal surfaces of one shape, within about 2 %."""
         searches = []
-        for _, law in surfaces:
-            guess, most = _below_hardness(expected, law)
+        for (_, law), likely in zip(surfaces, expected, strict=True):
+            guess, most = _below_hardness(likely, law)
             first = [guess * each for each in _FIRST_OF_EXPECTED]
             searches.append(crossing(Trials(most=most, first=first)))
         return side_by_side(searches, [partial(self._gaps, *each, {}) for each in surfaces])

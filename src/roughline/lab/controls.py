@@ -65,7 +65,7 @@ class Control:
 
     def checked(self, value: float) -> float:
         """Return a number in range; an end that is written with fewer digits is the end."""
-        for end in (self.low, self.high):
+        for end in (self.low, self.high) if self.scale != "whole" else ():
             if any(
                 value == float(f"{end:.{n}g}") for n in range(_SLIDER_DIGITS, _COMPUTED_DIGITS + 1)
             ):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import roughline as rl
 
 _PALEST_FLUX = -2.0  # decimal logarithm of it over its mean
-_NO_FLOW = -9.0  # stands for the logarithm where nothing flows
+_NO_FLOW = -3.0  # stands for the logarithm where nothing flows
 _PRESSED_SHARE = 1e-6  # of the largest pressure: where less presses, the paper shows
 _MEANINGS = {  # of colours of the theme
     "ink": "in contact",
@@ -43,6 +43,7 @@ class Map:
     sizes: Sequence[float] = (1.0, 1.0)  # sides, in the unit of its axes
     along: str = "/ L"  # that unit
     corner: Sequence[float] = (0.0, 0.0)  # where it lies in the frame
+    scale: float = 0.0  # of heights: their unit over that of its axes, where that is known
     table: tuple[list[str], list[list[str]]] | None = None  # for those who do not see it
 
     @property

@@ -22,9 +22,7 @@ from roughline.lab.measured.panels import PANELS as MEASURED
 from roughline.lab.published import controls as published
 from roughline.lab.published.panels import PANELS as PUBLISHED
 from roughline.lab.server.tasks import Place, Site
-from roughline.paper.studies import study_summaries
 from roughline.report.typeset import typeset
-from roughline.statistics.verdict import Verdict
 
 _PANELS = {"measured": MEASURED, "published": PUBLISHED}
 
@@ -55,7 +53,7 @@ def site() -> Site:
     """Return the lab: its page, parts and tasks."""
     return Site(
         page=page,
-        login_page=_login_page,
+        door=_door,
         parts=Path(str(files("roughline.lab").joinpath("static"))),
         tasks=TASKS,
     )
@@ -79,14 +77,12 @@ def page() -> str:
         examples=EXAMPLES,
         materials=list(materials()),
         fluids=list(fluids()),
-        studies=study_summaries(),
     )
 
 
-def _login_page(asks_token: bool, complaint: str, leads_to: str) -> str:
-    """Return the page that asks for the token or password, with a word on what was wrong."""
-    template = _environment().get_template("login.html.jinja")
-    return template.render(asks_token=asks_token, complaint=complaint, leads_to=leads_to)
+def _door(complaint: str) -> str:
+    """Return the page that asks for the token, with a word on what was wrong."""
+    return _environment().get_template("door.html.jinja").render(complaint=complaint)
 
 
 @cache
@@ -95,10 +91,5 @@ def _environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
     )
-    environment.filters |= {"typeset": typeset, "verdict": _verdict}
+    environment.filters |= {"typeset": typeset}
     return environment
-
-
-def _verdict(text: str) -> str:
-    """The verdict that a text begins with; empty if it is none."""
-    return next((each for each in Verdict if text.startswith(each)), "")

@@ -13,12 +13,11 @@ def up() -> None:
     from roughline.lab.explore import pictures
 
     rl.set_threads(1)  # many sessions share the cores
-    session = {"max_points": 64}
     for special in (
         *({}, {"boundary": "periodic"}),
         *({"hardness_bar": "0.5"}, {"fluid": "x"}, {"w": "1"}, {"t": "0.05"}),
     ):
-        arguments = {"state": {"n": "64", **special}, "session": session, "crowded": True}
+        arguments = {"state": {"n": "64", **special}, "session": {}}
         for task in (pictures.reduced, pictures.full):
             task(arguments, lambda done, total: None)
     gc.freeze()  # what is loaded stays shared with the processes that are forked

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -19,6 +18,8 @@ from roughline.topography.body import Surface
 
 _ON_FILLED = "force_on_filled"  # name of the measure, among those of the curve as asked
 _SHARE_IN_INTERVALS = 0.1  # of the force, from which on intervals hold that it stands elsewhere
+_WARNED_SHARE = 0.05  # of the force, from which on a warning says so
+_GRAVE_SHARE = 0.5  # from which on answers are of heights that nobody measured
 _SMALLEST_CHANGE = 0.001  # changes below this are reported as less than this [%]
 
 
@@ -47,6 +48,10 @@ class FilledPoints(OtherBodies):
         return 0.0 if share is None else _relative_error(share)
 
     def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
+        """How much stands on filled points, and what another filling changes, if it is known."""
+        return [*_on_filled_points(case, curves), *self._changes(case, curves)]
+
+    def _changes(self, case: Case, curves: Curves) -> Sequence[Fact]:
         """What the other filling changes, or why that is not known."""
         curve, others = curves.get(AS_ASKED), self.pressed(curves, AS_ASKED)
         if curve is None or not case.filled or curves.stopped == AS_ASKED:
@@ -64,16 +69,28 @@ class FilledPoints(OtherBodies):
         return [Fact("filled_before", is_of_file=bool(case.parts[0].file))]
 
 
+def _on_filled_points(case: Case, curves: Curves) -> list[Fact]:
+    """Say under which load most of the force stands on points that nobody measured."""
+    if (found := force_on_filled(curves)) is None:
+        return []
+    asked = case.loads.asked_loads(curves.as_asked)
+    shares = found[asked]
+    most = int(np.argmax(np.nan_to_num(shares)))
+    if not (share := float(shares[most])) > _WARNED_SHARE:
+        return []
+    load = case.question.loading.names_of_loads(asked.tolist())[most]
+    return [Fact("on_filled_points", load=load, share=share).grave(share > _GRAVE_SHARE)]
+
+
 def force_on(points: Mask) -> Measure:
     """The share of the force that stands on some points, as a measure."""
 
     def share(fields: Fields) -> float:
         pushed = np.maximum(fields.pressure, 0.0)
-        if pushed.shape != points.shape:  # coarser, to judge the grid
-            return math.nan
         return float(pushed[points].sum() / pushed.sum()) if pushed.any() else 0.0
 
-    return Measure(_ON_FILLED, "s_f", "1", "share of the force that stands on filled points", share)
+    meaning = "share of the force that stands on filled points"
+    return Measure(_ON_FILLED, "s_f", "1", meaning, share, of_this_grid=True)
 
 
 def force_on_filled(curves: Curves) -> Real | None:

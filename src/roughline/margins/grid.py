@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import SurfaceCurve
+from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.intervals import Ends, Intervals
+from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread, Values, intervals_within
 from roughline.margins.variant import Curves
 from roughline.question.assumptions import broken
-from roughline.question.case import Case
+from roughline.question.case import COARSENED_FROM, Case
 
 _UNSURE_RATIO = 5.0  # of both ends; above, a stiffness near full contact may be infinite
 
@@ -27,6 +31,42 @@ class FinerGrid(Cause):
         """Both ends that finer grids leave open; None where their errors were not estimated."""
         curve = curves.get(variant)
         return None if curve is None or broken("grid", case.body) else spread_of_grid(curve)
+
+    def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
+        """Why its error is not known, and under which loads it resolves no gap, or few."""
+        curve = curves.as_asked
+        if not isinstance(curve, SurfaceCurve):
+            return ()
+        asked = case.loads.asked_loads(curve)
+        names = case.question.loading.names_of_loads(asked.tolist())
+        found = list(facts_on_full_contact(curve, case.body.heights.size, asked, names))
+        if curve.stiffness_error is None:
+            found.append(Fact("grid_error_unknown", why=_why_unknown(case), points=COARSENED_FROM))
+        return found
+
+
+def _why_unknown(case: Case) -> str:
+    """Why the error of the grid is not known."""
+    if case.loads.grid_error:
+        return "interrupted"
+    if case.question.grid_error is not None:
+        return "switched off"
+    return "few points" if min(case.body.heights.shape) < COARSENED_FROM else "takes long"
+
+
+def facts_on_full_contact(
+    curve: SurfaceCurve, points: int, loads: Indices, names: Sequence[str]
+) -> Iterator[Fact]:
+    """Say under which loads all points touch, or all but a few."""
+    # what repeats along both axes, and whose mean is not free, stands on a rigid base
+    stands = "on base" if all(curve.half_space.repeats) else "punch"
+    stands = "free" if curve.half_space.mean_is_free else stands
+    open_points = np.rint((1 - curve.area_fraction[loads]) * points)
+    found = list(zip(names, open_points, strict=True))
+    if full := tuple(name for name, n in found if n == 0):
+        yield Fact("all_touch", loads=full, stands=stands)
+    if nearly := tuple(name for name, n in found if 0 < n < RESOLVED_FROM):
+        yield Fact("nearly_all_touch", loads=nearly, points=RESOLVED_FROM)
 
 
 def spread_of_grid(curve: SurfaceCurve) -> Spread | None:

@@ -81,6 +81,20 @@ class BehindMaps:
     sharing: Differences  # as places share the load
     why_unknown: Fact | None = None  # why the maps do not tell of it; None where they do
 
+    def facts(self, answers: Mapping[str, str], *, is_joint: bool) -> list[Fact]:
+        """Of which answers, names by their keys, maps do not tell, and whether maps agree."""
+        found: list[Fact] = []
+        if self.why_unknown and answers:
+            numbers = {"answers": tuple(answers.values()), "is_joint": is_joint}
+            unknown = Fact("behind_maps_unknown", why=self.why_unknown, **numbers)
+            found.append(unknown if is_joint else unknown.concerning(*answers))
+        if (agree := self.agreement) is not None:
+            # factors over 1 by which rms heights scatter
+            scatter = {"between": math.expm1(agree.between), "within": math.expm1(agree.within)}
+            kind = "maps_agree" if agree.holds else "maps_disagree"
+            found.append(Fact(kind, **scatter, ratio=agree.ratio, chance=agree.chance))
+        return found
+
 
 def behind_maps(results: Sequence[MapOfPart]) -> BehindMaps | None:
     """Say what two or more maps tell of the surface behind them; None if one is no map of it."""

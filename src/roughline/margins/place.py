@@ -17,14 +17,14 @@ from roughline.margins.cause import Cause
 from roughline.margins.larger_measure import LargerMeasure
 from roughline.margins.spread import LOGARITHM, LOGIT, Spread, Values
 from roughline.margins.tiles import (
-    FEWEST_POINTS,
     POINTS_OF_BORDER,
     POINTS_OF_TILES,
     TiledCurves,
     coarse_shape,
     coarsened,
+    has_few_points,
 )
-from roughline.margins.variant import AS_ASKED, Curves, Pressable, Variant, larger_name
+from roughline.margins.variant import AS_ASKED, Curves, Pressable, Variant, has_tiles, larger_name
 from roughline.question.assumptions import broken
 from roughline.question.case import Case
 from roughline.question.kinds import nominal_area
@@ -48,9 +48,7 @@ class OtherPlaces(Cause):
     def presses(self, case: Case, pressed: Variant) -> Sequence[Variant]:
         """The map on fewer points, and its tiles, under the mean pressures of its curve."""
         body = case.map
-        if body is None or pressed.name != larger_name(case, AS_ASKED) or case.question.coated:
-            return ()
-        if not case.loads.grid_error or min(body.shape) < FEWEST_POINTS:
+        if body is None or pressed.name != larger_name(case, AS_ASKED) or not has_tiles(case):
             return ()
         return _listed(case, pressed.name, body, self.name)
 
@@ -117,7 +115,7 @@ def tiled_curves(case: Case, curves: Curves, variant: str) -> TiledCurves | None
     halves, quarters = (curves.of_pieces.get(_tiled(count), ()) for count in (2, 4))
     if of_map is None or len(halves) < 4 or len(quarters) < 16:
         return None
-    border = curves.complete(_BORDER)
+    border = curves.complete(variant if has_few_points(body.shape) else _BORDER)
     return TiledCurves(of_map, halves, quarters, shape[0] * shape[1], border)
 
 
@@ -151,7 +149,7 @@ def _listed(case: Case, map_name: str, body: Surface, purpose: str) -> list[Vari
     found += [
         Variant(_tiled(count), purpose, partial(tiles, count), shape, True) for count in (2, 4)
     ]
-    if case.measures_at_border:
+    if case.measures_at_border and not has_few_points(body.shape):
         coarser = coarse_shape(body.shape, POINTS_OF_BORDER)
         taken = [*measures, *case.measures_at_border]
         needed = partial(whole, POINTS_OF_BORDER, taken)

@@ -15,15 +15,17 @@ from roughline.comparison.trust import trust_map
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
+from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.errors.checks import flag
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
 from roughline.measurement.coarser_selves import coarser_selves
 from roughline.measurement.scan_bins import ScanBins
 from roughline.question.assumptions import broken
+from roughline.question.question import Question
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
-from roughline.topography.body import Line
+from roughline.topography.body import Body, Line
 from roughline.topography.settings import as_body
 
 _SCAN_LINES = 200  # lines that are pressed, each of a surface that the scan may be cut from
@@ -44,6 +46,24 @@ _NO_MATTER = 0.02  # relative difference of a stiffness that does not matter
 
 ONE_SCAN = ("scan", "what one line does not show of its surface", "a map")
 """Name, title and remedy of what leaves answers of a scan open."""
+
+
+def limits_of_line(question: Question, body: Body) -> list[Fact]:
+    """Say that the model of a line has no area, and up to which slopes it stands for metals.
+
+    That is grave of a scan that is so steep that they yield.
+    """
+    pair = question.pair
+    if pair is None or not isinstance(body, Line):
+        return []
+    found = [Fact("no_area_of_line")]
+    if pair.hardness is not None:
+        most = 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
+        slope = body.rms_slope if body.kind == "profile" else None
+        kind = "line_without_yield" if slope is None or slope <= most else "line_is_too_steep"
+        ratios = {"limit": ELASTIC_UP_TO, "ratio": 2 * ELASTIC_UP_TO}
+        found.append(Fact(kind, **ratios, most=most, slope=slope))
+    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -81,7 +81,7 @@ class Tiles:
         """
         halves = _variance(self.halves)
         quarters = np.maximum(_variance(self.quarters), _variance_across(self.quarters))
-        certain = student(math.prod(self.quarters.shape[:2]))
+        certain = student(math.prod(self.quarters.shape[:2]) - 1)
         if extrapolation.roll_offs is not None:
             waves = min(4.0, max(1.0, extrapolation.roll_offs))
             return certain * np.sqrt(np.maximum(halves / 4, quarters / waves**2))
@@ -92,7 +92,8 @@ class Tiles:
 
         Where the map is above its quarters by more than it scatters, as a map of a plateau is that
         its own plane tilts, the map is not large yet under this load, and its roll-off does not
-        count. `mean` says that the map stands for the mean of many, in which chance cancels.
+        count. What chance explains is no such sign: a larger scatter may leave less open there.
+        `mean` says that the map stands for the mean of many, in which chance cancels.
         """
         low, high = self._extrapolated(extrapolation, mean=mean)
         if extrapolation.roll_offs is not None:
@@ -206,6 +207,11 @@ def coarse_shape(shape: tuple[int, int], points: int = POINTS_OF_TILES) -> tuple
     while shape[0] * shape[1] > points and min(shape) >= 4 * FEWEST_POINTS:
         shape = shape[0] // 2, shape[1] // 2
     return shape
+
+
+def has_few_points(shape: tuple[int, int]) -> bool:
+    """Whether the border of a map is judged on its own points."""
+    return coarse_shape(shape, POINTS_OF_BORDER) == shape
 
 
 def coarsened(piece: Surface, points: int = POINTS_OF_TILES) -> Surface:

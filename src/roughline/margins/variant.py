@@ -12,9 +12,11 @@ import numpy as np
 
 from roughline.contact.arguments import sticking_law
 from roughline.contact.curve import Curve, SurfaceCurve
+from roughline.contact.measures import Measure
 from roughline.contact.press import press
 from roughline.engineering.pressed import Sought
 from roughline.errors import Interrupted
+from roughline.margins.tiles import FEWEST_POINTS, has_few_points
 from roughline.question.case import Case
 from roughline.question.loads import LoadCase, LoadProgress
 from roughline.topography.body import Surface
@@ -172,6 +174,18 @@ def periodic(name: str) -> str:
     return f"{name}, periodic"
 
 
+def has_tiles(case: Case) -> bool:
+    """Whether tiles of the map are pressed, which tell of the surface that it was cut out of."""
+    is_fine = case.map is not None and min(case.map.shape) >= FEWEST_POINTS
+    return is_fine and case.loads.grid_error and not case.question.coated
+
+
+def measures_of_map(case: Case) -> list[Measure]:
+    """What is measured as asked: of a map of few points, what its border does as well."""
+    is_small = case.map is not None and has_few_points(case.map.shape)
+    return [*case.measures, *(case.measures_at_border if is_small and has_tiles(case) else ())]
+
+
 def larger_name(case: Case, name: str) -> str:
     """Name of the variant that tells of the surface that a map was cut out of: it repeated."""
     return periodic(name) if case.is_repeated_for_interface else name
@@ -192,8 +206,12 @@ def repeated(case: Case, variant: Variant) -> Variant:
 def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve | None:
     """Press the same body periodically, under the forces that it bears."""
     first, curve = variant.needed(curves), curves.get(variant.name)
-    if isinstance(first, Curve):  # as asked, or under no load
-        return curves.get(periodic(AS_ASKED)) if first.converged.any() else None
+    is_as_asked = variant.name == AS_ASKED
+    if isinstance(first, Curve):  # as asked, by a law that changes nothing, or under no load
+        same = curves.get(periodic(AS_ASKED)) if first.converged.any() else None
+        if same is None or not isinstance(first, SurfaceCurve):
+            return None
+        return replace(same, law=first.law, settings={**same.settings, **first.law.settings})
     if not isinstance(first, LoadCase) or curve is None:
         return None
     if first.lifted is not None and first.lifted.all():  # what seals is known nevertheless
@@ -207,4 +225,4 @@ def _repeated(case: Case, variant: Variant, curves: Curves) -> LoadCase | Curve 
     loads = replace(under, half_space=under.half_space.interface, levelled=True)
     if case.question.sealing is None:
         loads = replace(loads, fields=())  # nobody looks into its gap
-    return replace(loads, measures=case.measures)
+    return replace(loads, measures=measures_of_map(case) if is_as_asked else case.measures)

@@ -26,6 +26,7 @@ from roughline.measurement.homogeneity import (
 from roughline.measurement.longer_waves import LongShape, known_tilt, long_shapes
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import outliers
+from roughline.topography.scan_lines import OVER_MEDIAN
 from roughline.units import in_words
 
 Assumption = Literal[
@@ -63,7 +64,6 @@ _LEVELS_BESIDE = 3  # on either side of one, that show how many heights are equa
 _LEVEL_EXCESS = 3.0  # times as many as on any of them that are not equal by steps alone
 _JUMP_SCATTERS = 8.0  # of rows from the line through those beside them that are not by chance
 _STEP_STEEPNESS = 3.0  # than the slopes beside it is a step
-_SIGMA = 1.4826  # standard deviation of normal values over the median of their moduli
 
 
 @dataclass(frozen=True)
@@ -247,7 +247,7 @@ def _highest_jump(heights: Real) -> _Jump | None:
 def _jumps(means: Real, axis: int) -> Iterator[_Jump]:
     """The single row, and the step, that are highest above what the slopes beside them say."""
     slopes = np.diff(means)
-    scatter = float(_SIGMA * np.median(np.abs(np.diff(slopes))))
+    scatter = float(OVER_MEDIAN * np.median(np.abs(np.diff(slopes))))
     up, down = slopes[1:-2], -slopes[2:-1]  # to a row, and from it
     single = _least(up, down, up - slopes[:-3], down + slopes[3:])
     before, step, after = slopes[:-2], slopes[1:-1], slopes[2:]

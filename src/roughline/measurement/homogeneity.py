@@ -11,6 +11,7 @@ from roughline.computing.arrays import Real
 from roughline.facts.fact import Fact
 from roughline.measurement.chance import Finding, score_of_square
 from roughline.measurement.coarser_selves import CoarserSelf
+from roughline.statistics.student import student
 from roughline.topography.body import Surface
 
 ISOTROPIC_FROM = 0.7  # least over largest slope, from which on a surface counts as isotropic
@@ -97,7 +98,7 @@ def _drift(along: str, logs: Real) -> Finding:
     score = -float(special.ndtri(special.stdtr(freedom, -ratio))) if change else 0.0
 
     def fact(limit: float) -> Fact:
-        allowed = error * float(special.stdtrit(freedom, special.ndtr(limit)))
+        allowed = error * float(student(freedom, special.ndtr(limit)))
         return Fact("drifts", along=along, factor=math.exp(abs(change)), chance=math.exp(allowed))
 
     return Finding(score, abs(change) / _LARGEST_DRIFT, fact)

@@ -1,4 +1,4 @@
-"""Figures beyond the paper's: area law and theories, both models, several grids."""
+"""Figures beyond the paper's: both models at once, area law and theories, several grids."""
 
 from __future__ import annotations
 
@@ -12,8 +12,11 @@ from matplotlib.ticker import PercentFormatter
 
 from roughline.contact import scaling
 from roughline.paper.contact_area import mean_area
+from roughline.paper.laws import at_dimension
+from roughline.paper.stated import STIFFNESS_TOLERANCE
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
 from roughline.plot.style import (
+    COLUMN,
     FORCE_LABEL,
     OPEN,
     PAGE,
@@ -25,12 +28,13 @@ from roughline.plot.style import (
     looks,
     new_figure,
 )
-from roughline.statistics.averages import relative_difference
+from roughline.statistics.averages import average, relative_difference
 from roughline.theories import bush_gibson_thomas, persson
 
 if TYPE_CHECKING:
     import xarray
 
+    from roughline.computing.arrays import Real
     from roughline.paper.contact_area import AreaLaw
     from roughline.paper.laws import DimensionLaws
     from roughline.paper.results import PaperResults
@@ -39,14 +43,20 @@ CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
 _LINE_STYLES = (":", "-.", "--", "-")
 
 
+def first_drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
+    """How the pictures of both models are drawn, with which the page begins, by their files."""
+    full, lines = results.full, results.reduced if results.matched is None else results.matched
+    drawings = {"both_models": lambda: _both_models_figure(full, lines)}
+    if results.matched is not None and _shared(full, lines).size:
+        drawings["difference"] = lambda: _difference_figure(full, lines)
+    return drawings
+
+
 def added_drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
-    """How each of these figures is drawn that the results allow, by the name of its file."""
-    full, matched = results.full, results.matched
-    drawings = {"area_law": lambda: _area_law_figure(full, results.laws)}
-    if matched is not None and np.isin(full.fractal_dimension, matched.fractal_dimension).any():
-        drawings["models_compared"] = lambda: _both_models_figure(full, matched)
+    """How each figure beyond the paper's is drawn that the results allow, by its file."""
+    drawings = {"area_law": lambda: _area_law_figure(results.full, results.laws)}
     if results.grids:
-        grids = results.grids | {int(full.attrs["n"]): full}
+        grids = results.grids | {int(results.full.attrs["n"]): results.full}
         drawings["grid_convergence"] = lambda: _grid_convergence_figure(grids)
     return drawings
 
@@ -108,42 +118,69 @@ def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
     axes.legend(loc="upper left")
 
 
-def _both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
-    """Draw the raw stiffness of both models with the same waves, and their relative difference."""
-    figure = new_figure(PAGE, 3.2)
-    left, right = figure.subplots(1, 2)
-    dimensions = np.intersect1d(full.fractal_dimension, matched.fractal_dimension)
-    force = full.force_bar.values
+def _shared(full: xarray.Dataset, lines: xarray.Dataset) -> Real:
+    """Fractal dimensions of both."""
+    return np.intersect1d(full.fractal_dimension, lines.fractal_dimension)
+
+
+def _both_models_figure(full: xarray.Dataset, lines: xarray.Dataset) -> Figure:
+    """Draw the raw stiffness of both models, with 95 % intervals of the means."""
+    figure = new_figure(COLUMN, 3.4)
+    axes = figure.add_subplot()
+    dimensions = full.fractal_dimension.values
     for dimension, colour, marker in looks(dimensions):
+        if (one := at_dimension(lines, dimension)) is not None:
+            mean = average(one.stiffness.values)
+            axes.fill_between(
+                one.force_bar, mean.low, mean.high, color=colour, alpha=0.25, linewidth=0
+            )
+            axes.loglog(one.force_bar, mean.mean, color=colour, linewidth=1)
+        one, force = full.sel(fractal_dimension=dimension), full.force_bar.values
+        mean, resolved = average(one.stiffness.values), (one.resolved.values == 1).all(axis=0)
+        bars = np.array([mean.mean - mean.low, mean.high - mean.mean])
+        for which, mark in ((resolved, {}), (~resolved, OPEN)):
+            axes.errorbar(
+                force[which],
+                mean.mean[which],
+                bars[:, which],
+                fmt=marker,
+                color=colour,
+                linewidth=0.8,
+                label=None if mark else dimension_label(dimension),
+                **mark,
+            )
+    axes.set(
+        **{"xscale": "log", "yscale": "log", "xlabel": FORCE_LABEL},
+        ylabel=r"stiffness $k\,/\,(E^* L)$",
+    )
+    axes.annotate("lines 1D, marks 3D", (0.04, 0.93), xycoords="axes fraction", fontsize=8)
+    label_decades(axes)
+    legend_dimensions(axes, dimensions)
+    return figure
+
+
+def _difference_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
+    """Draw the relative difference of the models with the same waves, and what counts as none."""
+    figure = new_figure(COLUMN, 3.4)
+    axes = figure.add_subplot()
+    force = full.force_bar.values
+    for dimension, colour, marker in looks(_shared(full, matched)):
         stiffness_1d, stiffness_3d = (
             data.sel(fractal_dimension=dimension).stiffness.values for data in (matched, full)
         )
         resolved = (full.sel(fractal_dimension=dimension).resolved.values == 1).all(axis=0)
-        look = {"color": colour, "marker": marker}
-        left.loglog(force, np.nanmean(stiffness_1d, axis=0), color=colour, linewidth=1)
-        for which, mark in ((resolved, {}), (~resolved, OPEN)):
-            left.loglog(
-                force[which],
-                np.nanmean(stiffness_3d, axis=0)[which],
-                linestyle="",
-                label=None if mark else dimension_label(dimension),
-                **look,
-                **mark,
-            )
         difference, low, high = relative_difference(stiffness_3d, stiffness_1d, paired=False)
-        right.fill_between(
+        axes.fill_between(
             force[resolved], low[resolved], high[resolved], color=colour, alpha=0.2, linewidth=0
         )
-        right.plot(force[resolved], difference[resolved], linewidth=1, **look)
-    left.set(xlabel=FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
-    left.annotate("lines 1D, marks 3D", (0.04, 0.92), xycoords="axes fraction", fontsize=7.5)
-    label_decades(left)
-    legend_dimensions(left, dimensions)
-    right.axvspan(*WINDOW_AGREEMENT, **SHADE)
-    right.axhline(0, color="k", linewidth=0.7)
-    right.axhline(scaling.EXACT_PUNCH - 1, color="0.4", linewidth=0.8, linestyle=":")
-    right.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
-    right.set(xscale="log", xlabel=FORCE_LABEL, ylabel="raw stiffness, $k_{3D} / k_{1D} - 1$")
+        axes.plot(force[resolved], difference[resolved], linewidth=1, color=colour, marker=marker)
+    near = STIFFNESS_TOLERANCE * np.array([-1, -1, 1, 1, -1])
+    ends = np.array(WINDOW_AGREEMENT)[[0, 1, 1, 0, 0]]
+    axes.plot(ends, near, color="k", linewidth=1, linestyle="--", zorder=4)
+    axes.axhline(0, color="k", linewidth=0.7)
+    axes.axhline(scaling.EXACT_PUNCH - 1, color="0.4", linewidth=0.8, linestyle=":")
+    axes.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    axes.set(xscale="log", xlabel=FORCE_LABEL, ylabel="surfaces over lines, $k_{3D}/k_{1D} - 1$")
     return figure
 
 

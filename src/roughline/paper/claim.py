@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from roughline.plot.style import dimension_label
@@ -85,9 +85,13 @@ class Numbers:
             return undecided_claim(statement, basis, needed)
         sentence = found.replace("{}", self.with_places)
         cases = self.judge(allowed)
-        return Claim.of(
-            statement, sentence, self.intervals, cases, basis, in_range(allowed, self.form)
-        )
+        words = in_range(allowed, self.form)
+        claim = Claim.of(statement, sentence, self.intervals, cases, basis, words)
+        return self.drawn_with(claim, allowed)
+
+    def drawn_with(self, claim: Claim, allowed: Range) -> Claim:
+        """Return a claim with these numbers, and the range that it allows for each."""
+        return replace(claim, numbers=self.known, within=allowed)
 
 
 def undecided_claim(statement: str, basis: str, needed: str) -> Claim:

@@ -21,7 +21,6 @@ from roughline.paper.contact_area import SATURATED, saturation
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_REDUCED
 from roughline.paper.stated import EXPONENT_TOLERANCE, STIFFNESS_TOLERANCE
 from roughline.paper.windows import WINDOW_AREA
-from roughline.report.page import Section, Table
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Claim, Verdict, around, joint_verdict, verdict
@@ -59,33 +58,6 @@ def judge_claims(results: PaperResults) -> list[Claim]:
     return found
 
 
-def claims_section(claims: list[Claim]) -> Section:
-    """Return the table of the claims, and how they are judged."""
-    header = (
-        *("The paper says", "Found here", "95 % interval", "Allowed"),
-        *("Window, averaging, grid", "Verdict"),
-    )
-    rows = [
-        (each.statement, each.found, each.interval, each.allowed, each.basis, each.cases)
-        for each in claims
-    ]
-    return Section(
-        "The paper's claims",
-        tables=[Table(header, rows, verdict=5)],
-        note=(
-            "Confirmed: the whole 95 % interval lies within what the claim allows. Refuted: "
-            "the whole interval lies outside. Undecided: it lies partly within, and this sample "
-            "does not decide. "
-            f"The tolerance of an exponent is {EXPONENT_TOLERANCE:g}, that of a stiffness "
-            f"or a height {STIFFNESS_TOLERANCE:.0%}; a claim about every D_f is refuted by one. "
-            "The intervals are studentised, from resampled realisations; they do not include the "
-            "effect of another window or another average, so both are stated with them. "
-            "The paper does not state its windows. Not judged: definitions, what the paper "
-            "reports of others' work, and what its Fig. 1 is meant to show."
-        ),
-    )
-
-
 def _area_is_linear(results: PaperResults) -> Claim:
     """Judge whether the real area is proportional to the force; give κ of both areas."""
     exponents = Numbers.of(results.laws, lambda laws: laws.corrected.exponent)
@@ -104,15 +76,17 @@ def _area_is_linear(results: PaperResults) -> Claim:
 def _equal_moments(results: PaperResults) -> Claim:
     """Judge whether eq. 7 gives the line the rms height of the surface, on the same lattice."""
     ratios = Numbers.of(results.laws, _rms_height_of_line_over_surface)
-    return Claim.of(
+    allowed = around(1, STIFFNESS_TOLERANCE)
+    claim = Claim.of(
         "C_1D = π q C_2D gives the line the surface's rms roughness and moments (eq. 7)",
         "as integrals they are equal; as sums over the waves of a body of length L = 2π/q_0 the "
         f"rms height of the line over that of the surface is {ratios.with_places}",
         "exact",
-        ratios.judge(around(1, STIFFNESS_TOLERANCE)),
+        ratios.judge(allowed),
         "waves from q_0 to 128 q_0; no average",
-        in_range(around(1, STIFFNESS_TOLERANCE), ".2f"),
+        in_range(allowed, ".2f"),
     )
+    return ratios.drawn_with(claim, allowed)
 
 
 def _rms_height_of_line_over_surface(laws: DimensionLaws) -> IntervalEstimate:
@@ -190,9 +164,13 @@ def _saturates_early(results: PaperResults) -> Claim:
             "depends on the grid, and is less the finer the grid is"
         )
         every += there.known.values()
-    together = joint_verdict(verdict(area.low, area.high, 0, _LARGEST_SMALL_AREA) for area in every)
+    small = (0.0, _LARGEST_SMALL_AREA)
+    together = joint_verdict(verdict(area.low, area.high, *small) for area in every)
     allowed = f"up to {_LARGEST_SMALL_AREA:.0%}"
-    return exact_claim(statement, found, basis, together, interval=areas.intervals, allowed=allowed)
+    claim = exact_claim(
+        statement, found, basis, together, interval=areas.intervals, allowed=allowed
+    )
+    return areas.drawn_with(claim, small)
 
 
 def _saturates_with_all_springs(results: PaperResults) -> Claim:

@@ -166,7 +166,9 @@ def _reduced_ends(model: _ModelResults) -> Claim:
     if elsewhere:
         found += f"; in other windows {min(elsewhere):.3f} to {max(elsewhere):.3f} at the latter"
     allowed = f"± {EXPONENT_TOLERANCE:g} of {', '.join(f'{x:g}' for x in REDUCED_ENDS.values())}"
-    return Claim.of(statement, found, ends.intervals, off.judge(_NO_CHANGE), model.basis, allowed)
+    judged = off.judge(_NO_CHANGE)
+    claim = Claim.of(statement, found, ends.intervals, judged, model.basis, allowed)
+    return off.drawn_with(claim, _NO_CHANGE)
 
 
 def _great_accuracy(model: _ModelResults) -> Claim:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,16 +11,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.gridspec import SubplotSpec
 
 from roughline.contact import scaling
-from roughline.paper.added_figures import added_drawings
 from roughline.paper.mean_curve import mean_curve
+from roughline.paper.stated import REDUCED_ENDS
 from roughline.plot.pixels import show_map
 from roughline.plot.style import (
     COLUMN,
     FORCE_LABEL,
-    PAGE,
     SHADE,
     colours,
     dimension_label,
@@ -48,14 +47,19 @@ _OPEN_MARKS = (
     "fewer than ten springs or cells are in contact, so that the grid decides. The shaded range "
     "is the window of the fit."
 )
-_BLOCKS = 128  # along a side, of the contact in a small picture
-_COUNTS = ("no", "one", "two", "three", "four")
+_BLOCKS = 128  # along a side, of the contact in a picture
 _CAPTIONS = {
-    "figure_1": (
-        "Figure 1",
-        "Fractal surfaces of {bodies}: rough line, topography, real contact area "
-        "and deflection of the half-space under the force F̄ = {force_bar:g}. Line and surface of "
-        "a row are one realisation each, with random phases that all rows share.",
+    "both_models": (
+        "Both models",
+        "Stiffness over force, six fractal dimensions at once: surfaces (3D) and lines (1D), which "
+        "have the waves of the surfaces and no shorter ones where there are such lines. Bands and "
+        "bars are 95 % intervals of the mean; marks are open where fewer than ten cells touch.",
+    ),
+    "difference": (
+        "Their difference",
+        "How much stiffer surfaces are than lines with the same waves; bands are 95 % intervals. "
+        "Excellent agreement would be curves within the dashed box. Near saturation the models "
+        "must differ, by 15.2 % (dotted).",
     ),
     "figure_2": (
         "Figure 2",
@@ -84,12 +88,6 @@ _CAPTIONS = {
         "area and of the cells in contact; all loads of the shaded window are weighted equally. "
         "The slope is that of the grid (forward differences).",
     ),
-    "models_compared": (
-        "Both models",
-        "Left: raw stiffness k / (E* L); open marks where fewer than ten cells touch. The lines "
-        "have the waves of the surfaces and no shorter ones. Right: relative difference of the "
-        "means with 95 % intervals. Near saturation the models must differ, by 15.2 % (dotted).",
-    ),
     "grid_convergence": (
         "The influence of the grid",
         "One surface for each fractal dimension, computed on several grids: every grid carries all "
@@ -97,97 +95,90 @@ _CAPTIONS = {
         "Heights are scaled to rms 1 on each grid.",
     ),
 }
+_IN_THE_PAPER = {
+    "figure_2": "The same drawing of a line: springs in contact, and the force as an area.",
+    "figure_3": (
+        "The same six D_f and the mean of 500 lines: a power law with α from 0.5 at D_f = 2 to "
+        "0.75 at D_f = 3 (dash-dotted here), then saturation when all springs touch."
+    ),
+    "figure_4": (
+        "The same six D_f and the mean of 60 surfaces: α ≈ 0.2567 D_f, from 0.51 to 0.77 "
+        "(dash-dotted here), then saturation at 1, which the paper says is the square punch."
+    ),
+    "figure_5": (
+        "Both models, 0.2567 D_f and 1 / (4 - D_f), which is said to match extremely well up to "
+        "D_f = 2.6. Of the lines the text gives 0.5 and 0.75 (stars here)."
+    ),
+}
+"""What the paper's own figures show."""
 
 
-def draw_pictures(results: PaperResults, folder: Path) -> list[Picture]:
-    """Draw every figure that the results allow, and write it to a folder as PNG and PDF."""
+def draw_pictures(drawings: Mapping[str, Callable[[], Figure]], folder: Path) -> list[Picture]:
+    """Draw figures, by the names of their files, to a folder as PNG and PDF."""
     folder.mkdir(parents=True, exist_ok=True)
-    caption_words: dict[str, object] = {}
-    if (gallery := results.gallery) is not None:
-        count = gallery.sizes["fractal_dimension"]
-        caption_words["force_bar"] = gallery.attrs["force_bar"]
-        caption_words["bodies"] = f"{_COUNTS[count]} fractal dimension{'s' if count > 1 else ''}"
     pictures = []
     with styled():
-        for file_name, draw in _drawings(results).items():
+        for file_name, draw in drawings.items():
             png, _ = save(draw(), folder, file_name)
             name, caption = _CAPTIONS[file_name]
-            pictures.append(Picture(png, name, caption.format(**caption_words)))
+            beside = _IN_THE_PAPER.get(file_name, "")
+            pictures.append(Picture(png, name, caption, beside and f"In the paper: {beside}"))
     return pictures
 
 
-def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
-    """How each figure is drawn, by the name of its file and in the order of the page."""
+def draw_bodies(gallery: xarray.Dataset, folder: Path) -> list[Picture]:
+    """Draw Figure 1, a body in each picture, as PNG and PDF."""
+    folder.mkdir(parents=True, exist_ok=True)
+    pictures = []
+    with styled():
+        for row, contact in enumerate(gallery.contact):
+            name = body_name(gallery, row)
+            png, _ = save(body_figure(gallery, row), folder, f"figure_1{name[0]}")
+            pictures.append(
+                Picture(png, f"Figure 1 {name}", f"{float(contact.mean()):.1%} of the area touch.")
+            )
+    return pictures
+
+
+def paper_drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
+    """How the paper's Figures 2 to 5 are drawn, by the names of their files."""
     reduced, full, gallery, laws = results.reduced, results.full, results.gallery, results.laws
     windows = results.windows
     dimensions = full.fractal_dimension.values
     drawings: dict[str, Callable[[], Figure]] = {}
     if gallery is not None:
-        drawings["figure_1"] = lambda: _figure_1(gallery)
         drawings["figure_2"] = lambda: indented_figure(gallery)
     drawings["figure_3"] = lambda: _figure_3(reduced, dimensions, windows.reduced)
     drawings["figure_4"] = lambda: _figure_4(full, windows.full)
     drawings["figure_5"] = lambda: _figure_5(results.exponents, laws, windows.full)
-    return drawings | added_drawings(results)
-
-
-def _figure_1(gallery: xarray.Dataset) -> Figure:
-    """Draw rough line, surface, real contact area and deflection for each fractal dimension."""
-    rows = gallery.sizes["fractal_dimension"]
-    figure = new_figure(PAGE, 1.75 * rows)
-    grid = figure.add_gridspec(rows, 4, width_ratios=[1.15, 1.25, 1, 1.2])
-    for row in range(rows):
-        places = [grid[row, column] for column in range(4)]
-        _draw_body(figure, places, gallery, row, is_last=row == rows - 1)
-    return figure
+    return drawings
 
 
 def body_figure(gallery: xarray.Dataset, row: int) -> Figure:
-    """Draw one row of Figure 1 alone, two pictures abreast."""
+    """Draw a row of Figure 1: rough line, surface, real contact area and deflection.
+
+    The contact is shown in blocks, those that have some of it in black.
+    """
     figure = new_figure(4.4, 4.2)
     grid = figure.add_gridspec(2, 2, width_ratios=[1, 1.15])
-    _draw_body(
-        figure, [grid[i // 2, i % 2] for i in range(4)], gallery, row, is_last=True, blocks=_BLOCKS
-    )
-    return figure
-
-
-def body_name(gallery: xarray.Dataset, row: int) -> str:
-    """Name a row of Figure 1 by its letter; "a) D_f = 2" is the first."""
-    return f"{'abcdefgh'[row]}) D_f = {_as_fraction(float(gallery.fractal_dimension[row]))}"
-
-
-def _draw_body(
-    figure: Figure,
-    places: list[SubplotSpec],
-    gallery: xarray.Dataset,
-    row: int,
-    *,
-    is_last: bool,
-    blocks: int = 0,
-) -> None:
-    """Draw one row of Figure 1; axes along x are named in the last.
-
-    A small picture shows the contact in blocks, those that have some of it in black.
-    """
     body, deepest = gallery.isel(fractal_dimension=row), float(gallery.displacement.max())
     look: Any = {"sides": (1.0, 1.0), "interpolation": "nearest"}
     marks = LinearSegmentedColormap.from_list("", [mpl.rcParams["axes.facecolor"], ink()])
-    line = figure.add_subplot(places[0])
+    line = figure.add_subplot(grid[0, 0])
     position = np.arange(body.sizes["s"]) / body.sizes["s"]
     line.plot(position, body.line_heights, color=ink(), linewidth=0.4)
     line.set(xlim=(0, 1), ylim=(-3.6, 3.6), ylabel="height $z/h$")
     line.set_title(body_name(gallery, row).replace("D_f", " $D_f$"), loc="left")
-    _draw_topography(figure.add_subplot(places[1], projection="3d"), body.heights.values)
-    contact = figure.add_subplot(places[2])
+    _draw_topography(figure.add_subplot(grid[0, 1], projection="3d"), body.heights.values)
+    contact = figure.add_subplot(grid[1, 0])
     touched = body.contact.values
-    if blocks and touched.shape[0] % blocks == 0:
-        side = touched.shape[0] // blocks
-        touched = touched.reshape(blocks, side, blocks, side).max(axis=(1, 3)) > 0
+    if touched.shape[0] % _BLOCKS == 0:
+        side = touched.shape[0] // _BLOCKS
+        touched = touched.reshape(_BLOCKS, side, _BLOCKS, side).max(axis=(1, 3)) > 0
     show_map(contact, touched, cmap=marks, **look)
     fraction = float(body.contact.mean())
     contact.set_title(f"contact {fraction:.1%}", fontsize=8)
-    deflection = figure.add_subplot(places[3])
+    deflection = figure.add_subplot(grid[1, 1])
     image = show_map(
         deflection, body.displacement.values, cmap="cividis", vmin=0, vmax=deepest, **look
     )
@@ -195,9 +186,14 @@ def _draw_body(
     for axes in (contact, deflection):
         axes.set(xticks=[0, 1], yticks=[0, 1])
     contact.set_ylabel("$y/L$", labelpad=-6)
-    if is_last:
-        for axes in (line, contact, deflection):
-            axes.set_xlabel("$x/L$")
+    for axes in (line, contact, deflection):
+        axes.set_xlabel("$x/L$")
+    return figure
+
+
+def body_name(gallery: xarray.Dataset, row: int) -> str:
+    """Name a row of Figure 1 by its letter; "a) D_f = 2" is the first."""
+    return f"{'abcdefgh'[row]}) D_f = {_as_fraction(float(gallery.fractal_dimension[row]))}"
 
 
 def indented_figure(gallery: xarray.Dataset) -> Figure:
@@ -241,7 +237,8 @@ def _figure_3(reduced: xarray.Dataset, dimensions: Real, window: ForceWindow) ->
     """
     shared = np.isclose(reduced.fractal_dimension.values[:, np.newaxis], dimensions).any(axis=1)
     chosen = reduced.isel(fractal_dimension=shared) if shared.any() else reduced
-    figure = _stiffness_figure(chosen, 1.0, r"stiffness $\bar k_{1D} = k\,/\,(E^* L)$", window)
+    label = r"stiffness $\bar k_{1D} = k\,/\,(E^* L)$"
+    figure = _stiffness_figure(chosen, 1.0, label, window, REDUCED_ENDS)
     figure.axes[0].axhline(1, color="0.4", linewidth=0.8, linestyle=":")
     return figure
 
@@ -249,7 +246,8 @@ def _figure_3(reduced: xarray.Dataset, dimensions: Real, window: ForceWindow) ->
 def _figure_4(full: xarray.Dataset, window: ForceWindow) -> Figure:
     """Draw the stiffness over force of the full model, k / (1.1419 E* L)."""
     label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
-    figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, window)
+    stated = {dimension: linear_exponent(dimension) for dimension in (2.0, 3.0)}
+    figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, window, stated)
     exact = scaling.EXACT_PUNCH / scaling.PAPER_PUNCH
     figure.axes[0].set_ylim(top=1.6)
     figure.axes[0].axhline(exact, color="0.4", linewidth=0.8, linestyle=":")
@@ -298,6 +296,7 @@ def _figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: Forc
         linewidth=1,
         label=f"3D, {_window_label(window)}",
     )
+    axes.plot(*zip(*REDUCED_ENDS.items(), strict=True), "k*", markersize=7, label="1D, the paper")
     axes.set(xlabel="fractal dimension $D_f$", ylabel=r"exponent $\alpha$")
     lowest = np.nanmin([0.42, *low, *np.ravel(exponents.low)])
     highest = np.nanmax([1.0, *high, *np.ravel(exponents.high)])
@@ -307,9 +306,18 @@ def _figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: Forc
 
 
 def _stiffness_figure(
-    data: xarray.Dataset, punch: float, label: str, window: ForceWindow
+    data: xarray.Dataset,
+    punch: float,
+    label: str,
+    window: ForceWindow,
+    stated: Mapping[float, float],
 ) -> Figure:
-    """Draw the mean stiffness with its standard error; dashed where the grid does not resolve."""
+    """Draw the mean stiffness with its standard error; dashed where the grid does not resolve.
+
+    Exponents that the paper states, by fractal dimension, are slopes through the window's middle.
+    """
+    middle = math.sqrt(window[0] * window[1])
+    around = np.geomspace(window[0] / 3, window[1] * 3, 2)
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
     axes.axvspan(*window, **SHADE)
@@ -329,6 +337,10 @@ def _stiffness_figure(
             label=dimension_label(dimension),
         )
         axes.loglog(force[~resolved], mean[~resolved], color=colour, linewidth=0.8, linestyle="--")
+        if dimension in stated:
+            level = np.interp(middle, force, mean)
+            slope = level * (around / middle) ** stated[dimension]
+            axes.loglog(around, slope, color="0.35", linewidth=0.8, linestyle="-.", zorder=3)
     axes.set(xlabel=FORCE_LABEL, ylabel=label)
     label_decades(axes)
     legend_dimensions(axes, dimensions)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -172,12 +172,18 @@ def _left_out(data: xarray.Dataset | None, window: ForceWindow) -> int:
 def dimension_law(
     data: xarray.Dataset | None, window: ForceWindow, averaging: Averaging = "arithmetic"
 ) -> PowerLaw:
-    """Return the power law of one fractal dimension; all NaN where there is nothing to fit."""
+    """Return the power law of one fractal dimension; all NaN where there is nothing to fit.
+
+    That of one realisation has no intervals: it does not tell how far another would differ.
+    """
+    none = (np.nan, np.nan)
     if data is None or not is_fitted(data, window):
-        none = (np.nan, np.nan)
         return PowerLaw(np.nan, np.nan, none, none, window, 0, 0, 0.95, "nothing", averaging)
     stiffness = converged_stiffness(data, window)
-    return fit_power_law(data.force_bar.values, stiffness, window, averaging=averaging)
+    law = fit_power_law(data.force_bar.values, stiffness, window, averaging=averaging)
+    if law.realisations == 1:
+        return replace(law, exponent_interval=none, prefactor_interval=none)
+    return law
 
 
 def at_dimension(data: xarray.Dataset | None, dimension: float) -> xarray.Dataset | None:

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughline.campaign.export import mean_table, write_netcdf
-from roughline.paper.claims import claims_section, judge_claims
-from roughline.paper.figures import draw_pictures
+from roughline.paper.added_figures import added_drawings, first_drawings
+from roughline.paper.claims import judge_claims
+from roughline.paper.claims_section import claims_section
+from roughline.paper.figures import draw_bodies, draw_pictures, paper_drawings
+from roughline.paper.findings import findings, lone_bodies
 from roughline.paper.laws import dimension_law
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
+from roughline.paper.results import larger_study
 from roughline.paper.roles import departures
 from roughline.paper.sensitivity import sensitivity_section
 from roughline.paper.tables import constant_table, estimate_cell, exponent_table, number_cell
 from roughline.paper.windows import MEDIUM_FORCE, WINDOW_AREA
 from roughline.plot.style import dimension_label
-from roughline.report.page import Section, Table, render
+from roughline.report.page import Headline, Section, Table, render
 from roughline.statistics.averages import relative_difference
 from roughline.statistics.bootstrap import IntervalEstimate
 
@@ -28,45 +34,79 @@ if TYPE_CHECKING:
     from roughline.paper.windows import ForceWindow
     from roughline.statistics.verdict import Claim
 
+_BODIES = (
+    "Rough line, topography, real contact area (dark: cells, or squares of 1/128 of the side, with "
+    "some contact) and deflection of the half-space under F̄ = {:g}. In the paper: the same four of "
+    "D_f = 2, 7/3, 8/3 and 3. Its phases are random and not given, so that patches are alike in "
+    "kind and not in place; here all bodies share their phases."
+)
+_OTHER_FIGURES = "the area law, and the influence of the grid"
+_COLUMNS = ("statement", "found", "interval", "basis", "verdict", "cases", "allowed")  # of claims
 _GRID_FORCES = (0.01, 0.1, 1.0)  # at which surfaces on two grids are compared
 
 
-def write_page(results: PaperResults, out: Path) -> Path:
-    """Write figures, data and ``report.html`` of a study into a folder, and return the page."""
-    title, lead, sections = compose(results, out)
+@dataclass(frozen=True)
+class StudyPage:
+    """The page of a study, section by section; its figures and data are written."""
+
+    title: str
+    lead: str
+    sections: Sequence[Section]
+    headline: Headline
+
+
+def write_page(results: PaperResults, out: Path) -> tuple[Path, Headline]:
+    """Write figures, data and ``report.html`` of a study into a folder.
+
+    Returns the file, and with what the page begins.
+    """
+    found = compose(results, out)
     page = out / "report.html"
-    page.write_text(render(title, lead, sections), encoding="utf-8")
-    return page
+    text = render(found.title, found.lead, found.sections, headline=found.headline)
+    page.write_text(text, encoding="utf-8")
+    return page, found.headline
 
 
-def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
-    """Draw the figures and write the data of a study; return title, lead and sections."""
-    claims = judge_claims(results)
-    pictures = draw_pictures(results, out / "figures")
+def compose(results: PaperResults, out: Path) -> StudyPage:
+    """Draw the figures and write the data of a study; return its page."""
+    claims, more = judge_claims(results), larger_study(results)
+    folder = out / "figures"
+    first = draw_pictures(first_drawings(results), folder)
+    of_paper = draw_pictures(paper_drawings(results), folder)
+    bodies = []
+    if (gallery := results.gallery) is not None:
+        words = [_BODIES.format(gallery.attrs["force_bar"])]
+        bodies = [Section("Figure 1: bodies", words, abreast=draw_bodies(gallery, folder))]
+    others = draw_pictures(added_drawings(results), folder)
     _write_data(out / "data", results, claims)
-    title = "The paper, recomputed: reduction method and 3D boundary elements"
-    lead = (
-        f"Normal contact of fractal rough surfaces in two models, recomputed with roughline "
-        f"{results.version} {results.name}. The paper is R. Pohrt and V. L. Popov, Investigation "
-        "of the dry normal contact between fractal rough surfaces using the reduction method, "
-        "comparison to 3D simulations, Physical Mesomechanics 15 (2012)."
+    return StudyPage(
+        title="The paper, recomputed: reduction method and 3D boundary elements",
+        lead=(
+            f"Normal contact of fractal rough surfaces in two models, recomputed with roughline "
+            f"{results.version} {results.name}. The paper is R. Pohrt and V. L. Popov, Physical "
+            "Mesomechanics 15 (2012): Investigation of the dry normal contact between fractal "
+            "rough surfaces using the reduction method, comparison to 3D simulations."
+        ),
+        sections=[
+            *bodies,
+            Section("Figures 2 to 5, beside the paper's", pictures=of_paper),
+            claims_section(claims, judge_claims(more) if more else ()),
+            _exponents_section(results),
+            sensitivity_section(results),
+            *_other_grid_sections(results),
+            Section("Other figures", pictures=others, behind=_OTHER_FIGURES),
+            _methods_section(results),
+        ],
+        headline=Headline(findings(results, more), lone_bodies(results), pictures=first),
     )
-    sections = [
-        claims_section(claims),
-        _exponents_section(results),
-        sensitivity_section(results),
-        *_other_grid_sections(results),
-        Section("Figures", pictures=pictures),
-        _methods_section(results),
-    ]
-    return title, lead, sections
 
 
 def _exponents_section(results: PaperResults) -> Section:
     windows = results.windows
     return Section(
         "Exponents and constants",
-        [
+        behind="α, ζ and κ of each fractal dimension, with their intervals",
+        paragraphs=[
             f"k̄ = ζ F̄^α with raw k̄ = k / (E* L); windows F̄ = {windows.reduced[0]:g} to "
             f"{windows.reduced[1]:g} (1D) and {windows.full[0]:g} to {windows.full[1]:g} (3D). "
             "All loads of a window are weighted equally: exponents and prefactors are least "
@@ -101,7 +141,8 @@ def _other_grid_sections(results: PaperResults) -> list[Section]:
     return [
         Section(
             "The same surfaces on two grids",
-            [
+            behind="what a finer grid changes",
+            paragraphs=[
                 "The phases are the same, and the finer grid has more detail. Ratios of means with "
                 "95 % intervals, from resampled pairs; α of the mean in the window of the full "
                 "model."
@@ -114,7 +155,8 @@ def _other_grid_sections(results: PaperResults) -> list[Section]:
 def _methods_section(results: PaperResults) -> Section:
     return Section(
         "What was computed, and how",
-        [
+        behind="bodies, seeds, and how to repeat it",
+        paragraphs=[
             "Surfaces are rigid punches, a square with free borders pressed into an elastic "
             "half-space; they are solved with every interaction, the stiffness is the exact "
             "tangent dF/dd, and all residuals are certified below 1e-6. Lines lie on "
@@ -254,4 +296,6 @@ def _write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> Non
     ):
         frame = pd.DataFrame(table.rows, columns=list(table.header))
         frame.to_csv(folder / f"{name}.csv", index=False)
-    pd.DataFrame([vars(claim) for claim in claims]).to_csv(folder / "claims.csv", index=False)
+    pd.DataFrame(map(vars, claims), columns=list(_COLUMNS)).to_csv(
+        folder / "claims.csv", index=False
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from importlib.resources import files
 from pathlib import Path
@@ -13,7 +13,7 @@ from roughline.campaign.layout import CASE_STATUS, PENDING
 from roughline.errors import StoreError
 from roughline.paper.gallery import gallery_in
 from roughline.paper.laws import DimensionLaws, at_dimension, dimension_laws, exponent_table
-from roughline.paper.roles import chosen_roles
+from roughline.paper.roles import chosen_roles, departures
 from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
@@ -151,6 +151,23 @@ def published_results() -> PaperResults:
         other_grid=published_dataset("coarse"),
         computing=Computing(**json.loads(text)),
     )
+
+
+def larger_study(results: PaperResults) -> PaperResults | None:
+    """Return the study that comes with the package, in the windows of another one of its bodies.
+
+    None where the bodies differ in more than grid and number, or this one is not smaller.
+    """
+    ours, published = (results.full, results.reduced), published_results()
+    theirs = (published.full, published.reduced)
+    if any(departures(each.attrs) for each in ours) or all(
+        one.attrs["n"] >= more.attrs["n"] and one.sizes["realisation"] >= more.sizes["realisation"]
+        for one, more in zip(ours, theirs, strict=True)
+    ):
+        return None
+    if results.windows == published.windows:
+        return published
+    return replace(published, windows=results.windows)
 
 
 @cache

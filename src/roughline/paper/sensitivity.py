@@ -56,7 +56,8 @@ def sensitivity_section(results: PaperResults) -> Section:
     }
     return Section(
         "How much α depends on the window and on the averaging",
-        [
+        behind="three windows, three averages, and the longest window of a power law",
+        paragraphs=[
             "Exponents by least squares of the logarithms: of the arithmetic mean of k at "
             "fixed force, of its geometric mean, and of the means of k and of F at fixed "
             "level of the rigid plane, where the highest realisations dominate. The automatic "

@@ -17,6 +17,7 @@ from roughline.paper.windows import Windows
 if TYPE_CHECKING:
     from roughline.campaign.plan import Plan
     from roughline.paper.gallery import Gallery
+    from roughline.report.page import Headline
 
 
 @dataclass(frozen=True)
@@ -34,8 +35,10 @@ class Study:
     gallery: Gallery | None = None  # bodies for Figures 1 and 2
 
 
-def recompute(study: Study, out: Path, **how: Any) -> Path:
-    """Run a study, or what is left of it, write its report into a folder, and return the page.
+def recompute(study: Study, out: Path, **how: Any) -> tuple[Path, Headline]:
+    """Run a study, or what is left of it, and write its report into a folder.
+
+    Returns the page, and with what it begins.
 
     The other arguments are those of :func:`roughline.campaign.run`. A study without both surfaces
     and lines is refused, and so is a folder that cannot be written, or holds another study.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -14,12 +15,12 @@ from roughline.contact.arguments import LARGEST_NUMBER
 from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.material import Material
 from roughline.engineering.materials import material
-from roughline.engineering.pair import contact_modulus
+from roughline.engineering.pair import MaterialPair, contact_modulus
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called, speaking
 from roughline.topography.body import Body, Line, Surface
-from roughline.units import as_si, load_in_newtons, refuse_decimal_comma
+from roughline.units import MOST_DIGITS, as_si, engineering, load_in_newtons, refuse_decimal_comma
 
 
 def several(given: Any) -> tuple[Any, ...]:
@@ -105,6 +106,30 @@ def refuse_unless_one_modulus(E_star: Any, materials: Any) -> None:
             f"give either a contact modulus ({called('E_star')}) or two materials "
             f"({called('materials')})"
         )
+
+
+def refuse_unless_one_load(loads: Any, depths: Any) -> None:
+    """Refuse forces beside depths, and neither of them."""
+    if bool(loads) == bool(depths):
+        raise InputError(
+            f"give forces, {called('loads', '10 N')}, or depths, {called('depths', '1 um')}, one "
+            "of the two"
+        )
+
+
+def given_pair(
+    materials: tuple[Solid, Solid] | None, hardness: float | None
+) -> MaterialPair | None:
+    """Both materials with the hardness that is given, unless that is infinite; None without."""
+    if materials is None:
+        return None
+    pair = MaterialPair(*materials)
+    return pair if hardness in (None, math.inf) else pair.with_hardness(hardness)
+
+
+def called_by(given: Iterable[float | str], unit: str, digits: int = MOST_DIGITS) -> list[str]:
+    """What quantities are called: as they were typed, or with their SI unit."""
+    return [each if isinstance(each, str) else engineering(each, unit, digits) for each in given]
 
 
 def read_pair(given: str | Sequence[Solid | str] | None) -> tuple[Solid, Solid] | None:

@@ -12,16 +12,16 @@ from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated
 from roughline.engineering.sealing import Fluid
 from roughline.errors import InputError
-from roughline.errors.checks import allowed_choice, number, refuse
+from roughline.errors.checks import allowed_choice, refuse
 from roughline.errors.public import public
 from roughline.errors.words import called
+from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.laws.dugdale import Dugdale
 from roughline.halfspace.laws.exponential import Exponential
 from roughline.question.arguments import quantity, several
 from roughline.question.fields import asked_in
 from roughline.units import engineering
 
-_MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4
 _LARGEST_JOINT = 1e6  # [m²]
 _AREA_ROUNDING = 1e-9  # of the area of a map, which is a product of its sides
 
@@ -29,14 +29,6 @@ _AREA_ROUNDING = 1e-9  # of the area of a map, which is a product of its sides
 def _attraction(given: float | str | Dugdale | Exponential | Attraction) -> Attraction:
     """How bodies attract each other."""
     return Attraction.of(given)
-
-
-def _coefficient(given: float) -> float:
-    """A coefficient of friction that two bodies may have."""
-    needed = f"a number above 0 and up to {_MOST_FRICTION:g} is needed, such as 0.3"
-    if not 0 < number("friction", given, needed) <= _MOST_FRICTION:
-        refuse("friction", given, needed)
-    return float(given)
 
 
 def _frequency(given: float | str) -> float:
@@ -91,33 +83,6 @@ class Adhesion:
                 None,
                 "adhesion",
                 "closure",
-            )
-
-
-@public
-@frozen
-class Friction:
-    """Coulomb friction between the bodies, asked for partial slip at the largest load.
-
-    Parameters
-    ----------
-    coefficient : float
-        Coefficient of friction, above 0 and up to 5. [1]
-    """
-
-    coefficient: float = field(converter=_coefficient)
-
-    def refuse_layers(self, coated: Sequence[Coated]) -> None:
-        """Refuse partial slip of coated bodies."""
-        for each in coated:
-            friction = called("rl.Friction")
-            raise InputError(
-                f"partial slip ({friction}) follows from the ratio of tangential and normal "
-                f"stiffness of bodies of one material each, and {each.name} is coated: leave "
-                f"{friction} out",
-                None,
-                "friction",
-                "materials",
             )
 
 
@@ -236,6 +201,26 @@ def _field_names(each: Asked) -> dict[str, str]:
         return {_NEEDING_MATERIALS.get(type(each), "ask"): called(name)}
     fluid = {} if each.fluid is None else {"fluid": called("rl.Fluid")}
     return fluid | ({"closure": called("closure", True)} if each.closure else {})
+
+
+def refuse_uneven_friction(friction: Friction, coated: Sequence[Coated]) -> None:
+    """Refuse partial slip of coated bodies, and of a friction that is no single coefficient."""
+    name = called("rl.Friction")
+    if not friction.is_even:
+        raise InputError(
+            f"{name} has a strength or a field, and partial slip follows from one coefficient: "
+            "give a number such as 0.3, or press with rl.press",
+            None,
+            "friction",
+        )
+    for each in coated:
+        raise InputError(
+            f"partial slip ({name}) follows from the ratio of tangential and normal stiffness of "
+            f"bodies of one material each, and {each.name} is coated: leave {name} out",
+            None,
+            "friction",
+            "materials",
+        )
 
 
 def refuse_without_materials(ask: Iterable[Asked]) -> None:

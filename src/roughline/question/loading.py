@@ -14,9 +14,10 @@ from roughline.errors.checks import number, refuse, whole_number
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.question.arguments import called_by
 from roughline.question.kinds import nominal_area
 from roughline.topography.body import Body, side_lengths
-from roughline.units import as_si, engineering, load_in_newtons
+from roughline.units import as_si, load_in_newtons
 
 DEFAULT_LOADS = 20
 
@@ -70,13 +71,13 @@ class Loading:
     @property
     def headings(self) -> list[str]:
         """What each load or depth is called, in its order: as it was typed, or with its unit."""
-        named = [(each, "N") for each in self.loads]
-        named += [(each, "m") for each in self.depths]
-        headings = [
-            each if isinstance(each, str) else engineering(each, unit) for each, unit in named
-        ]
+        headings = called_by(self.loads, "N") + called_by(self.depths, "m")
         falling = UNLOADING if self.unload else ()
         return headings + [f"unloaded to {each:.0%}" if each else "unloaded" for each in falling]
+
+    def names_of_loads(self, asked: Sequence[int]) -> list[str]:
+        """What loads that were asked for are called: as they were typed, or their numbers."""
+        return self.headings or [str(i + 1) for i in asked]
 
     def scale(self, area: float) -> float:
         """How many times larger the joint is than a body of a nominal area [m²]; 1 without one."""

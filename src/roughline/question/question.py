@@ -17,14 +17,16 @@ from roughline.engineering.coated import Coated, Solid
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Fluid
 from roughline.errors import InputError
-from roughline.errors.checks import refuse, shown
+from roughline.errors.checks import as_number, refuse, shown
 from roughline.errors.earlier import refuse_part
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.friction.law import Friction
 from roughline.question.arguments import (
     bodies,
+    given_pair,
     modulus,
     opposite,
     quantities,
@@ -34,13 +36,13 @@ from roughline.question.arguments import (
 from roughline.question.asked import (
     Adhesion,
     Asked,
-    Friction,
     Joint,
     Theories,
     Ultrasound,
     asked,
     refuse_on_line,
     refuse_on_strip,
+    refuse_uneven_friction,
     refuse_without_materials,
 )
 from roughline.question.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
@@ -209,7 +211,7 @@ class Question:
         if self.materials is None:
             refuse_without_materials(self.ask)
         refuse_unless_one_modulus(self.E_star, self.materials)
-        self._asked(Friction, lambda asked: asked.refuse_layers(self.coated))
+        self._asked(Friction, lambda asked: refuse_uneven_friction(asked, self.coated))
         self._asked(Adhesion, lambda asked: asked.refuse_beside(self.ask, yields=self._yields))
         if self.is_of_several:
             self._refuse_maps()
@@ -234,7 +236,7 @@ class Question:
     @property
     def friction(self) -> float | None:
         """Coefficient of friction that partial slip is asked for. [1]"""
-        return self._asked(Friction, lambda asked: asked.coefficient)
+        return self._asked(Friction, lambda asked: as_number(asked.coefficient))
 
     @property
     def frequency_in_hertz(self) -> float | None:
@@ -284,12 +286,7 @@ class Question:
     @property
     def pair(self) -> MaterialPair | None:
         """Both materials, with the hardness that is given; None without materials."""
-        if self.materials is None:
-            return None
-        pair = MaterialPair(*self.materials)
-        if self.hardness is None or self.hardness == math.inf:
-            return pair
-        return pair.with_hardness(self.hardness)
+        return given_pair(self.materials, self.hardness)
 
     @property
     def half_space(self) -> HalfSpace:

@@ -8,7 +8,6 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, NamedTuple
@@ -111,19 +110,25 @@ class Revolution:
         return self._lines[0], *self._at_rest(*self._lines)
 
     @cached_property
-    def _squares(self) -> Callable[[float], float]:
-        """The integral of g² over x, up to a radius."""
-        from scipy.interpolate import PchipInterpolator  # here because it loads slowly
+    def _squares(self) -> tuple[Real, Real]:
+        """Radii from zero on, and the integral of g² over x up to each."""
+        radii = np.append(0.0, self._lines[0])
+        return radii, np.append(0.0, np.cumsum(self._squares_between(radii[:-1], radii[1:])))
 
-        a, g, _ = self._lines
-        found: Callable[[float], float] = PchipInterpolator(
-            np.append(0.0, a), np.append(0.0, g**2)
-        ).antiderivative()
-        return found
+    def _squares_between(self, start: Real, end: Real) -> Real:
+        """The integrals of g² over x, by Gauss's rule of two nodes."""
+        middle, half = (start + end) / 2, (end - start) / 2
+        lines = [self.line(middle + side * half / np.sqrt(3))[0] for side in (-1, 1)]
+        return half * (lines[0] ** 2 + lines[1] ** 2)
+
+    def _squares_up_to(self, a: float) -> float:
+        radii, sums = self._squares
+        last = int(np.searchsorted(radii, a, side="right")) - 1
+        return float(sums[last] + self._squares_between(radii[last : last + 1], np.array([a]))[0])
 
     def stored(self, a: float, depth: float) -> float:
         """Energy of the springs, less the work of adhesion. [energy]"""
-        stretched = a * depth**2 - 2 * depth * self._integral(a) + float(self._squares(a))
+        stretched = a * depth**2 - 2 * depth * self._integral(a) + self._squares_up_to(a)
         return self.E_star * stretched - self.work_of_adhesion * np.pi * a**2
 
     @property

@@ -15,7 +15,7 @@ from roughline.report.terminal import print_files, print_remarks, print_table
 from roughline.units import engineering
 
 if TYPE_CHECKING:
-    from roughline.assessment.ball import PressedBall
+    from roughline.ball import PressedBall
 
 
 def print_ball(ball: PressedBall, files: Iterable[Path] = ()) -> None:

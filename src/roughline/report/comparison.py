@@ -14,7 +14,7 @@ from roughline.report.terminal import print_files, print_remarks, print_table
 from roughline.statistics.verdict import Verdict
 
 if TYPE_CHECKING:
-    from roughline.assessment.comparison import ModelComparison
+    from roughline.comparison.compared import ModelComparison
 
 
 def comparison_table(compared: ModelComparison) -> tuple[list[str], list[list[str]]]:

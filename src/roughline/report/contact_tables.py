@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
@@ -14,7 +12,7 @@ from roughline.engineering.coated import Coated
 from roughline.report.answers import starred
 from roughline.report.typeset import formula_in_symbols
 from roughline.report.values import Write, value_and_interval, with_interval
-from roughline.units import change_in_words, engineering
+from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
@@ -69,11 +67,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 
 def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of the answers' formulas, where they hold and their sources.
-
-    Where the hardness scatters, a column says how far that changes each at the largest load.
-    """
-    header, i = ["", "formula", "validity", "source"], assessment.largest
+    """Return header and rows of the answers' formulas, where they hold and their sources."""
     rows = [
         [
             f"{each.name} {each.symbol}",
@@ -83,12 +77,7 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         ]
         for each in assessment.answers.values()
     ]
-    if assessment.hardness_scatter:
-        header.append("change by scatter of hardness")
-        for row, ratios in zip(rows, assessment.hardness_scatter.values(), strict=True):
-            low, high = (float(end[i]) for end in ratios)
-            row.append("not known" if np.isnan(low) else change_in_words(low, high))
-    return header, rows
+    return ["", "formula", "validity", "source"], rows
 
 
 def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:

@@ -13,7 +13,7 @@ from roughline.report.terminal import described, print_files, print_remarks, pri
 from roughline.units import engineering
 
 if TYPE_CHECKING:
-    from roughline.assessment.creep import PressedCreep
+    from roughline.creep.question import PressedCreep
 
 
 def print_creep(pressed: PressedCreep, files: Iterable[Path] = ()) -> None:

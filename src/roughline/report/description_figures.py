@@ -22,8 +22,8 @@ from roughline.topography.files.write import write
 from roughline.units import metres_per
 
 if TYPE_CHECKING:
-    from roughline.assessment.description import Description
     from roughline.measurement.roughness import Roughness
+    from roughline.question.description import Description
     from roughline.topography.files.measurement import Measurement
     from roughline.topography.missing import MissingPattern
 

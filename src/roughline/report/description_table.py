@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from pathlib import Path
 
-    from roughline.assessment.description import Description
     from roughline.measurement.departures import Departure
     from roughline.measurement.fit import SelfAffineFit
     from roughline.measurement.roughness import Roughness
+    from roughline.question.description import Description
 
 _MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
 _SHADES = ".+#"

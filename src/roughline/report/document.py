@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -89,8 +88,6 @@ def _sections(
     is_part = isinstance(result, PartAssessment)
     body = result.assessments[0] if isinstance(result, PartAssessment) else result
     star = f"A star{'' if is_part else ' after a load'}: {UNRESOLVED}."
-    # how far the scatter of the hardness changes an answer differs between maps
-    formulas = formula_table(replace(body, hardness_scatter={}) if is_part else body)
     return [
         Section(
             "The part" if is_part else "Answers",
@@ -102,7 +99,7 @@ def _sections(
         *own,
         Section(
             "Formulas and sources",
-            tables=[Table(*formulas), Table(*symbol_table(body))],
+            tables=[Table(*formula_table(body)), Table(*symbol_table(body))],
             behind="how each answer follows, where that holds, and whose result it is",
         ),
         Section(

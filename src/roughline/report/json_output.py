@@ -20,11 +20,11 @@ from roughline.topography.body import Body, side_lengths
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
-    from roughline.assessment.comparison import ModelComparison
-    from roughline.assessment.description import Description
     from roughline.assessment.part import PartAssessment
+    from roughline.comparison.compared import ModelComparison
     from roughline.contact.measures import Measured
     from roughline.measurement.fit import SelfAffineFit
+    from roughline.question.description import Description
 
 
 def to_json(content: Mapping[str, Any]) -> str:
@@ -136,7 +136,6 @@ def _answers_json(assessment: Assessment) -> dict[str, Any]:
             "validity": each.validity,
             "source": each.source,
             "if_elastic": (elastic := assessment.elastic.get(each.key)) and elastic.values,
-            "hardness_scatter": assessment.hardness_scatter.get(each.key),
             "margins": list(map(vars, each.margins)),
         }
         for each in assessment.answers.values()

@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from importlib.resources import files
+from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from roughline.report.values import value_and_interval
 from roughline.statistics.verdict import Verdict
 
+if TYPE_CHECKING:
+    import jinja2
+
+    from roughline.report.judged import JudgedClaim
+
 
 @dataclass(frozen=True)
 class Table:
-    """A table; `numbers` are the columns set right, `verdict` is the one in colour."""
+    """A table; `numbers` are the columns set right."""
 
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
     numbers: Sequence[int] = ()
-    verdict: int | None = None
 
     @classmethod
     def with_numbers(cls, header: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
@@ -30,11 +33,12 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """A PNG with its name and caption."""
+    """A PNG with its name and caption, and what it is put beside, in words."""
 
     path: Path
     name: str
     caption: str
+    beside: str = ""
 
     @property
     def png(self) -> str:
@@ -105,19 +109,22 @@ class Section:
     note: str = ""
     notes: Sequence[str] = ()
     tables: Sequence[Table] = ()
-    pictures: Sequence[Picture] = field(default=())
+    pictures: Sequence[Picture] = ()
+    abreast: Sequence[Picture] = ()
     behind: str = ""
     verbatim: Sequence[str] = ()
     bars: Bars | None = None
+    claims: Sequence[JudgedClaim] = ()
 
 
 @dataclass(frozen=True)
 class KeyFigure:
-    """A leading answer: what it is called, its value with its unit, and its interval."""
+    """A leading answer: what it is called, its value with its unit, its interval, a sentence."""
 
     name: str
     value: str
     interval: str = ""
+    sentence: str = ""
 
     @classmethod
     def of(cls, name: str, cell: str) -> KeyFigure:
@@ -129,11 +136,12 @@ class KeyFigure:
 
 @dataclass(frozen=True)
 class Headline:
-    """What a page begins with: the first warnings, the answers that lead, a remark below them."""
+    """What a page begins with: warnings, pictures, the answers that lead, a remark below them."""
 
     figures: Sequence[KeyFigure]
     warnings: Sequence[str] = ()
     below: str = ""
+    pictures: Sequence[Picture] = ()
 
 
 def render(
@@ -144,35 +152,56 @@ def render(
     headline: Headline | None = None,
 ) -> str:
     """Return the page as HTML; `made` says when and with which version it was made."""
-    import jinja2  # here because the terminal needs none
-
-    from roughline.report.typeset import typeset
-
-    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
-    environment.filters["typeset"] = typeset
-    environment.filters["verdict_class"] = _verdict_class
-    environment.filters["value_and_interval"] = value_and_interval
-    source = files("roughline.report").joinpath("page.html.jinja").read_text(encoding="utf-8")
-    return environment.from_string(source).render(
+    return _template("page.html.jinja").render(
         title=title, lead=lead, sections=sections, made=made, headline=headline
     )
 
 
-def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: str) -> str:
+def render_markdown(
+    title: str,
+    lead: str,
+    sections: Sequence[Section],
+    folder: str,
+    headline: Headline | None = None,
+) -> str:
     """Return the page as Markdown, with its pictures in a folder beside it."""
-    parts = [f"# {title}", lead]
+    headline = headline or Headline(())
+    parts = [f"# {title}", *headline.warnings, lead]
+    parts += [_markdown_pictures(headline.pictures, folder)]
+    parts += ["\n".join(f"- {each.sentence}" for each in headline.figures)]
     for section in sections:
         parts += [f"## {section.heading}", *section.paragraphs, *section.verbatim]
         parts += ["\n".join(f"- {note}" for note in section.notes)] if section.notes else []
         parts += [markdown_table(table) for table in section.tables]
         parts += [markdown_table(section.bars.table)] if section.bars else []
-        for picture in section.pictures:
-            parts += [
-                f"![{picture.name}]({folder}/{picture.path.name})",
-                f"**{picture.name}.** {picture.caption}",
-            ]
+        parts += [_template("claims.html.jinja").render(section=section)] if section.claims else []
+        abreast = [section.abreast, *([each] for each in section.pictures)]
+        parts += [_markdown_pictures(each, folder) for each in abreast]
         parts += [section.note] if section.note else []
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(filter(None, parts)) + "\n"
+
+
+def _template(name: str) -> jinja2.Template:
+    import jinja2  # here because the terminal needs none
+
+    from roughline.report.typeset import typeset
+
+    environment = jinja2.Environment(
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        loader=jinja2.PackageLoader("roughline.report", "."),
+    )
+    environment.filters["typeset"] = typeset
+    environment.filters["verdict_class"] = _verdict_class
+    environment.filters["value_and_interval"] = value_and_interval
+    return environment.get_template(name)
+
+
+def _markdown_pictures(pictures: Sequence[Picture], folder: str) -> str:
+    """Return pictures of that folder abreast, and below them what each is put beside and shows."""
+    images = "\n".join(f"![{each.name}]({folder}/{each.path.name})" for each in pictures)
+    words = (w for x in pictures for w in (x.beside, f"**{x.name}.** {x.caption}"))
+    return "\n\n".join(filter(None, (images, *words)))
 
 
 def markdown_table(table: Table) -> str:

@@ -20,6 +20,7 @@ from functools import lru_cache
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.statistics.student import student
 
 _Statistic = Callable[[Real], tuple[Real, Real]]
 """Takes means, shape (..., loads); returns values, shape (...), and gradients, (..., loads)."""
@@ -104,8 +105,6 @@ class Resampled:
         farther of the two ends is taken. For fewer than six realisations Student's t alone is
         used.
         """
-        from scipy.special import stdtrit  # here because it loads slowly
-
         known = np.isfinite(self.value) & np.isfinite(self.error)
         varied = known & (self.error > _ERROR_ROUNDING * np.abs(self.value))
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -113,9 +112,9 @@ class Resampled:
         tails = np.array([(1 + confidence) / 2, (1 - confidence) / 2])
         # each end is one of the resamples: between two of them, one may be infinite
         resampled = np.nanquantile(steps, tails, axis=0, method="nearest")
-        student = np.array([stdtrit(self.freedom, tail) for tail in tails])
-        farther = np.maximum(resampled[0], student[0]), np.minimum(resampled[1], student[1])
-        quantiles = np.where(self.freedom < _FEWEST_FREEDOM, student, np.array(farther))
+        t = np.array([student(self.freedom, tail) for tail in tails])
+        farther = np.maximum(resampled[0], t[0]), np.minimum(resampled[1], t[1])
+        quantiles = np.where(self.freedom < _FEWEST_FREEDOM, t, np.array(farther))
         width = np.where(varied, quantiles, 0.0) * self.error
         return np.where(known, self.value - width, np.nan)
 
@@ -152,7 +151,7 @@ def means(values: Real, rng: int = 0) -> Resampled:
 def function_of_means(values: Real, statistic: _Statistic, rng: int = 0) -> Resampled:
     """Resample a smooth function of the means, with its linearised standard error.
 
-    Values, shape (realisations, loads), are all finite.
+    Values, shape (realisations, loads), are all finite. One realisation has no error.
     """
     count = values.shape[0]
     weights = _weights(count, rng)
@@ -164,11 +163,9 @@ def function_of_means(values: Real, statistic: _Statistic, rng: int = 0) -> Resa
     moves = gradient @ deviations.T
     moves -= (gradient * shift).sum(axis=1)[:, np.newaxis]
     np.square(moves, out=moves)  # in place, as these arrays are large
-    freedom = max(count - 1, 1)
+    freedom = count - 1 if count > 1 else np.nan
     errors = np.sqrt(np.einsum("ij,ij->i", weights, moves) / count / freedom)
-    return Resampled(
-        results[0], errors[0], results[1:], errors[1:], np.asarray(count - 1, dtype=np.float64)
-    )
+    return Resampled(results[0], errors[0], results[1:], errors[1:], np.asarray(float(freedom)))
 
 
 def sum_of_log_means(

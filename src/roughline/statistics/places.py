@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
+from roughline.statistics.student import student
 
 _SCATTER_ROUNDING = 1e-9  # relative scatter below which values are the same
 _AGREEMENT_CHANCE = 0.99  # of places that are alike
@@ -55,8 +56,6 @@ def average_of_places(
     count as no width where they are NaN. `at_bounds` holds what they would become at both, if
     the whole differed from the mean as much; NaN counts as no difference.
     """
-    from scipy.special import stdtrit  # here because it loads slowly
-
     at_bounds = at_bounds or (values, values)
     known = np.isfinite(values) & (values > 0)
     count = np.count_nonzero(known, axis=0)
@@ -67,8 +66,8 @@ def average_of_places(
         squares = np.where(known, (logs - centre) ** 2, 0.0).sum(axis=0)
         deviation = np.where(count > 1, np.sqrt(squares / (count - 1)), np.nan)
         deviation = np.where(deviation < _SCATTER_ROUNDING, 0.0, deviation)
-        student = stdtrit(np.maximum(count - 1, 1), (1 + confidence) / 2)
-        mean_error = student * deviation / np.sqrt(count)
+        t = student(np.maximum(count - 1, 1), (1 + confidence) / 2)
+        mean_error = t * deviation / np.sqrt(count)
         halves = [
             np.hypot(mean_error, _median_distance(np.abs(np.log(values / ends)), known))
             + _median_distance(np.abs(np.log(values / bounds)), known)

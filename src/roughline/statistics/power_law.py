@@ -16,6 +16,7 @@ from roughline.errors.public import public
 from roughline.statistics import bootstrap
 from roughline.statistics.averages import Averaging, refuse_other_settings
 from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.student import student
 from roughline.statistics.window import inside_window
 
 _Value = TypeVar("_Value", float, Real)
@@ -183,8 +184,8 @@ def _loads_in_window(
     inside = inside_window(force, window)
     if np.count_nonzero(inside) < 3:
         raise InputError(
-            f"the window {low:g} to {high:g} holds {np.count_nonzero(inside)} loads; at least 3 "
-            f"are needed: widen it (the loads span {force.min():g} to {force.max():g})"
+            f"the window {low:g} to {high:g} holds too few loads, {np.count_nonzero(inside)}; at "
+            f"least 3 are needed: widen it (the loads span {force.min():g} to {force.max():g})"
         )
     stiffness = stiffness[:, inside]
     bad = ~(np.isfinite(stiffness) & (stiffness > 0))
@@ -211,13 +212,11 @@ def _resampled_line(
 
 def _regression_line(x: Real, y: Real, confidence: float) -> list[IntervalEstimate]:
     """Slope and offset of a line, with Student's t of the scatter about it."""
-    from scipy.special import stdtrit  # here because it loads slowly
-
     slope, offset = (float(y @ weights) for weights in line_weights(x))
     freedom = x.size - 2
     variance = float(((y - offset - slope * x) ** 2).sum()) / freedom
     spread = ((x - x.mean()) ** 2).sum()
-    width = stdtrit(freedom, (1 + confidence) / 2) * np.sqrt(variance / spread)
+    width = student(freedom, (1 + confidence) / 2) * np.sqrt(variance / spread)
     offset_width = width * np.sqrt(np.mean(x**2))
     return [
         IntervalEstimate(value, float(value - half), float(value + half))

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import groupby
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from roughline.statistics.bootstrap import IntervalEstimate
 
 Range = tuple[float, float]
 """Smallest and largest number that a statement allows."""
@@ -87,6 +91,9 @@ class Claim:
     verdict: Verdict  # on the statement as a whole: one refuted case refutes it
     cases: str  # the verdict in words, case by case where the cases differ
     allowed: str = "-"  # the range that the statement allows, in words
+    # the numbers that were judged, by their cases, and that range; nothing where no range decides
+    numbers: Mapping[str, IntervalEstimate] = field(default_factory=dict)
+    within: Range = (-math.inf, math.inf)
 
     @classmethod
     def of(

@@ -11,6 +11,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.statistics.averages import Averaging, refuse_other_settings
+from roughline.statistics.student import student
 
 
 def inside_window(force_bar: Real, window: tuple[float, float]) -> Mask:
@@ -63,12 +64,10 @@ def find_window(
         raise InputError("must be positive, finite and rising: sort the loads", "force_bar")
     if not (np.isfinite(stiffness) & (stiffness > 0)).all():
         raise InputError("stiffness_bar must be positive and finite: leave other loads out")
-    from scipy.special import stdtrit  # here because it loads slowly
-
     log_force, count = np.log(force), len(stiffness)
     log_mean, moves = _log_mean(stiffness, averaging)
     tail = 1 - (1 - confidence) / 4  # Bonferroni: two tests, each of two tails
-    largest = stdtrit(count - 1, tail) / math.sqrt(count * (count - 1))
+    largest = student(count - 1, tail) / math.sqrt(count * (count - 1))
     for points in range(force.size, 4, -1):
         lengths = log_force[points - 1 :] - log_force[: force.size - points + 1]
         for first in np.argsort(-lengths, kind="stable"):

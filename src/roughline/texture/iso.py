@@ -37,13 +37,13 @@ from roughline.topography.body import (
     side_lengths,
 )
 from roughline.topography.heights import rms_deviation
+from roughline.topography.preparation import TILT_MATTERS
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 from roughline.units import in_words
 
 if TYPE_CHECKING:
     import pandas
 
-_TILT_MATTERS = 0.05  # share of the rms height above which a tilt is told
 _FEW_LENGTHS = 10  # autocorrelation lengths along a side below which the map decides them
 _COARSE_STEP = 0.02  # of the rms height, between heights that occur, from which on it is told
 
@@ -365,7 +365,7 @@ def _tilt_facts(body: Body) -> Iterator[Fact]:
     if not body.is_cut_out or rough == 0:
         return
     lower = 1 - rms_deviation(without_trend(body.heights, "tilt")) / rough
-    if lower > _TILT_MATTERS:
+    if lower > TILT_MATTERS:
         yield Fact("tilt_left", letter="S" if isinstance(body, Surface) else "R", lower=lower)
 
 

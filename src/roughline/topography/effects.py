@@ -1,4 +1,4 @@
-"""What the steps of a preparation did to the roughness."""
+"""What the steps of a preparation did: to the roughness, and beside."""
 
 from __future__ import annotations
 
@@ -56,6 +56,22 @@ def effects(body: Body) -> list[_Effect]:
     return found
 
 
+def what_was_prepared(body: Body) -> list[Fact]:
+    """Say what was corrected, masked and filled, what spikes there are, and what steps did."""
+    known, done = body.provenance, [each.fact for each in effects(body)]
+    found = [each for each in done if each.is_grave]
+    if known.corrected:
+        found.append(Fact("corrected", form=known.format, how=known.corrected))
+    if mask := known.masked:
+        found.append(Fact("masked", by=mask.by, share=mask.share, are_used=mask.are_used))
+    if fill := known.filled:
+        found.append(Fact("filled", points=fill.points, share=fill.share, method=fill.method))
+    for name in _COUNTED:
+        if points := getattr(known, name):
+            found.append(Fact(name, points=points))
+    return found + [each for each in done if not each.is_grave]
+
+
 def grave_effects(body: Body) -> tuple[Fact, ...]:
     """Warn of steps that took most of the rms height."""
     return tuple(each.fact for each in effects(body) if each.fact.is_grave)
@@ -86,3 +102,6 @@ _HOW: dict[Step, Callable[[Body], str | float | None]] = {
     "resampled": lambda body: body.provenance.resampled_to,
 }
 """How each step was done."""
+
+_COUNTED = ("filled_between_levels", "filled_before_crop", "outliers_kept", "outliers_removed")
+"""What is told by the number of points."""

@@ -36,10 +36,10 @@ from roughline.topography.effects import effects, with_effect
 from roughline.topography.line_levels import LEVELLINGS, Levelling
 from roughline.topography.low_pass import low_passed, refuse_long
 from roughline.topography.missing import Filler
-from roughline.topography.scan_lines import filled_lines_note, levelled, without_scars
+from roughline.topography.scan_lines import levelled, without_scars
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 
-_TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
+TILT_MATTERS = 0.05  # share of the rms height above which a tilt is told
 _SPIKE = 5.0  # times the scatter of neighbours
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _STEPS_NEED = {1: 14, 2: 9}  # heights at once for each, of lines and of surfaces, resampling aside
@@ -206,7 +206,9 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     (32, 32) True
     """
     found = as_prepared(body, preparation)
-    if preparation and preparation.lines and (fact := filled_lines_note(found)):
+    count = found.provenance.filled_between_levels
+    if preparation and preparation.lines and count:
+        fact = Fact("filled_between_levels", points=count)
         warnings.warn(str(fact), PreparationWarning, stacklevel=2)
     for effect in effects(found) if preparation else ():
         if effect.fact.is_grave or effect.is_idle:
@@ -231,7 +233,7 @@ def tilt_warnings(surface: Surface) -> tuple[Fact, ...]:
     if not surface.is_cut_out:
         return ()
     lower = 1 - math.sqrt(1 - _tilt_share(surface.heights, surface.rms_height))
-    if lower <= _TILT_MATTERS:
+    if lower <= TILT_MATTERS:
         return ()
     return (Fact("surface_is_tilted", lower=lower),)
 

@@ -28,7 +28,7 @@ _TURNING = -0.1
 _SCAR, _SCAR_GOES_ON = 5.0, 2.5  # times the scatter of neighbouring lines
 _SHORTEST_SCAR = 3  # points of a scar
 _WITHIN_LINES = np.array([[False, True, False]] * 3)  # which points are neighbours
-_SIGMA = 1.4826  # standard deviation of normal values over the median of their moduli
+OVER_MEDIAN = 1.4826  # standard deviation of normal values over the median of their moduli
 
 
 def levelled(body: BodyType, how: Levelling) -> BodyType:
@@ -40,12 +40,6 @@ def levelled(body: BodyType, how: Levelling) -> BodyType:
     late = {"filled_between_levels": filled} if filled and not before.filled_over_lines else {}
     level = after_step(body, heights, lines_levelled=how, **late)
     return with_effect(body, level, "levelled")
-
-
-def filled_lines_note(body: Body) -> Fact | None:
-    """Say that missing points were filled before lines were levelled; None if they were not."""
-    count = body.provenance.filled_between_levels
-    return Fact("filled_between_levels", points=count) if count else None
 
 
 def without_scars(body: BodyType) -> BodyType:
@@ -70,7 +64,7 @@ def scars(heights: Real) -> Mask:
     from scipy import ndimage  # here because it loads slowly
 
     steps = np.diff(heights, axis=1)
-    scatter = _SIGMA * float(np.median(np.abs(steps - np.median(steps))))
+    scatter = OVER_MEDIAN * float(np.median(np.abs(steps - np.median(steps))))
     marks = np.zeros(heights.shape, dtype=bool)
     up, down = steps[:, :-1], -steps[:, 1:]  # of a line above the one before, and the one after
     for sign in (1, -1):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
@@ -99,8 +100,10 @@ def refuse_unknown_trend(trend: str) -> None:
     allowed_choice("trend", trend, _DEGREES)
 
 
+@lru_cache(maxsize=32)
 def polynomials(n: int, degree: int) -> Real:
     """Return orthonormal polynomials on n even points, one a column, of all degrees up to one."""
     x = np.linspace(-1.0, 1.0, n)
     basis, _ = np.linalg.qr(np.polynomial.legendre.legvander(x, degree))
+    basis.flags.writeable = False  # it is kept
     return np.asarray(basis)

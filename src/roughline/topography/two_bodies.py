@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.topography.body import Surface
+from roughline.facts.fact import Fact
+from roughline.topography.body import Body, Surface
 from roughline.topography.provenance import Facing, Provenance, Tilt
 from roughline.topography.settings import MEASURED, Settings
 
@@ -122,3 +125,15 @@ def _on_grid_of_first(
     )
     grid = np.meshgrid(x, y, indexing="ij")
     return np.asarray(ndimage.map_coordinates(heights, grid, order=3, mode="nearest"))
+
+
+def facts_on_facing(body: Body) -> Iterator[Fact]:
+    """Say what was cropped and resampled when two surfaces were laid together."""
+    both = body.provenance.facing
+    if both is None or not isinstance(body, Surface):
+        return
+    for which, is_cropped in zip(("first", "second"), both.cropped, strict=True):
+        if is_cropped:
+            yield Fact("cropped_to_common", which=which, sides=body.sizes)
+    if both.is_resampled:
+        yield Fact("resampled_to_first", pixel=body.spacing)

@@ -36,7 +36,7 @@ def serve(connection, memory, warm_up):
 
 def echo(arguments, progress):
     """Say what was said, by which process."""
-    return f"{arguments['say']} {os.getpid()} {arguments['crowded']}".encode()
+    return f"{arguments['say']} {os.getpid()}".encode()
 
 
 def read(arguments, progress):

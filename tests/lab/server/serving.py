@@ -21,10 +21,8 @@ from tornado.netutil import bind_sockets
 from tornado.websocket import websocket_connect
 
 from reference import patience
-from roughline.lab.server.access import is_proxy
-from roughline.lab.server.connections import Connections
-from roughline.lab.server.handlers import application
 from roughline.lab.server.process import start_forking
+from roughline.lab.server.serve import taking
 from roughline.lab.server.sessions import Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.site import site
@@ -81,19 +79,18 @@ def lab_here(temporary, **settings):
 
     async def serve():
         stopped, server = asyncio.Event(), Server(site(), settings, folder)
-        among = partial(is_proxy, settings=settings)
-        listening = Connections(application(server), most=100, proxies=among)
         sockets = bind_sockets(0, settings.host)
-        listening.add_sockets(sockets)
-        key = f"?token={server.key.secret}" if server.key.is_token else ""
-        address = f"http://127.0.0.1:{sockets[0].getsockname()[1]}/{key}"
+        listening = [asyncio.create_task(each) for each in taking(server, sockets)]
+        address = f"http://127.0.0.1:{sockets[0].getsockname()[1]}/?token={server.token}"
         begun.set_result(
             (address, partial(asyncio.get_running_loop().call_soon_threadsafe, stopped.set))
         )
         await stopped.wait()
-        listening.stop()
-        await listening.close_all_connections()
+        for each in listening:
+            each.cancel()
         await server.close()
+        for each in sockets:
+            each.close()
 
     logging.getLogger().addHandler(errors)
     with ThreadPoolExecutor(1) as thread:
@@ -119,7 +116,7 @@ class Lab:
     opened : str
         As it was printed.
     cookie : str
-        Of the login; empty if the lab asks for a password.
+        With the token.
     """
 
     def __init__(self, address, process, temporary, log, first):
@@ -262,16 +259,6 @@ async def upload(lab, token, content, name, origin=None):
         method="POST",
         body=content,
         headers={"Origin": origin or lab.address},
-    )
-
-
-async def log_in(lab, password, leads_to="/"):
-    """Send the form with a password."""
-    return await lab.fetch(
-        "/login",
-        method="POST",
-        body=urlencode({"password": password, "next": leads_to}),
-        headers={"Origin": lab.address},
     )
 
 

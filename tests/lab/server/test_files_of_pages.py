@@ -150,7 +150,7 @@ def test_a_file_that_is_read_on_windows_is_forgotten_and_goes_with_the_page(tmp_
     def refuses(path, **options):
         raise PermissionError(13, "used by another process", str(path))
 
-    page = Files(tmp_path / "page", 1000)
+    page = Files(tmp_path / "page")
     upload = page.new("a.txt", 1)
     upload.path.write_text("1")
     monkeypatch.setattr(Path, "unlink", refuses)

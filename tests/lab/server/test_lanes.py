@@ -3,7 +3,6 @@
 import asyncio
 import sys
 import threading
-from dataclasses import replace
 
 import psutil
 import pytest
@@ -13,14 +12,13 @@ from lab.server.serving import alive_still, becomes
 from reference import patience
 from roughline.lab.server import lanes
 from roughline.lab.server import process as processes
-from roughline.lab.server.budget import LaneLimits
 from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.tasks import without_paths
 from roughline.lab.tasks import warm_up
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 LONG = 3600.0  # which nothing here takes [s]
-LIMITS = LaneLimits(count=2, most=4, per_session=2, seconds=LONG, memory=1e9)
+COUNT, MEMORY = 2, 1e9  # of processes, and of each [bytes]
 SESSION = {
     "folder": "/tmp/roughline-lab-1/3F9r-token",
     "names": {"/tmp/roughline-lab-1/3F9r-token/0123.txt": "my file.txt"},
@@ -38,7 +36,6 @@ class Asker:
         name = name or slot
         self.lane.submit(
             Request(
-                arguments.pop("address", "here"),
                 session,
                 slot,
                 doings.place_of(task),
@@ -74,13 +71,13 @@ def _doings():
         yield
 
 
-def run(scenario, *, lasting, limits=LIMITS):
+def run(scenario, *, lasting, count=COUNT, memory=MEMORY):
     """Run a scenario with a lane, and check that nothing is left of it."""
     errors = []
 
     async def main():
         asyncio.get_running_loop().set_exception_handler(lambda _, said: errors.append(said))
-        lane = Lane(limits, lasting=lasting)
+        lane = Lane(count, memory, lasting=lasting)
         try:
             await asyncio.wait_for(scenario(lane, Asker(lane)), patience())
         finally:
@@ -113,7 +110,7 @@ def test_questions_are_answered(lasting):
         ("refuse_at", "too rough", "h"),
         ("die", "ended unexpectedly", ""),
         ("take_memory", "more memory than one page may have", ""),
-        ("write_file", "the lab has no room for the files of this now", ""),
+        ("write_file", "the disk has no room for the files of this", ""),
         ("need_memory", "more than one computation may have here, 1 GB: take less", ""),
         ("name_folders", "cannot read a file of the lab, nor a file of the lab (its name)", ""),
         ("fail_to_open", "could not be read or written (No such file or directory): ask", ""),
@@ -144,19 +141,6 @@ def test_a_question_that_cannot_be_sent_is_one_sentence():
         assert (await asker.of("next")).answer.startswith(b"next")
 
     run(scenario, lasting=True)
-
-
-def test_a_task_that_takes_too_long_is_stopped():
-    async def scenario(lane, asker):
-        asker.ask("sleep", seconds=LONG)
-        assert "longer than the 0.3 s" in (await asker.of("slot")).error
-        lane.limits = LIMITS  # a short one takes long as well where the machine is busy
-        asker.ask("echo", slot="next", say="next")
-        assert (await asker.of("next")).answer.startswith(b"next")
-
-    limits = replace(LIMITS, seconds=0.3)
-    for lasting in (True, False):
-        run(scenario, lasting=lasting, limits=limits)
 
 
 def test_progress_is_told_until_the_answer():
@@ -225,32 +209,17 @@ def test_a_stopped_task_frees_its_core(tmp_path):
     run(scenario, lasting=False)
 
 
-def test_long_tasks_let_others_start_beside_them(tmp_path, monkeypatch):
-    monkeypatch.setattr("roughline.lab.server.lanes._LETS_PASS_AFTER", 0.1)
+def test_long_tasks_give_way(tmp_path, monkeypatch):
+    monkeypatch.setattr(lanes, "_LETS_PASS_AFTER", 0.1)
 
     async def scenario(lane, asker):
-        marks = [tmp_path / f"{number}" for number in range(2)]
-        for number, mark in enumerate(marks):
-            asker.ask("compute", slot=str(number), session="long", mark=str(mark))
-        await becomes(lambda: all(mark.exists() and mark.read_text() for mark in marks))
-        asker.ask("echo", session="short", say="short")
-        assert (await asker.of("slot")).answer.startswith(b"short")
-        found = [psutil.Process(int(mark.read_text())) for mark in marks]
-        await becomes(lambda: [each.nice() for each in found] == [processes.LOWEST_PRIORITY] * 2)
+        mark = tmp_path / "mark"
+        asker.ask("compute", slot="long", mark=str(mark))
+        await becomes(lambda: mark.exists() and mark.read_text())
+        found = psutil.Process(int(mark.read_text()))
+        await becomes(lambda: found.nice() == processes.LOWEST_PRIORITY)
 
     run(scenario, lasting=False)
-
-
-def test_a_page_cannot_occupy_all_processes():
-    async def scenario(lane, asker):
-        for number in range(6):
-            asker.ask("sleep", slot=f"{number}", session="greedy", seconds=LONG)
-        asker.ask("echo", slot="modest", session="modest", say="here")
-        await asker.of("modest")
-        assert not asker.outcomes.keys() - {"modest"}
-
-    limits = LaneLimits(count=2, most=4, per_session=1, seconds=LONG, memory=1e9)
-    run(scenario, lasting=False, limits=limits)
 
 
 def test_questions_of_a_page_that_wait_are_bounded():
@@ -264,21 +233,6 @@ def test_questions_of_a_page_that_wait_are_bounded():
     run(scenario, lasting=False)
 
 
-def test_addresses_take_turns_and_refinements_come_last():
-    async def scenario(lane, asker):
-        asker.ask("sleep", slot="long", session="a", address="greedy", seconds=LONG)
-        asker.ask("echo", slot="short", session="z", address="another", say="")
-        asker.ask("echo", slot="finer", session="d", address="other", say="", refines=True)
-        for number in range(1, 4):
-            asker.ask("echo", slot=f"{number}", session=f"b{number}", address="greedy", say="")
-        asker.ask("echo", slot="modest", session="c", address="modest", say="")
-        await asker.of("finer")
-        assert list(asker.outcomes) == ["short", "modest", "1", "2", "3", "finer"]
-
-    limits = LaneLimits(count=2, most=2, per_session=1, seconds=LONG, memory=1e9)
-    run(scenario, lasting=False, limits=limits)
-
-
 @pytest.mark.parametrize("lasting", [True, False])
 def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
     async def scenario(lane, asker):
@@ -288,22 +242,7 @@ def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
         await asker.of("last")
         assert list(asker.outcomes) == ["first", "new", "last"]
 
-    limits = LaneLimits(count=1, most=1, per_session=1, seconds=LONG, memory=1e9)
-    run(scenario, lasting=lasting, limits=limits)
-
-
-def test_many_that_wait_are_told_to_the_task(monkeypatch):
-    monkeypatch.setattr(lanes, "_UNCROWDED_WAIT", 1e9)  # who has waited long is told as well
-
-    async def scenario(lane, asker):
-        for number in range(12):
-            asker.ask("echo", slot=f"{number}", session=f"{number}", say=number)
-        said = [(await asker.of(f"{number}")).answer.split()[2] for number in range(12)]
-        assert said[:2] == [b"False", b"False"] or said[2] == b"True"
-        assert said[2] == b"True"
-        assert said[-1] == b"False"
-
-    run(scenario, lasting=True)
+    run(scenario, lasting=lasting, count=1)
 
 
 @pytest.mark.parametrize("lasting", [True, False])
@@ -414,7 +353,7 @@ def test_replaced_questions_leave_nothing_behind():
         await asker.of("last")
         await becomes(lambda: len(pids(lane)) <= 2 and not lane._served)
         await becomes(lambda: me.num_fds() <= before + 8)
-        assert threading.active_count() <= threads_before + 2 * LIMITS.most + 2
+        assert threading.active_count() <= threads_before + 2 * COUNT + 2
 
     run(scenario, lasting=False)
 
@@ -441,8 +380,7 @@ def test_without_forking_processes_are_spawned(monkeypatch):
         asker.ask("echo", say="spawned")
         assert (await asker.of("slot")).answer.startswith(b"spawned")
 
-    limits = LaneLimits(count=1, most=1, per_session=1, seconds=LONG, memory=2e9)
-    run(scenario, lasting=True, limits=limits)
+    run(scenario, lasting=True, count=1, memory=2e9)
 
 
 def test_names_stand_for_paths_in_sentences():
@@ -460,7 +398,7 @@ def test_what_reads_no_file_shares_processes_until_they_are_renewed():
             asker.ask("echo", slot=str(number), say=number)
             used.append((await asker.of(str(number))).answer.split()[1])
             await becomes(lambda: pids(lane).count(int(used[-1])) == 1)
-        assert len(set(used)) <= LIMITS.count
+        assert len(set(used)) <= COUNT
         lane.renew()
         assert not {int(pid) for pid in used} & set(pids(lane))
         asker.ask("echo", slot="after", say="after")

@@ -1,16 +1,15 @@
-"""Sessions that wait for their pages: whose they are, what goes on, and how long and how many."""
+"""Sessions that wait for their pages: what goes on, and how long and how many."""
 
 import asyncio
 import json
 import sys
 from contextlib import asynccontextmanager
-from dataclasses import replace
 
 import pytest
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 
-from lab.server.serving import Lab, becomes, log_in, upload
+from lab.server.serving import Lab, becomes, upload
 from roughline.lab.server import sessions
 from roughline.lab.server.files import Upload
 from roughline.lab.server.handlers import application
@@ -20,7 +19,6 @@ from roughline.lab.server.tasks import TaskOutcome
 from roughline.lab.site import site
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
-PASSWORD = "correct horse"
 
 
 class Lane:
@@ -51,8 +49,7 @@ async def opened(folder, **settings):
     (listening,) = bind_sockets(0, "127.0.0.1")
     http = HTTPServer(application(server))
     http.add_sockets([listening])
-    key = f"?token={server.key.secret}" if server.key.is_token else ""
-    address = f"http://127.0.0.1:{listening.getsockname()[1]}/{key}"
+    address = f"http://127.0.0.1:{listening.getsockname()[1]}/?token={server.token}"
     try:
         yield await asyncio.to_thread(Lab, address, None, folder, None, ""), server
     finally:
@@ -193,82 +190,22 @@ def test_a_page_takes_over_from_another_that_is_told_so(tmp_path):
     run(scenario, tmp_path)
 
 
-def test_a_session_belongs_to_its_login(tmp_path):
-    async def scenario(lab, server):
-        logins = []
-        for _ in range(2):
-            said = (await log_in(lab, PASSWORD)).headers["Set-Cookie"]
-            logins.append({"Origin": lab.address, "Cookie": said.partition(";")[0]})
-        own, others = logins
-        async with lab.page(own) as page:
-            path = f"/upload?session={page.token}&name=a"
-            sent = {"method": "POST", "body": b"1"}
-            assert (await lab.fetch(path, headers=others, **sent)).code == 404
-            assert (await lab.fetch(path, headers=own, **sent)).code == 200
-            await dropped(server, page)
-        async with lab.page(others, before=page.token) as stranger:
-            assert stranger.said["resumed"] is False
-            assert stranger.said["files"] == {}
-        async with lab.page(own, before=page.token) as again:
-            assert again.said["resumed"] is True
-
-    run(scenario, tmp_path, password=PASSWORD)
-
-
-def test_a_session_that_waits_ends_with_its_login(tmp_path):
-    async def scenario(lab, server):
-        async with lab.page() as page:
-            await upload(lab, page.token, b"1 2", "a.txt")
-            await dropped(server, page)
-            assert server.sessions
-            headers = {"Origin": lab.address}
-            await lab.fetch("/logout", method="POST", body="", headers=headers)
-            assert not server.sessions
-
-    run(scenario, tmp_path)
-
-
-def test_sessions_that_wait_are_bounded_and_give_way_to_pages(tmp_path, monkeypatch):
-    monkeypatch.setattr(sessions, "_MOST_WAITING", 3)
+def test_sessions_that_wait_give_way_to_pages(tmp_path, monkeypatch):
+    monkeypatch.setattr(sessions, "_MOST_PAGES", 3)
 
     class Opened:
         """A line to a page."""
 
     async def scenario(lab, server):
-        def opened(address):
-            return server.session_for(Opened(), address, "", "")
+        def opened():
+            return server.session_for(Opened(), "")
 
-        def waiting(address):
-            session = opened(address)
+        waiting = [opened() for _ in range(2)]
+        for session in waiting:
             session.files.uploads["key"] = Upload("key", tmp_path / "a", "a", 0)
             server.line_closed(session, is_left=False)
-            return session
-
-        first = [waiting("one") for _ in range(5)]
-        assert list(server.sessions.values()) == first[2:]
-        other = waiting("other")
-        assert server.end_waiting("nobody") is False
-        server.settings = replace(server.settings, max_sessions=4)
-        open_page = opened("one")
-        assert list(server.sessions.values()) == [*first[3:], other, open_page]
-        for _ in range(3):
-            assert opened("third") is not None
-        assert opened("third") is None
-        assert server.end_waiting() is False
-
-    run(scenario, tmp_path)
-
-
-def test_pages_are_closed_and_sessions_end_when_the_time_of_their_login_is_over(
-    tmp_path, monkeypatch
-):
-    async def scenario(lab, server):
-        async with lab.page() as page:
-            await upload(lab, page.token, b"1 2", "a.txt")
-            monkeypatch.setattr(server.logins, "lasts", lambda name: False)
-            assert await page.heard() is None
-            assert page.socket.close_code == 1008
-            assert not server.sessions
-            await becomes(lambda: not list(tmp_path.iterdir()))
+        pages = [opened() for _ in range(3)]
+        assert list(server.sessions.values()) == pages
+        assert opened() is None
 
     run(scenario, tmp_path)

@@ -9,7 +9,7 @@ import roughline as rl
 from gwyddion_files import gwy
 from mutated_heads import assert_each_is_read_or_refused_in_one_line
 from random_cases import seeds
-from roughline.assessment.description import describe
+from roughline.question.description import describe
 from roughline.question.reading import Reading
 from roughline.topography.files.read import measurement
 

@@ -18,7 +18,7 @@ import xarray
 import zstandard
 
 import roughline as rl
-from roughline.assessment.description import describe
+from roughline.question.description import describe
 from roughline.question.source import topographies
 from roughline.topography.files.curves import curve_in
 from roughline.topography.files.instrument import _refuse_long_arrays

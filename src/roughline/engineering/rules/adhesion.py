@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.engineering.attraction import Separation
+from roughline.contact.separation import Separation
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule, always
 from roughline.engineering.symbols import nominal_area

@@ -17,6 +17,8 @@ from roughline.facts.fact import Fact
 
 _rule = partial(Rule, group="contact")
 
+_PRESSED = 0.25  # mean contact pressure over the softest modulus, as on slopes of twice as much
+
 
 def _least_fraction(pressed: Pressed) -> Real | float:
     """No point bears more than the hardness; under a depth, the force itself depends on it."""
@@ -60,6 +62,15 @@ def _elastic_limit(pressed: Pressed) -> Fact | None:
         return None
     worst, limit = float(np.nanmax(ratio[0])), ELASTIC_UP_TO
     return Fact("beyond_elastic", ratio=worst, limit=limit) if worst > limit else None
+
+
+def _strained_layers(pressed: Pressed) -> Fact | None:
+    """Say how far spots strain soft layers beyond what is linear elastic."""
+    pressure = _pressure(pressed)
+    if pressure is None or not pressed.pair.coated:
+        return None
+    ratio = float(np.nanmax(pressure[0], initial=0.0)) / pressed.curve.half_space.softest
+    return Fact("layers_are_strained", ratio=ratio) if ratio > _PRESSED else None
 
 
 def _through_the_layer(pressed: Pressed) -> Fact | None:
@@ -111,6 +122,7 @@ CONTACT = (
         validity="at most the hardness of the softer body",
         value=_pressure,
         limits=_pressure_limits,
+        facts=_strained_layers,
     ),
     _rule(
         key="contact_pressure_over_hardness",

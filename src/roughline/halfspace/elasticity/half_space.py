@@ -104,6 +104,100 @@ class HalfSpace(ABC):
             f"{type(self).__name__} has no kernel, which a free half-space needs: make it periodic"
         )
 
+    def shear_spectrum(self, q: Real) -> tuple[Real, Real]:
+        """Return the displacements over the shear of waves, along and across their direction.
+
+        Only friction asks for it.
+
+        Parameters
+        ----------
+        q : ndarray
+            Wavenumbers 2 pi / wavelength, not negative. [1 / length]
+
+        Returns
+        -------
+        along, across : ndarray, shape of q
+            Of a wave whose shear points along its wavevector (plane strain), and across it
+            (antiplane). Infinite at q = 0 where the spectrum is. [length / pressure]
+
+        Raises
+        ------
+        InputError
+            If it is not known how shear displaces it.
+        """
+        raise InputError(
+            f"half_space is {self!r}, of which it is not known how shear displaces it: friction "
+            "needs Poisson's ratio, as in rl.Homogeneous(E_star, poisson=0.3)"
+        )
+
+    def coupling_spectrum(self, q: Real) -> Real:
+        """Return how pressure displaces along the surface, over the pressure of waves.
+
+        A wave p cos(q x) displaces by minus this times sin(q x) along x, and a wave of shear
+        s sin(q x) by minus this times cos(q x) into the body. It is positive where pressure draws
+        the surface together, as on one compressible material. [length / pressure]
+        """
+        return np.zeros_like(q)
+
+    @property
+    def is_coupled(self) -> bool:
+        """Whether pressure displaces along the surface, and shear into the body."""
+        return False
+
+    def shear_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements along the surface under unit shear on one cell.
+
+        Parameters
+        ----------
+        first, spacing
+            As of :meth:`kernel`.
+        rows : tuple of ndarray
+            Overwritten: displacements along x by shear along x, along y by shear along y, and
+            along either by shear along the other, which is odd in x and y. [length / pressure]
+
+        Raises
+        ------
+        InputError
+            If it has none.
+        """
+        raise InputError(
+            f"{type(self).__name__} has no shear_kernel, which friction on a free half-space "
+            "needs: make it periodic, or leave friction out"
+        )
+
+    def coupling_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements along the surface under pressure on one cell.
+
+        Parameters
+        ----------
+        first, spacing
+            As of :meth:`kernel`.
+        rows : tuple of ndarray
+            Overwritten: displacements towards the cell, along x and along y. Each is odd in its own
+            distance. [length / pressure]
+
+        Raises
+        ------
+        InputError
+            If it has none.
+        """
+        raise InputError(
+            f"{type(self).__name__} has no coupling_kernel, which friction on a free half-space "
+            "needs where pressure displaces along the surface: make it periodic"
+        )
+
+    @property
+    def even_shear(self) -> tuple[HalfSpace, float]:
+        """A half-space and a factor: times it, its spectrum is the mean of along and across.
+
+        Friction takes it for the half-space's response to shear while it searches.
+        """
+        return _EvenShear(self), 1.0
+
     @abstractmethod
     def in_units(self, pressure: float, length: float) -> HalfSpace:
         """Return the same half-space in other units: moduli and lengths divided by the new ones.
@@ -297,6 +391,43 @@ class TwoBodies(HalfSpace):
         self.second.kernel(first, spacing, other)
         rows += other
 
+    def shear_spectrum(self, q: Real) -> tuple[Real, Real]:
+        """Return the displacements over the shear of waves, along and across their direction."""
+        first, second = self.first.shear_spectrum(q), self.second.shear_spectrum(q)
+        return first[0] + second[0], first[1] + second[1]
+
+    def coupling_spectrum(self, q: Real) -> Real:
+        """Return how pressure displaces along the surface; the second body is mirrored."""
+        return self.first.coupling_spectrum(q) - self.second.coupling_spectrum(q)
+
+    @property
+    def is_coupled(self) -> bool:
+        """Whether pressure displaces along the surface; two equal bodies do not."""
+        return self.first != self.second and (self.first.is_coupled or self.second.is_coupled)
+
+    def shear_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements under unit shear on one cell."""
+        self.first.shear_kernel(first, spacing, rows)
+        others = np.empty_like(rows[0]), np.empty_like(rows[0]), np.empty_like(rows[0])
+        self.second.shear_kernel(first, spacing, others)
+        for each, other in zip(rows, others, strict=True):
+            each += other
+
+    def coupling_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements along the surface under pressure on one cell."""
+        others = np.empty_like(rows[0]), np.empty_like(rows[0])
+        for each in rows:
+            each[:] = 0.0
+        for body, sign in ((self.first, 1.0), (self.second, -1.0)):
+            if body.is_coupled:
+                body.coupling_kernel(first, spacing, others)
+                for each, other in zip(rows, others, strict=True):
+                    each += sign * other
+
     def refuse(self, spacing: tuple[float, float]) -> None:
         """Refuse grids that do not resolve one of the two."""
         self.first.refuse(spacing)
@@ -356,3 +487,37 @@ class _Interface(HalfSpace):
     def disc_stiffness(self, radius: float) -> float:
         """Return the force per approach of a rigid disc on the whole."""
         return self.half_space.disc_stiffness(radius)
+
+
+@dataclass(frozen=True)
+class _EvenShear(HalfSpace):
+    """A half-space that pressure displaces as shear displaces another, whatever its direction."""
+
+    half_space: HalfSpace
+
+    @property
+    def E_star(self) -> float:  # type: ignore[override]
+        """Modulus of short waves. [pressure]"""
+        short = np.array([1e9])
+        return 2 / float(short[0] * self.spectrum(short)[0])
+
+    @property
+    def periodic(self) -> Periodic:  # type: ignore[override]
+        """Whether shear repeats itself beyond the grid."""
+        return self.half_space.periodic
+
+    def spectrum(self, q: Real) -> Real:
+        """Return the mean displacement over the shear of waves, along and across."""
+        along, across = self.half_space.shear_spectrum(q)
+        return (along + across) / 2
+
+    def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
+        """Fill rows of the table of the mean of both displacements."""
+        along, across = np.empty_like(rows), np.empty_like(rows)
+        self.half_space.shear_kernel(first, spacing, (rows, across, along))
+        rows += across
+        rows /= 2
+
+    def in_units(self, pressure: float, length: float) -> _EvenShear:
+        """Return the same half-space in other units."""
+        return _EvenShear(self.half_space.in_units(pressure, length))

@@ -152,6 +152,26 @@ class Layered(HalfSpace):
 
         return compliance(q, self._layers, float(self.base_young), self.base_poisson)
 
+    def _shear_compliance(self, q: Real) -> tuple[Real, Real, Real]:
+        """Return the displacements along the surface by shear along and across, and by pressure."""
+        # here because compiled loops load slowly
+        from roughline.halfspace.elasticity.layers import shear_compliance
+
+        return shear_compliance(q, self._layers, float(self.base_young), self.base_poisson)
+
+    def shear_spectrum(self, q: Real) -> tuple[Real, Real]:
+        """Return the displacements over the shear of waves, along and across their direction."""
+        return self._shear_compliance(q)[:2]
+
+    def coupling_spectrum(self, q: Real) -> Real:
+        """Return how pressure displaces along the surface, over the pressure of waves."""
+        return self._shear_compliance(q)[2]
+
+    @property
+    def is_coupled(self) -> bool:
+        """Whether pressure displaces along the surface, as it does beside a rigid body."""
+        return True
+
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of displacements under unit pressure on one cell."""
         # here because compiled loops load slowly

@@ -30,7 +30,8 @@ def compliance(q: Real, layers: Real, base_young: float, base_poisson: float) ->
     soft = (1 + poisson) / young  # 1 / (2 G)
     found = np.array(q, dtype=np.result_type(q, np.float64))
     waves = found.reshape(-1)
-    _climb(waves, soft, poisson, thickness, (1 + base_poisson) / base_young, base_poisson)
+    base_soft, unwanted = (1 + base_poisson) / base_young, np.empty((2, 0), found.dtype)
+    _climb(waves, unwanted, soft, poisson, thickness, base_soft, base_poisson)
     if math.isinf(base_young):  # even pressure compresses layers that cannot widen
         even = soft * (1 - 2 * poisson) / (1 - poisson) * thickness
         waves[waves == 0] = even.sum()
@@ -39,9 +40,51 @@ def compliance(q: Real, layers: Real, base_young: float, base_poisson: float) ->
     return found
 
 
+def shear_compliance(
+    q: Real, layers: Real, base_young: float, base_poisson: float
+) -> tuple[Real, Real, Real]:
+    """Displacements along the surface: by shear along and across waves, and by pressure.
+
+    The last is what draws the surface together. At q = 0 shear displaces evenly, without bound on
+    an elastic base, and pressure does not. [length / pressure]
+    """
+    young, poisson, thickness = layers
+    base_soft, soft = (1 + base_poisson) / base_young, (1 + poisson) / young
+    waves = np.array(q, dtype=np.float64).reshape(-1)
+    others, across = np.zeros((2, waves.size)), np.zeros(waves.size)
+    _climb_twisted(waves, soft, thickness, base_soft, across)
+    some = waves == 0
+    _climb(waves, others, soft, poisson, thickness, base_soft, base_poisson)
+    even = math.inf if base_soft else float((2 * soft * thickness).sum())
+    others[0, some], across[some] = even, even
+    return others[0].reshape(q.shape), across.reshape(q.shape), others[1].reshape(q.shape)
+
+
+@compiled
+def _climb_twisted(
+    waves: Real, soft: Real, thickness: Real, base_soft: float, across: Real
+) -> None:
+    """Carry the compliance to shear across a wave, in antiplane strain, up through the layers.
+
+    In each layer the displacement is a cosh(q z) + b sinh(q z), and the shear G q times as much as
+    a sinh(q z) + b cosh(q z).
+    """
+    for i in range(waves.size):
+        q = waves[i]
+        if q == 0:
+            continue
+        c = 2 * base_soft / q
+        for above in range(thickness.size):
+            j = thickness.size - 1 - above
+            stiff, t = q / (2 * soft[j]), np.tanh(thickness[j] * q)
+            c = (c * stiff + t) / (1 + c * stiff * t) / stiff
+        across[i] = c
+
+
 @compiled
 def _climb(
     waves: Floats,
+    others: Floats,  # displacements along the surface by shear and by pressure, if there is room
     soft: Real,
     poisson: Real,
     thickness: Real,
@@ -97,3 +140,5 @@ def _climb(
                 (w1 * t0 - w0 * t1) / det,
             )
         waves[i] = -zz / q
+        if others.shape[1]:
+            others[0, i], others[1, i] = -xx / q, xz / q

@@ -52,7 +52,7 @@ def empty_on_grid(
 def _empty(
     shape: tuple[int, int], spacing: tuple[float, float], *, periodic: Periodic
 ) -> Convolution:
-    periods = _periods(shape, repeated_axes(periodic))
+    periods = grid_periods(shape, repeated_axes(periodic))
     spectrum = np.broadcast_to(0.0, tuple(period // 2 + 1 for period in periods))
     return Convolution(shape, spacing, periods, spectrum)
 
@@ -75,7 +75,7 @@ def coarser_grid(
     return coarse, (dx, dy)
 
 
-def _periods(shape: tuple[int, int], repeats: tuple[bool, bool]) -> tuple[int, int]:
+def grid_periods(shape: tuple[int, int], repeats: tuple[bool, bool]) -> tuple[int, int]:
     """Return sides that repeat, and at least twice the others; long ones can be halved thrice."""
     px, py = (
         n if repeated else fft.good_size(2 * n, 8 if n >= 64 else 2)
@@ -88,7 +88,7 @@ def _free(
     half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
 ) -> tuple[Real, tuple[int, int]]:
     """Return the quarter of a spectrum, and periods, of which the grid fills a half at most."""
-    mx, my = _periods(shape, half_space.repeats)
+    mx, my = grid_periods(shape, half_space.repeats)
     spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
 
     def fill(first: int, last: int) -> None:
@@ -111,7 +111,7 @@ def _strip(
     The kernel depends on the distance alone, so its rows may be lags along either side.
     """
     along = half_space.repeats.index(True)
-    across, periods = 1 - along, _periods(shape, half_space.repeats)
+    across, periods = 1 - along, grid_periods(shape, half_space.repeats)
     lags = np.empty((periods[along] // 2 + 1, periods[across] // 2 + 1))
     cell, width = (spacing[along], spacing[across]), shape[across] * spacing[across]
     fill_with_images(half_space, shape[along], cell, width, lags)

@@ -193,6 +193,13 @@ class LoadPath:
                 return replace(contact, outcome=outcome, convolutions=spent), window
             self._start, window = contact.contact_set, GridWindow.everywhere(problem)
 
+    def settled_from(
+        self, start: ContactSet | None, problem: Problem, load: Load, method: Method
+    ) -> tuple[Contact, GridWindow]:
+        """Solve the contact of other bodies from a start, and return it with its window."""
+        self._start = start
+        return self._settled(load, problem, method)
+
     def _guesses(self, nodes: InGrid) -> tuple[Real, Real] | None:
         """Return dp/dF of the contact before, on loading and on unloading, on nodes of this one."""
         if self._followed is None or not self._followed[0].size:

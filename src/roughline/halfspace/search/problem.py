@@ -42,6 +42,7 @@ class Outcome(enum.Enum):
     MAX_ITERATIONS = "max_iterations"
     UNKNOWN_SURFACE = "unknown_surface"
     PULLED_OFF = "pulled_off"
+    SLIDES = "slides"
 
 
 @dataclass(frozen=True, eq=False)
@@ -261,6 +262,8 @@ class Residuals:
     rounding: float = 0.0
     # largest misfit of a law that follows gaps, over the length scale
     misfit: float = 0.0
+    # largest violation of friction, over the length by which sliding displaces
+    slip: float = 0.0
 
     @property
     def _each(self) -> tuple[float, ...]:
@@ -272,6 +275,7 @@ class Residuals:
             self.load,
             self.rounding,
             self.misfit,
+            self.slip,
         )
 
     @property
@@ -295,6 +299,7 @@ class Residuals:
             "the force",
             "the rounding of the depth",
             "the pull across gaps",
+            "the slip",
         )[int(np.argmax(self._each))]
 
 

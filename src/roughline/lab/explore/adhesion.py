@@ -107,7 +107,7 @@ class AdhesionPhysics(Physics):
                 _mark("here", "this load on both ways", "mark", "circle", "paper"),
                 _mark("pull-off", "pull-off", "pull", "inverted_triangle", "text"),
             ),
-            columns=("d/h", "F̄", "A/A₀", "k̄", "way"),
+            columns=("d/h", "F̄", "A/A₀", "k / (E* L)", "way"),
             task="w",
             waits="both ways are being followed",
             is_logarithmic=False,

@@ -28,8 +28,7 @@ def _as_python(state: ExploreState) -> str:
     for each in state.added:
         before, arguments, after = each.in_python(state)
         lines, answers, forces = lines + before, answers + after, arguments or forces
-    body, modulus = state.body_in_python
-    over_base = f" * {modulus} / E_star" if modulus != "E_star" else ""  # E_star is of the base
+    body, _ = state.body_in_python
     load = state.typed("F")
     over = f"{as_code(state.F)} * E_star * surface.rms_height * surface.length"
     force = f"load_in_newtons({load!r}, surface.area)" if load else over
@@ -38,6 +37,7 @@ def _as_python(state: ExploreState) -> str:
     return f"""import math
 
 import roughline as rl
+from roughline.margins.press import facts_on_press
 from roughline.units import in_si{", load_in_newtons" if load else ""}
 
 length = in_si({state.L!r}, "m", "length")
@@ -53,10 +53,12 @@ surface = spectrum.surface(n={state.n}, rng={state.seed})
 force = {force}  # N
 {lines}curve = rl.press(surface, {body}, {forces}, fields=[0])
 
-print("stiffness_bar", curve.stiffness_bar[0]{over_base})
+print("k / (E* L)", curve.stiffness[0] / (E_star * length))
 print("area_fraction_corrected", curve.area_fraction_corrected[0])
 print("depth over rms height", curve.depth[0] / surface.rms_height)
-{answers}"""
+{answers}for fact in facts_on_press(surface, curve):
+    print(fact)
+"""
 
 
 def _as_command(state: ExploreState) -> str:

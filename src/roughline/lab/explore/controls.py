@@ -111,7 +111,7 @@ _NUMBERS = (
         name="seed",
         low=0,
         high=999_999,
-        default=7,
+        default=20,
         meaning="Selects one of all random surfaces: the same seed gives the same surface, with "
         "more detail on a finer grid.",
         scale="whole",
@@ -155,11 +155,11 @@ _CHOICES = (
         key="shown",
         name="contact as",
         options={
-            **{"area": "area", "pressure": "pressure"},
-            **{"gap": "gap", "displacement": "displacement"},
+            **{"area": "area", "pressure": "pressure", "gap": "gap"},
+            **{"displacement": "displacement", "height": "heights", "white": "area on white"},
         },
         default="area",
-        meaning="Quantity that the second map shows.",
+        meaning="What lies on the relief of the surface.",
     ),
     Choice(
         key="theories",
@@ -180,15 +180,12 @@ CHOICES = {each.key: each for each in _CHOICES}
 """Choices by their keys."""
 
 FILES = {
-    "contact.png": "both maps, PNG",
-    "contact.pdf": "both maps, PDF",
     "maps.nc": "all maps, NetCDF",
-    "curve.png": "curves, PNG",
-    "curve.pdf": "curves, PDF",
-    "curve.csv": "curves, CSV",
     "curve.nc": "loads in SI units, NetCDF",
     "surface.nc": "surface, NetCDF",
     "surface.x3p": "surface, X3P",
     "surface.gsf": "surface, GSF of Gwyddion",
 }
-"""Files that can be saved, by their names, whose endings say of what type they are."""
+"""Files that are written, by their names, whose endings say of what type they are."""
+DRAWN = {"contact.png": "maps, PNG", "curve.png": "curves, PNG", "curve.csv": "curves, CSV"}
+"""Files that the page saves itself, as it is drawn."""

@@ -28,7 +28,7 @@ class LayerPhysics(Physics):
     tick = "a layer lies on the body"
     meaning = (
         "A layer of another material is bonded to the flat body. E* stays that of the body below, "
-        "the base: F̄, k̄, p_c, the hardness and the work of adhesion are over it."
+        "the base: F̄, k / (E* L), p_c, the hardness and the work of adhesion are over it."
     )
     controls = (
         ScaledControl(

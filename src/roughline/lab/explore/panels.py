@@ -27,7 +27,7 @@ def over_force(
             *(theory_lines(theories.options) if theories else ()),
             marks("curve", "3D", "dark-line", size=7, marker="circle"),
             marks("unsure", UNRESOLVED_3D, "dark-line", size=7, marker="circle", fill_alpha=0),
-            marks("here", "3D, this load", "here", size=13, marker="circle"),
+            marks("here", "this load", "here", size=13, marker="circle"),
         ),
         cursor="height",
         **others,
@@ -75,7 +75,7 @@ def curve_note(pressed: rl.SurfaceCurve, n: int) -> str:
     return f"marks of the curve on {n}² points{unsure}{unsolved}"
 
 
-_REDUCED = band("line", "1D, mean and range of single lines", "light-line", line_width=2.5)
+_REDUCED = band("line", "1D, mean and range of lines", "light-line", line_width=2.5)
 _SPECTRUM_SERIES = (
     marks("surface", "the surface", "mark", size=4, line_width=1),
     line("law", "the law", "here", 2),
@@ -90,11 +90,11 @@ PANELS = (
     over_force(
         key="stiffness",
         title="Stiffness over force",
-        y="stiffness k̄",
+        y="stiffness k / (E* L)",
         lines=(_REDUCED,),
         theories=CHOICES["theories"],
-        ranges=(_FORCE_RANGE, (1e-3, 1.6)),
-        columns=("F̄", "k̄", "model"),
+        ranges=(_FORCE_RANGE, (1e-3, 3)),
+        columns=("F̄", "k / (E* L)", "model"),
         **_CURVE_TASK,
     ),
     over_force(

@@ -17,7 +17,8 @@ from roughline.lab.panels import Panel
 
 PHYSICS: tuple[type[Physics], ...] = (LayerPhysics, YieldingPhysics, AdhesionPhysics, FluidPhysics)
 """All kinds, in the order of their ticks."""
-_STRIP = ("stiffness_3d", "stiffness_1d", "area", "pressure", "depth", "force", "roughness")
+_STRIP = ("stiffness_3d", "area", "pressure", "depth", "force", "roughness")
+_LEADING = 3  # of them, in large figures
 
 
 def numbers() -> dict[str, Control]:
@@ -65,7 +66,7 @@ def declared() -> dict[str, Any]:
     order = list(_STRIP)
     for kind in PHYSICS:
         for key, before in kind.strip.items():
-            order.insert(order.index(before) + 1, key)
+            order.insert(max(order.index(before) + 1, _LEADING), key)
     kinds = {
         kind.key: {
             "word": kind.word,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.contact.scaling import stiffness_bar
+from roughline.comparison.trust import trust_map
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES
 from roughline.lab.explore.panels import curve_note, loads, selected_points
@@ -27,41 +28,37 @@ from roughline.lab.explore.words import (
     status,
     unlike,
 )
-from roughline.lab.frames import drawn
+from roughline.lab.frames import digest, drawn
 from roughline.lab.maps import Map, contact_maps, height_map
 from roughline.lab.panels import PanelContent, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
+from roughline.margins.press import facts_on_press
 from roughline.question.loading import UNLOADING
-from roughline.report.shading import shaded
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 
-_COARSE_POINTS, _COARSER_POINTS = 128, 64
-"""Points along a side while a slider moves, and when many ask at once."""
-_MOST_LINES, _LINES_AT_FIRST = 20, 5
-"""Lines whose mean stiffness stands for the reduced model, and when many ask at once."""
+_COARSE_POINTS = 128  # along a side while a slider moves
+_LINES = 20  # whose mean stiffness stands for the reduced model
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
-_FIRST_POINTS = 256  # points along a side that come before the full grid when many ask at once
-_LEAST_COARSE_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
+_POINTED_AT = ("height", "area", "gap")  # maps of which points are told; what is shown is sent too
 _MOST_ROWS = 40  # of the spectrum's table
+_last: dict[tuple[ExploreState, int, bool], tuple[rl.SurfaceCurve, float]] = {}
+"""What was pressed last in this process, by state and grid, and how long it took: when another map
+is chosen, it is of the same contact. [s]"""
 _CURVE_FORCES, _THEORY_FORCES = np.geomspace(1e-3, 3, 13), np.geomspace(1e-3, 3, 31)
-_LEAST_AXIS_RANGES = {"stiffness": (1e-3, 1.3), "area": (1e-4, 1.0)}
+_LEAST_AXIS_RANGES = {"stiffness": (1e-3, 2.5), "area": (1e-4, 1.0)}
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
 def reduced(arguments: Arguments, progress: Progress) -> bytes:
-    """Mean stiffness of lines over force, and at the load of the state.
-
-    In a crowd it is that of fewer lines first; the page asks for the others by "refines".
-    """
+    """Mean stiffness of lines over force, and at the load of the state."""
     state, refused = usable_state(arguments)
-    count = _LINES_AT_FIRST if _is_first_step(arguments) else _MOST_LINES
-    return _message(state, refused, line(state, count))
+    return _message(state, refused, line(state))
 
 
-def line(state: ExploreState, count: int = _MOST_LINES) -> dict[str, Any]:
-    """What the page has of so many lines."""
-    lines = _state_lines(state, count)
+def line(state: ExploreState) -> dict[str, Any]:
+    """What the page has of lines."""
+    lines = _state_lines(state, _LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(each, state, forces).stiffness_bar for each in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
@@ -72,27 +69,23 @@ def line(state: ExploreState, count: int = _MOST_LINES) -> dict[str, Any]:
     return {
         "panels": {"stiffness": filled},
         "stiffness_bar_1d": float(mean[here]),
-        "strip": line_words(state, float(mean[here]), count),
-        "is_coarse": count < _MOST_LINES,
+        "strip": line_words(state, float(mean[here]), _LINES),
     }
 
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
     state, refused = usable_state(arguments)
-    crowded = arguments["crowded"] and state.roll_off > _LEAST_COARSE_ROLL_OFF
-    n = state.points(_COARSER_POINTS if crowded else _COARSE_POINTS)
-    return _message(state, refused, *contact(state, n, progress, is_coarse=True))
+    n = state.points(_COARSE_POINTS)
+    found = contact(state, n, progress, is_coarse=True)
+    return _message(state, refused, *found, arguments.get("heights"))
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
-    """The contact on the grid of the state.
-
-    In a crowd it is on fewer points first; the page asks for the full grid by "refines".
-    """
+    """The contact on the grid of the state."""
     state, refused = usable_state(arguments)
-    n = state.points(_FIRST_POINTS) if _is_first_step(arguments) else state.n
-    return _message(state, refused, *contact(state, n, progress, is_coarse=n < state.n))
+    found = contact(state, state.n, progress, is_coarse=False)
+    return _message(state, refused, *found, arguments.get("heights"))
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
@@ -150,19 +143,24 @@ def further(arguments: Arguments, progress: Progress) -> bytes:
 
 def contact(
     state: ExploreState, n: int, progress: Progress, *, is_coarse: bool
-) -> tuple[dict[str, Any], dict[str, Map], dict[str, NDArray[Any]]]:
-    """The contact on a grid: words, maps and arrays; unless coarse with what finer grids change."""
+) -> tuple[dict[str, Any], dict[str, Map]]:
+    """The contact on a grid: words and maps; unless coarse with what finer grids change."""
     started = time.perf_counter()
     surface = state.surface(n)
-    pressed = pressed_under(
-        state,
-        surface,
-        np.array([state.F]),
-        progress,
-        fields=True,
-        grid_error=not is_coarse,
-        measures=state.measures,
-    )
+    key = replace(state, shown=ExploreState.shown), n, is_coarse
+    if key not in _last:
+        pressed = pressed_under(
+            state,
+            surface,
+            np.array([state.F]),
+            progress,
+            fields=True,
+            grid_error=not is_coarse,
+            measures=state.measures,
+        )
+        _last.clear()
+        _last[key] = pressed, time.perf_counter() - started
+    pressed, seconds = _last[key]
     fields = pressed.fields[0]
     maps = {} if fields is None else _maps(state, surface, fields)
     strip = contact_words(pressed, fields, surface, state)
@@ -173,22 +171,27 @@ def contact(
     }
     if not is_coarse:
         panels["spectrum"] = _spectrum(surface, state)
-    seconds = time.perf_counter() - started
     content = {
         "points": n,
         "is_coarse": is_coarse,
+        "heights": digest((state.spectrum(n), n, state.seed)),
         "panels": panels,
         "strip": strip,
+        "facts": [x.brief for x in facts_on_press(surface, pressed) if x.weight != "note"],
+        "stiffness_bar_3d": float(state.stiffness_bars(pressed.stiffness[0])),
+        "scatter": _scatter(state),
         "status": status(pressed, n, seconds, is_coarse=is_coarse),
     }
-    return content, maps, {"topography": shaded(surface)}
+    return content, maps
 
 
 def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
     """The maps of a contact, by the words that choose them."""
     height = surface.rms_height
     maps = {
-        "height": height_map((surface.heights - surface.heights.mean()) / height, "/ h"),
+        "height": height_map(
+            (surface.heights - surface.heights.mean()) / height, "/ h", scale=height / state.length
+        ),
         **contact_maps(
             fields,
             pressure=(1 / state.E_star, "/ E*"),
@@ -199,7 +202,18 @@ def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[s
     }
     for each in state.added:
         maps |= each.added_maps(fields, state)
-    return maps
+    shown = state.shown if state.shown in maps and state.shown not in _POINTED_AT else "pressure"
+    return {name: maps[name] for name in (*_POINTED_AT, shown)}
+
+
+def _scatter(state: ExploreState) -> float | None:
+    """How far single surfaces scatter about their mean stiffness, where that is known. [1]"""
+    if state.added or state.periodic:
+        return None
+    try:
+        return trust_map().at(state.D_f, state.F, 1 / state.roll_off).scatter
+    except rl.InputError:
+        return None
 
 
 def _message(
@@ -207,16 +221,16 @@ def _message(
     refused: Mapping[str, str],
     content: dict[str, Any],
     maps: Mapping[str, Map] | None = None,
-    arrays: Mapping[str, NDArray[Any]] | None = None,
+    heights_held: object = (),
 ) -> bytes:
-    """An answer, with what the page is told of its controls: what counts, and what does not."""
-    header = {**_settled(state, refused), **content}
-    return drawn(header, content.get("panels", {}), maps or {}, arrays)
+    """An answer, with what the page is told of its controls: what counts, and what does not.
 
-
-def _is_first_step(arguments: Arguments) -> bool:
-    """Whether many ask at once, and this page has no answer yet."""
-    return bool(arguments["crowded"]) and arguments.get("refines") is not True
+    Heights do not cross the line again if the page has held them, by the key of their surface.
+    """
+    header, maps = {**_settled(state, refused), **content}, maps or {}
+    is_held = isinstance(heights_held, list) and content.get("heights") in heights_held
+    above = {"gap": "height"} if "gap" in maps else {}  # both together are the other body
+    return drawn(header, content.get("panels", {}), maps, above, ["height"] * is_held)
 
 
 def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
@@ -240,7 +254,7 @@ def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
 def _line_legend(state: ExploreState) -> str:
     """What the line of the reduced model is called, with what it leaves out."""
     without = unlike(state)
-    return f"1D {without}, mean and range" if without else "1D, mean and range of single lines"
+    return f"1D {without}, mean and range" if without else "1D, mean and range of lines"
 
 
 def _state_lines(state: ExploreState, count: int) -> tuple[rl.Line, ...]:
@@ -290,6 +304,6 @@ def _theories(
         remarks.append(f"{called}: {found.validity}")
         lines["area"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": found.area_fraction}
         if found.stiffness is not None:
-            values = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)
+            values = state.stiffness_bars(found.stiffness * surface.area)
             lines["stiffness"][f"theory {name}"] = {"x": _THEORY_FORCES, "y": values}
     return lines, remarks

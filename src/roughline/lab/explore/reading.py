@@ -30,20 +30,18 @@ _SIDE_RANGE, _MODULUS_RANGE = (1e-12, 1e3), (1.0, 1e14)  # that are allowed [m],
 
 def usable_state(arguments: Arguments) -> tuple[ExploreState, dict[str, str]]:
     """The state that a page asks about, and what of its texts is not used, by control."""
-    most_points = arguments["session"]["max_points"]
-    return usable(arguments, lambda texts: read_state(texts, most_points), ExploreState.texts)
+    return usable(arguments, read_state, ExploreState.texts)
 
 
 def state_in(arguments: Arguments) -> ExploreState:
     """The state that a page asks about, all of whose texts can be used."""
-    texts = sent_texts(arguments)
-    return replace(read_state(texts, arguments["session"]["max_points"]), typed_texts=texts)
+    return read_state(sent_texts(arguments))
 
 
-def read_state(texts: Texts, most_points: int) -> ExploreState:
+def read_state(texts: Texts) -> ExploreState:
     """Read the parameters of an address, or the texts of the controls.
 
-    Those that are missing have their defaults; so many points along a side are allowed here.
+    Those that are missing have their defaults.
 
     Raises
     ------
@@ -59,7 +57,7 @@ def read_state(texts: Texts, most_points: int) -> ExploreState:
         rms=CHOICES["rms"].read_in(texts),
         slope=NUMBERS["slope"].read_in(texts),
         seed=int(NUMBERS["seed"].read_in(texts)),
-        n=_points(texts.get("n"), most_points),
+        n=int(CHOICES["n"].read_in(texts)),
         boundary=CHOICES["boundary"].read_in(texts),
         shown=physics.second_map_choice().read_in(texts),
         L=_quantity(texts.get("L", ExploreState.L), "m", "L", "side of the surface", _SIDE_RANGE),
@@ -77,7 +75,7 @@ def read_state(texts: Texts, most_points: int) -> ExploreState:
     state = replace(state, added=tuple(added))
     state = replace(state, F=_force_bar(texts.get("F", str(ExploreState.F)), state))
     _refuse_together(state)
-    return state
+    return replace(state, typed_texts=texts)
 
 
 def _refuse_waves(state: ExploreState) -> None:
@@ -128,17 +126,6 @@ def _dimension(text: str | None, hurst: str | None) -> float:
     if not 0 <= value <= 1:
         raise ControlError(f"H is {shown(hurst.strip())}; give a number from 0 to 1", "D_f", "H")
     return round(3 - value, 12)
-
-
-def _points(text: str | None, most: int) -> int:
-    """Points along a side; without a text the default, or as many as the lab allows."""
-    points = CHOICES["n"]
-    if text is None:
-        return max(n for n in map(int, points.options) if n <= min(most, ExploreState.n))
-    n = int(points.read(text))
-    if n > most:
-        raise ControlError(f"{n} points along a side are more than this lab allows, {most}", "n")
-    return n
 
 
 def _quantity(text: str, unit: str, key: str, name: str, ends: tuple[float, float]) -> str:

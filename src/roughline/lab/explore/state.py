@@ -12,10 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.errors.checks import shown
 from roughline.halfspace.laws.bounds import Bounds
-from roughline.lab.controls import VERSION, Control, ControlError, Texts, as_code, as_text, has_unit
+from roughline.lab.controls import (
+    VERSION,
+    Control,
+    ControlError,
+    Texts,
+    as_code,
+    as_text,
+    has_unit,
+    is_number,
+)
 from roughline.lab.explore.controls import CHOICES, NUMBERS, ScaledControl
 from roughline.lab.maps import Map
 from roughline.lab.panels import Panel, PanelContent, Series
@@ -267,8 +275,8 @@ class ExploreState:
         return pressed.force / self.force(1.0)
 
     def stiffness_bars(self, stiffness: Any) -> Any:
-        """Stiffnesses of the full model, dimensionless over the E* of the state. [1]"""
-        return stiffness_bar(stiffness, self.E_star, self.length, PAPER_PUNCH)
+        """Stiffnesses k / (E* L), of both models alike, over the E* of the state. [1]"""
+        return stiffness / (self.E_star * self.length)
 
     def over_force(self, pressed: rl.SurfaceCurve) -> dict[str, NDArray[np.float64]]:
         """What panels over force show of loads, by their keys."""
@@ -299,7 +307,11 @@ class ExploreState:
         return texts
 
     def address(self) -> dict[str, str]:
-        """What the address says of this state: the version, and what is not the default."""
+        """What the address says of this state: the version, and what is not the default.
+
+        What is more than a number stands there as it was typed: under another height a pressure is
+        another F̄, and stays the pressure.
+        """
         default = ExploreState().texts()
         default |= {
             control.key: as_text(control.default)
@@ -312,7 +324,8 @@ class ExploreState:
             for key, text in self.texts().items()
             if text != default.get(key) or key in ("D_f", "F", "n", "seed")
         }
-        return {"v": VERSION, **texts}
+        typed = {key: text.strip() for key, text in self.typed_texts.items() if key in texts}
+        return {"v": VERSION, **texts, **{k: x for k, x in typed.items() if not is_number(x)}}
 
     def _spectrum(self, n: int, height: float) -> rl.SelfAffine:
         q_low = 2 * math.pi / self.length

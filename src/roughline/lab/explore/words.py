@@ -22,10 +22,10 @@ def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
     return [
         item(
             key="stiffness_1d",
-            symbol="k̄ (1D)",
-            value=figure(stiffness),
-            meaning=f"Stiffness k / (E* L) of the reduced model, mean of {lines} lines with the "
-            "same waves. It is made for the free half-space of one material, dry and elastic.",
+            symbol="k (1D)",
+            value=up_to_three_digits(stiffness * state.E_star * state.length, None, "N/m"),
+            meaning=f"Stiffness of the reduced model, mean of {lines} lines with the same waves. "
+            "It is made for the free half-space of one material, dry and elastic.",
             below=unlike(state),
         )
     ]
@@ -42,7 +42,9 @@ def contact_words(
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
-        return [item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
+        return [
+            item("stiffness_3d", "stiffness k", "not solved", f"The load was not solved: {reason}")
+        ]
     return [
         *_stiffness_and_area(pressed, state),
         *_pressure_and_depth(pressed, fields, state),
@@ -67,25 +69,22 @@ def _stiffness_and_area(pressed: rl.SurfaceCurve, state: ExploreState) -> list[I
     return [
         item(
             key="stiffness_3d",
-            symbol="k̄ (3D)",
-            value=figure(
-                state.stiffness_bars(stiffness), supported_digits(stiffness, of_k, _DIGITS)
-            )
-            + (" *" if unsure else ""),
-            meaning="Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over "
-            "that of a square punch. The interval shows how far finer grids may change it."
+            symbol="stiffness k",
+            value=rounded_value(stiffness, of_k, "N/m") + (" *" if unsure else ""),
+            meaning="Stiffness of the full model: the exact slope dF/dd. The interval shows how "
+            "far finer grids may change it."
             + " It is that at a given reach of the pull: along a branch the slope is less." * sticks
             + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
-            below=up_to_three_digits(stiffness, of_k, "N/m"),
+            below=beside_stiffness(stiffness, of_k, state),
         ),
         item(
             key="area",
-            symbol="contact",
-            value=f"{figure(100 * area, supported_digits(area, of_area, _DIGITS))}%",
+            symbol="contact area",
+            value=rounded_value(area, of_area, "%"),
             meaning="Real contact area over the nominal one, corrected for the steps of its "
             "outline. The interval shows how much finer grids, with finer roughness, may change "
             "it.",
-            below=up_to_three_digits(area, of_area, "%").partition(" ")[2],
+            below=rounded_ends(area, of_area, "%"),
         ),
     ]
 
@@ -96,13 +95,19 @@ def _pressure_and_depth(
     force, depth = float(pressed.force[0]), float(pressed.depth[0])
     in_contact = float(fields.pressure[fields.contact].mean())
     over_hardness = f", {figure(in_contact / pressed.hardness)} H" if pressed.hardness else ""
+    intervals, area = intervals_of_grid(pressed), float(pressed.area_fraction_corrected[0])
+    ends = None
+    if intervals and (of_area := first(intervals.area)) and of_area[0] > 0:
+        ends = (in_contact * area / of_area[1], in_contact * area / of_area[0])
     return [
         item(
             key="pressure",
-            symbol="p_c",
-            value=f"{figure(in_contact / state.E_star)} E*",
-            meaning="Mean pressure within the contact, over the cells that touch.",
-            below=up_to_three_digits(in_contact, None, "Pa") + over_hardness,
+            symbol="pressure p_c",
+            value=rounded_value(in_contact, ends, "Pa"),
+            meaning="Mean pressure within the contact, over the cells that touch. The interval is "
+            "that of the contact area.",
+            below=f"{rounded_ends(in_contact, ends, 'Pa')} {figure(in_contact / state.E_star)} E*"
+            + over_hardness,
         ),
         item(
             key="depth",
@@ -130,6 +135,23 @@ def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool)
         f"{n}²{' (coarse)' if is_coarse else ''}, {int(pressed.convolutions[0])} convolutions, "
         f"residual {pressed.residual[0]:.1g} {certified}, {figure(seconds, 2)} s"
     )
+
+
+def rounded_value(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+    """A value with the digits that its interval supports, and its unit."""
+    return up_to_three_digits(value, ends, unit).partition(" (")[0]
+
+
+def rounded_ends(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+    """The interval of a value in brackets, rounded as the value is; nothing where there is none."""
+    _, bracket, interval = up_to_three_digits(value, ends, unit).partition(" (")
+    return bracket.strip() + interval
+
+
+def beside_stiffness(value: float, ends: tuple[float, float] | None, state: ExploreState) -> str:
+    """The interval of a stiffness, and what it is over the modulus and the side."""
+    over_side = figure(state.stiffness_bars(value), supported_digits(value, ends, _DIGITS))
+    return f"{rounded_ends(value, ends, 'N/m')} k / (E* L) {over_side}".strip()
 
 
 def first(ends: Any) -> tuple[float, float] | None:

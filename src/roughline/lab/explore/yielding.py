@@ -13,13 +13,12 @@ from roughline.lab.explore.controls import ScaledControl
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
-from roughline.lab.explore.words import first, item, load_rows
+from roughline.lab.explore.words import beside_stiffness, first, item, load_rows, rounded_value
 from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
 from roughline.margins.grid import intervals_of_grid
 from roughline.question.loading import UNLOADING
 from roughline.report.values import figure, up_to_three_digits
-from roughline.units import supported_digits
 
 _IN_PYTHON = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
 print("plastic_fraction", curve.plastic_fraction[0])
@@ -91,16 +90,15 @@ class YieldingPhysics(Physics):
         intervals, unloading = intervals_of_grid(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
         indentation = float(pressed.indentation[0])
-        digits = supported_digits(unloading, ends, 3)
         return [
             item(
                 key="unloading",
-                symbol="k̄_u (3D)",
-                value=figure(state.stiffness_bars(unloading), digits),
-                meaning="Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs "
-                "back, while on loading the spots at the hardness bear no more. Ultrasound and "
-                "currents depend on it.",
-                below=up_to_three_digits(unloading, ends, "N/m"),
+                symbol="k_u",
+                value=rounded_value(unloading, ends, "N/m"),
+                meaning="Stiffness on unloading: all of the contact springs back, while on "
+                "loading the spots at the hardness bear no more. Ultrasound and currents depend "
+                "on it.",
+                below=beside_stiffness(unloading, ends, state),
             ),
             item(
                 key="plastic",

@@ -13,8 +13,8 @@ from attrs import evolve
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assess_part import assess_map, assess_part
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.comparison import compare_models
 from roughline.assessment.part import PartAssessment
+from roughline.comparison.compared import NamedBody, compare_models
 from roughline.errors.words import speaking
 from roughline.facts.fact import own_words
 from roughline.facts.kinds import DATA, INTERVALS, LIMITS
@@ -177,7 +177,10 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
             arguments["session"],
             "comparison",
             (source.key, reading),
-            lambda: compare_models(Topography.of(source.path, reading, None), progress=progress),
+            lambda: compare_models(
+                NamedBody(Topography.of(source.path, reading, None).body, source.name),
+                progress=progress,
+            ),
         )
     result = found.comparison
     star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"

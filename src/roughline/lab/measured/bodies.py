@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from attrs import evolve
 
-from roughline.assessment.notes import facts_on_hardness, facts_on_loads
 from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
-from roughline.lab.controls import STRANGE, ControlError
+from roughline.lab.controls import STRANGE, ControlError, sent_texts
 from roughline.lab.explore.controls import CHOICES as EXPLORED
 from roughline.lab.frames import frame
 from roughline.lab.measured import controls as c
@@ -23,6 +22,7 @@ from roughline.lab.server.tasks import Arguments, Progress
 from roughline.question.asked import Theories
 from roughline.question.loading import DEFAULT_LOADS
 from roughline.question.loads import Hardness, find_hardness
+from roughline.question.meant import facts_on_loads
 from roughline.question.question import Question
 from roughline.question.reading import Reading
 from roughline.report.contact_tables import solid_in_words
@@ -54,7 +54,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         bodies = zip(c.BODIES.values(), (pair.first, pair.second), strict=False)
         rows += [[text.label, solid_in_words(solid)] for (_, text), solid in bodies]
         left_out = rules.left_out(pair, question.frequency_in_hertz)
-        notes = [*map(str, [*facts_on_hardness(pair), *left_out])]
+        notes = [*map(str, [*pair.facts, *left_out])]
     rows.append(["yield", _yield_in_words(question, find_hardness(question))])
     if not question.loads:
         notes.append(
@@ -63,8 +63,14 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     meanings = []
     if body is not None and question.loads:
         meanings = [*map(str, facts_on_loads(question, body))]
+    elastic = {
+        "elastic": "yes",
+        **{k: x for k, x in sent_texts(arguments).items() if k != "elastic"},
+    }
+    still = used_in({**arguments, "state": elastic}, read)[1] if refused else {}
     header = {
         "refused": refused,
+        "mended_if_elastic": [key for key in refused if key not in still],
         "tables": {"measured-bodies": [["", ""], rows]},
         "lists": {"loads": meanings, "bodies-notes": notes},
         "words": {

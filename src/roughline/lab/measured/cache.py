@@ -6,9 +6,10 @@ import os
 import pickle
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, TypeVar
+
+from roughline.lab.frames import digest
 
 Value = TypeVar("Value")
 
@@ -48,8 +49,3 @@ def cached(
         with suppress(PermissionError):  # of Windows, while it is read; it goes with a later one
             older.unlink(missing_ok=True)
     return made
-
-
-def digest(asked: object) -> str:
-    """A short name for what is asked."""
-    return sha256(repr(asked).encode()).hexdigest()[:12]

@@ -14,9 +14,8 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.errors.words import speaking
 from roughline.lab.controls import is_number
-from roughline.lab.frames import frame
+from roughline.lab.frames import digest, frame
 from roughline.lab.measured.answers import assessed
-from roughline.lab.measured.cache import digest
 from roughline.lab.measured.state import (
     CONTROLS,
     ControlTexts,

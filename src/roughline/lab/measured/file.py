@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
-from roughline.assessment.description import Description, describe_measurement
 from roughline.errors.words import speaking
 from roughline.lab.frames import drawn
 from roughline.lab.measured.cache import cached
@@ -23,6 +22,7 @@ from roughline.lab.measured.state import (
     used_in,
 )
 from roughline.lab.server.tasks import Arguments, Progress
+from roughline.question.description import Description, describe_measurement
 from roughline.question.reading import Reading
 from roughline.question.source import measured_body
 from roughline.report.description_table import description_table

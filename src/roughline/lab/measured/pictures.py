@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.comparison import ModelComparison
-from roughline.assessment.description import Description
+from roughline.comparison.compared import ModelComparison
 from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.selection import loads_with_fields
@@ -19,6 +18,7 @@ from roughline.engineering.intervals import Ends
 from roughline.lab.maps import Map, ShownUnit, contact_maps, flux_map, height_map
 from roughline.lab.panels import PanelContent, Points
 from roughline.plot.pixels import any_marked, thinned
+from roughline.question.description import Description
 from roughline.report.comparison import comparison_table
 from roughline.report.contact_tables import area_in_words, curve_table
 from roughline.report.values import figure, up_to_three_digits
@@ -40,7 +40,8 @@ _PERCENTILES = {"lowest": 0, "lowest tenth below": 10, "median": 50, "highest te
 def file_pictures(found: Description) -> tuple[Panels, Maps]:
     """Heights as the file has them, its spikes marked where there is a body, and its spectrum."""
     content, body = found.measurement, found.body
-    metres = metres_per(content.unit) if content.unit else None
+    unit = content.unit or found.unit
+    metres = metres_per(unit) if unit else None
     heights = np.array(np.ma.getdata(content.heights), dtype=np.float64)
     heights[content.unknown] = np.nan
     spikes = np.zeros(heights.shape, bool)
@@ -51,7 +52,10 @@ def file_pictures(found: Description) -> tuple[Panels, Maps]:
     sides = content.sizes or tuple(map(float, heights.shape))
     otherwise = "unit not stated" if content.sizes else "points"
     aside = metres_per(content.unit_of_sides) if content.unit_of_sides else metres
-    along = _scale(max(sides), aside if content.sizes else None, otherwise)
+    aside = aside if content.sizes else None
+    if not content.sizes and body is not None and body.heights.shape == heights.shape:
+        sides, aside = side_lengths(body), 1.0  # as they were given
+    along = _scale(max(sides), aside, otherwise)
     up = _scale(_largest(np.abs(heights)), metres, "unit not stated")
     panels = _spectrum(found)
     if heights.ndim == 2:

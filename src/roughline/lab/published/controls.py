@@ -13,6 +13,19 @@ DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """Fractal dimensions of the paper's Figures 3 and 4."""
 MODELS: tuple[ModelLabel, ...] = ("1D", "3D")
 
+HANDBOOK = "https://github.com/roughline/roughline/tree/main/docs"
+"""Where the handbook is."""
+PAGES = {
+    "paper": "all figures of the paper beside ours, its claims and what is found of each",
+    "trust": "the trust map in tables",
+    "averaging": "which average",
+    "finite_size": "which size",
+    "area": "the area of contact",
+    "sealing": "where a contact seals",
+    "correlations": "why surfaces are softer than lines",
+}
+"""Its pages on the paper and on further studies, and what is told there."""
+
 _MEANING_OF_EDGES = (
     "Dimensionless force F / (E* h L); the fit takes the loads between the two edges."
 )
@@ -98,13 +111,6 @@ _CHOICES = (
         default="1",
         meaning="Roll-off ratio: how many roll-off wavelengths lie along a side. At 1 the spectrum "
         "has no plateau.",
-    ),
-    Choice(
-        key="claims",
-        name="show",
-        options={text: text for text in ("all", "confirmed", "undecided", "refuted")},
-        default="all",
-        meaning="Which claims the table shows, by the verdict on the claim as a whole.",
     ),
 )
 NUMBERS = {each.key: each for each in _NUMBERS}

@@ -7,7 +7,6 @@ from roughline.lab.published.controls import DIMENSIONS
 
 _MARKERS = ("circle", "square", "diamond", "triangle", "inverted_triangle", "plus")
 _WINDOWS = ("solid", "dashed", "dotted")  # of the published reduced model
-_KAPPAS = {"Bush, Gibson, Thomas": "dashed", "Persson": "dotted"}
 _EVERY = [(f"{d:g}", f"ramp-{i}", _MARKERS[i]) for i, d in enumerate(DIMENSIONS)]
 _CURVES = (
     *(band(f"{d} mean", "", colour, line_dash="dashed") for d, colour, _ in _EVERY),
@@ -50,27 +49,6 @@ PANELS = (
             estimates("3D", "3D, window chosen", "dark-line", marker="circle"),
         ),
         ranges=((1.97, 3.03), (0.4, 1.02)),
-        is_logarithmic=False,
-    ),
-    Panel(
-        key="area",
-        title="Area law: real contact area over force",
-        x=FORCE,
-        y="real contact area A / A₀",
-        series=_CURVES,
-        ranges=((1e-3, 10), (1e-6, 1.3)),
-    ),
-    Panel(
-        key="kappa",
-        title="Area law: κ of eq. 4",
-        x="fractal dimension",
-        y="κ = A E* ∇h / F",
-        series=(
-            *(line(name, name, "theory", 1.5, line_dash=dash) for name, dash in _KAPPAS.items()),
-            estimates("corrected", "area corrected", "dark-line", marker="circle"),
-            estimates("cells", "area in cells", "here", marker="triangle", fill_alpha=0),
-        ),
-        ranges=((1.95, 3.05), (0, 4.6)),
         is_logarithmic=False,
     ),
 )

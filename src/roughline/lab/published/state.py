@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from roughline.paper.stated import ModelLabel
     from roughline.paper.windows import ForceWindow
 
+_DROPPED_KEYS = {"claims"}
+"""What links of version 0.3 chose besides: which claims are listed, which the handbook does now."""
+
 
 @dataclass(frozen=True)
 class PublishedState:
@@ -37,7 +40,7 @@ class PublishedState:
 
 def read_state(texts: Texts) -> PublishedState:
     """Read the parameters of an address, or the texts of the controls, or their defaults."""
-    refuse_strange(texts, {*NUMBERS, *CHOICES, "D_f"})
+    refuse_strange(texts, {*NUMBERS, *CHOICES, "D_f", *_DROPPED_KEYS})
     state = PublishedState(
         _dimensions(texts.get("D_f")),
         {key: each.read_in(texts) for key, each in CHOICES.items()},

@@ -1,4 +1,4 @@
-"""Files on the disk of the server: those of a page, the room for all, and what servers leave."""
+"""Files on the disk of the server: those of a page, and what servers leave."""
 
 from __future__ import annotations
 
@@ -8,22 +8,20 @@ import secrets
 import shutil
 import stat
 import tempfile
-import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 _PREFIX = "roughline-lab-"
 _ROOT = re.compile(_PREFIX + r"(?P<pid>\d+)-\w+")
+MOST_UPLOAD = 1_000_000_000  # largest file that is taken [bytes]
 _MOST_FILES = 20  # of one page at once
 _MOST_UPLOADS = 3  # largest files that a page's files may make together
 _NOT_IN_NAMES = re.compile(r"[<>/\\\0-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 """What no system lets a name have, or what a terminal or a page could take for something else."""
 
 _SUFFIX = re.compile(r"\.[A-Za-z0-9]{1,8}")
-_MOST_DISK = 20_000_000_000  # [bytes]
-_LOOK_AGAIN_AFTER = 1.0  # after which files are counted again [s]
 
 
 @dataclass
@@ -40,9 +38,13 @@ class Upload:
 class Files:
     """What a page has brought, by keys, in a folder of its own that is there from the first on."""
 
-    def __init__(self, folder: Path, largest: float) -> None:
-        self.folder, self._largest = folder, largest
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
         self.uploads: dict[str, Upload] = {}
+
+    def has_room(self, size: int) -> bool:
+        """Whether the disk has room for a file of a size. [bytes]"""
+        return shutil.disk_usage(self.folder.parent).free > size
 
     def new(self, name: str, size: int) -> Upload:
         """Make place for a file that is about to come, of a size that counts from now on.
@@ -54,8 +56,7 @@ class Files:
         self.folder.mkdir(mode=0o700, exist_ok=True)
         while self.uploads and (
             len(self.uploads) >= _MOST_FILES
-            or sum(each.size for each in self.uploads.values()) + size
-            > _MOST_UPLOADS * self._largest
+            or sum(each.size for each in self.uploads.values()) + size > _MOST_UPLOADS * MOST_UPLOAD
         ):
             self.forget(next(iter(self.uploads)))
         path = self.folder / (secrets.token_hex(8) + (suffix[0].lower() if suffix else ""))
@@ -82,44 +83,6 @@ class Files:
         except PermissionError:  # of Windows, while one of the files is read
             return self.folder
         return gone
-
-
-class Disk:
-    """The room for the files of all pages, which are in folders in the folder `root`.
-
-    They may have `most` bytes together; None takes half of what is free.
-    """
-
-    def __init__(self, root: Path, most: float | None) -> None:
-        self._root = root
-        self.most = min(_MOST_DISK, shutil.disk_usage(root).free / 2) if most is None else most
-        self.look()
-
-    def look(self) -> None:
-        """Find how large the folders are, and how much of files that come is still to be stored."""
-        self._looked, self._to_come = time.monotonic(), 0
-        self._sizes: dict[Path, int] = {}
-        for folder in self._root.iterdir():
-            found = list(_files_in(folder))
-            self._sizes[folder] = sum(each.st_size for each in found)
-            stored = (512 * getattr(each, "st_blocks", each.st_size) for each in found)
-            self._to_come += max(0, self._sizes[folder] - sum(stored))
-
-    def room(self, live_folders: Iterable[Path]) -> float:
-        """Size that further files may have; folders that are not kept are being deleted. [bytes]"""
-        if time.monotonic() - self._looked >= _LOOK_AGAIN_AFTER:
-            self.look()
-        size = sum(self._sizes.get(folder, 0) for folder in live_folders)
-        to_go = sum(self._sizes.values()) - size
-        return min(self.most - size, shutil.disk_usage(self._root).free - self._to_come + to_go)
-
-
-def _files_in(folder: Path) -> Iterator[os.stat_result]:
-    """What the system knows of all files in a folder, at any depth."""
-    for inner, _, names in os.walk(folder):
-        for name in names:
-            with suppress(OSError):  # it was deleted meanwhile
-                yield Path(inner, name).lstat()
 
 
 @contextmanager

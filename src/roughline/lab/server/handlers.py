@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import mimetypes
-import re
 from contextlib import suppress
 from hashlib import sha256
 from importlib.metadata import distribution
@@ -13,8 +12,8 @@ from urllib.parse import parse_qsl, urlencode
 from tornado.iostream import StreamClosedError
 from tornado.web import Application, HTTPError, StaticFileHandler, stream_request_body
 
-from roughline.lab.server.access import DAYS, cookie_name, is_encrypted
-from roughline.lab.server.connections import Stage
+from roughline.lab.server import files
+from roughline.lab.server.access import cookie_name, cookie_scope, opens
 from roughline.lab.server.files import Files, Upload
 from roughline.lab.server.guarded import Guarded
 from roughline.lab.server.link import MOST_BYTES, Link
@@ -24,9 +23,9 @@ _PONG_WITHIN = 20  # a page that does not answer within this time is gone [s]
 _MOST_DIGITS = 15  # of the size of a file that is to come
 _DIGEST_LETTERS = 12  # letters of the digest by which a page knows a file again
 _CACHED_FOR = 3600  # that a browser keeps the parts of the page [s]
-_NO_ROOM = "The lab has no room for this file now: close other pages of it, or come back later"
+_DAYS = 7  # that a browser keeps the token
+_NO_ROOM = "The disk has no room for this file: make some, and choose it again"
 _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
-_PAGE = re.compile(r"/(\?[!-~]*)?")  # with what is set in it
 _RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"
 """Documents that tasks have written run no program, and load nothing."""
 
@@ -37,8 +36,6 @@ def application(server: Server) -> Application:
     return Application(
         [
             (r"/", _Page),
-            (r"/login", _Login),
-            (r"/logout", _Logout),
             (r"/here", _Here),
             (r"/link", Link),
             (r"/upload", _Uploads),
@@ -50,6 +47,7 @@ def application(server: Server) -> Application:
         server=server,
         websocket_max_message_size=MOST_BYTES,
         websocket_ping_interval=_PONG_WITHIN,
+        compress_response=True,
         log_function=lambda handler: None,
     )
 
@@ -62,85 +60,60 @@ class _Nothing(Guarded):
         raise HTTPError(404, reason="There is nothing at this address")
 
 
-class _Door(Guarded):
-    """Where one comes in, with the password or token."""
+class _Page(Guarded):
+    """The page itself, for who has the token; others are asked for it."""
 
     open_to_all = True
-
-    def enter(self, attempt: str, leads_to: str) -> None:
-        """Let in who has given the password or token, and go on; ask again otherwise."""
-        key, tries, host = self.server.key, self.server.tries(self.address), self.request.host
-        # nobody guesses a token, so a stranger's tries need not keep out who has it
-        if key.opens(attempt) and (key.is_token or not tries.is_empty):
-            self.set_cookie(
-                cookie_name(host),
-                self.server.logins.begin(host.lower()),
-                expires_days=DAYS,
-                httponly=True,
-                samesite="Strict",
-                secure=is_encrypted(self.request, self.server.settings),
-            )
-            self.redirect(leads_to, status=303)
-        elif not tries.take():  # only wrong ones count
-            self.set_status(429)
-            self.ask_for_key("Too many tries: wait a minute.", leads_to)
-        else:
-            self.set_status(403)
-            wanted = "token of the lab that runs now" if key.is_token else "password"
-            self.ask_for_key(f"This is not the {wanted}.", leads_to)
-
-    def ask_for_key(self, complaint: str, leads_to: str) -> None:
-        """Send the page that asks for the password or token."""
-        self.set_header("Referrer-Policy", "same-origin")  # "no-referrer" hides a form's origin
-        self.set_header("Cache-Control", "no-store")
-        self.finish(self.server.site.login_page(self.server.key.is_token, complaint, leads_to))
-
-
-class _Page(_Door):
-    """The page itself, for who is logged in."""
 
     def get(self) -> None:
         self.set_header("Cache-Control", "no-store")
         token = self.get_query_argument("token", None)
-        address = _address_of_page(self.request.query)
-        if not self.login and token is not None and self.server.key.is_token:
-            self.enter(token, address)
-        elif not self.login:
-            self.redirect("/login" if address == "/" else f"/login?{urlencode({'next': address})}")
+        if token is not None and not self.has_token:
+            self._enter(token)
         elif token is not None:
-            self.redirect(address)
-        else:
+            self.redirect(self._without_token)
+        elif self.has_token:
             self.finish(self.server.site.page())
-
-
-class _Login(_Door):
-    """Where the password or token is asked for."""
-
-    def get(self) -> None:
-        leads_to = _own_page(self.get_query_argument("next", "/"))
-        if not self.login:
-            self.ask_for_key("", leads_to)
         else:
-            self.redirect(leads_to)
+            self._ask_for_token(401, "")
 
     def post(self) -> None:
-        argument = "token" if self.server.key.is_token else "password"
-        leads_to = _own_page(self.get_body_argument("next", "/"))
-        self.enter(self.get_body_argument(argument, "", strip=False), leads_to)
+        self._enter(self.get_body_argument("token", ""))
 
+    def _enter(self, attempt: str) -> None:
+        """Let in who has the token, and go on; ask again otherwise."""
+        # who pastes the whole address has it, too
+        attempt = dict(parse_qsl(attempt.partition("?")[2])).get("token", attempt)
+        if not opens(attempt, self.server.token):
+            self._ask_for_token(403, "This is not the token of the lab that runs now.")
+            return
+        path, secure = cookie_scope(self.server.settings)
+        self.set_cookie(
+            cookie_name(self.request.host),
+            self.server.token,
+            expires_days=_DAYS,
+            path=path,
+            httponly=True,
+            samesite="Lax",  # a link that leads here from elsewhere finds the browser known
+            secure=secure,
+        )
+        self.redirect(self._without_token, status=303)
 
-class _Logout(Guarded):
-    """Where a browser ends its login, and with it all its pages."""
+    def _ask_for_token(self, status: int, complaint: str) -> None:
+        self.set_status(status)
+        self.set_header("Referrer-Policy", "same-origin")  # "no-referrer" hides a form's origin
+        self.finish(self.server.site.door(complaint))
 
-    def post(self) -> None:
-        self.server.logins.end(self.login)
-        self.server.sweep()
-        self.clear_cookie(cookie_name(self.request.host))
-        self.redirect("/login", status=303)
+    @property
+    def _without_token(self) -> str:
+        """The address of this page, less the token in it; behind a proxy it has a path before."""
+        parts = parse_qsl(self.request.query, keep_blank_values=True)
+        rest = [part for part in parts if part[0] != "token"]
+        return f"./?{urlencode(rest)}" if rest else "./"
 
 
 class _Here(Guarded):
-    """Where a page asks whether its browser is still logged in; who is not is refused before."""
+    """Where a page asks whether the lab still knows its browser; others are refused before."""
 
     def get(self) -> None:
         self.set_header("Cache-Control", "no-store")
@@ -171,18 +144,15 @@ class _Uploads(Guarded):
         """Refuse a file that is too large before it comes, or that there is no room for."""
         super().prepare()
         session = self.known_session(self.get_query_argument("session", ""))
-        name, most = self.get_query_argument("name", "file"), self.server.settings.max_upload
-        self.request.connection.set_max_body_size(int(most))  # type: ignore[union-attr]
-        if not session.allowance.take():
-            raise HTTPError(429, reason="Too many files at once: wait a moment")
+        name, most = self.get_query_argument("name", "file"), files.MOST_UPLOAD
+        self.request.connection.set_max_body_size(most)  # type: ignore[union-attr]
         length = self.request.headers.get("Content-Length", "")
         if not (length.isascii() and length.isdigit()):
             raise HTTPError(411, reason="The size of the file must be stated first")
         if len(length) > _MOST_DIGITS or int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
-        self.note(Stage.BRINGS)
         self._files, self._digest = session.files, sha256()
-        self._is_full = not self.server.has_room(int(length))
+        self._is_full = not self._files.has_room(int(length))
         if not self._is_full:
             try:
                 self._upload = session.files.new(name, int(length))
@@ -205,7 +175,6 @@ class _Uploads(Guarded):
 
     def post(self) -> None:
         """Tell the page what its file is called here."""
-        self.note(Stage.IS_SERVED)
         try:
             if self._file is not None:
                 self._file.close()
@@ -260,14 +229,3 @@ class _ResultFiles(Guarded):
             for piece in StaticFileHandler.get_content(str(path)):
                 self.write(piece)
                 await self.flush()
-
-
-def _address_of_page(query: str) -> str:
-    """The address of the page with a query, less the token in it."""
-    rest = [part for part in parse_qsl(query, keep_blank_values=True) if part[0] != "token"]
-    return f"/?{urlencode(rest)}" if rest else "/"
-
-
-def _own_page(address: str) -> str:
-    """An address to go on to if it is the page's own; that of the bare page otherwise."""
-    return address if _PAGE.fullmatch(address) else "/"

@@ -12,7 +12,6 @@ from tornado.web import HTTPError
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from roughline._version import __version__
-from roughline.lab.server.access import Allowance
 from roughline.lab.server.guarded import Guarded
 from roughline.lab.server.lanes import MOST_PARTS, TOO_MANY
 from roughline.lab.server.sessions import Session
@@ -20,6 +19,7 @@ from roughline.lab.server.sessions import Session
 MOST_BYTES = 2**16  # longest message of a page; files come another way
 _LONGEST_SLOT, _LONGEST_TEXT, _MOST_DEPTH = 40, 2000, 6
 _MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
+PACKING = 4  # of 9: how hard bytes are packed, against the time that this takes
 _LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
 
 
@@ -40,16 +40,19 @@ class Link(Guarded, WebSocketHandler):
             raise HTTPError(403, reason="Only pages of this server may ask")
         self._before = self.get_query_argument("session", "")
 
+    def get_compression_options(self) -> dict[str, Any]:
+        """Pack what is sent: pictures on a slow line wait for their bytes."""
+        return {"compression_level": PACKING}
+
     def open(self, *args: str, **kwargs: str) -> None:
         """Begin a session, or go on with the one that the page had before."""
         self.set_nodelay(True)
-        self._refusals = Allowance(rate=1, most=300)
         self._unsent = 0  # [bytes]
         # questions by their slots, as the session takes them; the latest of a slot counts
         self._held: dict[str, tuple[int, str, str, dict[str, Any]]] = {}
-        session = self.server.session_for(self, self.address, self.login, self._before)
+        session = self.server.session_for(self, self._before)
         if session is None:
-            self.close(1013, "no more pages may be open at once: close one, or come back later")
+            self.close(1013, "no more pages may be open at once: close one")
             return
         self._begun, uploads = session, session.files.uploads.items()
         files = {key: {"name": it.name, "digest": it.digest} for key, it in uploads if it.digest}
@@ -69,11 +72,7 @@ class Link(Guarded, WebSocketHandler):
         number, slot, task = content.get("id"), content.get("slot"), content.get("task")
         number = number if isinstance(number, int) and 0 <= number < 2**53 else 0
         arguments, why = content.get("arguments"), ""
-        if not (session.allowance.take() and self.server.questions(self.address).take()):
-            why = "too many questions at once: wait a moment, then go on"
-            if not self._refusals.take():
-                return self.close(1008, "this page asked too much: reload it")
-        elif not isinstance(slot, str) or not 0 < len(slot) <= _LONGEST_SLOT:
+        if not isinstance(slot, str) or not 0 < len(slot) <= _LONGEST_SLOT:
             why = "this message is not one of the lab: reload the page"
         elif content.get("stop") is True:
             self._held.pop(slot, None)

@@ -165,11 +165,11 @@ def _serve(connection: Connection, memory: float, warm_up: Callable[[], None] | 
     from roughline.computing.memory import limit_process  # here because the server needs it not
 
     limit_process(int(memory))
+    _limit_files()
     with suppress(EOFError, OSError):  # the server is gone
         while True:
             place, arguments = connection.recv()
             connection.send(None)
-            _limit_files(arguments.get("session", {}).get("room", _LARGEST_FILE))
             outcome = run_task(place, arguments, lambda *steps: connection.send(steps))
             connection.send(outcome)
 
@@ -182,11 +182,10 @@ def _end_with_server() -> None:
         os._exit(1)
 
 
-def _limit_files(most: float) -> None:
+def _limit_files() -> None:
     """Refuse larger files from now on, and leave no image of memory, where possible."""
     if sys.platform == "linux":
         import resource
 
-        size = int(min(max(0, most), _LARGEST_FILE))
-        resource.setrlimit(resource.RLIMIT_FSIZE, (size, _LARGEST_FILE))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -14,21 +14,25 @@ from typing import Any, Protocol
 
 from tornado.ioloop import PeriodicCallback
 
-from roughline.lab.server.access import Allowance, Key, Logins, allowances
-from roughline.lab.server.budget import limits_within
-from roughline.lab.server.files import Disk, Files
+from roughline.computing.cores import available_cores
+from roughline.computing.memory import free_memory
+from roughline.lab.server.files import Files
 from roughline.lab.server.lanes import Lane, Request
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import Site, TaskOutcome
 
 _PAGE_WITHIN = 600.0  # that a session waits for its page [s]
 _RELOAD_WITHIN = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]
-_MOST_WAITING = 20  # sessions of one address that wait for their pages
+_MOST_PAGES = 50  # that are open, or waited for
 _SWEEP_INTERVAL = 1.0  # after which it is looked again for what is over [s]
-_MOST_PROGRESS = 10.0  # messages on progress [1 / s]
+_PROGRESS_INTERVAL = 0.1  # between messages on progress [s]
 _MOST_HELD = 16  # outcomes that wait for a page to come back
 _MOST_HELD_BYTES = 10_000_000  # of their answers
-_ELSEWHERE, _REFUSED = 4001, 1008  # with which websockets are closed
+_ELSEWHERE = 4001  # with which the websocket of the older page is closed
+_USABLE = 0.9  # of the memory that is free when the server starts
+_SERVER_BYTES = 500_000_000  # of the server itself and what all processes share [bytes]
+_FEWEST_PRESSES, _MOST_PRESSES = 2, 8  # at once, each in a process
+_MOST_MEMORY, _QUICK_MEMORY = 4_000_000_000, 1_000_000_000  # of a task, beside the program [bytes]
 
 
 class PageLine(Protocol):
@@ -56,15 +60,13 @@ class _PageRequest:
 class Session:
     """What a page has; it goes on over a new line if the old one drops or the page is reloaded."""
 
-    def __init__(self, server: Server, line: PageLine, address: str, login: str) -> None:
-        self.server, self.address = server, address
-        self.login = login  # of the browser; only the same login may go on with the session
+    def __init__(self, server: Server, line: PageLine) -> None:
+        self.server = server
         # known to the page alone; a request with it counts as a request of the page
         self.token = secrets.token_urlsafe(16)
         self.line: PageLine | None = line  # to its page; None while it waits for one
         self.since, self.is_left = 0.0, False  # when its line closed, and whether the page did so
-        self.files = Files(server.root / self.token, server.settings.max_upload)
-        self.allowance = Allowance(rate=200, most=800)
+        self.files = Files(server.root / self.token)
         self.asked: dict[str, _PageRequest] = {}
 
     @property
@@ -85,11 +87,15 @@ class Session:
                 self._tell(slot, before, before.outcome)
             return
         asked = self.asked[slot] = _PageRequest(number, task, arguments, self.line)
-        started, pace = time.monotonic(), Allowance(_MOST_PROGRESS, 1)
+        started = latest = time.monotonic()
 
         def progress(done: int, total: int) -> None:
-            if self.line is not None and self.line is asked.line and (pace.take() or done >= total):
-                left = (time.monotonic() - started) * (total - done) / done if done else None
+            nonlocal latest
+            now = time.monotonic()
+            is_time = now - latest >= _PROGRESS_INTERVAL or done in (0, total)
+            if self.line is not None and self.line is asked.line and is_time:
+                latest = now
+                left = (now - started) * (total - done) / done if done else None
                 self.line.send({"id": asked.number, "done": done, "total": total, "left": left})
 
         place, uploads = self.server.site.tasks[task], self.files.uploads
@@ -97,12 +103,10 @@ class Session:
             "folder": str(self.files.folder),
             "files": {key: str(each.path) for key, each in uploads.items()},
             "names": {str(each.path): each.name for each in uploads.values()},
-            "max_points": self.server.settings.max_points,
-            "room": self.server.room_of_task(),
         }
         in_session, answer = {**arguments, "session": context}, partial(self._tell, slot, asked)
         lane = self.server.quick if place.is_quick else self.server.slow
-        lane.submit(Request(self.address, self.token, slot, place, in_session, answer, progress))
+        lane.submit(Request(self.token, slot, place, in_session, answer, progress))
 
     def withdraw(self, slot: str | None = None) -> list[asyncio.Task[None]]:
         """Stop what was asked for a part of the page, or for all; returns the work that ends."""
@@ -151,42 +155,40 @@ class Session:
 
 
 class Server:
-    """What all requests share; the files of all sessions are in the folder `root`."""
+    """What all requests share; the files of all sessions are in the folder `root`.
+
+    Presses that run at once never take more memory together than is free at the start.
+    """
 
     def __init__(self, site: Site, settings: ServerSettings, root: Path) -> None:
         self.site, self.settings, self.root = site, settings, root
         self.sessions: dict[str, Session] = {}
-        self.key, self.logins = Key(settings.password), Logins()
-        # how often each address may ask, and try passwords, whatever number of pages it has open
-        self.questions, self.tries = allowances(2000, 8000), allowances(1 / 12, 5)
-        quick, slow = limits_within(settings.memory, settings.max_memory, settings.max_seconds)
-        self.quick, self.slow = Lane(quick, lasting=True), Lane(slow, lasting=False)
-        self._disk, self.processes = Disk(root, settings.max_disk), quick.most + slow.most
+        self.token = secrets.token_hex(16)  # new at each start, and what a browser must know
+        free = max(_USABLE * free_memory() - _SERVER_BYTES, 0.0)
+        memory = min(_MOST_MEMORY, free / _FEWEST_PRESSES)
+        presses = min(_MOST_PRESSES, max(_FEWEST_PRESSES, int(free // max(memory, 1))))
+        self.quick = Lane(available_cores(), min(_QUICK_MEMORY, memory), lasting=True)
+        self.slow = Lane(presses, memory, lasting=False)
         self._sweeping = PeriodicCallback(self.sweep, 1000 * _SWEEP_INTERVAL)
         self._sweeping.start()
 
-    def session_for(self, line: PageLine, address: str, login: str, token: str) -> Session | None:
+    def session_for(self, line: PageLine, token: str) -> Session | None:
         """The session of a page that opens: the one with its token, or a new one.
 
-        There is none where all places are taken by open pages: from afar, an address has half of
-        all places. Those that wait for their pages give way, of the same address first.
+        Those that wait for their pages give way; there is none where all places are taken.
         """
         before = self.sessions.get(token)
-        if before is not None and before.login == login:
+        if before is not None:
             older, before.line = before.line, line
             if older is not None:  # it still seems open
                 older.close(_ELSEWHERE, "another page goes on with this one's file")
             return before
-        most = self.settings.max_sessions
-        most_per_address = max(1, most // 2) if self.settings.lets_others_in else most
-        while True:
-            is_full = len(self.sessions) >= most
-            own = sum(session.address == address for session in self.sessions.values())
-            if not is_full and own < most_per_address:
-                break
-            if not (self.end_waiting(address) or (is_full and self.end_waiting())):
+        while len(self.sessions) >= _MOST_PAGES:
+            waiting = [each for each in self.sessions.values() if each.line is None]
+            if not waiting:
                 return None
-        session = Session(self, line, address, login)
+            min(waiting, key=lambda each: each.since).end()
+        session = Session(self, line)
         self.sessions[session.token] = session
         return session
 
@@ -199,56 +201,21 @@ class Server:
         session.line, session.since, session.is_left = None, time.monotonic(), is_left
         if not session.has_something:
             session.end()
-        elif len(self._waiting(session.address)) > _MOST_WAITING:
-            self.end_waiting(session.address)
-
-    def _waiting(self, address: str | None) -> list[Session]:
-        """Sessions that wait for their pages, at an address or anywhere."""
-        waiting = [each for each in self.sessions.values() if each.line is None]
-        return [each for each in waiting if address in (None, each.address)]
-
-    def end_waiting(self, address: str | None = None) -> bool:
-        """End the session that has waited longest for its page, if one waits at an address."""
-        waiting = self._waiting(address)
-        if waiting:
-            min(waiting, key=lambda each: each.since).end()
-        return bool(waiting)
 
     def sweep(self) -> None:
-        """End sessions whose login has ended or that nobody came back for, and first their work.
+        """End sessions that nobody came back for, and first their work.
 
         Memory is given back when no page is open.
         """
         now = time.monotonic()
-        for session in list(self.sessions.values()):
-            waits = session.line is None
-            if waits and session.is_left and now - session.since > _RELOAD_WITHIN:
+        for session in [each for each in self.sessions.values() if each.line is None]:
+            if session.is_left and now - session.since > _RELOAD_WITHIN:
                 session.withdraw()
-            is_over = waits and (now - session.since > _PAGE_WITHIN or not session.has_something)
-            if is_over or not self.logins.lasts(session.login):
-                if session.line is not None:
-                    reason = "this browser is no longer logged in: reload the page to log in"
-                    session.line.close(_REFUSED, reason)
+            if now - session.since > _PAGE_WITHIN or not session.has_something:
                 session.end()
         if all(session.line is None for session in self.sessions.values()):
             self.quick.renew()
             self.slow.renew()
-
-    def has_room(self, size: float) -> bool:
-        """Whether there is room on the disk now for files of a size. [bytes]"""
-        self._disk.look()
-        return self._made_room(size) >= size
-
-    def room_of_task(self) -> float:
-        """Size of the largest file that a task may write: all tasks may write at once. [bytes]"""
-        return self._made_room(self.settings.max_upload) / self.processes
-
-    def _made_room(self, wanted: float) -> float:
-        """The room on the disk; if it is less than wanted, those go that have waited longest."""
-        while True:
-            room = self._disk.room(each.files.folder for each in self.sessions.values())
-            if room >= wanted or wanted > self._disk.most or not self.end_waiting():
-                return room
 
     async def close(self) -> None:
         """End everything."""

@@ -16,9 +16,7 @@ from typing import Any
 from roughline.computing.disk import is_full
 from roughline.errors import RoughlineError
 
-_NO_ROOM = (
-    "the lab has no room for the files of this now: close other pages of it, or come back later"
-)
+_NO_ROOM = "the disk has no room for the files of this: make some, and ask again"
 _NO_MEMORY = "this needs more memory than one page may have: take fewer points or a smaller piece"
 _UNKNOWN = (
     "the computation failed for a reason that the lab does not know; the terminal in which the lab "
@@ -61,9 +59,7 @@ class Site:
     """What a server serves."""
 
     page: Callable[[], str]  # gives the page, as HTML
-    # gives the page that asks for the token, or else for the password, from that choice, a word on
-    # what was wrong, and the address to go on to
-    login_page: Callable[[bool, str, str], str]
+    door: Callable[[str], str]  # gives the page that asks for the token, with what was wrong
     parts: Path  # folder of scripts and styles
     tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
 

@@ -4,15 +4,18 @@ import {bindCode} from "./code.js";
 import {Controls} from "./controls.js";
 import {element} from "./elements.js";
 import {onDraw} from "./hands.js";
-import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
+import {settle} from "./link.js";
+import {Maps, layersOf, mapFigure, onRelief, profileFigure, sharedRanges} from "./maps.js";
 import {panelsOf} from "./panels.js";
+import {pictureOf, save} from "./saving.js";
 import {Strip} from "./strip.js";
-import {fillCaption, fillTable} from "./tables.js";
+import {fillCaption, fillList, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
-const MAPS = ["explore-topography", "explore-contact"];
+const MAP = "explore-contact", NOT_ASKED = ["white"]; // how the area is drawn, which is always there
+const SURFACES = 4; // whose heights are held
 const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
 const LEFT_BY_OTHERS = "curves belong to the contact before";
 
@@ -47,7 +50,7 @@ class Explore {
     }
     for (const panel of this.#root.querySelectorAll(".panel:not(.wide)")) panel.classList.add("empty");
     for (const {key, task} of panels) this.#panelOf(key).dataset.task = task;
-    for (const map of MAPS) this.#find(`#${map}`).dataset.task = "contact";
+    this.#find(`#${MAP}`).dataset.task = "contact";
     bindTabs(this.#root, () => this.#placeCursors());
   }
 
@@ -63,7 +66,7 @@ class Explore {
       onDraw(this.#plots.root(`explore-${key}`), this.#find(`[data-draw="${key}"]`),
         (from, {x, y}) => { this.#plots.model(`${key} cursor`).location = cursor === "width" ? y : x; });
     }
-    this.#maps = new Maps(this.#plots, "explore", ["topography", "contact"], "profile");
+    this.#maps = new Maps(this.#plots, "explore", ["contact"], {profile: "profile", hasCross: true});
     this.#maps.frame([1, 1], "/ L");
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
@@ -77,9 +80,21 @@ class Explore {
     return {state: {...state, ...texts, shown: this.#controls.said.shown ?? "area"}, points};
   }
 
-  #save(name) {
+  async #save(name) {
+    if (name.endsWith(".png")) {
+      const isMap = ({id}) => [MAP, "explore-profile"].includes(id);
+      const panels = [...this.#root.querySelectorAll(".panel:not(.empty)")]
+        .filter((each) => each.offsetParent && isMap(each) === (name === "contact.png"));
+      save(name, await pictureOf(this.#plots, panels));
+      return;
+    }
+    if (name.endsWith(".csv")) {
+      const remarks = [`roughline ${document.body.dataset.version}`, `lab_link = ${location.search}`];
+      save(name, new Blob([this.#panels.table(remarks)], {type: "text/csv"}));
+      return;
+    }
     this.#waiting.ask("explore.download", "download", {...this.#seen, name}, {
-      answer: ({file}) => element("a", {href: `/results/${this.#link.session}/${file}?save=1`, download: name}).click(),
+      answer: ({file}) => element("a", {href: `results/${this.#link.session}/${file}?save=1`, download: name}).click(),
       error: (...said) => this.#refuse(...said),
     });
   }
@@ -119,7 +134,11 @@ class Explore {
 
   #changed(key, isFinal) {
     if (key === "shown") {
-      if (this.#last) { this.#drawField(); this.#writeAddress(this.#last.state); }
+      if (!this.#last) return;
+      this.#drawField();
+      this.#writeAddress(this.#last.state);
+      const {shown} = this.#controls.said;
+      if (![...NOT_ASKED, ...Object.keys(this.#fields.maps)].includes(shown)) this.#sharpen(); // it was not sent
       return;
     }
     this.#ofLink = "";
@@ -154,19 +173,25 @@ class Explore {
   #askNow() {
     const turn = ++this.#turn, args = this.#controls.asked;
     const error = (sentence, at) => this.#refuse(sentence, at, turn);
-    this.#link.stop("finer lines");
     this.#link.ask("explore.reduced", "reduced", args, {
-      answer: (header) => {
-        this.#draw(() => this.#drawLine(header, args, turn));
-        if (header.is_coarse && turn === this.#turn) { // many ask at once
-          this.#link.ask("explore.reduced", "finer lines", {...args, refines: true}, {
-            answer: (finer) => this.#draw(() => this.#drawLine(finer, args, turn))});
-        }
-      },
-      error,
+      answer: (header) => this.#draw(() => this.#drawLine(header, args, turn)), error,
     });
-    this.#link.ask("explore.coarse", "coarse", args, {
-      answer: (header) => this.#draw(() => this.#drawContact(header, args, turn)), error});
+    this.#link.ask("explore.coarse", "coarse", {...args, heights: this.#held}, {
+      answer: (header) => { this.#hold(header); this.#draw(() => this.#drawContact(header, args, turn)); }, error});
+  }
+
+  #heights = new Map(); // those that came last, of a coarse and of a fine grid, by the keys of their surfaces
+
+  get #held() { return [...this.#heights.keys()]; }
+
+  // Keep the heights of an answer, or take those that were not sent again.
+  #hold({heights, arrays}) {
+    if (!arrays.gap) return; // the load was not solved
+    arrays.height ??= this.#heights.get(heights);
+    this.#heights.delete(heights);
+    this.#heights.set(heights, arrays.height);
+    if (this.#heights.size > SURFACES) this.#heights.delete(this.#held[0]);
+    settle(arrays);
   }
 
   #sharpen() {
@@ -184,9 +209,9 @@ class Explore {
       error,
       progress,
     });
-    ask("full", "full", args, (header) => {
+    ask("full", "full", {...args, heights: this.#held}, (header) => {
+      this.#hold(header);
       this.#drawContact(header, args, turn);
-      if (header.is_coarse) return; // many ask at once
       for (const each of this.#stale) {
         if (each !== "curve" && !header.state[each]) { this.#dim([each], false); continue; } // it is refused
         const task = each === "curve" ? "curve" : "further";
@@ -199,6 +224,7 @@ class Explore {
   #drawLine(header, asked, turn) {
     this.#settled(header, asked, turn);
     this.#show("line", header);
+    this.#compare();
   }
 
   #drawContact(header, asked, turn) {
@@ -207,13 +233,15 @@ class Explore {
     this.#last = {...header, texts: Object.fromEntries(counted)};
     this.#settled(header, asked, turn);
     const {strip, points: n, numbers} = header;
-    for (const plot of MAPS) this.#plots.shows(plot, {what: "contact", points: n, numbers});
+    this.#plots.shows(MAP, {what: "contact", points: n, numbers});
     this.#show("contact", header);
     this.#drawField();
+    this.#tell(header.facts);
+    this.#compare();
     this.#fillTables(strip);
     const wasStopped = header.is_coarse && turn === this.#stopped; // and says so already
     if (!wasStopped) this.#say(header.status, !header.is_coarse);
-    for (const plot of MAPS) this.#find(`#${plot}`).classList.remove("dimmed", "empty");
+    this.#find(`#${MAP}`).classList.remove("dimmed", "empty");
   }
 
   #drawCurves(what, header) {
@@ -222,11 +250,32 @@ class Explore {
     if (this.#last && Object.keys(header.maps).length) this.#drawField();
   }
 
+  // Say above the numbers what is known against them.
+  #tell(facts) {
+    const list = this.#find("[data-facts]"), said = facts.join("; ");
+    if ((list.dataset.said ?? "") === said) return; // else a screen reader would say it again
+    list.dataset.said = said;
+    fillList(list, facts);
+  }
+
+  // Say in words how the surface stands beside lines, once both are of the same state.
+  #compare() {
+    const line = this.#answers.get("line"), place = this.#find("[data-compared]");
+    if (!line || !this.#last || !sameState(line.state, this.#last.state)) return;
+    if (!(this.#last.stiffness_bar_3d > 0)) { place.textContent = place.dataset.said = ""; return; } // the load was not solved
+    const {numbers: {D_f, F}, stiffness_bar_3d: stiffness, scatter} = this.#last, ratio = stiffness / line.stiffness_bar_1d - 1;
+    const size = `${Math.round(100 * Math.abs(ratio))} % ${ratio < 0 ? "softer" : "stiffer"} than`;
+    const words = `This surface is ${Math.round(100 * ratio) ? size : "as stiff as"} lines with its waves${line.strip[0].below && `, ${line.strip[0].below}`}`;
+    const trust = `?${new URLSearchParams({view: "published", v: "1", map_D_f: D_f, map_F: F})}#trust-title`;
+    if (place.dataset.said === `${words} ${scatter} ${trust}`) return;
+    place.dataset.said = `${words} ${scatter} ${trust}`;
+    place.replaceChildren(words, ...(scatter === null ? ["."] : [`; single surfaces scatter by ${Math.round(100 * scatter)} % `,
+      element("a", {href: trust, textContent: "(trust map)"}), "."]));
+  }
+
   #fillTables(strip) {
-    const rows = (kept) => strip.filter(kept).map(({symbol, value, below, meaning}) => [symbol, value, below, meaning]);
-    const columns = ["quantity", "value", "with unit, interval", "meaning"];
-    fillTable("explore-topography", columns, rows(({key}) => key === "roughness"));
-    fillTable("explore-contact", columns, rows(({key}) => key !== "roughness"));
+    fillTable(MAP, ["quantity", "value", "with unit, interval", "meaning"],
+      strip.map(({symbol, value, below, meaning}) => [symbol, value, below, meaning]));
   }
 
   #answers = new Map(); // the last of each kind: of the line, the contact, the curves, and of what is added
@@ -254,8 +303,9 @@ class Explore {
     const {shown: wanted} = this.#controls.said, {maps, arrays} = this.#fields, shown = wanted in maps ? wanted : "area";
     if (!(shown in maps)) return; // the load was not solved
     const {rings} = maps[shown];
-    fillCaption(this.#find('[data-caption="shown"]'), maps[shown]);
-    this.#maps.show("topography", arrays.topography, maps.height);
+    const isLit = wanted !== "white", {caption, meanings} = maps[shown];
+    fillCaption(this.#find('[data-caption="shown"]'), {caption, meanings: isLit ? onRelief(meanings) : meanings});
+    this.#maps.lay("contact", isLit ? arrays.height : null);
     this.#maps.show("contact", arrays[shown], maps[shown]);
     this.#plots.set("contact rings", {x: rings.map(([x]) => x), y: rings.map(([, y]) => y)});
     this.#maps.tell(layersOf(maps, arrays));
@@ -345,14 +395,9 @@ class Explore {
   }
 }
 
-// Both maps with their profile.
+// The picture with its profile.
 function maps() {
-  const ranges = sharedRanges();
-  return {
-    "explore-topography": mapFigure("topography", {isOfColours: true, ranges}),
-    "explore-contact": mapFigure("contact", {rings: "here", ranges}),
-    "explore-profile": profileFigure(),
-  };
+  return {[MAP]: mapFigure("contact", {hasRelief: true, rings: "mark", ranges: sharedRanges()}), "explore-profile": profileFigure()};
 }
 
 function sameState(first, second) { return JSON.stringify(first) === JSON.stringify(second); }

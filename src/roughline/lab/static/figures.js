@@ -20,11 +20,30 @@ export function plot([x_axis_label, y_axis_label], [x_range, y_range], look = {}
   });
   for (const axis of made.axes) {
     axis.major_label_policy = new Bokeh.NoOverlap();
-    const {basic_formatter: ofShort} = axis.formatter; // of a logarithmic axis of less than two decades: 1.000e+5
-    if (ofShort) ofShort.doFormat = (ticks) => ticks.map(inFewDigits);
+  }
+  for (const [[axis], [grid], range] of [[made.xaxes, made.xgrids, made.x_range], [made.yaxes, made.ygrids, made.y_range]]) {
+    if (axis.type === "LogAxis") keepDecades(axis, grid, range);
   }
   made.toolbar.setv({logo: null, autohide: true});
   return made;
+}
+
+const ROUND = [1, 2, 5], FEW = 2; // of a decade; decades, below which they alone would be too few
+
+// Let a logarithmic axis have decades, and within few of them round numbers too.
+function keepDecades(axis, grid, range) {
+  const {ticker: decades, formatter: powers} = axis, ofFew = new Bokeh.BasicTickFormatter();
+  ofFew.doFormat = (ticks) => ticks.map(inFewDigits);
+  const choose = () => {
+    const [low, high] = [range.start, range.end].map(Math.log10).sort((a, b) => a - b);
+    const isFew = high - low < FEW, from = Math.floor(low);
+    const ticks = isFew ? Array.from({length: Math.ceil(high) - from}, (_, i) => ROUND.map((each) => each * 10 ** (from + i))).flat() : [];
+    const ticker = isFew ? new Bokeh.FixedTicker({ticks}) : decades;
+    axis.setv({ticker, formatter: isFew ? ofFew : powers});
+    grid.ticker = ticker;
+  };
+  range.change.connect(choose);
+  choose();
 }
 
 function inFewDigits(tick) {
@@ -38,11 +57,11 @@ function tools(match_aspect = false) {
   return [new Bokeh.PanTool(), new Bokeh.BoxZoomTool({match_aspect}), ...zooms, new Bokeh.ResetTool(), new Bokeh.SaveTool()];
 }
 
-// What the legend of a plot names: of each glyph its source, its words, and how it looks.
+// What has a name in a plot: of each glyph its source, its words, and its colours.
 const legends = new WeakMap();
 export function legendOf(plot) { return legends.get(plot) ?? []; }
 
-// Let a plot draw the columns of a source, which several glyphs may share, and name it in its legend.
+// Let a plot draw the columns of a source, which several glyphs may share, and name it.
 export function draw(plot, kind, source_name, {colours = {}, legend, ...look} = {}) {
   const fields = Object.fromEntries(Object.entries(COLUMNS[kind]).map(([key, field]) => [key, {field}]));
   if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
@@ -53,7 +72,7 @@ export function draw(plot, kind, source_name, {colours = {}, legend, ...look} = 
   const drawn = plot[kind]({...fields, ...look, source});
   drawn.setv({selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
   drawn.glyph.tags = [{colours}];
-  if (legend) legends.set(plot, [...legendOf(plot), {source: source.name, legend, kind, look, colours}]);
+  if (legend) legends.set(plot, [...legendOf(plot), {source: source.name, legend, colours}]);
   return drawn;
 }
 

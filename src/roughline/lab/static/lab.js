@@ -1,6 +1,5 @@
 // The page: its three views, the address, the theme, and the connection.
 import {copy} from "./clipboard.js";
-import {element} from "./elements.js";
 import {Link} from "./link.js";
 import {recolourAll} from "./plots.js";
 
@@ -16,10 +15,10 @@ const link = new Link({
     if (!isAgain) return;
     for (const view of opened.values()) view.then((each) => each.reconnected?.(resumed, isElsewhere));
   },
-  closed(reason, isLoggedOut) {
-    if (isLoggedOut) {
-      tell("This lab was started anew, or its login has ended. ", loginLink(), ", or open the address that its terminal shows: "
-        + "this page then goes on. What it shows stays until then.");
+  closed(reason, isUnknown) {
+    if (isUnknown) {
+      tell("This lab was started anew. Open the address that its terminal shows in a new tab, and this page goes on. "
+        + "What it shows stays until then.");
     } else {
       tell(reason ? `The lab says: ${reason}. Trying again.`
         : "The lab does not answer: it was closed, or the connection is lost. Trying again; what is shown stays.");
@@ -30,17 +29,8 @@ const link = new Link({
 // Say how the connection is; without a word it is well.
 function tell(...words) {
   connection.hidden = words.length === 0;
-  const before = connection.textContent;
-  const said = words.map((each) => each.textContent ?? each).join("");
-  if (before !== said) connection.replaceChildren(...words); // else a screen reader would say it again
-}
-
-function loginLink() {
-  const anchor = element("a", {target: "_blank", rel: "noopener", textContent: "Log in again in a new tab"});
-  const lead = () => { anchor.href = `/login?${new URLSearchParams({next: `/${location.search}`})}`; };
-  lead();
-  for (const kind of ["focus", "pointerenter", "click"]) anchor.addEventListener(kind, lead);
-  return anchor;
+  const said = words.join("");
+  if (connection.textContent !== said) connection.textContent = said; // else a screen reader would say it again
 }
 
 const RARE = 300; // between two changes of the address; browsers stop pages that change it more often [ms]
@@ -112,14 +102,17 @@ help.addEventListener("click", () => {
   help.setAttribute("aria-expanded", String(!helpText.hidden));
 });
 
+// Escape takes the help away until one comes to its control anew.
+addEventListener("keydown", ({key}) => {
+  if (key !== "Escape") return;
+  for (const control of document.querySelectorAll(".control:is(:hover, :focus-within)")) {
+    control.classList.add("told");
+    for (const type of ["pointerleave", "focusout"]) control.addEventListener(type, () => control.classList.remove("told"), {once: true});
+  }
+});
+
 const copyLink = document.querySelector("#copy-link");
 copyLink.addEventListener("click", () => copy(location.href, copyLink));
-
-// The server ends the login and closes all its pages; this one goes where one logs in.
-document.querySelector("#log-out").addEventListener("click", async () => {
-  await fetch("/logout", {method: "POST"}).catch(() => {});
-  location.assign("/login");
-});
 
 document.querySelectorAll(".drawer").forEach((drawer) => {
   const controls = document.querySelector(`#${drawer.getAttribute("aria-controls")}`);
@@ -129,9 +122,10 @@ document.querySelectorAll(".drawer").forEach((drawer) => {
   });
 });
 
-function start() {
-  const said = address.read();
+async function start() {
+  const said = address.read(), place = document.getElementById(location.hash.slice(1));
   const name = new URLSearchParams(location.search).get("view") ?? FIRST;
-  show(VIEWS.includes(name) ? name : FIRST, said);
+  await show(VIEWS.includes(name) ? name : FIRST, said);
+  place?.scrollIntoView();
 }
 start();

@@ -5,7 +5,7 @@ import {recall, remember} from "./remember.js";
 const SOON = 1500, LATER = 15_000; // until it is tried again, at first and at most [ms]
 const PATIENCE = 10_000; // with a server that does not say whether it is there [ms]
 const ELSEWHERE = 4001; // another tab, made as a copy of this one, goes on with the session
-const REFUSED = [1008, 1009]; // what the page said was too much
+const REFUSED = 1009; // what the page said was too much
 
 export class Link {
   #socket = null; #waiting = new Map(); #number = 0; #told; #opened;
@@ -18,7 +18,7 @@ export class Link {
   ready = new Promise((resolve) => { this.#opened = resolve; });
 
   // told.open({isAgain, resumed, files, isElsewhere, version}) when the page is connected, and
-  // told.closed(reason, isLoggedOut) when it is not.
+  // told.closed(reason, isUnknown) when it is not.
   constructor(told) {
     this.#told = told;
     this.#open();
@@ -71,7 +71,7 @@ export class Link {
   }
 
   #open() {
-    const address = new URL(`/link?${new URLSearchParams({session: recall("session") ?? ""})}`, location);
+    const address = new URL(`link?${new URLSearchParams({session: recall("session") ?? ""})}`, document.baseURI);
     address.protocol = address.protocol.replace("http", "ws");
     this.#socket = new WebSocket(address);
     this.#socket.binaryType = "arraybuffer";
@@ -87,7 +87,7 @@ export class Link {
       return;
     }
     this.#told.closed(reason, false);
-    if (REFUSED.includes(code)) {
+    if (code === REFUSED) {
       const lost = this.#waiting;
       this.#waiting = new Map();
       for (const each of lost.values()) each.error?.("the lab refused the connection: ask again when it is back", "");
@@ -107,10 +107,10 @@ export class Link {
     this.#again();
   }
 
-  // Open it again if the server is there and this browser is logged in, which a websocket cannot tell.
+  // Open it again if the server is there and this browser is known, which a websocket cannot tell.
   async #again() {
     this.#timer = null;
-    const status = await fetch("/here", {cache: "no-store", signal: AbortSignal.timeout(PATIENCE)})
+    const status = await fetch("here", {cache: "no-store", signal: AbortSignal.timeout(PATIENCE)})
       .then((reply) => reply.status, () => 0);
     if (status === 0 || status === 401) {
       this.#told.closed("", status === 401);
@@ -154,16 +154,37 @@ export class Link {
   }
 }
 
-const TYPES = {float32: Float32Array, uint8: Uint8Array, uint32: Uint32Array};
+const TYPES = {uint8: Uint8Array, uint32: Uint32Array};
 
 // A message of the server: its header, with the arrays in it as {values, shape, dtype}.
 function unpacked(buffer, start) {
   const length = new DataView(buffer).getUint32(start, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, start + 4, length)));
   const data = start + 4 + length;
-  for (const [name, {dtype, shape, offset}] of Object.entries(header.arrays)) {
+  for (const [name, {dtype, shape, offset, low, step, above}] of Object.entries(header.arrays)) {
     const count = shape.reduce((product, n) => product * n, 1);
-    header.arrays[name] = {dtype, shape, values: new TYPES[dtype](buffer, data + offset, count)};
+    header.arrays[name] = dtype === "packed"
+      ? {dtype: "float32", shape, above, values: numbersOf(new Uint8Array(buffer, data + offset, 2 * count), shape[1], low, step)}
+      : {dtype, shape, values: new TYPES[dtype](buffer, data + offset, count)};
   }
   return header;
+}
+
+// Numbers of a map that the server has packed in 16 bits: second differences of steps, upper bytes first.
+function numbersOf(bytes, columns, low, step) {
+  const count = bytes.length / 2, steps = new Uint16Array(count), values = new Float32Array(count);
+  for (let i = 0; i < count; i += 1) {
+    const turned = bytes[i] * 256 + bytes[count + i], left = i % columns ? steps[i - 1] : 0;
+    const above = i < columns ? 0 : steps[i - columns] - (i % columns ? steps[i - columns - 1] : 0);
+    steps[i] = (turned >>> 1 ^ -(turned & 1)) + left + above; // which wraps at 2^16
+    values[i] = steps[i] ? low + step * (steps[i] - 1) : NaN;
+  }
+  return values;
+}
+
+// Take from arrays that were sent as sums what they are above.
+export function settle(arrays) {
+  for (const {above, values} of Object.values(arrays)) {
+    if (above) values.forEach((sum, i) => { values[i] = Math.max(0, sum - arrays[above].values[i]); });
+  }
 }

@@ -139,7 +139,7 @@ export class Answers {
 
   #showLinks(files) {
     const links = Object.entries(files).map(([name, place]) => {
-      const address = `/results/${this.#link.session}/${place}`;
+      const address = `results/${this.#link.session}/${place}`;
       return element("li", {}, element("a", name.endsWith(".html")
         ? {href: address, textContent: `${name}, opens in a new tab`, target: "_blank", rel: "noopener"}
         : {href: `${address}?save=1`, textContent: `${name}, to save`, download: place}));

@@ -75,7 +75,7 @@ export class Source {
   #sent(file, of) {
     return new Promise((done) => {
       const request = this.#request = new XMLHttpRequest();
-      request.open("POST", `/upload?session=${encodeURIComponent(this.#link.session)}&name=${encodeURIComponent(file.name)}`);
+      request.open("POST", `upload?session=${encodeURIComponent(this.#link.session)}&name=${encodeURIComponent(file.name)}`);
       request.upload.addEventListener("progress", ({loaded, total}) => {
         if (total < SHOWN_FROM) return;
         this.#view.waiting.progress({done: loaded, total, left: null});

@@ -1,13 +1,12 @@
 // Pictures of My surface: maps beside each other, and panels of curves.
 import {add} from "./figures.js";
 import {onDraw} from "./hands.js";
-import {Maps, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
+import {Maps, NOTHING, layersOf, mapFigure, profileFigure, sharedRanges} from "./maps.js";
 import {panelsOf} from "./panels.js";
 import {fillCaption, fillTable} from "./tables.js";
 
 const BESIDE = {file: ["file"], preparation: ["before", "after"], answers: ["topography", "contact"]}; // maps, by their steps
 const RINGS = {file: "here", contact: "theory"};
-const NOTHING = {image: [], x: [], y: [], dw: [], dh: []};
 
 // Embed all pictures of the view.
 export async function picturesOf(view, root) {
@@ -44,7 +43,7 @@ class Pictures {
     this.#panels = panels;
     this.#plots = panels.plots;
     this.#maps = Object.fromEntries(Object.entries(BESIDE).map(([step, names]) => [
-      step, new Maps(panels.plots, "measured", names, step === "answers" ? "profile" : "")]));
+      step, new Maps(panels.plots, "measured", names, step === "answers" ? {profile: "profile"} : {})]));
     for (const {classList} of view.findAll(".panel:not(.wide)")) classList.add("empty");
   }
 
@@ -102,7 +101,7 @@ class Pictures {
     const told = this.#view.find(`[data-caption="measured-${name}"]`);
     if (!look) {
       this.#plots.set(name, NOTHING);
-      told.textContent = "the load was not solved";
+      fillCaption(told, {caption: "the load was not solved", meanings: {}});
       return;
     }
     const {rings, sizes, corner, table} = look;

@@ -283,7 +283,7 @@ class Measured {
         this.refuse("", "file");
         this.#showAsked(read);
         Object.assign(this.find("[data-example-file]"), {
-          hidden: !this.#controls.said.example, href: `/results/${this.#link.session}/${read.name}?save=1`, download: read.name,
+          hidden: !this.#controls.said.example, href: `results/${this.#link.session}/${read.name}?save=1`, download: read.name,
         });
         this.#settle("file", asked, read.refused, OF_READING);
         this.showResult("file", true);
@@ -344,9 +344,24 @@ class Measured {
     // the file tells more of how it is read and prepared
     const keys = this.hasSource ? OF_BODIES : [...OF_READING, ...OF_PREPARATION, ...OF_BODIES];
     this.#link.ask("measured.bodies", "measured bodies", asked, {
-      answer: (found) => { this.#settle("bodies", asked, found.refused, keys); this.show(found); },
+      answer: (found) => {
+        this.#settle("bodies", asked, found.refused, keys);
+        this.#offerElastic(found.mended_if_elastic);
+        this.show(found);
+      },
       error: (sentence, at) => { if (at === "v") this.#begin(sentence); else this.refuse(sentence, at); },
     });
+  }
+
+  // Where a text is refused that elastic bodies would have, offer to take them so.
+  #offerElastic(keys) {
+    for (const key of keys.filter((each) => this.#controls.isRefused(each))) {
+      const place = this.find(`[data-error="${CSS.escape(key)}"]`);
+      if (place.querySelector("button")) continue;
+      const button = element("button", {type: "button", className: "small", textContent: "take them as elastic"});
+      button.addEventListener("click", () => this.set("elastic", "yes"));
+      place.append(" ", button);
+    }
   }
 
   #stop() {

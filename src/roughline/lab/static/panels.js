@@ -7,8 +7,6 @@ import {fillTable} from "./tables.js";
 const FILLED = ["scatter", "varea"]; // glyphs that have an inside
 const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
 const SLOPE = 0.6; // of the names of places [rad]
-const DECADES = Array.from({length: 13}, (_, i) => 10 ** (i - 6));
-const ROUND = DECADES.flatMap((decade) => [decade, 2 * decade, 5 * decade]); // Bokeh's own miss decades
 
 // Embed the panels that the page of a view has, and its other figures, which may change those of the panels.
 export async function panelsOf(root, others = () => ({})) {
@@ -38,9 +36,6 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
     });
   }
   if (isOfPlaces) {
-    const ticker = new Bokeh.FixedTicker({ticks: ROUND});
-    made.yaxes[0].setv({ticker, formatter: new Bokeh.BasicTickFormatter()});
-    made.ygrids[0].ticker = ticker;
     made.xgrids[0].visible = false;
   }
   return made;
@@ -49,6 +44,7 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
 class Panels {
   #view; #declared;
   #answers = new Map(); // what the last of each kind has for panels, those that came last at the end
+  #drawn = new Map(); // columns by their sources, as text
 
   constructor(plots, view, declared) {
     this.plots = plots;
@@ -62,7 +58,7 @@ class Panels {
     this.#answers.delete(what);
     this.#answers.set(what, panels);
     for (const [key, {series}] of Object.entries(before)) {
-      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.plots.empty(`${key} ${name}`);
+      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.#empty(`${key} ${name}`);
       if (panels[key]) continue;
       this.#fillRows(key);
       this.#remark(key, "");
@@ -86,6 +82,30 @@ class Panels {
     if (this.#declared[key].task === what) document.querySelector(`#${plot}`).classList.remove("dimmed");
   }
 
+  // All points that are drawn, as a table: the panel and the series of each, and the ends of what is known of its y.
+  table(remarks) {
+    const rows = [], columns = ["x", "y", "low", "high"];
+    const heads = Object.values(this.#declared).map(({key, x, y}) => `panel ${key}: x is ${x}, y is ${y}`);
+    for (const panels of this.#answers.values()) {
+      for (const [key, {series, legends}] of Object.entries(panels)) {
+        for (const [name, points] of Object.entries(series)) {
+          const words = legends?.[name] ?? this.#declared[key].series.find((each) => each.name === name)?.legend;
+          if (points.x.length) heads.push(`series ${key} ${name}: ${words}`);
+          points.x.forEach((_, i) => {
+            const numbers = columns.map((column) => points[column]?.[i] ?? "nan");
+            rows.push([key, name.replaceAll(" ", "_"), ...numbers].join(","));
+          });
+        }
+      }
+    }
+    return [`panel,series,${columns}`, ...[...remarks, ...heads].map((each) => `# ${each.replace(/\s+/g, " ")}`), ...rows, ""].join("\n");
+  }
+
+  #empty(source) {
+    this.#drawn.delete(source);
+    this.plots.empty(source);
+  }
+
   #plot(key) { return `${this.#view}-${key}`; }
   #find(key, selector) { return document.querySelector(`#${this.#plot(key)} ${selector}`); }
   #remark(key, text) { this.#find(key, "[data-remarks]")?.replaceChildren(...typeset(text)); }
@@ -105,15 +125,18 @@ class Panels {
     const foot = start * (end / start) ** FOOT;
     const known = Object.entries(columns).map(([column, values]) => [column, values.map((value) => value ?? NaN)]);
     const drawn = Object.fromEntries(known);
-    if (isLogarithmic) drawn.y = drawn.y.map((value) => (value === 0 ? foot : value));
-    this.plots.set(`${key} ${name}`, drawn);
+    if (isLogarithmic && drawn.y) drawn.y = drawn.y.map((value) => (value === 0 ? foot : value));
+    const text = JSON.stringify(drawn), source = `${key} ${name}`;
+    if (this.#drawn.get(source) === text) return; // one series is drawn anew, not all
+    this.#drawn.set(source, text);
+    this.plots.set(source, drawn);
   }
 
   // Put zeros of all answers at the foot of an axis whose range has changed.
   #placeZeros(key) {
     for (const panels of this.#answers.values()) {
       for (const [name, columns] of Object.entries(panels[key]?.series ?? {})) {
-        if (columns.y.includes(0)) this.#mark(key, name, columns);
+        if (columns.y?.includes(0)) this.#mark(key, name, columns);
       }
     }
   }

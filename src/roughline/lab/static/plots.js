@@ -3,10 +3,12 @@ import {element, typeset} from "./elements.js";
 import {legendOf} from "./figures.js";
 import {takeHands} from "./hands.js";
 
+const TYPE = "12px"; // of all words in pictures
+const BESIDE = 6; // of names from curves and edges [px]
 const documents = [], recoloured = [];
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
 const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
-  const script = element("script", {src: `/bokeh/${name}`, async: false}); // the second needs the first
+  const script = element("script", {src: `bokeh/${name}`, async: false}); // the second needs the first
   script.addEventListener("load", resolve);
   document.head.append(script);
 })));
@@ -42,14 +44,17 @@ function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)
 
 class Plots {
   #shown = new Map();
-  #named = new Map(); // items of legends by the sources that they name
+  #named = new Map(); // names of curves by the sources of these
   #counts = {}; // points in a source
 
   constructor(made) {
     this.made = made;
     for (const root of made.roots()) {
-      this.#addLegend(root);
-      Bokeh.index.find_one(root)?.repainted.connect(() => this.#tellDrawn(root.name));
+      this.#addNames(root);
+      Bokeh.index.find_one(root)?.repainted.connect(() => {
+        if (legendOf(root).length) this.#placeNames(root);
+        this.#tellDrawn(root.name);
+      });
     }
   }
 
@@ -78,12 +83,13 @@ class Plots {
 
   root(name) { return this.made.roots().find((each) => each.name === name); }
 
-  // Give a source its columns; a legend names what there is.
+  // Give a source its columns; what there is has its name.
   set(name, columns) {
-    const source = this.model(name);
+    const source = this.model(name), [first] = Object.values(columns);
+    for (const column of Object.keys(source.data)) if (!(column in columns)) delete source.data[column]; // the shortest counts
     Object.assign(source.data, columns); // a new table would have Bokeh look for models in it
     source.change.emit();
-    this.#counts[name] = Object.values(columns)[0].length;
+    this.#counts[name] = first.length;
     for (const {item, names} of this.#named.get(name) ?? []) {
       const isThere = names.some((each) => this.#counts[each]);
       if (item.hidden === isThere) item.hidden = !isThere;
@@ -93,22 +99,44 @@ class Plots {
   // Take all points from a source.
   empty(name) { this.set(name, Object.fromEntries(Object.keys(this.model(name).data).map((column) => [column, []]))); }
 
-  // Call a source by other words in the legend.
+  // Call a source by other words.
   call(name, words) { for (const {item} of this.#named.get(name) ?? []) item.lastChild.replaceChildren(...typeset(words)); }
 
-  // Put the legend of a plot above it, where it covers no data.
-  #addLegend(root) {
+  // Name the curves of a plot at their ends.
+  #addNames(root) {
     const places = new Map();
     for (const {legend, ...glyph} of legendOf(root)) places.set(legend, [...(places.get(legend) ?? []), glyph]);
     if (!places.size) return;
     const items = [...places].map(([words, glyphs]) => {
-      const item = element("li", {hidden: true}, keyOf(glyphs), element("span", {}, ...typeset(words)));
-      const names = glyphs.map(({source}) => source);
+      const item = element("li", {hidden: true}, element("span", {}, ...typeset(words)));
+      const names = glyphs.map(({source}) => source), {line_color, fill_color} = Object.assign({}, ...glyphs.map(({colours}) => colours));
+      item.style.borderColor = `var(--${line_color ?? fill_color})`;
       item.dataset.sources = names.join(";");
       for (const name of names) this.#named.set(name, [...(this.#named.get(name) ?? []), {item, names}]);
       return item;
     });
-    placeOf(root.name).before(element("ul", {className: "names"}, ...items));
+    placeOf(root.name).append(element("ul", {className: "names"}, ...items));
+  }
+
+  // Put the names of a plot to the ends of what they name, below each other where ends are near.
+  #placeNames(root) {
+    const {frame: {bbox, x_scale, y_scale}} = Bokeh.index.find_one(root), taken = [];
+    const shown = [...placeOf(root.name).querySelectorAll(".names li:not([hidden])")].map((item) => {
+      const ends = item.dataset.sources.split(";").map((name) => lastOf(this.model(name).data)).filter(Boolean);
+      const [x, y] = ends.map(([x, y]) => [x_scale.compute(x), y_scale.compute(y)]).sort(([one], [other]) => other - one)[0] ?? [bbox.right, bbox.top];
+      return {item, x, y};
+    });
+    for (const {item, x, y} of shown.sort((one, other) => one.y - other.y)) {
+      const {width, high} = sizeOf(item);
+      const isBeside = x + 2 * BESIDE + width < bbox.right, isAbove = y - BESIDE - high > bbox.top;
+      const left = isBeside ? x + 2 * BESIDE : Math.max(bbox.right - width - BESIDE, bbox.left + BESIDE);
+      let top = isBeside ? y - high / 2 : isAbove ? y - BESIDE - high : y + BESIDE;
+      top = Math.min(Math.max(top, bbox.top + BESIDE), bbox.bottom - high - BESIDE);
+      for (const each of taken) if (left < each.right && left + width > each.left && top < each.bottom && top + high > each.top) top = each.bottom;
+      taken.push({left, right: left + width, top, bottom: top + high});
+      const place = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
+      if (item.style.transform !== place) item.style.transform = place;
+    }
   }
 
   // Name the axes of a plot; one without a name keeps its own.
@@ -145,6 +173,21 @@ export function recolourAll() {
 // Call when the theme was changed.
 export function onRecolour(told) { recoloured.push(told); }
 
+const sizes = new WeakMap(); // of names; to ask for one makes the browser lay out the page
+
+function sizeOf(item) {
+  const {textContent: text} = item;
+  if (sizes.get(item)?.text !== text) sizes.set(item, {text, width: item.offsetWidth, high: item.offsetHeight});
+  return sizes.get(item);
+}
+
+// The last point of a source that is known: of marks and lines x and y, of bands their middle.
+function lastOf({x = [], y, low, high}) {
+  const up = y ?? (low ?? []).map((each, i) => (each + high[i]) / 2);
+  for (let i = x.length - 1; i >= 0; i--) if (Number.isFinite(up[i])) return [x[i], up[i]];
+  return null;
+}
+
 const known = new Map(); // colours: to ask for one makes the browser style the page again
 
 // A colour of the theme by its name in the style of the page.
@@ -153,28 +196,11 @@ export function colour(name) {
   return known.get(name);
 }
 
-const SHAPES = { // of marks in a legend
-  circle: '<circle cx="13" cy="6" r="4"/>', square: '<rect x="9.5" y="2.5" width="7" height="7"/>',
-  triangle: '<path d="M13 1.5l4.5 8h-9z"/>', inverted_triangle: '<path d="M13 10.5l4.5-8h-9z"/>', x: '<path d="M9 2l8 8m0-8l-8 8"/>',
-  diamond: '<path d="M13 1l5 5-5 5-5-5z"/>', plus: '<path d="M8 6h10M13 1v10"/>',
-};
-
-// The key of a legend: how glyphs look, in the colours of the theme.
-function keyOf(glyphs) {
-  const ink = (name, otherwise = "none") => (name ? `var(--${name})` : otherwise);
-  const parts = glyphs.map(({kind, look, colours: {line_color, fill_color}}) => {
-    const style = `stroke="${ink(line_color)}" fill="${ink(fill_color)}" fill-opacity="${look.fill_alpha ?? 1}"`;
-    if (kind === "varea" || kind === "quad") return `<rect width="26" height="12" ${style}/>`;
-    if (kind === "scatter") return `<g ${style} stroke-width="1.5">${SHAPES[look.marker ?? "circle"]}</g>`;
-    return `<path d="M0 6h26" ${style} stroke-width="2" stroke-dasharray="${look.line_dash?.value ?? ""}"/>`;
-  });
-  return element("span", {innerHTML: `<svg width="26" height="12" aria-hidden="true">${parts.join("")}</svg>`});
-}
-
 function recolour(made) {
   const text = colour("text"), line = colour("line"), paper = colour("paper"), grid = colour("grid");
   const labels = {axis_label_text_color: text, major_label_text_color: text, axis_line_color: line,
-    major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal"};
+    major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal",
+    axis_label_text_font_size: TYPE, major_label_text_font_size: TYPE};
   const looks = {
     Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: paper, outline_line_color: line},
     LinearAxis: labels,

@@ -9,7 +9,7 @@ import {fillTable, judged} from "./tables.js";
 
 const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
 const STRIP = ["exponent_1D", "stated_1D", "exponent_3D", "stated_3D"];
-const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance", "claims"];
+const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance"];
 const TASKS = ["fits", "point"];
 const DIMENSIONS = [...document.querySelectorAll('#published [data-key="D_f"]')].map(({value}) => value);
 const PANEL = "published-trust-"; // with a roll-off ratio, the panel of the trust map
@@ -53,7 +53,7 @@ class Published {
     this.#controls.take(texts);
     TASKS.forEach((task) => this.#ask(task));
     this.#panels = panelsOf(this.#root, (made) => ({...withWindows(made), ...trustMap(this.#trust)}));
-    this.#constants = await (await fetch("/lab/paper/figures.json")).json();
+    this.#constants = await (await fetch("lab/paper.json")).json();
     this.#take("constants", this.#constants);
     this.#showCurves();
     const {plots} = await this.#panels;
@@ -126,7 +126,7 @@ class Published {
     if (!this.#constants || !wanted || this.#shown === `${mean} ${punch} ${D_f}`) return;
     this.#shown = `${mean} ${punch} ${D_f}`;
     const some = (cells) => cells.filter((_, i) => i === 0 || wanted.includes(DIMENSIONS[i - 1]));
-    for (const name of [`1D ${mean}`, `3D ${mean} ${punch}`, "area"]) {
+    for (const name of [`1D ${mean}`, `3D ${mean} ${punch}`]) {
       const {panels, tables} = this.#constants.curves[name];
       this.#take(name.slice(0, 2), {
         panels: mapped(panels, ({series, ...panel}) => ({...panel, series: ofDimensions(series, wanted)})),
@@ -185,10 +185,9 @@ class Published {
 
 // Put windows on figures, two of which can be drawn anew.
 function withWindows(made) {
-  for (const name of ["stiffness-1D", "stiffness-3D", "area"]) {
-    const figure = made[`published-${name}`], [, model = ""] = name.split("-");
-    add(figure, "BoxAnnotation", `window ${model || name}`, {...WINDOW, editable: Boolean(model)});
-    if (!model) continue;
+  for (const model of Object.keys(EDGES)) {
+    const figure = made[`published-stiffness-${model}`];
+    add(figure, "BoxAnnotation", `window ${model}`, {...WINDOW, editable: true});
     const tool = new Bokeh.BoxSelectTool({dimensions: "width", renderers: []});
     figure.add_tools(tool);
     figure.toolbar.active_drag = tool;

@@ -97,6 +97,9 @@ export function fillBars(place, bars) {
 
 // Say in a caption what a map shows, and what colours of the theme mean in it.
 export function fillCaption(place, {caption, meanings}) {
+  const said = JSON.stringify([caption, meanings]); // what is the same is not written: it comes with each picture
+  if (place.dataset.said === said) return;
+  place.dataset.said = said;
   const patches = Object.entries(meanings).flatMap(([name, meaning]) =>
     [element("span", {className: "patch", style: `background: var(--${name})`}), meaning]);
   place.replaceChildren(caption, ...patches);

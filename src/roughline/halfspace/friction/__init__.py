@@ -1,0 +1,1 @@
+"""Friction with history: stick, slip, and what a path of loads leaves."""

@@ -1,0 +1,538 @@
+"""A path of loads with friction: each state follows from the last shear and the last slide.
+
+Displacements are linear in the tractions, so that the path has left nothing else. What a node has
+slipped since the last load is w = share · (slide - last slide) - (u - last u). The share is one at
+nodes that were in contact before. A node that joins slips from its contact on only: of the way
+along which the bodies come nearer by D it misses the part gap / D before, with its gap at the last
+load [1]_. Along a straight path, with no displacement across shear (n = 0), that is exact.
+
+References
+----------
+.. [1] R. D. Mindlin and H. Deresiewicz, "Elastic spheres in contact under varying oblique forces",
+   J. Appl. Mech. 20, 327-344 (1953): under dQ/dF < mu nothing slips.
+.. [2] P. D. Panagiotopoulos, "A nonlinear programming approach to the unilateral contact-, and
+   friction-boundary value problem in the theory of elasticity", Ing.-Arch. 44, 421-432 (1975).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from roughline.computing.arrays import InGrid, Mask, Real
+from roughline.halfspace.friction.discs import Discs, DiscSearch, Linear, Sheared
+from roughline.halfspace.friction.law import Friction
+from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangents, shear_tangents
+from roughline.halfspace.inverse.approximate_inverse import preconditioner
+from roughline.halfspace.inverse.cache import inverse_on
+from roughline.halfspace.operators.grid_nodes import GridNodes
+from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
+from roughline.halfspace.search.path import LoadPath
+from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
+from roughline.halfspace.search.response import Response
+from roughline.halfspace.search.tangent import response
+
+_SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
+_MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
+_LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
+_MOST_TURNS = 40  # of corrections by the exact operator
+_TURN_SHARE = 0.1  # of what is wrong before a turn, to which it is solved
+_ROUGH_SHARE = 0.3  # the same of a turn with the rough operator, which goes farther than that
+_TOTAL_SHARE = 0.01  # of the tolerance, to which the shear force is kept
+_MOST_ALTERNATIONS = 60  # between pressures and shear
+_ROUGHEST_TURN = 1e-2  # tolerance of the first of them
+_ALTERNATION_SHARE = 0.3  # of the tolerance, to which both agree
+
+
+@dataclass(frozen=True)
+class ShearLoad:
+    """One load along the surface, by its force or by the slide; the other is None."""
+
+    force: tuple[float, float] | None = None  # total shear force [force]
+    slide: tuple[float, float] | None = None  # of the indenter [length]
+
+
+@dataclass(frozen=True, eq=False)
+class Slid:
+    """State of a contact with friction under one load."""
+
+    contact: Contact
+    outcome: Outcome
+    shear: Real  # on the contact nodes, shape (nodes, 2), on the half-space [pressure]
+    displacement: Real  # there, along the surface [length]
+    slide: Real  # of the indenter, shape (2,) [length]
+    force: Real  # shape (2,)
+    slip: Real  # since the last load, shape (nodes, 2) [length]
+    sticks: Mask
+    limit: float  # largest shear force that friction bears [force]
+    residual: float  # over its scale [1]
+    convolutions: int
+    tangents: ShearTangents | None = None
+
+    @property
+    def contact_as_solved(self) -> Contact:
+        """The contact, with how far friction is from its conditions, and without what is lost."""
+        contact, solved = self.contact, self.outcome is Outcome.CONVERGED
+        residuals = replace(contact.residuals, slip=self.residual if self.shear.size else 0.0)
+        return replace(
+            contact,
+            outcome=self.outcome,
+            residuals=residuals,
+            convolutions=self.convolutions,
+            response=contact.response if solved else None,
+        )
+
+    @property
+    def dissipated(self) -> float:
+        """Energy that the slip since the last load has dissipated. [force length]"""
+        area = self.contact.problem.grid.cell_area
+        return area * float(np.vdot(self.shear, self.slip))
+
+
+@dataclass(frozen=True, eq=False)
+class _Bodies:
+    """Untouched bodies, the friction between them, and how they are solved."""
+
+    problem: Problem
+    friction: Friction
+    method: Method
+
+    @cached_property
+    def exact(self) -> ShearConvolution:
+        """How shear displaces them."""
+        grid = self.problem.grid
+        workspace = grid.inverse.operator.workspace
+        return shear_on_grid(grid.half_space, grid.shape, grid.spacing, workspace)
+
+
+class SlidePath:
+    """The contact with friction along a path of loads."""
+
+    def __init__(self, problem: Problem, friction: Friction, method: Method) -> None:
+        self._path = LoadPath(problem, method)
+        self._problem, self._method = problem, method
+        self._bodies = _Bodies(problem, friction, method)
+        self._last: Slid | None = None
+        self._lost: Contact | None = None  # the first that was not solved
+
+    def under(self, load: Load, shear: ShearLoad) -> Slid:
+        """Return the state under the next load."""
+        if self._lost is not None:
+            return replace(_unknown(self._lost, Outcome.UNKNOWN_SURFACE), convolutions=0)
+        if self._problem.grid.half_space.is_coupled:
+            found = self._coupled(load, shear)
+        else:
+            found = self._uncoupled(load, shear)
+        if found.outcome is Outcome.CONVERGED:
+            self._last = found
+        else:
+            self._lost = found.contact
+        return found
+
+    def _uncoupled(self, load: Load, shear: ShearLoad) -> Slid:
+        """Find the pressures first, on which shear has no effect."""
+        last = self._last
+        if last is not None and last.contact.load == load:
+            contact = replace(last.contact, convolutions=0)
+        else:
+            contact = self._path.under(load)
+        if contact.outcome is not Outcome.CONVERGED:
+            return _unknown(contact, contact.outcome)
+        if contact.response is None or not contact.nodes.size:
+            return _apart(contact, shear, last)
+        return _SlideStep(self._bodies, contact, last).under(shear)
+
+    def _coupled(self, load: Load, shear: ShearLoad) -> Slid:
+        """Find pressures under the last shear, and shear under these, in turn [2]_.
+
+        Shear displaces into the body as if that had another shape. Both are solved as well as they
+        agree, and to the tolerance in the end.
+        """
+        last, problem = self._last, self._problem
+        everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
+        start, state, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
+        if last is not None and last.contact.nodes.size:
+            start = last.contact.contact_set
+            state = last.contact.nodes, last.shear
+            lift = self._lift(*state, everywhere)
+        rtol, error = self._method.rtol, 1.0
+        for _ in range(_MOST_ALTERNATIONS):
+            aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
+            method = replace(self._method, rtol=aim)
+            bodies = replace(problem, separation=problem.separation + lift)
+            contact, window = self._path.settled_from(start, bodies, load, method)
+            convolutions += contact.convolutions
+            contact = replace(contact, load=load)
+            if contact.outcome is not Outcome.CONVERGED:
+                return _unknown(contact, contact.outcome)
+            if not contact.nodes.size:
+                return _apart(replace(contact, problem=problem), shear, last)
+            step = _SlideStep(self._bodies, contact, last, state, aim)
+            found = step.under(shear)
+            convolutions += step.convolutions
+            if found.outcome is not Outcome.CONVERGED:
+                return found
+            start, state = contact.contact_set, (contact.nodes, found.shear)
+            change = self._lift(*state, everywhere) - lift
+            lift, error = lift + change, float(np.abs(change).max()) / contact.length_scale
+            if aim <= rtol and error <= _ALTERNATION_SHARE * rtol:
+                break
+        else:
+            return _unknown(contact, Outcome.MAX_ITERATIONS)
+        answer = response(contact, window, None, self._method)
+        residuals = contact.residuals
+        contact = replace(
+            contact,
+            problem=problem,
+            looked_at=None,
+            gaps=(contact.gap + change).ravel(),
+            residuals=replace(
+                residuals, gap=residuals.gap + error, penetration=residuals.penetration + error
+            ),
+            response=answer,
+        )
+        tangents, stiffness = step.coupled_tangents(found)
+        contact = replace(contact, response=_with_stiffness(answer, stiffness))
+        convolutions += answer.convolutions + tangents.convolutions
+        return replace(found, contact=contact, convolutions=convolutions, tangents=tangents)
+
+    def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
+        """Return how shear displaces all of the grid into the body."""
+        grid = self._problem.grid
+        moved = self._bodies.exact.into_body(shear, grid.nodes(nodes), everywhere)
+        return moved.reshape(self._problem.separation.shape)
+
+
+def slide_path(
+    problem: Problem,
+    friction: Friction,
+    loads: Sequence[tuple[Load, ShearLoad]],
+    method: Method,
+) -> Iterator[Slid]:
+    """Solve for the state under each load in turn."""
+    path = SlidePath(problem, friction, method)
+    for load, shear in loads:
+        yield path.under(load, shear)
+
+
+class _SlideStep:
+    """The step from the last state to the next one, whose normal contact is known."""
+
+    def __init__(
+        self,
+        bodies: _Bodies,
+        contact: Contact,
+        last: Slid | None,
+        start: tuple[InGrid, Real] | None = None,
+        rtol: float | None = None,
+    ) -> None:
+        grid, exact = bodies.problem.grid, bodies.exact
+        self._exact, self._contact, self._last = exact, contact, last
+        self._method = replace(bodies.method, rtol=rtol or bodies.method.rtol)
+        self._untouched, self._friction = bodies.problem, bodies.friction
+        self._nodes = nodes = grid.nodes(contact.nodes)
+        self._bound = bodies.friction.bound(contact.pressure, contact.nodes)
+        self._operators = _Operators(exact, grid, nodes)
+        self._area = grid.cell_area
+        self.convolutions = contact.convolutions
+        self._slide_before = np.zeros(2) if last is None else last.slide
+        self._pushed = exact.by_pressure(contact.pressure, nodes, nodes)
+        self._moved_before, self._start = self._before()
+        if start is not None:
+            self._start = _on(contact.nodes, *start)
+        self._late = self._share_before_contact()
+        strength = float(self._bound.sum()) / float(contact.pressure.sum())
+        self._scale = contact.length_scale * strength
+
+    def _before(self) -> tuple[Real, Real]:
+        """Return how the nodes of this load were displaced at the last one, and their shear.
+
+        What their pressure displaces now is taken off: the shear has to add the rest.
+        """
+        nodes, last = self._contact.nodes, self._last
+        moved, shear = np.zeros((2, nodes.size, 2))
+        if last is None or not last.displacement.any():
+            return moved - self._pushed, shear
+        before = last.contact
+        shear = _on(nodes, before.nodes, last.shear)
+        if np.isin(nodes, before.nodes, assume_unique=True).all():
+            moved = _on(nodes, before.nodes, last.displacement)
+        else:
+            sources = before.problem.grid.nodes(before.nodes)
+            self.convolutions += 2
+            moved = self._exact.displacement(last.shear, sources, self._nodes)
+            moved += self._exact.by_pressure(before.pressure, sources, self._nodes)
+        return moved - self._pushed, shear
+
+    def _share_before_contact(self) -> Real:
+        """Return the part of the way that nodes miss before they join."""
+        contact, last, nodes = self._contact, self._last, self._contact.nodes
+        touch = self._untouched.touch
+        if last is None or not last.contact.nodes.size:
+            before = touch if last is None else last.contact.depth
+            gap = self._untouched.separation.ravel()[nodes] - before
+        else:
+            before = last.contact.depth
+            gap = np.zeros(nodes.size)
+            joined = ~np.isin(nodes, last.contact.nodes, assume_unique=True)
+            gap[joined] = last.contact.gap_at(InGrid(nodes[joined]))
+        nearer = contact.depth - before
+        if not nearer > 0:
+            return np.zeros(nodes.size)
+        return np.clip(gap / nearer, 0.0, 1.0)
+
+    def under(self, load: ShearLoad) -> Slid:
+        """Return the state under a load along the surface."""
+        limit = self._area * float(self._bound.sum())
+        tolerance = self._method.rtol * self._scale
+        if load.slide is not None:
+            way = np.array(load.slide) - self._slide_before
+            target = self._moved_before + (1 - self._late)[:, np.newaxis] * way
+            found = self._solved(target, None, np.zeros(2), self._start, tolerance)
+            return self._state(found, way, limit)
+        assert load.force is not None
+        force = np.array(load.force)
+        if not np.hypot(*force) < _SLIDES_FROM * limit:
+            return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
+        total = force / self._area
+        way = self._guessed_way(force)
+        if not self._late.any():
+            found = self._solved(self._moved_before, total, way, self._start, tolerance)
+            return self._state(found, found.level, limit)
+        return self._state(*self._joined(total, way, tolerance), limit)
+
+    def coupled_tangents(self, found: Slid) -> tuple[ShearTangents, tuple[float, float]]:
+        """Return the tangents of bodies that are coupled, and the normal stiffness on both."""
+        contact, friction = self._contact, self._friction
+        slope = friction.slope(contact.pressure, contact.nodes)
+        state = found.shear, found.sticks, slope
+        return coupled_tangents(self._operators, contact, state, self._method)
+
+    @property
+    def _rigid(self) -> float:
+        """Force per approach of the contact, about. [force / length]"""
+        contact = self._contact
+        if contact.response is not None:
+            return contact.response.unloading.stiffness
+        radius = math.sqrt(contact.nodes.size * self._area / math.pi)
+        return contact.problem.grid.half_space.disc_stiffness(radius)
+
+    @property
+    def _back(self) -> Real | None:
+        """The tangent of turning back, where it is known of the same contact."""
+        last = self._last
+        if last is None or last.tangents is None or last.contact.load != self._contact.load:
+            return None
+        return last.tangents.back
+
+    def _guessed_way(self, force: Real) -> Real:
+        """Return about how far the indenter slides: as it comes nearer, along a straight path."""
+        contact, last, stiffness = self._contact, self._last, self._back
+        before = np.zeros(2) if last is None else last.force
+        if stiffness is not None:
+            if not np.isfinite(stiffness).all():  # full contact, without a mean
+                return np.zeros(2)
+            return np.asarray(np.linalg.solve(stiffness, force - before), np.float64)
+        pushed = contact.force - (0.0 if last is None else last.contact.force)
+        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
+        factor = contact.problem.grid.half_space.even_shear[1]
+        rigid = self._rigid
+        if pushed > 0 and nearer > 0:
+            return (force - before) / pushed * nearer * factor
+        return (force - before) / rigid * factor if rigid > 0 else np.zeros(2)
+
+    def _joined(self, total: Real, way: Real, tolerance: float) -> tuple[Sheared, Real]:
+        """Return the shear and the way of the indenter, of which joining nodes miss a part.
+
+        The way that they miss follows from the way that is found: a fixed point of two numbers, by
+        Broyden's method. It begins with the slope that it has where all of the contact sticks.
+        """
+        contact, late = self._contact, self._late[:, np.newaxis]
+        rigid, last = self._rigid, self._last
+        pushed = contact.force - (0.0 if last is None else last.contact.force)
+        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
+        growth = pushed / (rigid * nearer) if rigid * nearer > 0 else 1.0
+        slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
+        start, level, before = self._start, way, None
+        for _ in range(_MOST_GUESSES):
+            target, way_taken = self._moved_before - late * way, way
+            found = self._solved(target, total, level, start, tolerance)
+            start, level = found.shear, found.level
+            off = way - found.level
+            if float(np.abs(off).max()) <= tolerance:
+                break
+            if before is not None:
+                step, change = way - before[0], off - before[1]
+                slope = slope + np.outer(change - slope @ step, step) / float(step @ step)
+            before = way, off
+            way = way - np.linalg.lstsq(slope, off, rcond=None)[0]
+        # what the joining nodes miss of the way is off by as much
+        residual = max(found.residual, float(np.abs(way_taken - found.level).max()))
+        return replace(found, residual=residual), found.level
+
+    def _solved(
+        self, target: Real, total: Real | None, level: Real, start: Real, tolerance: float
+    ) -> Sheared:
+        """Return the shear on the discs, to the tolerance by the exact operator."""
+        discs = Discs(self._bound, target, total, self._exact.diagonal)
+        share = _TOTAL_SHARE * self._method.rtol
+        found = self._operators.found(discs, (start, level), tolerance, share)
+        self.convolutions += self._operators.convolutions
+        return found
+
+    def _state(self, found: Sheared, way: Real, limit: float) -> Slid:
+        """Return the state with some shear."""
+        scale = self._scale
+        force = self._area * found.shear.sum(axis=0)
+        off = self._area * found.missing / limit if limit else 0.0
+        residual = max(found.residual / scale if scale else 0.0, off)
+        converged = residual <= self._method.rtol
+        sticks = ~_slips(found, self._bound, self._exact.diagonal)
+        tangents = None
+        if converged and not self._contact.problem.grid.half_space.is_coupled:
+            tangents = shear_tangents(
+                self._operators, self._contact, found.shear, sticks, self._method, self._back
+            )
+            self.convolutions += tangents.convolutions
+        return Slid(
+            self._contact,
+            Outcome.CONVERGED if converged else Outcome.STALLED,
+            found.shear,
+            found.displacement + self._pushed,
+            self._slide_before + way,
+            force,
+            found.slip,
+            sticks,
+            limit,
+            residual,
+            self.convolutions,
+            tangents,
+        )
+
+
+def _on(nodes: InGrid, others: InGrid, values: Real) -> Real:
+    """Return vectors, given on other nodes, on nodes; zero where they are not given."""
+    found = np.zeros((nodes.size, 2))
+    if others.size:
+        places = np.minimum(np.searchsorted(others, nodes), others.size - 1)
+        known = others[places] == nodes
+        found[known] = values[places[known]]
+    return found
+
+
+def _slips(found: Sheared, bound: Real, diagonal: float) -> Mask:
+    """Return which nodes are at their bound and slip."""
+    size = np.hypot(found.shear[:, 0], found.shear[:, 1])
+    return size >= bound * (1 - 1e-10)
+
+
+class _Operators:
+    """How shear displaces a set of nodes: exactly, and nearly, at the cost of the contact."""
+
+    def __init__(self, exact: ShearConvolution, grid: Grid, nodes: GridNodes) -> None:
+        self._exact, self.nodes = exact, nodes
+        half_space, self._factor = grid.half_space.even_shear
+        inverse = inverse_on(half_space, grid.shape, grid.spacing)
+        self._restricted = inverse.restricted.on(nodes)
+        self._precondition = preconditioner(inverse, nodes)
+        self.convolutions = 0
+        self.diagonal = exact.diagonal
+
+    def exact(self, shear: Real) -> Real:
+        """Return the displacements by the exact operator."""
+        self.convolutions += 2
+        return self._exact.displacement(shear, self.nodes, self.nodes)
+
+    def by_pressure(self, pressure: Real) -> Real:
+        """Return the displacements along the surface under pressure."""
+        self.convolutions += 2
+        return self._exact.by_pressure(pressure, self.nodes, self.nodes)
+
+    def into_body(self, shear: Real) -> Real:
+        """Return the displacements into the body under shear."""
+        self.convolutions += 2
+        return self._exact.into_body(shear, self.nodes, self.nodes)
+
+    @property
+    def rough(self) -> Linear | None:
+        """Displacements as if shear along and across displaced alike, and roughly."""
+        return None if self._restricted is None else self._roughly
+
+    def _roughly(self, shear: Real) -> Real:
+        assert self._restricted is not None
+        moved = np.empty_like(shear)
+        for axis in range(2):
+            part = np.ascontiguousarray(shear[:, axis])
+            moved[:, axis] = self._restricted.displacement(part, self.nodes, self.nodes)
+        moved *= self._factor
+        return moved
+
+    def inverse(self, moved: Real) -> Real:
+        """Return about the shear that displaces so."""
+        shear = np.empty_like(moved)
+        for axis in range(2):
+            shear[:, axis] = self._precondition(np.ascontiguousarray(moved[:, axis]))
+        shear /= self._factor
+        return shear
+
+    def found(
+        self, discs: Discs, start: tuple[Real, Real], tolerance: float, share: float
+    ) -> Sheared:
+        """Return the shear on the discs from one and a level, as :class:`DiscSearch` does.
+
+        Where there is a rough operator, it is corrected for what it misses of the shear so far.
+        """
+        self.convolutions, (shear, level) = 0, start
+        first = Sheared(shear, level, shear, shear, math.inf, 0.0)
+        exact = DiscSearch(self.exact, self.inverse)
+        if self.rough is None:
+            return exact.found(discs, first, tolerance=tolerance, share=share)
+        rough = DiscSearch(self.rough, self.inverse)
+        shear, before = discs.within(shear), math.inf
+        for _ in range(_MOST_TURNS):
+            now = discs.judged(shear, level, self.exact(shear))
+            if now.residual <= tolerance and now.missing <= share * float(discs.bound.sum()):
+                return now
+            if now.residual > 0.7 * before:
+                break
+            before = now.residual
+            corrected = replace(
+                discs, target=discs.target - now.displacement + rough.operator(shear)
+            )
+            aim = max(0.3 * tolerance, _ROUGH_SHARE * now.residual)
+            better = rough.found(corrected, now, tolerance=aim, share=share)
+            shear, level = better.shear, better.level
+        begun = replace(first, shear=shear, level=level)
+        return exact.found(discs, begun, tolerance=tolerance, share=share)
+
+
+def _with_stiffness(answer: Response, stiffness: tuple[float, float]) -> Response:
+    """Return how a contact answers, with the stiffness of bodies that are coupled."""
+    on, back = stiffness
+    return Response(
+        replace(answer.loading, stiffness=on), replace(answer.unloading, stiffness=back)
+    )
+
+
+def _unknown(contact: Contact, outcome: Outcome) -> Slid:
+    """Return a load that was not solved."""
+    nothing = np.full((contact.nodes.size, 2), math.nan)
+    unknown = np.full(2, math.nan)
+    sticks = np.zeros(contact.nodes.size, dtype=bool)
+    parts = contact, outcome, nothing, nothing, unknown, unknown, nothing, sticks
+    return Slid(*parts, math.nan, math.nan, contact.convolutions)
+
+
+def _apart(contact: Contact, shear: ShearLoad, last: Slid | None) -> Slid:
+    """Return bodies that are apart: nothing is sheared."""
+    slide = np.zeros(2) if last is None else last.slide
+    if shear.slide is not None:
+        slide = np.array(shear.slide)
+    nothing = np.zeros((contact.nodes.size, 2))
+    sticks = np.zeros(contact.nodes.size, dtype=bool)
+    parts = contact, Outcome.CONVERGED, nothing, nothing, slide, np.zeros(2), nothing, sticks
+    return Slid(*parts, 0.0, 0.0, contact.convolutions)

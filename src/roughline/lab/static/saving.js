@@ -1,0 +1,52 @@
+// What is drawn is saved as it is drawn: the pictures of plots, with their words above them, and the points of curves.
+import {element} from "./elements.js";
+
+const GAP = 16, LINE = 20, KEY = 14; // between pictures, of words, and of the key of a curve [px]
+
+// Have the browser save a file.
+export function save(name, content) {
+  const address = URL.createObjectURL(content);
+  element("a", {href: address, download: name}).click();
+  setTimeout(() => URL.revokeObjectURL(address), 60_000);
+}
+
+// The plots in panels, side by side, as PNG.
+export async function pictureOf(plots, panels) {
+  const style = getComputedStyle(document.body), pictures = panels.map((panel) => {
+    const {canvas} = Bokeh.index.find_one(plots.root(panel.id)).export("png", true);
+    return {canvas, words: wordsOf(panel), width: panel.querySelector(".plot").clientWidth};
+  });
+  const scale = pictures[0].canvas.width / pictures[0].width, lines = Math.max(...pictures.map(({words}) => words.length));
+  const made = element("canvas", {
+    width: pictures.reduce((sum, {canvas}) => sum + canvas.width + GAP * scale, GAP * scale),
+    height: Math.max(...pictures.map(({canvas}) => canvas.height)) + (lines * LINE + 2 * GAP) * scale,
+  });
+  const pen = made.getContext("2d");
+  pen.fillStyle = getComputedStyle(panels[0]).backgroundColor;
+  pen.fillRect(0, 0, made.width, made.height);
+  pen.font = `${KEY * scale}px ${style.fontFamily}`;
+  let left = GAP * scale;
+  for (const {canvas, words} of pictures) {
+    words.forEach(({text, colour}, line) => {
+      const base = (GAP + (line + 0.7) * LINE) * scale;
+      pen.fillStyle = colour ?? style.color;
+      if (colour) pen.fillRect(left, base - 0.35 * KEY * scale, KEY * scale, 3 * scale);
+      pen.fillStyle = style.color;
+      pen.fillText(text, left + (colour ? 1.5 * KEY * scale : 0), base, canvas.width);
+    });
+    pen.drawImage(canvas, left, (GAP + lines * LINE) * scale);
+    left += canvas.width + GAP * scale;
+  }
+  return new Promise((resolve) => { made.toBlob(resolve, "image/png"); });
+}
+
+// Lines above a picture: what it is of, the scale of its colours, and its curves with their colours.
+function wordsOf(panel) {
+  const said = (selector) => [...panel.querySelectorAll(selector)].map((each) => each.selectedOptions?.[0].text ?? each.innerText.trim());
+  const names = [...panel.querySelectorAll(".names li:not([hidden])")].map((item) => {
+    const {stroke, fill} = getComputedStyle(item.querySelector("svg *"));
+    return {text: item.innerText.trim(), colour: stroke === "none" ? fill : stroke};
+  });
+  const head = [said(".title, figcaption select, figcaption small").filter(Boolean).join("; "), said(".scale").join("").replace(/\s+/g, " ")];
+  return [...head.filter(Boolean).map((text) => ({text})), ...names];
+}

@@ -1,0 +1,283 @@
+"""Friction against exact solutions: spheres, discs, oblique loads, two materials."""
+
+from math import acos, pi, sqrt
+
+import numpy as np
+import pytest
+
+import roughline as rl
+
+MU = 0.3
+NO_SIDE = rl.Homogeneous(1.0, poisson=0.0)  # no displacement across shear: G* = E*
+RADIUS = 0.3  # of the contact of a sphere of radius one
+DEPTH, FORCE = RADIUS**2, 4 / 3 * RADIUS**3
+
+
+def sphere(n):
+    x = (np.arange(n) + 0.5) / n - 0.5
+    return rl.Surface(-(x[:, np.newaxis] ** 2 + x**2) / 2, sizes=(1.0, 1.0))
+
+
+def disc(n, radius=0.4):
+    x = (np.arange(n) + 0.5) / n - 0.5
+    inside = np.hypot(x[:, np.newaxis], x) < radius
+    surface = rl.Surface(np.where(inside, 0.0, -1.0), sizes=(1.0, 1.0))
+    return surface, sqrt(inside.sum() / pi) / n  # the radius of the same area
+
+
+def rough(n, seed=7):
+    return rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(n, rng=seed)
+
+
+PATH = [(0.5, 0), (0.5, 0.1), (0.5, 0.35), (1, 0.35), (1, 0.6), (0.8, 0.6), (0.8, -0.2)]
+PATH += [(1, 0.5), (0.6, 0.1)]
+SLIDES = [0, 0.08707700, 0.34764972, 0.34764972, 0.52216790, 0.53813625, -0.10404277]
+SLIDES += [0.41515641, 0.12653507]
+
+
+@pytest.mark.parametrize(("n", "error"), [(32, 4e-4), (64, 3e-5)])
+def test_a_sphere_follows_the_springs_of_mindlin_and_deresiewicz(n, error):
+    """Along any history, in one step a load: springs with friction are exact of n = 0."""
+    curve = rl.press(
+        sphere(n),
+        half_space=NO_SIDE,
+        friction=rl.Friction(MU),
+        forces=[f * FORCE for f, _ in PATH],
+        shear_forces=[q * MU * FORCE for _, q in PATH],
+    )
+    assert curve.slide[:, 0] / (MU * DEPTH) == pytest.approx(SLIDES, abs=error)
+    assert abs(curve.slide[:, 1]).max() < 1e-12
+
+
+@pytest.mark.parametrize(("n", "error"), [(32, 2e-2), (64, 1e-3)])
+def test_a_cycle_dissipates_what_cattaneo_and_mindlin_say(n, error):
+    share = 0.7
+    shears = rl.cycle(share * MU * FORCE, per_cycle=4, cycles=1)
+    curve = rl.press(
+        sphere(n),
+        half_space=NO_SIDE,
+        friction=rl.Friction(MU),
+        forces=[FORCE] * len(shears),
+        shear_forces=shears,
+    )
+    bracket = 1 - (1 - share) ** (5 / 3) - 5 * share / 6 * (1 + (1 - share) ** (2 / 3))
+    expected = 3.6 * (MU * FORCE) ** 2 / RADIUS * bracket
+    assert curve.dissipated[-4:].sum() == pytest.approx(expected, rel=error)
+    assert curve.drift[-4, 0] > 0 > curve.drift[-2, 0]
+
+
+def jaeger(surface, body, force, shear):
+    """Return slide and traction by the theorem of Ciavarella and Jäger, with n = 0."""
+    curve = rl.press(
+        surface, half_space=body, forces=[force, force - shear / MU], fields=True, rtol=1e-9
+    )
+    slipping = curve.fields[0].pressure - curve.fields[1].pressure
+    return MU * (curve.depth[0] - curve.depth[1]), MU * slipping
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("n", [32, 64])
+def test_rough_bodies_slip_as_the_difference_of_two_normal_contacts(n, periodic):
+    surface, force = rough(n), 0.02
+    body = rl.Homogeneous(1.0, periodic, poisson=0.0)
+    shears = [share * MU * force for share in (0.3, 0.7, 0.95)]
+    curve = rl.press(
+        surface,
+        half_space=body,
+        friction=rl.Friction(MU),
+        forces=[force] * 4,
+        shear_forces=[0.0, *shears],
+        fields=True,
+        rtol=1e-8,
+    )
+    for load, shear in enumerate(shears, 1):
+        slide, traction = jaeger(surface, body, force, shear)
+        assert curve.slide[load, 0] == pytest.approx(slide, rel=1e-6)
+        largest = MU * curve.fields[load].pressure.max()
+        assert curve.fields[load].shear[..., 0] == pytest.approx(traction, abs=1e-5 * largest)
+
+
+@pytest.mark.parametrize("steps", [1, 3])
+def test_oblique_loading_below_the_friction_angle_slips_nowhere(steps):
+    """In any number of steps: nodes that join slip from their contact on."""
+    surface, slope = rough(32), MU / 2
+    depths = np.linspace(0.0, 0.02, steps + 1)[1:]
+    told = rl.press(surface, half_space=NO_SIDE, depths=depths, rtol=1e-9)
+    curve = rl.press(
+        surface,
+        half_space=NO_SIDE,
+        friction=rl.Friction(MU),
+        forces=told.force,
+        shear_forces=slope * told.force,
+        rtol=1e-9,
+    )
+    assert curve.slide[:, 0] == pytest.approx(slope * depths, rel=1e-7)
+    assert (curve.stick_fraction == 1).all()
+    assert curve.dissipated == pytest.approx(0.0, abs=1e-12 * curve.force[-1])
+
+
+@pytest.mark.parametrize(("n", "error"), [(32, 1e-3), (64, 3e-4)])
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
+def test_a_strength_lets_a_ring_of_a_disc_slip(share, n, error):
+    """Strength tau beyond the radius c: Q and the slide are those of a crack's plastic zone."""
+    surface, a = disc(n)
+    c, strength = share * a, 0.02
+    force = 2 * strength * (a * a * acos(c / a) + c * sqrt(a * a - c * c))
+    slide = 2 * strength * sqrt(a * a - c * c)
+    friction = rl.Friction(strength=strength)
+    given = {"half_space": NO_SIDE, "friction": friction, "forces": [1.0]}
+    curve = rl.press(surface, shear_forces=[force], **given)
+    assert curve.slide[0, 0] == pytest.approx(slide, rel=error)
+    assert sqrt(curve.stick_fraction[0]) == pytest.approx(share, abs=0.5 / n)
+
+
+@pytest.mark.parametrize(
+    ("poisson", "beta", "mu", "stiffer", "sticks"),
+    [
+        (0.3, 2 / 7, 5.0, 1.028626664, None),  # full stick, Mossakovskii: but for the last cell
+        (0.0, 0.5, 5.0, 1.098612289, None),
+        (0.3, 2 / 7, 0.3, 1.024297, 0.8959447),  # Spence
+        (0.0, 0.5, 0.2, 1.035950, 0.2208566),
+    ],
+)
+def test_a_flat_disc_of_another_material_is_as_stiff_as_spence_says(
+    poisson, beta, mu, stiffer, sticks
+):
+    n = 32
+    surface, _ = disc(n)
+    plain = rl.press(surface, half_space=NO_SIDE, depths=[1e-3])
+    coupled = rl.Homogeneous(1.0, poisson=poisson, beta=beta)
+    curve = rl.press(surface, half_space=coupled, friction=rl.Friction(mu), depths=[1e-3])
+    within = 2e-4 if sticks else 0.04 * (stiffer - 1)
+    assert curve.force[0] / plain.force[0] == pytest.approx(stiffer, abs=within)
+    assert np.hypot(*curve.slide[0]) < 1e-12
+    if sticks:
+        assert sqrt(curve.stick_fraction[0]) == pytest.approx(sticks, abs=1.0 / n)
+    assert curve.stiffness[0] == pytest.approx(curve.force[0] / 1e-3, rel=1e-4)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_what_shear_does_is_stored_or_dissipated(periodic):
+    """W - U - D = 0 with tractions in the middle of each step, on one material."""
+    surface, force = rough(32), 0.02
+    body = rl.Homogeneous(1.0, periodic, poisson=0.3)
+    shears = [(0, 0), (0.5, 0.1), (0.7, 0.3), (0.1, 0.3), (-0.6, 0.0)]
+    shears = [(MU * force * x, MU * force * y) for x, y in shears]
+    curve = rl.press(
+        surface,
+        half_space=body,
+        friction=rl.Friction(MU),
+        forces=[force] * 5,
+        shear_forces=shears,
+        fields=True,
+        rtol=1e-9,
+    )
+    area = np.prod(surface.spacing)
+    for load in range(1, 5):
+        before, after = curve.fields[load - 1], curve.fields[load]
+        sliding = curve.slide[load] - curve.slide[load - 1]
+        middle = (before.shear + after.shear) / 2
+        done = area * middle.sum(axis=(0, 1)) @ sliding
+        lost = area * (middle * after.slip).sum()
+        moved = np.where(after.contact[..., np.newaxis], sliding - after.slip, 0.0)
+        stored = area * (middle * moved).sum()
+        assert done - stored - lost == pytest.approx(0.0, abs=1e-12 * abs(done))
+        assert curve.dissipated[load] >= lost >= 0
+        assert curve.dissipated[load] == pytest.approx(
+            area * (after.shear * after.slip).sum(), rel=1e-10
+        )
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0, 150.0, 180.0])
+def test_tangents_are_those_of_small_steps(angle):
+    """Going on within a cone about the last increment, turning back within another."""
+    surface, depth, small = rough(16), 0.02, 1e-6
+    last = np.array([4e-4, 1e-4])
+    turn = np.deg2rad(angle)
+    turned = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    way = small * turned @ last / np.hypot(*last)
+    curve = rl.press(
+        surface,
+        half_space=rl.Homogeneous(1.0, poisson=0.3),
+        friction=rl.Friction(MU),
+        depths=[depth] * 4,
+        slides=[(0, 0), 4 * last, 5 * last, 5 * last + way],
+        rtol=1e-12,
+        solver=rl.Solver(precision="float64"),
+    )
+    assert 0.05 < curve.stick_fraction[2] < 0.95
+    tangent = (curve.shear_stiffness if angle < 90 else curve.shear_stiffness_back)[2]
+    change = curve.shear_force[3] - curve.shear_force[2]
+    assert change == pytest.approx(tangent @ way, abs=3e-3 * small * tangent[0, 0])
+    assert tangent == pytest.approx(tangent.T)
+
+
+@pytest.mark.parametrize(("angle", "beta"), [(0.0, 2 / 7), (20.0, 0.5), (180.0, 2 / 7)])
+def test_tangents_of_two_materials_are_those_of_small_steps(angle, beta):
+    surface, small, force = rough(16), 1e-6, 0.02
+    last, turn = np.array([4e-4, 1e-4]), np.deg2rad(angle)
+    turned = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    way = small * turned @ last / np.hypot(*last)
+    curve = rl.press(
+        surface,
+        half_space=rl.Homogeneous(1.0, poisson=0.3, beta=beta),
+        friction=rl.Friction(MU),
+        forces=[force] * 4,
+        slides=[(0, 0), 4 * last, 5 * last, 5 * last + way],
+        rtol=1e-11,
+        solver=rl.Solver(precision="float64"),
+    )
+    assert 0.05 < curve.stick_fraction[2] < 0.95
+    tangent = (curve.shear_stiffness if angle < 90 else curve.shear_stiffness_back)[2]
+    change = curve.shear_force[3] - curve.shear_force[2]
+    assert change == pytest.approx(tangent @ way, abs=3e-3 * small * tangent[0, 0])
+
+
+@pytest.mark.parametrize("beta", [0.0, 2 / 7])
+@pytest.mark.parametrize(
+    ("name", "turned", "matrix"),
+    [
+        ("mirrored", lambda z: z[::-1], [[-1, 0], [0, 1]]),
+        ("transposed", lambda z: z.T, [[0, 1], [1, 0]]),
+        ("turned by 90 degrees", lambda z: np.rot90(z), [[0, -1], [1, 0]]),
+        ("rolled", lambda z: np.roll(z, (3, 5), (0, 1)), [[1, 0], [0, 1]]),
+    ],
+)
+def test_a_body_that_is_moved_answers_alike(name, turned, matrix, beta):
+    heights = rough(16).heights
+    body = rl.Homogeneous(1.0, periodic=name == "rolled", poisson=0.3, beta=beta)
+    depths, slides = [0.004, 0.006], np.array([(2e-4, 1e-4), (5e-4, -2e-4)])
+    asked = {"half_space": body, "friction": rl.Friction(MU), "depths": depths, "rtol": 1e-9}
+    matrix = np.array(matrix, float)
+    one = rl.press(rl.Surface(heights, sizes=(1.0, 1.0)), slides=slides, **asked)
+    moved = rl.Surface(np.ascontiguousarray(turned(heights)), sizes=(1.0, 1.0))
+    other = rl.press(moved, slides=slides @ matrix.T, **asked)
+    scale = abs(one.shear_force).max()
+    assert other.shear_force == pytest.approx(one.shear_force @ matrix.T, abs=1e-7 * scale)
+    assert other.dissipated == pytest.approx(one.dissipated, abs=1e-7 * scale * 5e-4)
+
+
+@pytest.mark.parametrize("beta", [0.0, 2 / 7])
+def test_units_change_nothing(beta):
+    surface, length, pressure = rough(16), 1e-6, 2e11
+    scaled = rl.Surface(surface.heights * length, sizes=(length, length))
+    body = rl.Homogeneous(1.0, poisson=0.3, beta=beta)
+    other = rl.Homogeneous(pressure, poisson=0.3, beta=beta)
+    slides = np.array([(2e-4, 1e-4), (5e-4, -2e-4)])
+    friction = rl.Friction(MU, strength=0.02)
+    one = rl.press(
+        surface, half_space=body, friction=friction, depths=[0.004, 0.006], slides=slides
+    )
+    two = rl.press(
+        scaled,
+        half_space=other,
+        friction=rl.Friction(MU, strength=0.02 * pressure),
+        depths=[0.004 * length, 0.006 * length],
+        slides=slides * length,
+    )
+    force = pressure * length**2
+    assert two.shear_force / force == pytest.approx(one.shear_force, rel=1e-9, abs=1e-15)
+    assert two.shear_limit / force == pytest.approx(one.shear_limit, rel=1e-9)
+    if beta == 0:
+        stiffness = two.shear_stiffness / (pressure * length)
+        assert stiffness == pytest.approx(one.shear_stiffness, rel=1e-7, abs=1e-9)
