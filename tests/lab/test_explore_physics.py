@@ -44,7 +44,7 @@ def test_the_page_has_its_tick_its_control_and_its_place_in_the_strip():
     text = unescape(page())
     assert re.search(r'data-tick="times".*the body is softer', text)
     assert 'data-text="times"' in text
-    assert '"area", "times"' in text
+    assert '"pressure", "times"' in text  # below the three that lead
 
 
 _WITH_IT = """from lab.softer import Softer
@@ -65,7 +65,7 @@ def test_a_person_ticks_it(browser, tmp_path, monkeypatch):
         assert not page.is_visible("#explore-times-text")
         page.check("#explore-adds-times")
         settled(page, points=64, times=2)
-        assert list(strip(page)).index("times") == list(strip(page)).index("area") + 1
+        assert list(strip(page)).index("times") == list(strip(page)).index("pressure") + 1
         assert address(page)["times"] == "2"
         page.uncheck("#explore-adds-times")
         page.wait_for_function("() => !document.querySelector('[data-answer=times]')")

@@ -230,4 +230,5 @@ def test_light_on_points_that_are_not_square_is_that_of_their_slopes(small):
 def test_a_lit_surface_and_its_contact_are_upright(small):
     page = showing(small, "area", "0.2")
     surface = read_state(dict(parse_qsl(SMALL[1:]))).surface(64)
-    assert is_upright(of_screen(page, MAP), surface.heights)
+    shown = of_screen(page, MAP)
+    assert is_upright(shown, relief(page, surface.heights, surface.sizes))

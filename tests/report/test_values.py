@@ -64,7 +64,7 @@ def test_no_digit_is_written_that_the_interval_does_not_support():
         (802.5e-15, None, "m", "below 1 pm"),
         (0.123456, (0.1234, 0.1244), "%", "12.3% (12.3 to 12.4%)"),
         (0.0, (0.0, 0.01), "%", "0% (up to 1%)"),
-        (1.5, (1.2, np.inf), "N", "1.5 N (1.20 to infinite)"),
+        (1.5, (1.2, np.inf), "N", "1.5 N (1.2 to infinite)"),
     ],
 )
 def test_the_lab_writes_three_digits_at_most_and_both_ends(value, ends, unit, written):

@@ -82,15 +82,8 @@ def up_to_three_digits(value: float, ends: tuple[float, float] | None, unit: str
     text = f"{figure(value * factor, digits)}{sign}"
     if ends is None or np.isnan(ends).any():
         return text
-    first, last = (_like(figure(value * factor, digits), end * factor) for end in ends)
+    first, last = (figure(end * factor, max(digits, _END_DIGITS)) for end in ends)
     return f"{text} ({first} to {last}{sign if np.isfinite(ends[1]) else ''})"
-
-
-def _like(value: str, end: float) -> str:
-    """An end of an interval, with as many decimals as its value if that leaves a digit of it."""
-    decimals = len(value.partition(".")[2])
-    is_plain = "e" not in value and np.isfinite(end) and abs(end) >= 10.0**-decimals
-    return f"{end:.{decimals}f}" if is_plain and decimals else figure(end)
 
 
 def figure(value: float, digits: int = _LAB_DIGITS) -> str:
