@@ -101,7 +101,8 @@ def test_a_body_is_told_by_the_name_of_its_class_and_its_own_fields():
     both = described(rl.Layered(1.0, 0.3, 0.1, np.inf) + rl.Homogeneous(2.0))
     assert both["name"] == "TwoBodies"
     assert both["first"]["base_young"] == "inf"
-    assert both["second"] == {"name": "Homogeneous", "E_star": 2.0, "periodic": False}
+    of_shear = {"poisson": None, "beta": 0.0}
+    assert both["second"] == {"name": "Homogeneous", "E_star": 2.0, "periodic": False, **of_shear}
     assert described(Plain(np.float64(0.3))) == {"name": f"{__name__}:Plain", "hardness": 0.3}
     with pytest.raises(rl.InputError, match="holds an object; numbers, texts, arrays"):
         described(Plain(object()))

@@ -355,9 +355,9 @@ def test_a_report_speaks_to_a_client(holed, points, extent, invoke, only_drawn, 
     told = (
         "The interface stiffness k_i is",  # below the answer that it concerns
         "Warning: at forces of",
+        "15 missing points",
         "of the contact yields at the largest load: it bears the hardness, 370 MPa",
         "known to a factor of 1.5",
-        "15 missing points",
         "Load 10 N",
     )
     assert "<p>A star after a load: fewer than ten points" in page

@@ -12,8 +12,8 @@ from roughline.cli import app
 from roughline.lab.server import serve
 
 VALUES = ("text", "-1", "0", "nan", "inf", "1e400", "", "1 kg", "1,5 mm", "x" * 500, "a\nb")
-# any text is a name, or an address
-SKIPPED = ("--out", "--report", "--prepared", "--store", "--scheduler")
+# any text is a name, or an address, which is tried when the server starts
+SKIPPED = ("--out", "--report", "--prepared", "--store", "--scheduler", "--host")
 INSTEAD_OF = {"--fractal-dimension": "--hurst", "--modulus": "--materials", "--depth": "--load"}
 PLAN = """
 [[ensemble]]

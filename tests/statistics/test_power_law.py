@@ -99,7 +99,7 @@ def test_predicted_exponents():
 @pytest.mark.parametrize(
     ("stiffness", "window", "message"),
     [
-        (FORCE, (2.0, 3.0), "holds 0 loads; at least 3"),
+        (FORCE, (2.0, 3.0), "holds too few loads, 0; at least 3"),
         (FORCE, (1e-2, 1e-3), "window is .0.01, 0.001.; two rising"),
         (np.full(51, np.nan), (1e-4, 1e-2), "21 values of stiffness_bar in the window are not"),
         (-FORCE, (1e-4, 1e-2), "are not positive"),
