@@ -227,7 +227,7 @@ def test_a_killed_process_is_one_sentence_and_the_next_question_is_answered(lab)
     async def scenario():
         async with lab.page() as page:
             await page.ask("explore.curve", state={"n": "256"})
-            assert json.loads(await page.heard())["done"] == 1  # of many loads
+            assert json.loads(await page.heard())["done"] < 5  # of many loads
             for child in alive(lab):
                 child.kill()
             assert (await page.answer())[1].startswith("the process that computed this ended")
