@@ -15,6 +15,11 @@ from roughline.errors.public import public
 from roughline.halfspace.friction.law import Friction
 
 
+def left_without_shear(slide: Real, shear_force: Real) -> Real:
+    """Return the slides of loads without shear, shape (loads, 2); NaN at others. [length]"""
+    return np.where(shear_force.any(axis=1, keepdims=True), np.nan, slide)
+
+
 @public
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class SlidingCurve(SurfaceCurve):
@@ -74,8 +79,7 @@ class SlidingCurve(SurfaceCurve):
     @property
     def drift(self) -> Real:
         """The slide that is left where there is no shear force; NaN at other loads. [length]"""
-        without = ~self.shear_force.any(axis=1, keepdims=True)
-        return np.where(without, self.slide, np.nan)
+        return left_without_shear(self.slide, self.shear_force)
 
     def _variables(self) -> dict[str, Any]:
         variables = super()._variables()

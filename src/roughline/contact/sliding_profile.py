@@ -13,6 +13,7 @@ from roughline.contact.loads import GivenLoads
 from roughline.contact.quantities import SLIDING_QUANTITIES
 from roughline.contact.revolution import press_profile
 from roughline.contact.shear_loads import GivenShear, ShearLoads
+from roughline.contact.sliding import left_without_shear
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -72,8 +73,7 @@ class SlidingLineCurve(LineCurve):
     @property
     def drift(self) -> Real:
         """The slide that is left where there is no shear force; NaN at other loads. [length]"""
-        without = ~self.shear_force.any(axis=1, keepdims=True)
-        return np.where(without, self.slide, np.nan)
+        return left_without_shear(self.slide, self.shear_force)
 
     def _variables(self) -> dict[str, Any]:
         variables = super()._variables()
