@@ -205,7 +205,7 @@ GUARDS = {
         _RTOL="who gives no tolerance",
         _RTOL_FACTOR="cells that loads solved less well would decide",
     ),
-    **_of("fluid/reopening", _FIRST_SHARE="the number of presses"),
+    **_of("fluid/reopening", _FIRST_SHARES="the number of presses"),
     **_of(
         "fluid/trials",
         _MOST_TRIALS="bodies that never seal",
