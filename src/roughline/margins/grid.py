@@ -118,7 +118,6 @@ def _with_errors(pressed: Variant, curves: Curves) -> SurfaceCurve | None:
         )
     loads, of_grid, alone = study
     found = loads.spread(of_grid.concluded(alone, _found(pressed, curves)))
-    assert isinstance(found, SurfaceCurve)
     return replace(found, fields=curve.fields, dents=curve.dents, residual_of=curve.residual_of)
 
 

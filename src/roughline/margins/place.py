@@ -107,18 +107,23 @@ def measures_of_tiles(
 
 def tiled_curves(case: Case, curves: Curves, variant: str) -> TiledCurves | None:
     """Curves of a map and of its tiles, from its periodic curve; None if one is not known."""
-    body, of_map = case.map, curves.get(variant)
-    if body is None or not case.loads.grid_error:
+    body, curve = case.map, curves.get(variant)
+    if body is None or curve is None or not case.loads.grid_error:
         return None
-    shape = coarse_shape(body.shape)
-    if shape != body.shape:
-        of_map = curves.of_piece(_COARSE)
-    halves, quarters = (curves.of_pieces.get(_tiled(count), ()) for count in (2, 4))
-    if of_map is None or len(halves) < 4 or len(quarters) < 16:
+    loads, shape = case.loads.under_forces_from(curve), coarse_shape(body.shape)
+
+    def pieces(name: str) -> list[SurfaceCurve]:
+        """Curves over all loads, of which those that were solved were pressed."""
+        return [loads.spread(each) for each in curves.of_pieces.get(name, ())]
+
+    of_map = [curve] if shape == body.shape else pieces(_COARSE)
+    halves, quarters = pieces(_tiled(2)), pieces(_tiled(4))
+    if not of_map or len(halves) < 4 or len(quarters) < 16:
         return None
-    is_small = has_few_points(body.shape)
-    border = curves.complete(variant) if is_small else curves.of_piece(_BORDER)
-    return TiledCurves(of_map, halves, quarters, shape[0] * shape[1], border)
+    whole = curves.complete(variant)
+    border = [whole] if has_few_points(body.shape) else pieces(_BORDER)
+    points = shape[0] * shape[1]
+    return TiledCurves(of_map[0], halves, quarters, points, border[0] if border else None)
 
 
 def _tiled(count: int) -> str:

@@ -31,7 +31,7 @@ class Curves:
 
     by_name: Mapping[str, Curve]  # without the variants that proved needless
     of_pieces: Mapping[str, Sequence[SurfaceCurve]] = field(default_factory=dict)
-    """Those of surfaces that are one variant; only where all of them are done."""
+    """Those of surfaces that are one variant, over loads that press them; only of whole lists."""
 
     sought: Mapping[str, Sought] = field(default_factory=dict)  # beyond the loads, if asked for
     stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
@@ -50,10 +50,6 @@ class Curves:
     def complete(self, name: str) -> SurfaceCurve | None:
         """The curve of a surface in a variant; None if it is not whole."""
         return None if name == self.stopped else self.get(name)
-
-    def of_piece(self, name: str) -> SurfaceCurve | None:
-        """The curve of the one surface of a variant; None if it was not pressed."""
-        return next(iter(self.of_pieces.get(name, ())), None)
 
 
 Pressable = LoadCase | Sequence[Pressing] | Curve | None

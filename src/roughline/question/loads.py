@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -25,6 +26,8 @@ from roughline.question.loading import DEFAULT_LOADS
 from roughline.question.question import Question
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
+
+_CurveType = TypeVar("_CurveType", bound=Curve)
 
 LoadProgress = Callable[[int, int], None]
 """Called with (loads done, loads in all)."""
@@ -155,13 +158,15 @@ class LoadCase:
         others = replace(self, forces=forces, depths=depths, n_loads=None)
         return replace(others, hardness=hardness, among=loads, lifted=None)
 
-    def spread(self, curve: Curve) -> Curve:
+    def spread(self, curve: _CurveType) -> _CurveType:
         """A curve under these loads over all those that they are among, lifted ones included."""
         if self.lifted is not None:
             if self.lifted.all():
                 curve = replace(at_loads(curve, np.array([], int)), facts=())  # none of its own
             curve = among_loads(curve, ~self.lifted, Status.LIFTED)
-        return curve if self.among is None else among_loads(curve, self.among)
+        if self.among is None or self.among.all():
+            return curve
+        return among_loads(curve, self.among)
 
     def alone(self, curve: SurfaceCurve) -> SurfaceCurve:
         """A curve over all loads that these are among, under these alone; without its fields."""
