@@ -99,16 +99,19 @@ def press_all(
     steps = [math.ceil(loads * each.share * math.prod(each.shape) / points) for each in variants]
     before, total = 0, sum(steps)
     for i, (variant, here) in enumerate(zip(variants, steps, strict=True)):
-        found = variant.needed(Curves(done, pieces))
         report = partial(_report, progress, before, here, total) if progress else None
+        found: Pressable = None
         try:
+            found = variant.needed(Curves(done, pieces))
             if isinstance(found, LoadCase):
                 found = found.spread(_pressed(found, report))
             elif isinstance(found, Sequence):
                 pieces[variant.name] = _all_pieces(found, solved, report)
-        except Interrupted as stop:
-            if isinstance(found, LoadCase):
+        except KeyboardInterrupt as stop:
+            if isinstance(found, LoadCase) and isinstance(stop, Interrupted):
                 done[variant.name] = found.spread(stop.curve)
+            if not done:
+                raise
             missing = tuple(dict.fromkeys(each.purpose for each in variants[i:]))
             raise Stopped(Curves(done, pieces, {}, variant.name, missing)) from stop
         if isinstance(found, Curve):
