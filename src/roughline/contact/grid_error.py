@@ -44,11 +44,11 @@ _FASTEST_POINT_GROWTH = 4 / 3
 _LARGEST_LOADING = 0.9  # of a softer body, over the force under which all of it yields
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
-COARSER, PLATEAUS, STEEP, STEEPER = "coarser grids", "whole plateaus", "as steep", "steeper"
-STAGES = (COARSER, PLATEAUS, STEEP, STEEPER)
+COARSER, PLATEAUS, AS_STEEP, STEEPER = "coarser grids", "whole plateaus", "as steep", "steeper"
+STAGES = (COARSER, PLATEAUS, AS_STEEP, STEEPER)
 """What is pressed to learn the errors, in its order: what is needed is known from those before."""
 
-_Found = Mapping[str, Sequence[SurfaceCurve]]
+_OfStages = Mapping[str, Sequence[SurfaceCurve]]
 """Curves of the stages that are done."""
 
 
@@ -176,24 +176,24 @@ class GridStudy:
             return str(error)
         return ""
 
-    def presses(self, stage: str, curve: SurfaceCurve, found: _Found) -> list[Pressing]:
+    def presses(self, stage: str, curve: SurfaceCurve, found: _OfStages) -> list[Pressing]:
         """What is pressed in a stage, from the curve of the surface and of the stages before."""
         if self._refusal:
             return []
         if stage == COARSER:
             return self._coarser
-        followed = found[COARSER][1] if stage == STEEP else curve
+        followed = found[COARSER][1] if stage == AS_STEEP else curve
         if not _known_forces(followed).any():
             return []
         if stage == PLATEAUS:
             plateaus = with_whole_plateaus(self.pressing.surface)
             return [] if plateaus is None else [self._again(curve, plateaus, curve.law)]
-        if stage == STEEP:
+        if stage == AS_STEEP:
             laws = self._steeper_laws(followed)
             return [self._again(followed, self._grids.half, law) for law in laws]
         return self._steeper(curve, found[COARSER])
 
-    def concluded(self, curve: SurfaceCurve, found: _Found) -> SurfaceCurve:
+    def concluded(self, curve: SurfaceCurve, found: _OfStages) -> SurfaceCurve:
         """The curve with its errors, from the curves of all stages."""
         if self._refusal:
             return _unknown(curve, self._refusal)
@@ -202,7 +202,7 @@ class GridStudy:
         rims_of_k, rims_of_area = _rim_differences(curve, _over_loads(curve, found[PLATEAUS]))
         with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
             of_grids = steepening * _compliance_difference("unloading_stiffness", coarser, curve)
-            of_yield = _yielding_share(k, _over_loads(coarser[1], found[STEEP]))
+            of_yield = _yielding_share(k, _over_loads(coarser[1], found[AS_STEEP]))
             of_k_u = np.hypot(np.hypot(of_grids, _YIELD_FACTOR * of_yield), rims_of_k)
             taken = np.where((k > 0) & (k < k_u), _YIELD_SHARE * np.log(k_u / k), 0.0)
             of_k = np.maximum(
@@ -259,7 +259,7 @@ class GridStudy:
         law = curve.law.scaled(steepening, steepening)
         return [self._again(curve, self.pressing.surface, law, 1 / steepening)]
 
-    def _measured(self, curve: SurfaceCurve, found: _Found) -> Mapping[str, Measured]:
+    def _measured(self, curve: SurfaceCurve, found: _OfStages) -> Mapping[str, Measured]:
         """The measures of a curve with the ends of their intervals.
 
         A measure that is zero on one of the grids, as the flow through a gap that is sealed there,

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import SurfaceCurve
-from roughline.contact.grid_error import COARSER, STAGES, STEEP, GridStudy, refuse_few_points
+from roughline.contact.grid_error import AS_STEEP, COARSER, STAGES, GridStudy, refuse_few_points
 from roughline.contact.pressing import Pressing
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.intervals import Ends, Intervals
@@ -23,7 +23,7 @@ from roughline.question.case import COARSENED_FROM, Case
 from roughline.question.loads import LoadCase
 from roughline.topography.body import Surface
 
-_SHARES = {COARSER: 9 / 16, STEEP: 1 / 2}
+_SHARES = {COARSER: 9 / 16, AS_STEEP: 1 / 2}
 """Points of what is pressed in these stages over those of the surface; of others, as many."""
 
 _UNSURE_RATIO = 5.0  # of both ends; above, a stiffness near full contact may be infinite
@@ -53,7 +53,7 @@ class FinerGrid(Cause):
             replace(
                 of_grid,
                 name=_staged(pressed, stage),
-                needed=partial(_presses_of, pressed, stage),
+                needed=partial(_pressed_in_stage, pressed, stage),
                 share=_SHARES.get(stage, 1.0),
             )
             for stage in STAGES
@@ -97,7 +97,7 @@ def _found(pressed: Variant, curves: Curves) -> dict[str, Sequence[SurfaceCurve]
     return {stage: curves.of_pieces.get(_staged(pressed, stage), ()) for stage in STAGES}
 
 
-def _presses_of(pressed: Variant, stage: str, curves: Curves) -> Sequence[Pressing] | None:
+def _pressed_in_stage(pressed: Variant, stage: str, curves: Curves) -> Sequence[Pressing] | None:
     """What is pressed in a stage."""
     if (study := _study(pressed, curves)) is None:
         return None
