@@ -299,10 +299,18 @@ function at({array: {values, shape: [rows, columns]}}, x, y) {
   return values[index(y, rows) * columns + index(x, columns)];
 }
 
-function wordsOf({title, unit, low, nothing = "", is_logarithmic: isLogarithmic = false}, value) {
+function wordsOf({title, unit, low, array, nothing = "", is_logarithmic: isLogarithmic = false}, value) {
   if (!Number.isFinite(value) || value === 0 || (isLogarithmic && value < low)) return nothing;
   if (isLogarithmic) return `${title} ${value > low ? "" : "below "}${digits(10 ** value)} ${unit}`;
-  return `${title} ${digits(value)} ${unit.replace("/ ", "")}`;
+  return `${title} ${digitsAbove(array.step, value)} ${unit.replace("/ ", "")}`;
+}
+
+// Three digits, and none much finer than the steps in which a number was sent.
+function digitsAbove(step, value) {
+  const finest = step > 0 ? 10 ** Math.round(Math.log10(step)) : 0;
+  if (Math.abs(value) >= 100 * finest) return digits(value);
+  if (Math.abs(value) < finest / 2) return `below ${Number(finest.toPrecision(1))}`;
+  return (Math.round(value / finest) * finest).toFixed(Math.max(0, Math.round(-Math.log10(finest))));
 }
 
 function digits(value) {
