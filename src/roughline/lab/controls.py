@@ -202,8 +202,8 @@ class QuantityText(Control):
             raise ControlError(str(error), self.key) from None
         if not self.ends[0] <= value <= self.ends[1]:
             low, high = (engineering(end, self.unit) for end in self.ends)
-            said = f"{self.name} is {shown(text)}; give one from {low} to {high}"
-            raise ControlError(said, self.key)
+            sentence = f"{self.name} is {shown(text)}; give one from {low} to {high}"
+            raise ControlError(sentence, self.key)
         return text.strip()
 
 

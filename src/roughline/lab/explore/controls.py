@@ -33,13 +33,13 @@ class _Dimension(Number):
         hurst = typed["hurst"]
         value = float(hurst) if is_number(hurst) else -1.0
         if not 0 <= value <= 1:
-            said = f"H is {shown(hurst.strip())}; give a number from 0 to 1"
-            raise ControlError(said, self.key, "H")
+            sentence = f"H is {shown(hurst.strip())}; give a number from 0 to 1"
+            raise ControlError(sentence, self.key, "H")
         return round(3 - value, 12)
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Load(Number):
+class _LoadNumber(Number):
     """A force, or a pressure on the whole surface."""
 
     def in_unit(self, text: str, state: Any) -> float:
@@ -115,7 +115,7 @@ _NUMBERS = (
         scale="whole",
         step=1,
     ),
-    _Load(
+    _LoadNumber(
         key="F",
         symbol="F̄",
         name="load",

@@ -33,11 +33,11 @@ def read_state(texts: Texts) -> ExploreState:
     """
     known = {*CONTROLS, *(each.key for each in physics.PHYSICS), *physics.numbers(), "H"}
     refuse_strange(texts, known)
-    said = {"D_f": f"H = {texts['H']}", **texts} if "H" in texts else texts
+    read_as = {"D_f": f"H = {texts['H']}", **texts} if "H" in texts else texts
     controls, state = {**CONTROLS, "shown": physics.second_map_choice()}, ExploreState()
     load = controls.pop(LOAD)
     for key, control in controls.items():
-        state = replace(state, **{key: control.read_in(said, state)})
+        state = replace(state, **{key: control.read_in(read_as, state)})
     _refuse_waves(state)
     added = (each for kind in physics.PHYSICS if (each := kind.read(texts, state)))
     state = replace(state, added=tuple(added))

@@ -41,8 +41,8 @@ class FieldText(Control):
             refuse_alone(self.field, value)
         count = len(value) if isinstance(value, list) else value
         if isinstance(count, int) and count > self.most:
-            said = f"{self.name}: {count} are too many; this lab takes up to {self.most:g}"
-            raise ControlError(said, self.key)
+            sentence = f"{self.name}: {count} are too many; this lab takes up to {self.most:g}"
+            raise ControlError(sentence, self.key)
         return value
 
     def _parted(self, text: str) -> str | list[str]:
@@ -60,7 +60,7 @@ def at(key: str) -> Iterator[None]:
         yield
     except rl.RoughlineError as error:
         about = [getattr(error, "argument", None), *getattr(error, "others", ())]
-        keys = [each for name in about for each in _OF_ARGUMENTS.get(name or "", (name,))]
+        keys = [each for name in about for each in _CONTROL_KEYS.get(name or "", (name,))]
         among = getattr(error, "among", [key for key in keys if key in KEYS] or [key])
         raise ControlError(str(error), *among) from None
 
@@ -93,13 +93,13 @@ def _choice(key: str, field: Field) -> Choice:
 CHOICES = {key: _choice(key, field) for key, field in BY_CONTROL.items() if field.choices}
 CHOICES["bodies"] = _BODIES_BY
 """Controls of which one of several words is chosen."""
-_MOST = {"points": MOST_POINTS, "loads": _MOST_LOADS}
+_MOST_VALUES = {"points": MOST_POINTS, "loads": _MOST_LOADS}
 CONTROLS: dict[str, Control] = CHOICES | {
     key: FieldText(
         key=key,
         name=field.label or key,
         field=field,
-        most=_MOST.get(field.name, math.inf),
+        most=_MOST_VALUES.get(field.name, math.inf),
         # without a text, in words
         default=field.otherwise if field.kind is float else "",
         meaning=field.help,
@@ -115,7 +115,7 @@ BEGINS |= {key: field.begins for key, field in BY_CONTROL.items() if field.begin
 
 KEYS = (*BY_CONTROL, "bodies", *BODIES)
 """Keys of all controls, as in the address."""
-_OF_ARGUMENTS = {each.name: (key,) for key, each in BY_CONTROL.items()} | {
+_CONTROL_KEYS = {each.name: (key,) for key, each in BY_CONTROL.items()} | {
     field.name: tuple(field.texts) for field, _ in BODIES.values()
 }
 """Keys of controls by the names of arguments."""
