@@ -119,6 +119,18 @@ def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twic
     run(scenario, tmp_path)
 
 
+def test_what_a_page_says_of_its_session_does_not_count(tmp_path):
+    async def scenario(lab, server):
+        async with lab.page() as page:
+            await page.ask("explore.full", state={}, session={"folder": "/etc", "names": None})
+            await becomes(lambda: server.slow.requests)
+            told = server.slow.requests[0].arguments
+            assert told["state"] == {}
+            assert told["session"]["folder"] == str(tmp_path / page.token)
+
+    run(scenario, tmp_path)
+
+
 def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(sessions, "_PAGE_WITHIN", 0.2)
 

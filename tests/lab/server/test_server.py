@@ -134,35 +134,6 @@ def test_messages_that_make_no_sense_are_answered_in_one_sentence(lab, text):
     run(scenario)
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        {},
-        {"state": None},
-        {"state": {"n": 64}},
-        {"state": {"seed": "9" * 60_000}},
-        {"state": {"L": "\x00\n\u202e"}},
-        {"state": {"n": "64"}, "session": {"folder": "/etc", "names": None}},
-        {"state": json.loads("[" * 200 + "]" * 200)},
-    ],
-)
-@pytest.mark.parametrize("task", ["explore.reduced", "explore.full", "explore.code"])
-def test_arguments_of_any_kind_are_answered(lab, task, arguments):
-    async def scenario():
-        async with lab.page() as page:
-            number = await page.ask(task, **arguments)
-            answered, said = await page.answer()
-            assert answered == number
-            if isinstance(said, str):
-                assert 10 < len(said) < 1000
-                assert "\n" not in said
-            else:  # what cannot be used is told at its control, and all else is answered
-                is_whole = arguments == {} or arguments["state"] == SMALL
-                assert is_whole or set(said["refused"]) == set(arguments["state"])
-
-    run(scenario)
-
-
 def test_a_message_that_is_too_large_closes_the_page_and_only_it(lab):
     async def scenario():
         async with lab.page() as other:
