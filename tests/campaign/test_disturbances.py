@@ -168,13 +168,15 @@ def test_the_client_stopped(plan, resume, begun, tmp_path, number):
 
 @pytest.fixture
 def soon_given_up(monkeypatch):
-    """Try only shortly to find a scheduler again that is gone."""
-    again = Client._reconnect
+    """Try only shortly to find a scheduler again that is gone, and close patiently."""
+    again, close = Client._reconnect, Client.close
 
     async def shortly(client):
         client._timeout = 0.1
         await again(client)
 
+    # whose own patience is twice that with which it connects
+    monkeypatch.setattr(Client, "close", lambda client: close(client, timeout=patience()))
     monkeypatch.setattr(Client, "_reconnect", shortly)
 
 
