@@ -9,6 +9,7 @@ import {fillCaption} from "./tables.js";
 
 export const NOTHING = {image: [], x: [], y: [], dw: [], dh: []};
 const BORDERS = {left: 66, right: 40, top: 8, bottom: 46}; // for the axes and their names [px]
+const SHARED = 8; // below a map whose profile has the axis for both [px]
 const LOWEST = 48; // frame of a map that is much longer than wide [px]
 const HIGHEST = 0.38, AT_LEAST = 280; // frame, in heights of the window, and [px]
 const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
@@ -24,10 +25,13 @@ const GREYS = { // of the relief by the theme: flat, per brightness, per height 
 
 // An empty map, whose numbers get the colours of a palette. Rings may be drawn on it in a colour.
 export function mapFigure(name, {hasRelief = false, rings = "", ranges}) {
-  const borders = Object.fromEntries(Object.entries(BORDERS).map(([side, width]) => [`min_border_${side}`, width]));
+  const borders = Object.fromEntries(Object.entries({...BORDERS, bottom: hasRelief ? SHARED : BORDERS.bottom}).map(([side, width]) => [`min_border_${side}`, width]));
   const made = plot(["x", "y"], ranges, {match_aspect: true, ...borders});
   const mapper = new Bokeh.LinearColorMapper({palette: Bokeh.Palettes.Cividis256, low: -1, high: 1, name: `${name} colours`});
-  if (hasRelief) draw(made, "image_rgba", `${name} relief`);
+  if (hasRelief) {
+    draw(made, "image_rgba", `${name} relief`);
+    made.xaxes[0].visible = false;
+  }
   draw(made, "image", name, {color_mapper: mapper});
   for (const grid of made.grids) grid.visible = false;
   if (rings) {
@@ -96,7 +100,7 @@ export class Maps {
   // Light heights, {values, shape}, below a map; without any its paper shows.
   lay(name, height) {
     const before = this.#reliefs[name];
-    if (before?.values.length === height?.values.length && (!height || before.values.every((value, i) => value === height.values[i]))) return;
+    if (before === height || !(before || height)) return;
     this.#reliefs[name] = height;
     this.#light(name);
     if (Boolean(before) !== Boolean(height) && this.#looks[name]) this.#colour(name);
@@ -128,13 +132,8 @@ export class Maps {
   // Draw numbers, {values, shape, dtype}, over the sides from a corner, in the colours of `look`: palette, low and
   // high, title, unit, and whether they are logarithms.
   show(name, {values, shape, dtype}, look, sizes = this.#sizes, [x, y] = [0, 0]) {
-    const place = {x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]}, {data} = this.#plots.model(name);
-    const isSame = data.image[0] && JSON.stringify([data.image[0].shape, data.x, data.y, data.dw, data.dh])
-      === JSON.stringify([shape, ...Object.values(place)]) && values.every((value, i) => Object.is(value, data.image[0][i]));
-    if (!isSame) {
-      const {ndarray} = Bokeh.require("core/util/ndarray");
-      this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], ...place});
-    }
+    const {ndarray} = Bokeh.require("core/util/ndarray");
+    this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]});
     if (!look) return;
     const before = this.#looks[name];
     this.#looks[name] = look;
@@ -153,7 +152,8 @@ export class Maps {
     const isOfTheme = Array.isArray(palette), isLit = Boolean(this.#reliefs[name]);
     const shown = (each) => (!isLit ? colour(each) : each === "paper" ? CLEAR : colour(ON_RELIEF[each] ?? each));
     const wanted = isOfTheme ? palette.map(shown) : palette === "flux" ? ofFlux() : Bokeh.Palettes[palette];
-    this.#plots.model(`${name} colours`).setv({palette: wanted, low, high: high > low ? high : low + 1, low_color: shown("paper"),
+    this.#plots.model(`${name} colours`).setv({palette: wanted, low, high: high > low ? high : low + 1,
+      low_color: low < 0 && !isLogarithmic ? wanted[0] : shown("paper"), // the deepest is deep; of what begins at none there is none
       nan_color: shown(blank)});
     const {glyph} = this.#plots.root(this.#plot(name)).renderers.find(({data_source}) => data_source.name === name);
     glyph.global_alpha = {value: isLit && !isOfTheme && !(low > 0) ? VEIL : 1};
@@ -164,17 +164,17 @@ export class Maps {
   // Give all maps the size at which the sides of the surface fill the frame: as wide as their rooms, and as high as
   // these, or as a part of the window where rooms are as high as what is in them.
   #fit() {
-    const [along, up] = this.#sizes, places = Object.values(this.#places).filter((each) => each.offsetParent !== null);
+    const [along, up] = this.#sizes, below = this.#profile?.hasCross ? SHARED : BORDERS.bottom, places = Object.values(this.#places).filter((each) => each.offsetParent !== null);
     if (!places.length) return;
     const rooms = places.map(({parentElement}) => parentElement), isGiven = getComputedStyle(rooms[0]).contain.includes("size");
     const across = Math.min(...rooms.map(({clientWidth}) => clientWidth)) - BORDERS.left - BORDERS.right;
-    const high = isGiven ? Math.min(...rooms.map(({clientHeight}) => clientHeight)) - BORDERS.top - BORDERS.bottom
+    const high = isGiven ? Math.min(...rooms.map(({clientHeight}) => clientHeight)) - BORDERS.top - below
       : Math.max(AT_LEAST, HIGHEST * innerHeight);
     const scale = Math.max(Math.min(across / along, high / up), 1 / Math.max(along, up));
     for (const place of places) {
       const width = `${Math.round(scale * along) + BORDERS.left + BORDERS.right}px`;
       place.style.width = scaleAbove(place).style.width = width;
-      place.style.height = `${Math.max(Math.round(scale * up), LOWEST) + BORDERS.top + BORDERS.bottom}px`;
+      place.style.height = `${Math.max(Math.round(scale * up), LOWEST) + BORDERS.top + below}px`;
       if (this.#profile?.hasCross) document.querySelector(`#plot-${this.#profile.plot}`).style.width = width;
     }
   }

@@ -44,7 +44,6 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
 class Panels {
   #view; #declared;
   #answers = new Map(); // what the last of each kind has for panels, those that came last at the end
-  #drawn = new Map(); // columns by their sources, as text
 
   constructor(plots, view, declared) {
     this.plots = plots;
@@ -58,7 +57,7 @@ class Panels {
     this.#answers.delete(what);
     this.#answers.set(what, panels);
     for (const [key, {series}] of Object.entries(before)) {
-      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.#empty(`${key} ${name}`);
+      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.plots.empty(`${key} ${name}`);
       if (panels[key]) continue;
       this.#fillRows(key);
       this.#remark(key, "");
@@ -101,11 +100,6 @@ class Panels {
     return [`panel,series,${columns}`, ...[...remarks, ...heads].map((each) => `# ${each.replace(/\s+/g, " ")}`), ...rows, ""].join("\n");
   }
 
-  #empty(source) {
-    this.#drawn.delete(source);
-    this.plots.empty(source);
-  }
-
   #plot(key) { return `${this.#view}-${key}`; }
   #find(key, selector) { return document.querySelector(`#${this.#plot(key)} ${selector}`); }
   #remark(key, text) { this.#find(key, "[data-remarks]")?.replaceChildren(...typeset(text)); }
@@ -126,10 +120,7 @@ class Panels {
     const known = Object.entries(columns).map(([column, values]) => [column, values.map((value) => value ?? NaN)]);
     const drawn = Object.fromEntries(known);
     if (isLogarithmic && drawn.y) drawn.y = drawn.y.map((value) => (value === 0 ? foot : value));
-    const text = JSON.stringify(drawn), source = `${key} ${name}`;
-    if (this.#drawn.get(source) === text) return; // one series is drawn anew, not all
-    this.#drawn.set(source, text);
-    this.plots.set(source, drawn);
+    this.plots.set(`${key} ${name}`, drawn);
   }
 
   // Put zeros of all answers at the foot of an axis whose range has changed.
