@@ -32,15 +32,16 @@ export function mapFigure(name, {hasRelief = false, rings = "", ranges}) {
     draw(made, "image_rgba", `${name} relief`);
     made.xaxes[0].visible = false;
   }
-  draw(made, "image", name, {color_mapper: mapper});
+  const level = hasRelief ? "overlay" : "glyph"; // the relief stays while a load moves
+  draw(made, "image", name, {color_mapper: mapper, level});
   for (const grid of made.grids) grid.visible = false;
   if (rings) {
     for (const [line_width, shown] of [[4, "paper"], [1.5, rings]]) { // the one is seen around the other
-      draw(made, "scatter", `${name} rings`, {size: 22, line_width, fill_alpha: 0, colours: {line_color: shown}});
+      draw(made, "scatter", `${name} rings`, {size: 22, line_width, fill_alpha: 0, level, colours: {line_color: shown}});
     }
   }
   for (const [line_width, shown] of [[3, "paper"], [1.2, "text"]]) {
-    draw(made, "line", `${name} cut`, {line_width, colours: {line_color: shown}});
+    draw(made, "line", `${name} cut`, {line_width, level: "overlay", colours: {line_color: shown}});
   }
   return made;
 }
@@ -52,11 +53,12 @@ export function sharedRanges() { return [1, 2].map(() => new Bokeh.Range1d({star
 export function profileFigure() {
   const sides = Object.fromEntries(["left", "right"].map((side) => [`min_border_${side}`, BORDERS[side]])); // below its map
   const made = plot(["along the line", "height"], [[0, 1], [0, 1]], sides);
-  draw(made, "varea", "profile gap", {fill_alpha: 0.3, colours: {fill_color: "pull"}});
+  const level = "overlay"; // of what moves with the load
   draw(made, "varea", "profile surface", {fill_alpha: 0.4, colours: {fill_color: "line"}});
   draw(made, "line", "profile surface", {line_width: 1, colours: {line_color: "line"}});
-  draw(made, "line", "profile body", {line_width: 1.5, colours: {line_color: "text"}});
-  draw(made, "line", "profile touching", {line_width: 4, colours: {line_color: "touch"}});
+  draw(made, "varea", "profile gap", {fill_alpha: 0.3, level, colours: {fill_color: "pull"}});
+  draw(made, "line", "profile body", {line_width: 1.5, level, colours: {line_color: "text"}});
+  draw(made, "line", "profile touching", {line_width: 4, level, colours: {line_color: "touch"}});
   return made;
 }
 
@@ -233,7 +235,7 @@ export class Maps {
       (from.x + share * (to.x - from.x)) / this.#sizes[0], (from.y + share * (to.y - from.y)) / this.#sizes[1]));
     const path = shares.map((share) => share * Math.hypot(to.x - from.x, to.y - from.y)), surface = along(height);
     const above = gap ? along(gap) : [], body = above.map((value, i) => surface[i] + (value || 0));
-    const ends = endsAbout([...surface, ...body]), both = gap ? path : [];
+    const ends = roundAbout([...surface, ...body]), both = gap ? path : [];
     this.#plots.set("profile surface", {x: path, y: surface, low: path.map(() => ends[0]), high: surface});
     this.#plots.set("profile gap", {x: both, low: gap ? surface : [], high: body});
     this.#plots.set("profile body", {x: both, y: body});
@@ -287,6 +289,12 @@ function endsAbout(values) {
   return [low - room, high + room];
 }
 
+// The same, of round numbers, which stay as a load moves: so does all that need not be drawn anew.
+function roundAbout(values) {
+  const [low, high] = endsAbout(values), step = roundStep((high - low) / 10);
+  return [Math.floor(low / step) * step, Math.ceil(high / step) * step];
+}
+
 // A quantity with its unit, or over a scale: height [µm], height / h.
 function withUnit(name, unit) {
   if (!unit) return name;
@@ -329,10 +337,15 @@ function roundNumbers(low, high, isWhole) {
     return [1, 2, 5].flatMap((factor) => Array.from({length: Math.ceil(high) - Math.floor(low) + 1},
       (_, i) => Math.floor(low) + i + Math.log10(factor))).filter((value) => value >= low && value <= high).sort((a, b) => a - b);
   }
-  const rough = (high - low) / 4, power = 10 ** Math.floor(Math.log10(rough));
-  const step = Math.max([1, 2, 5, 10].find((factor) => factor * power >= rough) * power, isWhole ? 1 : 0);
+  const step = Math.max(roundStep((high - low) / 4), isWhole ? 1 : 0);
   const first = Math.ceil(low / step - 1e-9);
   return Array.from({length: Math.floor(high / step + 1e-9) - first + 1}, (_, i) => Number(((first + i) * step).toPrecision(6)));
+}
+
+// The next of 1, 2, 5, 10 and so on.
+function roundStep(rough) {
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return [1, 2, 5, 10].find((factor) => factor * power >= rough) * power;
 }
 
 // A colour of Bokeh: a name, red, green, blue and opacity, or all four in one number.

@@ -32,13 +32,21 @@ export async function embedded(declared) {
 
 // With each picture Bokeh writes the places of all that it draws into the style of the page and asks that for colours,
 // hundreds of times a second while a slider moves, and each time the browser styles the page anew. A place that is the
-// same is not written, that of a glyph is not asked for, and the page has no such colours.
+// same is not written, that of a glyph is not asked for, the page has no such colours, and all type is of one size. It also gives the points of each glyph to
+// four copies, for what is selected, passed or muted, which nothing is here.
 function spareStyles() {
   const {InlineStyleSheet} = Bokeh.require("core/dom"), {VisualProperties} = Bokeh.require("core/visuals/visual");
   const {GlyphRendererView} = Bokeh.require("models/renderers/glyph_renderer");
+  const {PlotView} = Bokeh.require("models/plots/plot_canvas");
   InlineStyleSheet.prototype._update = function (css) { if (this.css !== css) this.el.textContent = css; };
   VisualProperties.prototype._get_css_value = () => "";
   GlyphRendererView.prototype.update_position = () => {};
+  Object.defineProperty(PlotView.prototype, "base_font_size", {value: parseFloat(TYPE)});
+  const give = GlyphRendererView.prototype.set_data;
+  GlyphRendererView.prototype.set_data = async function (indices) {
+    await give.call(this, indices); // once they are given none
+    for (const each of [this.decimated_glyph, this.selection_glyph, this.nonselection_glyph, this.muted_glyph]) each.set_data = async () => {};
+  };
 }
 
 function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)}`); }
@@ -47,6 +55,7 @@ class Plots {
   #shown = new Map();
   #named = new Map(); // names of curves by the sources of these
   #counts = {}; // points in a source
+  #models = new Map(); // by their names, for which Bokeh looks through all
 
   constructor(made) {
     this.made = made;
@@ -80,7 +89,10 @@ class Plots {
     });
   }
 
-  model(name) { return this.made.get_model_by_name(name); }
+  model(name) {
+    if (!this.#models.has(name)) this.#models.set(name, this.made.get_model_by_name(name));
+    return this.#models.get(name);
+  }
 
   root(name) { return this.made.roots().find((each) => each.name === name); }
 
@@ -123,11 +135,11 @@ class Plots {
   // Put the names of a plot to ends of what they name: where these are apart, and a name covers least.
   #placeNames(root) {
     const {frame: {bbox, x_scale, y_scale}} = Bokeh.index.find_one(root), taken = [];
-    const onScreen = ([x, y]) => [x_scale.compute(x), y_scale.compute(y)];
     const named = [...placeOf(root.name).querySelectorAll(".names li:not([hidden])")].map((item) => {
-      const lines = item.dataset.sources.split(";").map((name) => pointsOf(this.model(name).data).map(onScreen)).filter(({length}) => length);
-      return {item, lasts: lines.map((line) => line.at(-1)), firsts: lines.map((line) => line[0]), steps: lines.flatMap(stepsOf)};
+      const lines = item.dataset.sources.split(";").map((name) => this.#lineOf(name, x_scale, y_scale)).filter(({points}) => points.length);
+      return {item, lines, lasts: lines.map(({points}) => points.at(-1)), firsts: lines.map(({points}) => points[0])};
     });
+    const steps = named.flatMap(({lines}) => lines.flatMap((line) => line.steps));
     for (const {item, lasts, firsts} of named.sort((one, other) => (one.lasts[0]?.[1] ?? 0) - (other.lasts[0]?.[1] ?? 0))) {
       const {width, high} = sizeOf(item), rest = named.filter((each) => each.item !== item);
       const about = ([x, y], beside) => {
@@ -138,7 +150,7 @@ class Plots {
       const costs = ({place, cost}) => {
         const left = within(place[0], bbox.left + BESIDE, bbox.right - width - BESIDE), right = left + width;
         const top = within(place[1], bbox.top + BESIDE, bbox.bottom - high - BESIDE), bottom = top + high;
-        const covered = named.flatMap(({steps}) => steps).filter(([x, y]) => x > left - BESIDE && x < right && y > top && y < bottom);
+        const covered = steps.filter(([x, y]) => x > left - BESIDE && x < right && y > top && y < bottom);
         const others = taken.filter((each) => left < each.right && right > each.left && top < each.bottom && bottom > each.top);
         return {left, right, top, bottom, cost: cost + covered.length + WORSE * others.length};
       };
@@ -151,6 +163,18 @@ class Plots {
       if (item.style.transform !== place) item.style.transform = place;
     }
   }
+
+  // Where the points of a source are on the screen, and what lies between them, which stays until one or the other changes.
+  #lineOf(name, x_scale, y_scale) {
+    const {data} = this.model(name), of = [data.x, data.y ?? data.low, ...[x_scale, y_scale].flatMap(({source_range: {start, end}, target_range}) =>
+      [start, end, target_range.start, target_range.end])];
+    const known = this.#lines.get(name);
+    if (known && of.every((each, i) => each === known.of[i])) return known;
+    const points = pointsOf(data).map(([x, y]) => [x_scale.compute(x), y_scale.compute(y)]), line = {of, points, steps: stepsOf(points)};
+    this.#lines.set(name, line);
+    return line;
+  }
+  #lines = new Map();
 
   // Name the axes of a plot; one without a name keeps its own.
   label(plot, x, y) {
