@@ -97,15 +97,17 @@ def test_rough_bodies_slip_as_the_difference_of_two_normal_contacts(n, periodic)
         assert curve.fields[load].shear[..., 0] == pytest.approx(traction, abs=1e-5 * largest)
 
 
+@pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("steps", [1, 3])
-def test_oblique_loading_below_the_friction_angle_slips_nowhere(steps):
+def test_oblique_loading_below_the_friction_angle_slips_nowhere(steps, periodic):
     """In any number of steps: nodes that join slip from their contact on."""
     surface, slope = rough(32), MU / 2
     depths = np.linspace(0.0, 0.02, steps + 1)[1:]
-    told = rl.press(surface, half_space=NO_SIDE, depths=depths, rtol=1e-9)
+    body = rl.Homogeneous(1.0, periodic, poisson=0.0)
+    told = rl.press(surface, half_space=body, depths=depths, rtol=1e-9)
     curve = rl.press(
         surface,
-        half_space=NO_SIDE,
+        half_space=body,
         friction=rl.Friction(MU),
         forces=told.force,
         shear_forces=slope * told.force,
@@ -154,6 +156,36 @@ def test_a_flat_disc_of_another_material_is_as_stiff_as_spence_says(
     if sticks:
         assert sqrt(curve.stick_fraction[0]) == pytest.approx(sticks, abs=1.0 / n)
     assert curve.stiffness[0] == pytest.approx(curve.force[0] / 1e-3, rel=1e-4)
+
+
+@pytest.mark.parametrize("angle", [0, 90, 210])
+def test_oblique_loading_with_a_side_slips_the_same_way_round(angle):
+    """With Poisson's ratio of 0.3 it is exact but for the displacement across shear."""
+    surface, turn = rough(32), np.deg2rad(angle)
+    force = 0.02 * MU / 2 * np.array([np.cos(turn), np.sin(turn)])
+    asked = {"half_space": rl.Homogeneous(1.0, poisson=0.3), "friction": rl.Friction(MU)}
+    once = rl.press(surface, forces=[0.02], shear_forces=[force], **asked)
+    finely = rl.press(
+        surface,
+        forces=np.linspace(0.0, 0.02, 9)[1:],
+        shear_forces=np.outer(np.arange(1, 9) / 8, force),
+        **asked,
+    )
+    assert once.slide[0] == pytest.approx(finely.slide[-1], abs=4e-3 * np.hypot(*once.slide[0]))
+
+
+def test_two_materials_that_come_nearer_are_much_the_same_in_few_steps():
+    """Nodes that join leave out what they were moved before; four steps do what sixteen do."""
+    body = rl.Homogeneous(1.0, poisson=0.3, beta=2 / 7)
+    asked = {"half_space": body, "friction": rl.Friction(MU)}
+    found = {}
+    for steps in (1, 2, 4, 8):
+        depths = DEPTH * np.arange(1, steps + 1) / steps
+        found[steps] = rl.press(sphere(32), depths=depths, **asked).force[-1]
+    off = [abs(found[steps] / found[8] - 1) for steps in (1, 2, 4)]
+    assert off[0] < 5e-3
+    assert off[1] < 1e-3
+    assert off[2] < 2e-4
 
 
 @pytest.mark.parametrize("periodic", [False, True])

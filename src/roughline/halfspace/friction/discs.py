@@ -3,12 +3,14 @@
 A node that sticks is displaced as its target says, and its shear is within its disc. One that slips
 has its shear on the rim of its disc, in the direction in which the target runs ahead of it. With q
 the shear, A the half-space and w = target + level - A q the slip, that is q = Pi(q + w / m) for any
-m > 0 [1]_, where Pi projects onto the discs. Its residual, times m, is a length.
+m > 0 [1]_, where Pi projects onto the discs. Its residual, times m, is a length. A node may have a
+spring of its own beside the half-space, which displaces it by as much more as it bears more.
 
 Unknowns are two numbers at a node that sticks and one, the turn along the rim, at a node that
 slips. On fixed sets Newton's equations (P A P + lambda) y = P w are positive definite: P takes what
 lies along the rim, and the radius w q / g² of the slip resists a turn. They are solved by conjugate
-gradients, in which the slip is as stiff as it is, (1 + lambda / m)^-1/2 on both sides.
+gradients, in which the slip is as stiff as it is, (1 + lambda / m)^-1/2 on both sides; lambda holds
+the springs, too.
 
 References
 ----------
@@ -56,6 +58,7 @@ class Discs:
     target: Real  # shape (nodes, 2) [length]
     total: Real | None  # sum of the shear, shape (2,); None: the targets are what they are
     diagonal: float  # m, displacement of a node by shear on itself [length / pressure]
+    springs: Real  # shape (nodes,): of each node beside the half-space [length / pressure]
 
     def within(self, shear: Real) -> Real:
         """Project shear onto the discs."""
@@ -67,7 +70,7 @@ class Discs:
 
     def judged(self, shear: Real, level: Real, displacement: Real) -> Sheared:
         """Return shear with its slip, and how far both are from the conditions."""
-        slip = self.target + level - displacement
+        slip = self.target + level - displacement - self.springs[:, np.newaxis] * shear
         off = shear - self.within(shear + slip / self.diagonal)
         residual = self.diagonal * float(np.hypot(off[:, 0], off[:, 1]).max(initial=0.0))
         missing = 0.0
@@ -125,7 +128,7 @@ class _Round:
     ) -> None:
         self._search, self._discs, self._now = search, discs, now
         self._slips, self._rim = slips, rim
-        self._curve = curve[:, np.newaxis]  # lambda [length / pressure]
+        self._curve = (curve + discs.springs)[:, np.newaxis]  # lambda [length / pressure]
         self._scale = 1 / np.sqrt(1 + self._curve / discs.diagonal)
         self.products = 0
 

@@ -1,10 +1,16 @@
 """A path of loads with friction: each state follows from the last shear and the last slide.
 
 Displacements are linear in the tractions, so that the path has left nothing else. What a node has
-slipped since the last load is w = share · (slide - last slide) - (u - last u). The share is one at
-nodes that were in contact before. A node that joins slips from its contact on only: of the way
-along which the bodies come nearer by D it misses the part gap / D before, with its gap at the last
-load [1]_. Along a straight path, with no displacement across shear (n = 0), that is exact.
+moved along the other body since the last load is t = slide - last slide - (u - last u). One that was
+in contact has slipped by that. A node that joins had a gap h, of which what it moves is a part on
+the way to contact: with its own pressure p and shear q, which displace it by m p and m' q, it came
+nearer by h + m p, and along by t + m' q. If both went evenly it has slipped since by
+
+    w = m p / (h + m p) · (t - (m' / m) (h / p) q),
+
+which is as if it had a spring (m' / m) h / p of its own. It sticks where q / p is m' / m times t / h.
+Along a straight path, with no displacement across shear (n = 0), that is exact [1]_, as all moves in
+proportion then.
 
 References
 ----------
@@ -30,15 +36,13 @@ from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangent
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
+from roughline.halfspace.operators.shear import ShearConvolution, at_origin, shear_on_grid
 from roughline.halfspace.search.path import LoadPath
 from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
 from roughline.halfspace.search.response import Response
 from roughline.halfspace.search.tangent import response
 
 _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
-_MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
-_LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
 _MOST_TURNS = 40  # of corrections by the exact operator
 _TURN_SHARE = 0.1  # of what is wrong before a turn, to which it is solved
 _ROUGH_SHARE = 0.3  # the same of a turn with the rough operator, which goes farther than that
@@ -107,6 +111,12 @@ class _Bodies:
         grid = self.problem.grid
         workspace = grid.inverse.operator.workspace
         return shear_on_grid(grid.half_space, grid.shape, grid.spacing, workspace)
+
+    @cached_property
+    def diagonal(self) -> float:
+        """Displacement of a node by the pressure on itself. [length / pressure]"""
+        operator = self.problem.operator
+        return at_origin(operator.spectrum, operator.periods)
 
 
 class SlidePath:
@@ -244,7 +254,9 @@ class _SlideStep:
         self._moved_before, self._start = self._before()
         if start is not None:
             self._start = _on(contact.nodes, *start)
-        self._late = self._share_before_contact()
+        gap, own = self._gaps_before(), bodies.diagonal * contact.pressure
+        self._springs = gap / own * exact.diagonal
+        self._since_contact = own / (gap + own)
         strength = float(self._bound.sum()) / float(contact.pressure.sum())
         self._scale = contact.length_scale * strength
 
@@ -268,22 +280,16 @@ class _SlideStep:
             moved += self._exact.by_pressure(before.pressure, sources, self._nodes)
         return moved - self._pushed, shear
 
-    def _share_before_contact(self) -> Real:
-        """Return the part of the way that nodes miss before they join."""
+    def _gaps_before(self) -> Real:
+        """Return the gaps that nodes had at the last load; zero where they were in contact."""
         contact, last, nodes = self._contact, self._last, self._contact.nodes
-        touch = self._untouched.touch
         if last is None or not last.contact.nodes.size:
-            before = touch if last is None else last.contact.depth
-            gap = self._untouched.separation.ravel()[nodes] - before
-        else:
-            before = last.contact.depth
-            gap = np.zeros(nodes.size)
-            joined = ~np.isin(nodes, last.contact.nodes, assume_unique=True)
-            gap[joined] = last.contact.gap_at(InGrid(nodes[joined]))
-        nearer = contact.depth - before
-        if not nearer > 0:
-            return np.zeros(nodes.size)
-        return np.clip(gap / nearer, 0.0, 1.0)
+            before = self._untouched.touch if last is None else last.contact.depth
+            return np.maximum(self._untouched.separation.ravel()[nodes] - before, 0.0)
+        gap = np.zeros(nodes.size)
+        joined = ~np.isin(nodes, last.contact.nodes, assume_unique=True)
+        gap[joined] = np.maximum(last.contact.gap_at(InGrid(nodes[joined])), 0.0)
+        return gap
 
     def under(self, load: ShearLoad) -> Slid:
         """Return the state under a load along the surface."""
@@ -291,19 +297,15 @@ class _SlideStep:
         tolerance = self._method.rtol * self._scale
         if load.slide is not None:
             way = np.array(load.slide) - self._slide_before
-            target = self._moved_before + (1 - self._late)[:, np.newaxis] * way
-            found = self._solved(target, None, np.zeros(2), self._start, tolerance)
+            found = self._solved(self._moved_before + way, None, np.zeros(2), tolerance)
             return self._state(found, way, limit)
         assert load.force is not None
         force = np.array(load.force)
         if not np.hypot(*force) < _SLIDES_FROM * limit:
             return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
-        total = force / self._area
-        way = self._guessed_way(force)
-        if not self._late.any():
-            found = self._solved(self._moved_before, total, way, self._start, tolerance)
-            return self._state(found, found.level, limit)
-        return self._state(*self._joined(total, way, tolerance), limit)
+        total, way = force / self._area, self._guessed_way(force)
+        found = self._solved(self._moved_before, total, way, tolerance)
+        return self._state(found, found.level, limit)
 
     def coupled_tangents(self, found: Slid) -> tuple[ShearTangents, tuple[float, float]]:
         """Return the tangents of bodies that are coupled, and the normal stiffness on both."""
@@ -345,42 +347,11 @@ class _SlideStep:
             return (force - before) / pushed * nearer * factor
         return (force - before) / rigid * factor if rigid > 0 else np.zeros(2)
 
-    def _joined(self, total: Real, way: Real, tolerance: float) -> tuple[Sheared, Real]:
-        """Return the shear and the way of the indenter, of which joining nodes miss a part.
-
-        The way that they miss follows from the way that is found: a fixed point of two numbers, by
-        Broyden's method. It begins with the slope that it has where all of the contact sticks.
-        """
-        contact, late = self._contact, self._late[:, np.newaxis]
-        rigid, last = self._rigid, self._last
-        pushed = contact.force - (0.0 if last is None else last.contact.force)
-        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
-        growth = pushed / (rigid * nearer) if rigid * nearer > 0 else 1.0
-        slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
-        start, level, before = self._start, way, None
-        for _ in range(_MOST_GUESSES):
-            target, way_taken = self._moved_before - late * way, way
-            found = self._solved(target, total, level, start, tolerance)
-            start, level = found.shear, found.level
-            off = way - found.level
-            if float(np.abs(off).max()) <= tolerance:
-                break
-            if before is not None:
-                step, change = way - before[0], off - before[1]
-                slope = slope + np.outer(change - slope @ step, step) / float(step @ step)
-            before = way, off
-            way = way - np.linalg.lstsq(slope, off, rcond=None)[0]
-        # what the joining nodes miss of the way is off by as much
-        residual = max(found.residual, float(np.abs(way_taken - found.level).max()))
-        return replace(found, residual=residual), found.level
-
-    def _solved(
-        self, target: Real, total: Real | None, level: Real, start: Real, tolerance: float
-    ) -> Sheared:
+    def _solved(self, target: Real, total: Real | None, level: Real, tolerance: float) -> Sheared:
         """Return the shear on the discs, to the tolerance by the exact operator."""
-        discs = Discs(self._bound, target, total, self._exact.diagonal)
+        discs = Discs(self._bound, target, total, self._exact.diagonal, self._springs)
         share = _TOTAL_SHARE * self._method.rtol
-        found = self._operators.found(discs, (start, level), tolerance, share)
+        found = self._operators.found(discs, (self._start, level), tolerance, share)
         self.convolutions += self._operators.convolutions
         return found
 
@@ -405,7 +376,7 @@ class _SlideStep:
             found.displacement + self._pushed,
             self._slide_before + way,
             force,
-            found.slip,
+            found.slip * self._since_contact[:, np.newaxis],
             sticks,
             limit,
             residual,

@@ -148,7 +148,7 @@ def shear_on_grid(
     made = _periodic if all(half_space.repeats) else _free
     periods = grid_periods(shape, half_space.repeats)
     xx, yy, xy, towards = made(half_space, shape, spacing, periods)
-    diagonal = (_at_origin(xx, periods) + _at_origin(yy, periods)) / 2
+    diagonal = (at_origin(xx, periods) + at_origin(yy, periods)) / 2
     mean, part = (xx + yy) / 2, (xx - yy) / 2
     workspace = workspace or Workspace()
     return ShearConvolution(shape, periods, mean, part, xy, towards, diagonal, workspace)
@@ -223,7 +223,7 @@ def _periodic(
     return xx, yy, xy, towards if half_space.is_coupled else None
 
 
-def _at_origin(quarter: Real, periods: tuple[int, int]) -> float:
+def at_origin(quarter: Real, periods: tuple[int, int]) -> float:
     """Return the sum over all modes of an even spectrum."""
     times_x, times_y = (
         np.where((np.arange(n // 2 + 1) == 0) | (2 * np.arange(n // 2 + 1) == n), 1.0, 2.0)
