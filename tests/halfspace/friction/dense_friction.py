@@ -155,5 +155,5 @@ def _sweep(matrix, target, gap, coefficient, strength, traction, sweeps):
                         x, y = x * most / size, y * most / size
                     changed = max(changed, abs(x - traction[0, i]), abs(y - traction[1, i]))
                     traction[0, i], traction[1, i] = x, y
-        if changed < 1e-16 * np.abs(flat).max():
+        if changed < 1e-14 * np.abs(flat).max():
             break

@@ -174,6 +174,35 @@ def test_oblique_loading_with_a_side_slips_the_same_way_round(angle):
     assert once.slide[0] == pytest.approx(finely.slide[-1], abs=4e-3 * np.hypot(*once.slide[0]))
 
 
+@pytest.mark.parametrize(
+    ("n", "steps", "within"), [(32, 1, 0.08), (32, 4, 0.02), (64, 4, 0.005), (64, 8, 0.01)]
+)
+def test_a_sphere_of_another_material_sticks_where_spence_says(n, steps, within):
+    """Whatever the steps: nodes at their bound slip on or stick as the rates say."""
+    depths = DEPTH * (np.geomspace(0.25, 1, steps) if steps > 1 else np.ones(1))
+    curve = rl.press(
+        sphere(n),
+        half_space=rl.Homogeneous(1.0, poisson=0.3, beta=2 / 7),
+        friction=rl.Friction(MU),
+        depths=depths,
+    )
+    assert sqrt(curve.stick_fraction[-1]) == pytest.approx(0.8959447, abs=within)
+
+
+def test_of_a_sphere_that_turns_back_all_sticks_and_going_on_what_did():
+    """The same loads in more steps show the same: a load that stands asks as the one before."""
+    force = MU * FORCE
+    shears = [0.0, 0.3 * force, 0.6 * force, 0.6 * force, 0.6 * force]
+    forces = [FORCE, FORCE, FORCE, FORCE, 1.02 * FORCE]
+    asked = {"half_space": NO_SIDE, "friction": rl.Friction(MU)}
+    curve = rl.press(sphere(32), forces=forces, shear_forces=shears, **asked)
+    sticks = curve.stick_fraction
+    assert sqrt(sticks[2]) == pytest.approx(0.4 ** (1 / 3), abs=0.03)
+    assert sticks[3] == sticks[2]
+    assert sticks[4] == 1  # the bound grows and the shear does not: nothing slips on
+    assert curve.shear_stiffness[4] == pytest.approx(curve.shear_stiffness_back[4])
+
+
 def test_two_materials_that_come_nearer_are_much_the_same_in_few_steps():
     """Nodes that join leave out what they were moved before; four steps do what sixteen do."""
     body = rl.Homogeneous(1.0, poisson=0.3, beta=2 / 7)

@@ -1,16 +1,16 @@
 """A path of loads with friction: each state follows from the last shear and the last slide.
 
-Displacements are linear in the tractions, so that the path has left nothing else. What a node has
-moved along the other body since the last load is t = slide - last slide - (u - last u). One that was
-in contact has slipped by that. A node that joins had a gap h, of which what it moves is a part on
-the way to contact: with its own pressure p and shear q, which displace it by m p and m' q, it came
-nearer by h + m p, and along by t + m' q. If both went evenly it has slipped since by
+Displacements are linear in the tractions, so that the path has left nothing else. A node has moved
+along the other body by t = slide - last slide - (u - last u) since the last load. One that was in
+contact has slipped by that. A node that joins had a gap h, and a part of t is on its way to
+contact. With its own pressure p and shear q, which displace it by m p and m' q, it came nearer by
+h + m p, and along by t + m' q. If both went evenly it has slipped since by
 
     w = m p / (h + m p) · (t - (m' / m) (h / p) q),
 
-which is as if it had a spring (m' / m) h / p of its own. It sticks where q / p is m' / m times t / h.
-Along a straight path, with no displacement across shear (n = 0), that is exact [1]_, as all moves in
-proportion then.
+which is as if it had a spring (m' / m) h / p of its own. It sticks where q / p is m / m' times
+t / h. Along a straight path, with no displacement across shear (n = 0), that is exact [1]_, as all
+moves in proportion then.
 
 References
 ----------
@@ -32,6 +32,7 @@ import numpy as np
 from roughline.computing.arrays import InGrid, Mask, Real
 from roughline.halfspace.friction.discs import Discs, DiscSearch, Linear, Sheared
 from roughline.halfspace.friction.law import Friction
+from roughline.halfspace.friction.rates import Going, Rim
 from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangents, shear_tangents
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
@@ -71,10 +72,12 @@ class Slid:
     slide: Real  # of the indenter, shape (2,) [length]
     force: Real  # shape (2,)
     slip: Real  # since the last load, shape (nodes, 2) [length]
-    sticks: Mask
+    sticks: Mask  # where nodes do not slip on
     limit: float  # largest shear force that friction bears [force]
     residual: float  # over its scale [1]
     convolutions: int
+    load: ShearLoad | None = None
+    went: Going | None = None  # how loads went to it
     tangents: ShearTangents | None = None
 
     @property
@@ -208,7 +211,13 @@ class SlidePath:
         tangents, stiffness = step.coupled_tangents(found)
         contact = replace(contact, response=_with_stiffness(answer, stiffness))
         convolutions += answer.convolutions + tangents.convolutions
-        return replace(found, contact=contact, convolutions=convolutions, tangents=tangents)
+        return replace(
+            found,
+            contact=contact,
+            convolutions=convolutions,
+            sticks=tangents.sticks,
+            tangents=tangents,
+        )
 
     def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
         """Return how shear displaces all of the grid into the body."""
@@ -282,7 +291,7 @@ class _SlideStep:
 
     def _gaps_before(self) -> Real:
         """Return the gaps that nodes had at the last load; zero where they were in contact."""
-        contact, last, nodes = self._contact, self._last, self._contact.nodes
+        last, nodes = self._last, self._contact.nodes
         if last is None or not last.contact.nodes.size:
             before = self._untouched.touch if last is None else last.contact.depth
             return np.maximum(self._untouched.separation.ravel()[nodes] - before, 0.0)
@@ -298,21 +307,20 @@ class _SlideStep:
         if load.slide is not None:
             way = np.array(load.slide) - self._slide_before
             found = self._solved(self._moved_before + way, None, np.zeros(2), tolerance)
-            return self._state(found, way, limit)
+            return self._state(found, way, limit, load)
         assert load.force is not None
         force = np.array(load.force)
         if not np.hypot(*force) < _SLIDES_FROM * limit:
             return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
         total, way = force / self._area, self._guessed_way(force)
         found = self._solved(self._moved_before, total, way, tolerance)
-        return self._state(found, found.level, limit)
+        return self._state(found, found.level, limit, load)
 
     def coupled_tangents(self, found: Slid) -> tuple[ShearTangents, tuple[float, float]]:
         """Return the tangents of bodies that are coupled, and the normal stiffness on both."""
-        contact, friction = self._contact, self._friction
-        slope = friction.slope(contact.pressure, contact.nodes)
-        state = found.shear, found.sticks, slope
-        return coupled_tangents(self._operators, contact, state, self._method)
+        assert found.went is not None
+        rim = self._rim(found.shear)
+        return coupled_tangents(self._operators, self._contact, rim, found.went, self._method)
 
     @property
     def _rigid(self) -> float:
@@ -355,18 +363,39 @@ class _SlideStep:
         self.convolutions += self._operators.convolutions
         return found
 
-    def _state(self, found: Sheared, way: Real, limit: float) -> Slid:
+    def _rim(self, shear: Real) -> Rim:
+        """Return which nodes have all the shear that they bear."""
+        slope = self._friction.slope(self._contact.pressure, self._contact.nodes)
+        return Rim.of(shear, self._bound, self._springs > 0, slope)
+
+    def _went(self, load: ShearLoad, way: Real) -> Going:
+        """Return how loads went to this one; if nothing changed, as they went before."""
+        contact, last = self._contact, self._last
+        assert contact.load is not None
+        coupled, touch = contact.problem.grid.half_space.is_coupled, self._untouched.touch
+        by_depth = coupled and contact.load.depth is not None
+        normal = contact.depth - touch if by_depth else contact.force
+        along = way if load.force is None else np.array(load.force)
+        if last is not None:
+            same, before = last.contact.load == contact.load, last.contact
+            normal -= before.depth - touch if by_depth else before.force
+            normal = 0.0 if same else normal
+            if load.force is not None:
+                along = np.zeros(2) if last.load == load else along - last.force
+        going = Going(float(normal), (along[0], along[1]), not by_depth, load.force is not None)
+        return last.went if going.stands and last is not None and last.went else going
+
+    def _state(self, found: Sheared, way: Real, limit: float, load: ShearLoad) -> Slid:
         """Return the state with some shear."""
         scale = self._scale
         force = self._area * found.shear.sum(axis=0)
         off = self._area * found.missing / limit if limit else 0.0
         residual = max(found.residual / scale if scale else 0.0, off)
         converged = residual <= self._method.rtol
-        sticks = ~_slips(found, self._bound, self._exact.diagonal)
-        tangents = None
+        rim, going, tangents = self._rim(found.shear), self._went(load, way), None
         if converged and not self._contact.problem.grid.half_space.is_coupled:
             tangents = shear_tangents(
-                self._operators, self._contact, found.shear, sticks, self._method, self._back
+                self._operators, self._contact, rim, going, self._method, self._back
             )
             self.convolutions += tangents.convolutions
         return Slid(
@@ -377,10 +406,12 @@ class _SlideStep:
             self._slide_before + way,
             force,
             found.slip * self._since_contact[:, np.newaxis],
-            sticks,
+            ~rim.full if tangents is None else tangents.sticks,
             limit,
             residual,
             self.convolutions,
+            load,
+            going,
             tangents,
         )
 
@@ -393,12 +424,6 @@ def _on(nodes: InGrid, others: InGrid, values: Real) -> Real:
         known = others[places] == nodes
         found[known] = values[places[known]]
     return found
-
-
-def _slips(found: Sheared, bound: Real, diagonal: float) -> Mask:
-    """Return which nodes are at their bound and slip."""
-    size = np.hypot(found.shear[:, 0], found.shear[:, 1])
-    return size >= bound * (1 - 1e-10)
 
 
 class _Operators:

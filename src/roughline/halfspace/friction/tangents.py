@@ -19,19 +19,22 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.friction.discs import Linear
+from roughline.halfspace.friction.rates import Going, Rates, Rim, slip_on
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, Method
 
 _ENERGY_MARGIN = 0.01  # part of the tolerance, to which the stiffness is solved
 _MOST_STEPS = 300
+_NOTHING_RESISTS = 1e-9  # of the largest stiffness along the surface
 _ROUGH_SHARE = 1e-2  # of the energy of an error, that steps with rough operators leave
 
 
 @dataclass(frozen=True, eq=False)
 class ShearTangents:
-    """Stiffness dQ/d(slide) at a state, each 2 by 2. [force / length]"""
+    """Stiffness dQ/d(slide) at a state, each 2 by 2, and where it sticks. [force / length]"""
 
+    sticks: Mask  # if loads go on as they did last
     on: Real
     back: Real
     convolutions: int = 0
@@ -54,27 +57,72 @@ class ShearMaps(Protocol):
 def shear_tangents(
     maps: ShearMaps,
     contact: Contact,
-    shear: Real,
-    sticks: Mask,
+    rim: Rim,
+    going: Going,
     method: Method,
     back: Real | None = None,
 ) -> ShearTangents:
     """Solve for both tangents; that of turning back may be known of the same contact."""
-    grid = contact.problem.grid
-    rigid = np.diag([np.inf, np.inf])
-    is_whole = contact.nodes.size == contact.separation.size
-    if is_whole and grid.inverse.operator.mean_is_free and sticks.all():
-        return ShearTangents(rigid, rigid)
+    grid, nodes = contact.problem.grid, contact.nodes.size
     accuracy, spent = _ENERGY_MARGIN * method.rtol, 0
-    size = np.maximum(np.hypot(shear[:, 0], shear[:, 1]), 1e-300)
-    rim = np.stack([-shear[:, 1] / size, shear[:, 0] / size], axis=1)
+    if nodes == contact.separation.size and grid.inverse.operator.mean_is_free:
+        back = np.diag([np.inf, np.inf])
     if back is None:
-        found, spent = _Stuck(maps, np.zeros(0, dtype=np.intp), rim).stiffness(accuracy)
+        stuck = _Stuck(maps, np.zeros(0, dtype=np.intp), rim.outward)
+        found, spent = stuck.stiffness(accuracy)
         back = grid.cell_area * found
-    if sticks.all():
-        return ShearTangents(back, back, spent)
-    found, more = _Stuck(maps, np.flatnonzero(~sticks), rim).stiffness(accuracy)
-    return ShearTangents(grid.cell_area * found, back, spent + more)
+    rates = _ShearRates(maps, contact, rim, going, accuracy)
+    slips = slip_on(rim, rates.of) if rim.may_slip.any() else rim.may_slip
+    on = grid.cell_area * rates.form(slips) if slips.any() else back
+    return ShearTangents(~slips, on, back, spent + rates.spent)
+
+
+class _ShearRates:
+    """How the shear goes on where pressures do not depend on it."""
+
+    def __init__(
+        self, maps: ShearMaps, contact: Contact, rim: Rim, going: Going, accuracy: float
+    ) -> None:
+        self._maps, self._rim, self._going, self._accuracy = maps, rim, going, accuracy
+        self._area, self.spent = contact.problem.grid.cell_area, 0
+        self._known: tuple[Mask, list[Real], Real] | None = None
+        answer = contact.response
+        assert answer is not None
+        tangent = answer.loading if going.normal > 0 else answer.unloading
+        self._bears_more = rim.slope * tangent.pressure_per_force * going.normal
+
+    def _columns(self, slips: Mask) -> tuple[list[Real], Real]:
+        """Return the shear by unit slides along x and y, and its totals."""
+        if self._known is None or (self._known[0] != slips).any():
+            stuck = _Stuck(self._maps, np.flatnonzero(slips), self._rim.outward)
+            form, spent = stuck.stiffness(self._accuracy)
+            self.spent += spent
+            self._known = slips.copy(), stuck.found, form
+        return self._known[1:]
+
+    def form(self, slips: Mask) -> Real:
+        """Return the totals of the shear by unit slides."""
+        return self._columns(slips)[1]
+
+    def of(self, slips: Mask) -> Rates | None:
+        """Return how nodes go on where some slip; None if nothing goes on."""
+        if self._going.stands:
+            return None
+        (x, y), form = self._columns(slips)
+        rate = np.where(slips, self._bears_more, 0.0)[:, np.newaxis] * self._rim.outward
+        if rate.any():
+            stuck = _Stuck(self._maps, np.flatnonzero(slips), self._rim.outward)
+            moved = self._maps.exact(rate)
+            follows, _, steps = stuck.solved(-stuck.allowed(moved), self._accuracy)
+            rate, self.spent = rate + follows, self.spent + 2 * (1 + steps)
+        slide = np.array(self._going.along)
+        if self._going.by_shear:
+            missing = slide / self._area - rate.sum(axis=0)
+            slide = np.linalg.lstsq(form, missing, rcond=None)[0]
+        rate = rate + slide[0] * x + slide[1] * y
+        self.spent += 2
+        slip = self._rim.along(slide - self._maps.exact(rate))
+        return Rates(slip, self._rim.along(rate) - self._bears_more)
 
 
 class CoupledMaps(ShearMaps, Protocol):
@@ -91,49 +139,90 @@ class CoupledMaps(ShearMaps, Protocol):
 
 
 def coupled_tangents(
-    maps: CoupledMaps, contact: Contact, state: tuple[Real, Mask, Real], method: Method
+    maps: CoupledMaps, contact: Contact, rim: Rim, going: Going, method: Method
 ) -> tuple[ShearTangents, tuple[float, float]]:
     """Solve for both tangents of bodies that are coupled, and for dF/dd on both.
 
-    The state is the shear, where it sticks, and how much more shear nodes bear under more pressure.
     Where a node slips its shear follows the pressure, so that the equations are not symmetric. The
     tangents are those under a constant force, and dF/dd is that under a constant shear force.
     """
-    (shear, sticks, slope), grid = state, contact.problem.grid
-    whole = contact.nodes.size == contact.separation.size
-    unknown = np.full((2, 2), np.nan)
-    if whole and grid.inverse.operator.mean_is_free:
-        return ShearTangents(unknown, unknown), (np.inf, np.inf)
-    found, spent = [], 0
-    everywhere = np.ones_like(sticks)
-    for holds in (everywhere,) if sticks.all() else (everywhere, sticks):
-        matrix, products = _CoupledStuck(maps, contact, shear, holds, slope).stiffness(method.rtol)
-        found.append(grid.cell_area * matrix)
-        spent += 7 * products
-    (along_back, normal_back), (along_on, normal_on) = map(_condensed, (found[0], found[-1]))
-    return ShearTangents(along_on, along_back, spent), (normal_on, normal_back)
+    grid, nobody = contact.problem.grid, np.zeros_like(rim.full)
+    if contact.nodes.size == contact.separation.size and grid.inverse.operator.mean_is_free:
+        unknown = np.full((2, 2), np.nan)
+        return ShearTangents(~rim.full, unknown, unknown), (np.inf, np.inf)
+    rates = _CoupledRates(maps, contact, rim, going, method.rtol)
+    along_back, normal_back = _condensed(grid.cell_area * rates.form(nobody))
+    slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
+    along_on, normal_on = _condensed(grid.cell_area * rates.form(slips))
+    return ShearTangents(~slips, along_on, along_back, rates.spent), (normal_on, normal_back)
+
+
+class _CoupledRates:
+    """How pressures and shear go on where both move each other."""
+
+    def __init__(
+        self, maps: CoupledMaps, contact: Contact, rim: Rim, going: Going, rtol: float
+    ) -> None:
+        self._maps, self._contact, self._rim, self._going = maps, contact, rim, going
+        self._rtol, self.spent = rtol, 0
+        self._known: tuple[Mask, list[tuple[Real, Real]], Real] | None = None
+
+    def _columns(self, slips: Mask) -> tuple[list[tuple[Real, Real]], Real]:
+        """Return pressures and shear by unit slides and a unit approach, and their totals."""
+        if self._known is None or (self._known[0] != slips).any():
+            stuck = _CoupledStuck(self._maps, self._contact, self._rim, slips)
+            form, products = stuck.stiffness(self._rtol)
+            self.spent += 7 * products
+            self._known = slips.copy(), stuck.found, form
+        return self._known[1:]
+
+    def form(self, slips: Mask) -> Real:
+        """Return the totals of shear and pressure by unit slides and a unit approach."""
+        return self._columns(slips)[1]
+
+    def of(self, slips: Mask) -> Rates | None:
+        """Return how nodes go on where some slip; None if nothing goes on, or it is not solved."""
+        going, area = self._going, self._contact.problem.grid.cell_area
+        columns, form = self._columns(slips)
+        if going.stands or np.isnan(form).any():
+            return None
+        asked, given = area * form, np.array([*going.along, going.normal])
+        if not going.by_shear:
+            asked[:2] = np.eye(3)[:2]
+        if not going.by_force:
+            asked[2] = np.eye(3)[2]
+        moved = np.linalg.lstsq(asked, given, rcond=None)[0]
+        pressure = sum(each * p for each, (p, _) in zip(moved, columns, strict=True))
+        shear = sum(each * q for each, (_, q) in zip(moved, columns, strict=True))
+        self.spent += 4
+        there = self._maps.exact(shear) + self._maps.by_pressure(pressure)
+        slip = self._rim.along(moved[:2] - there)
+        return Rates(slip, self._rim.along(shear) - self._rim.slope * pressure)
 
 
 def _condensed(matrix: Real) -> tuple[Real, float]:
-    """Return dQ/d(slide) under a constant force, and dF/dd under a constant shear force."""
+    """Return dQ/d(slide) under a constant force, and dF/dd under a constant shear force.
+
+    Where nothing resists a slide, as where the bodies slide, dF/dd is that without it.
+    """
     along, normal = matrix[:2, :2], float(matrix[2, 2])
     of_depth, of_slide = matrix[:2, 2], matrix[2, :2]
     held = along - np.outer(of_depth, of_slide) / normal
-    return held, normal - float(of_slide @ np.linalg.solve(along, of_depth))
+    if not np.isfinite(matrix).all():
+        return held, np.nan
+    slide = np.linalg.lstsq(along, of_depth, rcond=_NOTHING_RESISTS)[0]
+    return held, normal - float(of_slide @ slide)
 
 
 class _CoupledStuck:
     """A contact of coupled bodies, of which some nodes slip on."""
 
-    def __init__(
-        self, maps: CoupledMaps, contact: Contact, shear: Real, holds: Mask, slope: Real
-    ) -> None:
-        self._maps, self._grid, self._slips = maps, contact.problem.grid, ~holds
-        size = np.maximum(np.hypot(shear[:, 0], shear[:, 1]), 1e-300)[:, np.newaxis]
-        self._outward = np.where(self._slips[:, np.newaxis], shear / size, 0.0)
-        self._slope = slope
-        self._products = 0
+    def __init__(self, maps: CoupledMaps, contact: Contact, rim: Rim, slips: Mask) -> None:
+        self._maps, self._grid, self._slips = maps, contact.problem.grid, slips
+        self._outward = np.where(slips[:, np.newaxis], rim.outward, 0.0)
+        self._slope, self._products = rim.slope, 0
         self._normal = preconditioner(self._grid.inverse, maps.nodes)
+        self.found: list[tuple[Real, Real]] = []  # pressures and shear by unit ways
 
     def _radial(self, vectors: Real) -> Real:
         """Return what of vectors nodes that slip cannot follow."""
@@ -186,21 +275,26 @@ class _CoupledStuck:
             shear = free - self._radial(free)
             shear += self._outward * (self._slope * pressure)[:, np.newaxis]
             matrix[:, axis] = *shear.sum(axis=0), pressure.sum()
+            self.found.append((pressure, shear))
         return matrix, self._products
 
 
 class _Stuck:
     """A contact of which some nodes follow a slide along the rims of their discs alone."""
 
-    def __init__(self, maps: ShearMaps, slips: Indices, rim: Real) -> None:
-        self._maps, self._slips, self._rim, self._there = maps, slips, rim, rim[slips]
+    def __init__(self, maps: ShearMaps, slips: Indices, outward: Real) -> None:
+        self._maps, self._slips, out = maps, slips, outward[slips]
+        self._rim = np.stack([-out[:, 1], out[:, 0]], axis=1)
+        self._nowhere = np.zeros_like(outward)
+        self.found: list[Real] = []  # the shear by unit slides along x and y
 
-    def _allowed(self, vectors: Real) -> Real:
+    def allowed(self, vectors: Real) -> Real:
+        """Return what of vectors nodes can follow."""
         if not self._slips.size:
             return vectors
         kept = vectors.copy()
-        along = np.einsum("ij,ij->i", self._there, vectors[self._slips])
-        kept[self._slips] = self._there * along[:, np.newaxis]
+        along = np.einsum("ij,ij->i", self._rim, vectors[self._slips])
+        kept[self._slips] = self._rim * along[:, np.newaxis]
         return kept
 
     def stiffness(self, accuracy: float) -> tuple[Real, int]:
@@ -209,11 +303,12 @@ class _Stuck:
         It is the energy form of both solutions, so that it errs by the square of their residuals.
         """
         spent, found = 0, []
-        targets = [self._allowed(np.zeros_like(self._rim) + axis) for axis in np.eye(2)]
+        targets = [self.allowed(self._nowhere + axis) for axis in np.eye(2)]
         for target in targets:
-            shear, residual, products = self._solved(target, accuracy)
+            shear, residual, products = self.solved(target, accuracy)
             spent += 2 * products
             found.append((shear, residual))
+        self.found = [shear for shear, _ in found]
         form = np.array(
             [
                 [float(np.vdot(target, shear) + np.vdot(other, rest)) for shear, rest in found]
@@ -222,7 +317,7 @@ class _Stuck:
         )
         return (form + form.T) / 2, spent
 
-    def _solved(self, target: Real, accuracy: float) -> tuple[Real, Real, int]:
+    def solved(self, target: Real, accuracy: float) -> tuple[Real, Real, int]:
         """Solve by conjugate gradients, whose preconditioner may be a solution by rough ones.
 
         As that differs from step to step, directions are conjugate by the change of residuals [1]_.
@@ -236,7 +331,7 @@ class _Stuck:
                 return shear, residual, steps
             part = float(np.vdot(residual - gone, step)) / before if before > 0 else 0.0
             direction = step + max(part, 0.0) * direction
-            response = self._allowed(self._maps.exact(direction))
+            response = self.allowed(self._maps.exact(direction))
             length = float(np.vdot(direction, residual)) / float(np.vdot(direction, response))
             before, gone = energy, residual
             shear, residual = shear + length * direction, residual - length * response
@@ -245,7 +340,7 @@ class _Stuck:
     def _preconditioned(self, residual: Real) -> Real:
         """Return about the shear that displaces so, by some steps with rough operators."""
         rough = self._maps.rough
-        step = self._allowed(self._maps.inverse(residual))
+        step = self.allowed(self._maps.inverse(residual))
         if rough is None:
             return step
         shear, left, direction, before = np.zeros_like(residual), residual, step, 0.0
@@ -255,8 +350,8 @@ class _Stuck:
             if not energy > _ROUGH_SHARE * first:
                 break
             direction = step + (energy / before if before > 0 else 0.0) * direction
-            before, response = energy, self._allowed(rough(direction))
+            before, response = energy, self.allowed(rough(direction))
             length = energy / float(np.vdot(direction, response))
             shear, left = shear + length * direction, left - length * response
-            step = self._allowed(self._maps.inverse(left))
+            step = self.allowed(self._maps.inverse(left))
         return shear
