@@ -6,7 +6,6 @@ of a file, from which it goes on.
 
 import argparse
 import csv
-import os
 import sys
 from pathlib import Path
 

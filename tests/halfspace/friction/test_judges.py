@@ -203,6 +203,41 @@ def test_of_a_sphere_that_turns_back_all_sticks_and_going_on_what_did():
     assert curve.shear_stiffness[4] == pytest.approx(curve.shear_stiffness_back[4])
 
 
+@pytest.mark.parametrize("control", ["shear_forces", "slides"])
+def test_a_sphere_that_is_lifted_off_comes_back_as_springs_do(control):
+    """History is tractions and the slide: of bodies that came off, where the highest point was."""
+    radii = np.linspace(0, 0.6, 201)
+    springs = rl.Profile(radii, -(radii**2) / 2)
+    forces = FORCE * np.array([1, 1, 0, 1, 0.8, 0, 0.5])
+    along = {
+        "shear_forces": MU * FORCE * np.array([0, 0.7, 0, 0.3, -0.4, 0, 0.2]),
+        "slides": MU * DEPTH * np.array([0.2, 1.6, 1.6, 1.9, 1.0, 0.9, 1.1]),
+    }[control]
+    asked = {"half_space": NO_SIDE, "friction": rl.Friction(MU), "forces": forces, control: along}
+    full, reduced = rl.press(sphere(32), **asked), rl.press(springs, **asked)
+    assert full.slide[:, 0] == pytest.approx(reduced.slide[:, 0], abs=2e-3 * MU * DEPTH)
+    assert full.shear_force[:, 0] == pytest.approx(reduced.shear_force[:, 0], abs=2e-3 * MU * FORCE)
+    if control == "shear_forces":
+        assert full.slide[[2, 5], 0] == pytest.approx(0.0, abs=2e-3 * MU * DEPTH)
+
+
+def test_a_sphere_that_slid_before_it_came_off_stays_where_it_slid_to():
+    """Of bodies that slid by two slides before, springs and nodes tell the same place."""
+    radii = np.linspace(0, 0.6, 201)
+    asked = {"half_space": NO_SIDE, "friction": rl.Friction(MU)}
+    slides = MU * DEPTH * np.array([0.0, 2.0])
+    for body in (sphere(32), rl.Profile(radii, -(radii**2) / 2)):
+        slid = rl.press(body, forces=[FORCE] * 2, slides=slides, **asked)
+        assert slid.shear_force[1, 0] == pytest.approx(slid.shear_limit[1], rel=1e-6)
+    shears = MU * FORCE * np.array([0.999, -0.999, 0.0, 0.0])
+    forces = [FORCE, FORCE, FORCE, 0.0]
+    left = [
+        rl.press(body, forces=forces, shear_forces=shears, **asked).slide[:, 0]
+        for body in (sphere(32), rl.Profile(radii, -(radii**2) / 2))
+    ]
+    assert left[0] == pytest.approx(left[1], abs=5e-3 * MU * DEPTH)
+
+
 def test_two_materials_that_come_nearer_are_much_the_same_in_few_steps():
     """Nodes that join leave out what they were moved before; four steps do what sixteen do."""
     body = rl.Homogeneous(1.0, poisson=0.3, beta=2 / 7)

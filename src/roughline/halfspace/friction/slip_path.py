@@ -44,6 +44,7 @@ from roughline.halfspace.search.response import Response
 from roughline.halfspace.search.tangent import response
 
 _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
+_SAME_HEIGHT = 1e-9  # of the approach, up to which nodes are as high as the highest
 _MOST_TURNS = 40  # of corrections by the exact operator
 _TURN_SHARE = 0.1  # of what is wrong before a turn, to which it is solved
 _ROUGH_SHARE = 0.3  # the same of a turn with the rough operator, which goes farther than that
@@ -524,8 +525,17 @@ def _unknown(contact: Contact, outcome: Outcome) -> Slid:
 
 
 def _apart(contact: Contact, shear: ShearLoad, last: Slid | None) -> Slid:
-    """Return bodies that are apart: nothing is sheared."""
+    """Return bodies that are apart: nothing is sheared.
+
+    With no shear force they come off where the highest nodes, which are the last in contact and
+    stick till then, bear no shear any more.
+    """
     slide = np.zeros(2) if last is None else last.slide
+    if last is not None and last.contact.nodes.size:
+        separation = last.contact.separation.ravel()[last.contact.nodes]
+        above = separation - separation.min()
+        highest = above <= _SAME_HEIGHT * (last.contact.depth - separation.min())
+        slide = slide - last.displacement[highest].mean(axis=0)
     if shear.slide is not None:
         slide = np.array(shear.slide)
     nothing = np.zeros((contact.nodes.size, 2))
