@@ -98,7 +98,6 @@ def main():
     parser.add_argument("file", type=Path, help="rows of the paths so far, which are kept")
     parser.add_argument("--paths", type=int, default=PATHS)
     asked = parser.parse_args()
-    os.nice(10)
     set_num_threads(1)
     done = set()
     if asked.file.exists():
