@@ -181,7 +181,7 @@ published: $(VENV)/installed
 # The errors against exact solutions that the handbook tells, from the tests' own run.
 validation: $(VENV)/installed
 	rm -f docs/validation.json
-	ROUGHLINE_VALIDATION=1 $(BIN)/python -m pytest tests/halfspace/test_exact_solutions.py tests/halfspace/test_hardness_exact.py tests/reduction/test_exact_solutions.py
+	ROUGHLINE_VALIDATION=1 $(BIN)/python -m pytest tests/halfspace/test_exact_solutions.py tests/halfspace/test_hardness_exact.py tests/halfspace/friction/test_exact_friction.py tests/reduction/test_exact_solutions.py
 
 # The handbook as a site, which opens from disk: out/docs/index.html.
 docs: $(VENV)/installed

@@ -53,10 +53,10 @@ class SlidingCurve(SurfaceCurve):
 
     Notes
     -----
-    Which points stick follows from the rates at the end of a load: one that stops slipping within it
-    has the shear of one that slips on. Where pressure displaces along the surface, a contact that
-    grows depends on how finely the loads are cut, by some 0.3 % of depth or force in one load from
-    first touch, and 0.03 % in four: press with half as many to see by how much.
+    Which points stick follows from the rates at the end of a load: one that stops slipping within
+    it has the shear of one that slips on. Where pressure displaces along the surface, a contact
+    that grows depends on how finely the loads are cut, by some 0.3 % of depth or force in one load
+    from first touch, and 0.03 % in four: press with half as many to see by how much.
 
     Examples
     --------
