@@ -105,6 +105,7 @@ def test_each_exact_test_stands_on_the_page_of_validation():
     page = made.page_of_validation(root / "docs" / "validation.json")
     told = {each["test"] for each in json.loads((root / "docs" / "validation.json").read_text())}
     files = ("halfspace/test_exact_solutions", "halfspace/test_hardness_exact")
+    files += ("halfspace/friction/test_exact_friction",)
     found = {
         f"tests/{file}.py::{name}"
         for file in (*files, "reduction/test_exact_solutions")
@@ -114,7 +115,7 @@ def test_each_exact_test_stands_on_the_page_of_validation():
         if "judged" in arguments
     }
     assert told == found
-    assert len(found) == 11
+    assert len(found) == 18
     for each in told:
         assert each.partition("::")[2].removeprefix("test_").replace("_", " ") in page
 

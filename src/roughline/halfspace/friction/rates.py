@@ -27,7 +27,7 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 
 _AT_RIM = 1 - 1e-10  # of what a node bears
-_ROUNDING = 1e-4  # of the largest rate, to which rates are known
+_RATE_ROUNDING = 1e-4  # of the largest rate, to which rates are known
 _MOST_ROUNDS = 20
 
 
@@ -83,8 +83,8 @@ def slip_on(rim: Rim, rates: Callable[[Mask], Rates | None]) -> Mask:
         found = rates(slips)
         if found is None:
             break
-        least = _ROUNDING * float(np.abs(found.slip).max(initial=0.0))
-        most = _ROUNDING * float(np.abs(found.excess).max(initial=0.0))
+        least = _RATE_ROUNDING * float(np.abs(found.slip).max(initial=0.0))
+        most = _RATE_ROUNDING * float(np.abs(found.excess).max(initial=0.0))
         wrong = np.where(slips, found.slip < -least, rim.may_slip & (found.excess > most))
         if not wrong.any():
             break

@@ -194,7 +194,7 @@ def _strip(
     across = 1 - along
     cell, width = (spacing[along], spacing[across]), shape[across] * spacing[across]
 
-    def of_shear(which: int) -> Callable[[int, Real], None]:
+    def shear_part(which: int) -> Callable[[int, Real], None]:
         def fill(first: int, rows: Real) -> None:
             parts = [np.empty_like(rows) for _ in range(3)]
             half_space.shear_kernel(first, cell, (parts[0], parts[1], parts[2]))
@@ -202,7 +202,7 @@ def _strip(
 
         return fill
 
-    def of_coupling(which: int) -> Callable[[int, Real], None]:
+    def coupling_part(which: int) -> Callable[[int, Real], None]:
         def fill(first: int, rows: Real) -> None:
             parts = [np.empty_like(rows) for _ in range(2)]
             half_space.coupling_kernel(first, cell, (parts[0], parts[1]))
@@ -210,9 +210,9 @@ def _strip(
 
         return fill
 
-    kernels = [Summed(of_shear(0)), Summed(of_shear(1)), Summed(of_shear(2), True, 3)]
+    kernels = [Summed(shear_part(0)), Summed(shear_part(1)), Summed(shear_part(2), True, 3)]
     if half_space.is_coupled:
-        kernels += [Summed(of_coupling(0), True, 2), Summed(of_coupling(1), False, 2)]
+        kernels += [Summed(coupling_part(0), True, 2), Summed(coupling_part(1), False, 2)]
     tables = []
     for kernel in kernels:
         table = np.empty((periods[along] // 2 + 1, periods[across] // 2 + 1))
