@@ -77,7 +77,7 @@ SECTIONS = {
     "Friction": (*("Friction", "SlidingCurve", "SlidingFields", "SlidingLineCurve", "cycle"),),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
-        *("Joint", "Ultrasound", "Theories", "Adhesion", "Fluid"),
+        *("Joint", "Ultrasound", "Theories", "Adhesion", "Fluid", "Shear"),
         *("export_table", "PartAssessment", "material", "Material", "Coated", "contact_modulus"),
         *("Rule", "Symbol", "rules", "own_words"),
         *("Cause", "OtherBodies", "Spread", "causes"),

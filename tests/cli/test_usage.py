@@ -71,7 +71,7 @@ def test_a_mistake_in_a_command_is_one_line(invoke, arguments, told):
     assert errors.count("\n") == 1
 
 
-@pytest.mark.parametrize("option", ["--loss-modulus", "--slip", "--wear", "--lubricant"])
+@pytest.mark.parametrize("option", ["--loss-modulus", "--sliding", "--wear", "--lubricant"])
 def test_what_is_not_offered_is_said_to_be_so(invoke, option):
     code, _, errors = invoke("press", "x", option, "1")
     assert code == 2

@@ -63,6 +63,20 @@ class Loading:
         self.forces(1.0)  # reads and checks them; a pressure waits for its area
         self.heights()
 
+    def refuse_unless_one_load(self) -> None:
+        """Refuse all but a single load, under which bodies are sheared."""
+        is_one = len(self.loads) == 1 and not (self.depths or self.unload or self.history)
+        if not is_one:
+            given = len(self.loads) + len(self.depths) or "none"
+            raise InputError(
+                f"bodies are sheared ({called('rl.Shear')}) under one load, which stays, and there "
+                f"are {given}: give one ({called('loads', '10 N')}), and neither depths nor "
+                f"{called('unload', True)}",
+                None,
+                "shear",
+                "loads",
+            )
+
     @property
     def n_loads(self) -> int | None:
         """How many loads there are from first touch to saturation; None where they are given."""

@@ -18,6 +18,7 @@ from roughline.engineering.attraction import Attraction
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.friction.law import Friction
 from roughline.question.kinds import is_map, nominal_area
 from roughline.question.loading import DEFAULT_LOADS
 from roughline.question.question import Question
@@ -75,6 +76,10 @@ class LoadCase:
     rtol: float = 1e-6
     among: Mask | None = None  # which loads of a curve that is known these are; None for all
     lifted: Mask | None = None  # of forces, under which a fluid lifts the body; None for none
+    friction: Friction | None = (
+        None  # of a body that is sheared, and its shear forces along x and y
+    )
+    shear_forces: Sequence[tuple[float, float]] = ()
 
     @classmethod
     def of(cls, question: Question, body: Body) -> LoadCase:
@@ -142,6 +147,13 @@ class LoadCase:
         fields = [int(numbers[load]) for load in self.fields if solved[load]]
         others = replace(self, forces=forces, depths=[], n_loads=None, fields=fields)
         return replace(others, among=solved, lifted=None)
+
+    def sheared(
+        self, half_space: HalfSpace, friction: float, shear_forces: Sequence[tuple[float, float]]
+    ) -> LoadCase:
+        """The same loads on a half-space that knows shear, each with its shear forces [N]."""
+        rubbing = Friction(friction)
+        return replace(self, half_space=half_space, friction=rubbing, shear_forces=shear_forces)
 
     def with_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
         """Some of the same loads on a body of another hardness, without the grid's errors.
