@@ -11,6 +11,7 @@ from functools import partial
 
 import numpy as np
 
+from roughline.assessment.shear import shear_presses
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on
 from roughline.margins.variant import AS_ASKED, Curves, Variant, measures_of_map, repeated
@@ -37,7 +38,7 @@ def list_presses(case: Case) -> list[Variant]:
     if case.question.friction is not None and case.hardness is not None:
         share, needed = _UNLOADING_LOADS / case.loads.count, partial(_unloaded, case)
         listed.append(replace(listed[0], name=UNLOADED, purpose="slip", needed=needed, share=share))
-    return listed
+    return listed + shear_presses(case, listed[0])
 
 
 def _as_asked(case: Case) -> Variant:

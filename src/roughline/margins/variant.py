@@ -155,6 +155,8 @@ def _pressed(loads: LoadCase, progress: LoadProgress | None) -> Curve:
         n_loads=loads.n_loads,
         forces=loads.forces or None,
         depths=loads.depths or None,
+        friction=loads.friction,
+        shear_forces=loads.shear_forces or None,
         fields=loads.fields if isinstance(loads.body, Surface) else False,
         measures=loads.measures,
         grid_error=loads.grid_error,
