@@ -21,7 +21,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
-from roughline.engineering.slip import Sheared
+from roughline.engineering.slip import ShearCycles
 from roughline.facts.fact import Fact
 from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.larger_surface import Differences, stiffness_of_the_piece
@@ -82,7 +82,7 @@ def margins_by_cause(
     left_open: LeftOpen | None,
     answers: Mapping[str, Answer],
     scatter: Mapping[str, Ends],
-    sheared: Sheared | None = None,
+    sheared: ShearCycles | None = None,
 ) -> Mapping[str, Sequence[Margin]]:
     """How far each cause alone leaves each answer open; its ends are NaN where that is not known.
 

@@ -14,7 +14,7 @@ from roughline.contact.sliding import SlidingCurve
 from roughline.engineering.margin import Margin
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules.friction import SHEARED as SHEARED_RULES
-from roughline.engineering.slip import Sheared
+from roughline.engineering.slip import ShearCycles
 from roughline.margins.causes import causes
 from roughline.margins.variant import AS_ASKED, Curves, Variant
 from roughline.question.assumptions import broken
@@ -132,7 +132,7 @@ def _loads_without_shear(case: Case, path: _ShearPath, curves: Curves) -> LoadCa
     return _alone(case, np.linspace(least, force, _PLAIN_LOADS).tolist())
 
 
-def _alone(case: Case, forces: Sequence[float]) -> LoadCase:
+def _alone(case: Case, forces: list[float]) -> LoadCase:
     """The body of a case under other forces, without all that is found beside."""
     return replace(
         case.loads,
@@ -151,7 +151,7 @@ def _force(case: Case, curves: Curves) -> float | None:
     return float(curve.force[largest]) if curve.converged[largest] else None
 
 
-def sheared(case: Case, curves: Curves) -> Sheared | None:
+def sheared(case: Case, curves: Curves) -> ShearCycles | None:
     """What the path of a case gave; None without one, and where not all of it was solved."""
     found, coarser = (_sheared(case, curves.complete(name)) for name in (SHEARED, _COARSER))
     pair = case.pair
@@ -162,7 +162,7 @@ def sheared(case: Case, curves: Curves) -> Sheared | None:
 
 
 def margins_of_shear(
-    case: Case, found: Sheared | None, answers: Mapping[str, Answer]
+    case: Case, found: ShearCycles | None, answers: Mapping[str, Answer]
 ) -> Mapping[str, Sequence[Margin]]:
     """How far each cause leaves open what a shear force does; most of that is not known."""
     if found is None:
@@ -187,9 +187,9 @@ def margins_of_shear(
     return margins
 
 
-def _sheared(case: Case, curve: SurfaceCurve | None) -> Sheared | None:
+def _sheared(case: Case, curve: SurfaceCurve | None) -> ShearCycles | None:
     """What a path of a case gave on one grid; None where not all of it was solved."""
     path = _ShearPath.of(case)
     if path is None or not isinstance(curve, SlidingCurve) or not curve.converged.all():
         return None
-    return Sheared(curve, path.friction, path.pressing - 1, _PER_CYCLE, path.cycles)
+    return ShearCycles(curve, path.friction, path.pressing - 1, _PER_CYCLE, path.cycles)

@@ -51,23 +51,23 @@ class Loop:
     displacement: float  # at the largest force, from none [m]
     energy: float  # that a cycle dissipates [J]
 
-    @classmethod
-    def of_closed_form(cls, depth: Real, force: Real, ratio: float, friction: float) -> Loop:
-        """Return that of Jäger's closed form, by Masing's rule.
 
-        Depths [m] and forces [N] are of a curve without shear, at an odd number of even forces from
-        that of the stick area to the normal force; `ratio` is E* / G*.
-        """
-        from scipy.integrate import simpson  # here because it loads slowly
+def _loop_in_closed_form(depth: Real, force: Real, ratio: float, friction: float) -> Loop:
+    """Return the loop of Jäger's closed form, by Masing's rule.
 
-        slide = friction * ratio * (depth[-1] - depth[::-1])
-        shear = friction * (force[-1] - force[::-1])
-        below = float(simpson(slide, x=shear))
-        return cls(float(slide[-1]), 4 * float(slide[-1] * shear[-1]) - 8 * below)
+    Depths [m] and forces [N] are of a curve without shear, at an odd number of even forces from
+    that of the stick area to the normal force; `ratio` is E* / G*.
+    """
+    from scipy.integrate import simpson  # here because it loads slowly
+
+    slide = friction * ratio * (depth[-1] - depth[::-1])
+    shear = friction * (force[-1] - force[::-1])
+    below = float(simpson(slide, x=shear))
+    return Loop(float(slide[-1]), 4 * float(slide[-1] * shear[-1]) - 8 * below)
 
 
 @dataclass(frozen=True, eq=False)
-class Sheared:
+class ShearCycles:
     """A shear force that goes to and fro on pressed bodies: its path, and what follows from it.
 
     All is of the bodies as they were pressed, for forces along x. The path presses them, rises to
@@ -81,7 +81,7 @@ class Sheared:
     cycles: int
     plain: SurfaceCurve | None = None  # the forces of Jäger's stick areas, without shear
     ratio: float | None = None  # E* / G*; None of coated bodies
-    coarser: Sheared | None = None  # on half as many points a side
+    coarser: ShearCycles | None = None  # on half as many points a side
 
     @property
     def amplitude(self) -> float:
@@ -191,7 +191,7 @@ class Sheared:
         plain = self.plain
         if plain is None or self.ratio is None or not plain.converged.all():
             return None
-        loop = Loop.of_closed_form(plain.depth, plain.force, self.ratio, self.friction)
+        loop = _loop_in_closed_form(plain.depth, plain.force, self.ratio, self.friction)
         return loop if loop.energy > _KNOWN_TO * self.amplitude * self.displacement else None
 
 

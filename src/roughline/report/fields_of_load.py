@@ -20,7 +20,7 @@ from roughline.units import decimal, engineering
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.contact.fields import Fields
-    from roughline.engineering.slip import Sheared
+    from roughline.engineering.slip import ShearCycles
 
 _DIGITS = 3  # of statistics of one map
 _FLOW_CAPTION = (
@@ -81,7 +81,7 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
     return sections, files
 
 
-def _shear_caption(assessment: Assessment, sheared: Sheared) -> str:
+def _shear_caption(assessment: Assessment, sheared: ShearCycles) -> str:
     """Say what the pictures of a shear force show."""
     of_map = " on the map" if assessment.question.joint is not None else ""
     return (
@@ -92,13 +92,13 @@ def _shear_caption(assessment: Assessment, sheared: Sheared) -> str:
     )
 
 
-def _last_slip(sheared: Sheared) -> float:
+def _last_slip(sheared: ShearCycles) -> float:
     """The longest slip of a point in the last load. [m]"""
     fields = sheared.fields
     return 0.0 if fields is None else float(np.hypot(*np.moveaxis(fields.slip, -1, 0)).max())
 
 
-def shear_figure(sheared: Sheared) -> Figure:
+def shear_figure(sheared: ShearCycles) -> Figure:
     """Two panels: the loop of shear force and slide, and where the contact sticks and slips."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)

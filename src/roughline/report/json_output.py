@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
     from roughline.comparison.compared import ModelComparison
     from roughline.contact.measures import Measured
-    from roughline.engineering.slip import Sheared
+    from roughline.engineering.slip import ShearCycles
     from roughline.measurement.fit import SelfAffineFit
     from roughline.question.description import Description
 
@@ -43,8 +43,8 @@ def assessment_json(assessment: Assessment, files: Sequence[Path] = ()) -> dict[
     """
     intervals = assessment.intervals_as_asked
     pair = assessment.question.pair
-    question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip
-    content = {
+    question, curve = assessment.question, assessment.curve_as_asked
+    return {
         "file": (question.reading.name or question.body)
         if isinstance(question.body, Path)
         else None,
@@ -88,15 +88,21 @@ def assessment_json(assessment: Assessment, files: Sequence[Path] = ()) -> dict[
         "facts": list(map(_fact_json, assessment.facts)),
         "settings": curve.settings,
         "files": list(files),
+        **_friction_json(assessment),
     }
+
+
+def _friction_json(assessment: Assessment) -> dict[str, Any]:
+    """Partial slip and the path of a shear force, as far as they are asked for."""
+    question, slip, found = assessment.question, assessment.partial_slip, dict[str, Any]()
     if question.friction is not None:
-        content["partial_slip"] = None if slip is None else vars(slip)
+        found["partial_slip"] = None if slip is None else vars(slip)
     if question.shear is not None:
-        content["sheared"] = _sheared_json(assessment.sought.sheared)
-    return content
+        found["sheared"] = _sheared_json(assessment.sought.sheared)
+    return found
 
 
-def _sheared_json(sheared: Sheared | None) -> dict[str, Any] | None:
+def _sheared_json(sheared: ShearCycles | None) -> dict[str, Any] | None:
     """The path of a shear force, on the body that was pressed, and its last cycle."""
     if sheared is None:
         return None

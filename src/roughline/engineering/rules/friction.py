@@ -11,7 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Rule
-from roughline.engineering.slip import COUPLED_FROM, Sheared, excess_of_coupled
+from roughline.engineering.slip import COUPLED_FROM, ShearCycles, excess_of_coupled
 from roughline.engineering.symbols import Symbol, contact_modulus, tangential_modulus
 from roughline.facts.fact import Fact
 from roughline.units import engineering
@@ -72,8 +72,8 @@ def _is_sheared(pressed: Pressed) -> bool:
     return pressed.sought.sheared is not None
 
 
-def _of_sheared(
-    found: Callable[[Sheared], float | None], *, extensive: bool = False
+def _rows_of_shear(
+    found: Callable[[ShearCycles], float | None], *, extensive: bool = False
 ) -> Callable[[Pressed], Real | None]:
     """Values of what a shear force does, in rows, of the one load under which it does it.
 
@@ -188,7 +188,7 @@ SHEARED = (
         symbol="u_Q",
         unit="m",
         formula="slide from no shear to Q, stick and slip",
-        value=_of_sheared(lambda sheared: sheared.displacement),
+        value=_rows_of_shear(lambda sheared: sheared.displacement),
         answers_question=_is_sheared,
         facts=_beside_closed_form,
     ),
@@ -198,7 +198,7 @@ SHEARED = (
         symbol="s_Q",
         unit="m",
         formula="u_Q - Q / k_t0, what slip adds to it",
-        value=_of_sheared(lambda sheared: sheared.micro_slip),
+        value=_rows_of_shear(lambda sheared: sheared.micro_slip),
         under=lambda _pressed: ("shear_displacement", 1.0),
     ),
     _sheared_rule(
@@ -207,7 +207,7 @@ SHEARED = (
         symbol="k_t0",
         unit="N/m",
         formula="dQ/du without shear, all of the contact stuck",
-        value=_of_sheared(lambda sheared: sheared.stiffness_before, extensive=True),
+        value=_rows_of_shear(lambda sheared: sheared.stiffness_before, extensive=True),
         answers_question=_is_sheared,
         is_extensive=True,
         may_be_infinite=True,
@@ -218,7 +218,7 @@ SHEARED = (
         symbol="k_tQ",
         unit="N/m",
         formula="dQ/du at Q, on more of it",
-        value=_of_sheared(lambda sheared: sheared.stiffness_on, extensive=True),
+        value=_rows_of_shear(lambda sheared: sheared.stiffness_on, extensive=True),
         under=lambda _pressed: ("stiffness_on_return", 1.0),
         is_extensive=True,
         may_be_infinite=True,
@@ -229,7 +229,7 @@ SHEARED = (
         symbol="k_tR",
         unit="N/m",
         formula="dQ/du at Q, on less of it, all of the contact stuck",
-        value=_of_sheared(lambda sheared: sheared.stiffness_back, extensive=True),
+        value=_rows_of_shear(lambda sheared: sheared.stiffness_back, extensive=True),
         is_extensive=True,
         may_be_infinite=True,
     ),
@@ -239,7 +239,7 @@ SHEARED = (
         symbol="W_c",
         unit="J",
         formula="sum of shear times slip between Q and -Q and back",
-        value=_of_sheared(lambda sheared: sheared.energy, extensive=True),
+        value=_rows_of_shear(lambda sheared: sheared.energy, extensive=True),
         answers_question=_is_sheared,
         is_extensive=True,
         facts=_on_settling,
@@ -250,7 +250,7 @@ SHEARED = (
         symbol="eta_c",
         unit="1",
         formula="W_c / (2 pi U), U = Q u / 2, 2 u the way between Q and -Q",
-        value=_of_sheared(lambda sheared: sheared.loss_factor),
+        value=_rows_of_shear(lambda sheared: sheared.loss_factor),
         limits=lambda _pressed: (0.0, _FULL_LOOP),
         answers_question=_is_sheared,
     ),
@@ -260,7 +260,7 @@ SHEARED = (
         symbol="A_s/A",
         unit="1",
         formula="points that slip less than 1/1000 of the largest slip, over those in contact",
-        value=_of_sheared(lambda sheared: sheared.sticking_share),
+        value=_rows_of_shear(lambda sheared: sheared.sticking_share),
         limits=lambda _pressed: (0.0, 1.0),
         in_per_cent=True,
     ),
@@ -270,7 +270,7 @@ SHEARED = (
         symbol="w_f",
         unit="J/m²",
         formula="largest of mu p times the way slipped in the cycle, at a point",
-        value=_of_sheared(lambda sheared: sheared.fretting),
+        value=_rows_of_shear(lambda sheared: sheared.fretting),
     ),
 )
 """Answers about a shear force that goes to and fro."""
