@@ -10,7 +10,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.contact.borders import border_warnings
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.conduction import facts_on_currents
-from roughline.engineering.rules.friction import SHEARED
+from roughline.engineering.rules.friction import SHEAR_ANSWERS
 from roughline.engineering.rules.mechanical import (
     CONTACT_STIFFNESS,
     INTERFACE_STIFFNESS,
@@ -151,7 +151,7 @@ def _on_shear(result: Assessment) -> Iterator[Fact]:
     if sheared is None:
         yield Fact("shear_not_solved", interrupted=result.interrupted).grave()
         return
-    of_shear = [each for each in result.answers.values() if each.rule in SHEARED]
+    of_shear = [each for each in result.answers.values() if each.rule in SHEAR_ANSWERS]
     unknown = (each for answer in of_shear for each in answer.margins if not each.factor[-1] >= 1)
     if titles := tuple(dict.fromkeys(each.title for each in unknown)):
         has_ends = sheared.coarser is not None

@@ -13,7 +13,7 @@ from roughline.contact.shear_loads import cycle
 from roughline.contact.sliding import SlidingCurve
 from roughline.engineering.margin import Margin
 from roughline.engineering.rule import Answer
-from roughline.engineering.rules.friction import SHEARED as SHEARED_RULES
+from roughline.engineering.rules.friction import SHEAR_ANSWERS
 from roughline.engineering.slip import ShearCycles
 from roughline.margins.causes import causes
 from roughline.margins.variant import AS_ASKED, Curves, Variant
@@ -177,7 +177,7 @@ def margins_of_shear(
     }
     margins: dict[str, list[Margin]] = {}
     for key, answer in answers.items():
-        if answer.rule not in SHEARED_RULES:
+        if answer.rule not in SHEAR_ANSWERS:
             continue
         unknown = np.full_like(answer.values, np.nan), np.full_like(answer.values, np.nan)
         ends = {name: answer.ends if is_known[name] else None for name in texts}

@@ -181,7 +181,7 @@ _SLIDING = _rule(
 )
 """Shear force that friction bears."""
 
-SHEARED = (
+SHEAR_ANSWERS = (
     _sheared_rule(
         key="shear_displacement",
         name="displacement under the shear force",
@@ -275,5 +275,5 @@ SHEARED = (
 )
 """Answers about a shear force that goes to and fro."""
 
-FRICTION = (_SLIP, _SLIDING, *SHEARED)
+FRICTION = (_SLIP, _SLIDING, *SHEAR_ANSWERS)
 """Answers about friction."""
