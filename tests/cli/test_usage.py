@@ -26,6 +26,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "not_offered.md"
             ("press", "x", "--coating", "gold"),
             "there is no option --coating; did you mean --materials?",
         ),
+        (("press", "x", "--slip", "1"), "there is no option --slip; did you mean --shear?"),
         (("press", "x", "--creep", "1"), "there is no option --creep; see roughline creep --help"),
         (("press", "x", "--radius", "1"), "there is no option --radius; see roughline ball --help"),
         (("press", "x", "--xyzzy"), "there is no option --xyzzy; --help lists the options"),

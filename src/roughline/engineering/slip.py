@@ -45,14 +45,14 @@ class PartialSlip:
 
 
 @dataclass(frozen=True, eq=False)
-class Loop:
+class ShearLoop:
     """A loop of shear force and slide, of bodies whose shear goes to and fro."""
 
     displacement: float  # at the largest force, from none [m]
     energy: float  # that a cycle dissipates [J]
 
 
-def _loop_in_closed_form(depth: Real, force: Real, ratio: float, friction: float) -> Loop:
+def _loop_in_closed_form(depth: Real, force: Real, ratio: float, friction: float) -> ShearLoop:
     """Return the loop of Jäger's closed form, by Masing's rule.
 
     Depths [m] and forces [N] are of a curve without shear, at an odd number of even forces from
@@ -63,7 +63,7 @@ def _loop_in_closed_form(depth: Real, force: Real, ratio: float, friction: float
     slide = friction * ratio * (depth[-1] - depth[::-1])
     shear = friction * (force[-1] - force[::-1])
     below = float(simpson(slide, x=shear))
-    return Loop(float(slide[-1]), 4 * float(slide[-1] * shear[-1]) - 8 * below)
+    return ShearLoop(float(slide[-1]), 4 * float(slide[-1] * shear[-1]) - 8 * below)
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,7 +186,7 @@ class ShearCycles:
         return float(abs(1 - self.energies[-1] / self.energies[-2]))
 
     @property
-    def closed_form(self) -> Loop | None:
+    def closed_form(self) -> ShearLoop | None:
         """The same by Jäger's closed form; None where it is not known, or where nothing slips."""
         plain = self.plain
         if plain is None or self.ratio is None or not plain.converged.all():
