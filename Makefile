@@ -11,7 +11,7 @@ PEERS_PYTHON ?= $(BIN)/python
 unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs measured-figures validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing friction published docs measured-figures validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -167,13 +167,19 @@ sealing: $(VENV)/installed
 	$(BIN)/python -m studies reduce sealing out/sealing.jsonl
 	$(BIN)/python -m studies publish sealing
 
+# In an hour of two cores; resumable.
+friction: $(VENV)/installed
+	OMP_NUM_THREADS=1 $(BIN)/python -m studies.friction.run out/friction.jsonl 2
+	$(BIN)/python -m studies reduce friction out/friction.jsonl
+	$(BIN)/python -m studies publish friction
+
 # Of the data of the paper's study, which come with the package.
 averaging: $(VENV)/installed
 	$(BIN)/python -m studies reduce averaging
 	$(BIN)/python -m studies publish averaging
 
 published: $(VENV)/installed
-	$(BIN)/python -m studies publish paper correlations area averaging finite_size sealing
+	$(BIN)/python -m studies publish paper correlations area averaging finite_size sealing friction
 
 # The errors against exact solutions that the handbook tells, from the tests' own run.
 validation: $(VENV)/installed
