@@ -101,6 +101,7 @@ SOURCES = {
     "made/commands.md": "../src/roughline/cli",
     "made/names.rst": "../src/roughline/__init__.pyi",
     "made/validation.md": "validation.json",
+    "made/findings.md": "../findings/README.md",
     "made/gallery/index.rst": "gallery",
 }
 """Pages that are made, and what they are made of, from this folder; examples have their files.
@@ -108,6 +109,8 @@ SOURCES = {
 Links lead to what is in the repository, where pages are read as they are; in the handbook, they
 lead to the pages that are made.
 """
+
+FINDINGS = "https://github.com/roughline/roughline/blob/main/findings"
 
 _LINK = re.compile(r"(?<=\]\()[^)\s:#]+(?=\))")
 
@@ -166,6 +169,7 @@ def write_pages(source: str | Path) -> None:
         "answers.md": page_of_answers(),
         "texture.md": page_of_texture(),
         "validation.md": page_of_validation(Path(source) / "validation.json"),
+        "findings.md": page_of_findings(Path(source).parent / "findings"),
     }
     for name, text in pages.items():
         path = folder / name
@@ -369,6 +373,49 @@ def page_of_validation(path: Path) -> str:
         header = ("solution", "quantity", "points: error", "rate", "test")
         parts.append(table(header, map(_validated, of_model)))
     return "\n".join(parts)
+
+
+FINDING = re.compile(
+    r"#!/usr/bin/env bash\n"
+    r"# (?P<title>[^\n]+)\n#\n"
+    r"# One would guess (?P<guess>.+?)\n"
+    r"# What happens(?:, (?P<where>[^\n]+(?:\n# [^ ][^\n]+)*))?:\n"
+    r"(?P<happens>(?:#   [^\n]+\n)+)"
+    r"# Output seen(?: \([^)]+\))?:\n(?P<output>(?:#   [^\n]+\n)+)"
+    r"# Why it matters: (?P<why>.+?)\n"
+    r"# In roughline: (?P<ours>.+?)\n"
+    r"set -euo pipefail\n",
+    re.DOTALL,
+)
+"""The head of a script in ``findings/``."""
+
+
+def page_of_findings(folder: Path) -> str:
+    """What programs of the field do where a good guess goes wrong, from the heads of scripts."""
+    scripts = sorted(folder.glob("*.sh"))
+    parts = [
+        "# What other programs do otherwise than one would guess\n",
+        f"{len(scripts)} of them, each run on valid input in the versions that are named, and no "
+        "others. Many are as the programs' own pages say. The scripts print what they saw, and "
+        "fail if it has changed: `bash findings/NAME.sh`.\n",
+    ]
+    for script in scripts:
+        head = FINDING.match(script.read_text("utf-8"))
+        if head is None:
+            raise ValueError(f"{script.name}: its head is not of the form in CONTRIBUTING.md")
+        said = {
+            name: re.sub(r"\s*\n#\s*|\s+", " ", text or "")
+            for name, text in head.groupdict().items()
+        }
+        happens = said["happens"].strip("# ")
+        parts += [
+            f"## {said['title'].removesuffix('.')}\n",
+            f"**One would guess** {said['guess']}\n",
+            f"**What happens**{', ' * bool(said['where'])}{said['where']}: {happens}\n",
+            f"**Why it matters**: {said['why']}\n",
+            f"**In roughline**: {said['ours']} ([`{script.name}`]({FINDINGS}/{script.name}))\n",
+        ]
+    return "\n".join(parts).replace("<", "\\<")
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
