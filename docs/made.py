@@ -24,6 +24,7 @@ from roughline.engineering.described import chemical_formulas
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
+from roughline.errors.earlier import EARLIER
 from roughline.exact import adhesion, flow, indenters, lines, mdr, punch, westergaard
 from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS
 from roughline.topography.files.formats import FORMATS
@@ -102,6 +103,7 @@ SOURCES = {
     "made/names.rst": "../src/roughline/__init__.pyi",
     "made/validation.md": "validation.json",
     "made/findings.md": "../findings/README.md",
+    "made/earlier.md": "../src/roughline/errors/earlier.py",
     "made/gallery/index.rst": "gallery",
 }
 """Pages that are made, and what they are made of, from this folder; examples have their files.
@@ -169,6 +171,7 @@ def write_pages(source: str | Path) -> None:
         "answers.md": page_of_answers(),
         "texture.md": page_of_texture(),
         "validation.md": page_of_validation(Path(source) / "validation.json"),
+        "earlier.md": page_of_earlier(),
         "findings.md": page_of_findings(Path(source).parent / "findings"),
     }
     for name, text in pages.items():
@@ -373,6 +376,13 @@ def page_of_validation(path: Path) -> str:
         header = ("solution", "quantity", "points: error", "rate", "test")
         parts.append(table(header, map(_validated, of_model)))
     return "\n".join(parts)
+
+
+def page_of_earlier() -> str:
+    """Spellings of version 0.3 that are gone, each with the one that says the same now."""
+    rows = [(f"`{old}`", f"`{new}`") for old, new in sorted(EARLIER.items())]
+    own = "Each is refused in one line that tells the new one.\n"
+    return f"# Spellings of 0.3 that are gone\n\n{own}\n{table(('before', 'now'), rows)}"
 
 
 FINDING = re.compile(

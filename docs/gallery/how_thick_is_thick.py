@@ -1,0 +1,31 @@
+"""
+How thick must a coating be to hide what is below?
+==================================================
+
+A wave of pressure reaches as deep as it is long. A rough surface has waves of all lengths: for the
+long ones, which carry the stiffness, the base still counts when short ones feel the coating alone.
+"""
+
+import numpy as np
+from matplotlib import pyplot
+
+import roughline as rl
+
+surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=3)
+force = 2e-3
+alone = rl.press(surface, E_star=1 / (1 - 0.3**2), periodic=True, forces=[force])
+figure, axes = pyplot.subplots(figsize=(5, 3.6), layout="constrained")
+thicknesses = np.geomspace(0.002, 1.0, 10)
+
+for base in (0.2, 5.0):
+    curves = []
+    for thickness in thicknesses:
+        body = rl.Layered(1.0, 0.3, thickness, base, 0.3, periodic=True)
+        curves.append(rl.press(surface, half_space=body, forces=[force]))
+    for name, style in (("stiffness", "-"), ("area_fraction_corrected", "--")):
+        ratio = [getattr(each, name)[0] / getattr(alone, name)[0] for each in curves]
+        label = f"{name.split('_')[0]}, base {base:g} times as stiff"
+        axes.loglog(thicknesses, ratio, style, label=label)
+
+axes.set(xlabel="thickness / side", ylabel="over that of the coating alone")
+axes.legend(fontsize="small")
