@@ -153,3 +153,9 @@ def test_the_citation_is_of_this_version():
     root = GALLERY.parents[1]
     assert f"version = {{{rl.__version__}}}" in (root / "docs" / "cite.md").read_text("utf-8")
     assert f"\nversion: {rl.__version__}\n" in (root / "CITATION.cff").read_text("utf-8")
+    assert json.loads((root / ".zenodo.json").read_text("utf-8"))["version"] == rl.__version__
+
+
+def test_the_changelog_begins_with_this_version():
+    text = (GALLERY.parents[1] / "CHANGELOG.md").read_text("utf-8")
+    assert re.findall(r"^## \[(.+?)\]", text, re.MULTILINE)[0] in ("Unreleased", rl.__version__)
