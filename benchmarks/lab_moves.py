@@ -187,7 +187,7 @@ def write(times, rates, browser, save):
         f"{1e3 * MOUSE:.0f} ms; pictures per second, of all surfaces:"
     )
     columns = ("reduced curve: least, median", "contact on 128²", "wanted")
-    page.table("slider, full grid", *columns, at_most=0)
+    page.table("slider, full grid", *columns, at_most=3)
     for (key, points), found in rates.items():
         lines, contacts = (sorted(column) for column in zip(*found, strict=True))
         page.row(
