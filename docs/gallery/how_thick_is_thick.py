@@ -15,7 +15,7 @@ surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng
 force = 2e-3
 alone = rl.press(surface, E_star=1 / (1 - 0.3**2), periodic=True, forces=[force])
 figure, axes = pyplot.subplots(figsize=(5, 3.6), layout="constrained")
-thicknesses = np.geomspace(0.002, 1.0, 10)
+thicknesses = np.geomspace(0.01, 1.0, 7)
 
 for base in (0.2, 5.0):
     curves = []

@@ -2,8 +2,9 @@
 How does a line seal differ from a patch?
 =========================================
 
-A seal repeats along its line and ends across it. It sinks by the logarithm of its length, so that
-its depth has no limit; its stiffness for each length does not change once it repeats.
+A seal repeats along its line and ends across it. Its neighbours along the line are pressed as well,
+so that each length is softer than a piece alone. Repeated both ways, it would be far stiffer: even
+pressure displaces nothing there.
 """
 
 import numpy as np
