@@ -2,8 +2,9 @@
 How thick must a coating be to hide what is below?
 ==================================================
 
-A wave of pressure reaches as deep as it is long. A rough surface has waves of all lengths: for the
-long ones, which carry the stiffness, the base still counts when short ones feel the coating alone.
+A wave of pressure reaches as deep as it is long. So a coating hides its base once it is as thick as
+the longest waves of the roughness, here a quarter of the side. On a stiffer base a thin one bears
+the same force on less area, and the joint is stiffer.
 """
 
 import numpy as np

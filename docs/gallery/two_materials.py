@@ -29,5 +29,5 @@ for beta in (0.0, 0.1, 2 / 7):  # 2/7: a rigid ball on a body with a Poisson's r
     label = f"β = {beta:.2g}: {100 * curve.stick_fraction[7]:.0f} % of the contact sticks"
     axes.plot(x, middle, ".-", label=label)
 
-axes.set(xlabel="x / radius", ylabel="shear along x, over E*")
+axes.set(xlabel="x / radius", ylabel="shear along x, over E*", ylim=(-0.06, 0.03))
 axes.legend(fontsize="small", loc="lower right")
