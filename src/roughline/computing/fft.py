@@ -189,6 +189,27 @@ def convolved(values: Any, half_spectrum: Any, periods: tuple[int, int]) -> Any:
     return rows[:, :ny]
 
 
+def convolved_together(values: Any, half_spectra: Any, periods: tuple[int, int]) -> Any:
+    """Convolve fields with a matrix of kernels: each result is the sum of what all fields give.
+
+    The shape is (fields, nx, ny), and that of the spectra (results, fields, ...). Else it is as
+    :func:`convolved`.
+    """
+    (count, nx, ny), (mx, my) = values.shape, periods
+    rows = np.zeros((count, nx, my), dtype=values.dtype)
+    rows[:, :, :ny] = values
+    modes = np.zeros((count, mx, my // 2 + 1), dtype=np.result_type(values.dtype, np.complex64))
+    ducc0.fft.r2c(rows, axes=(2,), out=modes[:, :nx], nthreads=1)
+    fft_along(modes, 1, forward=True)
+    weighed = half_spectra[:, 0] * modes[0]
+    for field in range(1, count):
+        weighed += half_spectra[:, field] * modes[field]
+    fft_along(weighed, 1, forward=False)
+    return ducc0.fft.c2r(weighed[:, :nx], axes=(2,), lastsize=my, forward=False, nthreads=1)[
+        :, :, :ny
+    ]
+
+
 def synthesise_line(line: Real) -> None:
     """Turn a Hermitian spectrum (mean, real, imaginary, ...) into its real values in place."""
     ducc0.fft.r2r_fftpack(
