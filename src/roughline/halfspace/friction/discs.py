@@ -24,6 +24,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
+from roughline.halfspace.friction.vectors import followed, inner, largest_excess
 
 _MOST_ROUNDS = 60
 _MOST_STEPS = 300  # of conjugate gradients in a round
@@ -78,25 +79,46 @@ class Discs:
 
 @dataclass(frozen=True, eq=False)
 class DiscSearch:
-    """Newton's method with an operator and an approximate inverse of it."""
+    """Newton's method with an operator and an approximate inverse of it.
+
+    Of a rough operator there may be some shear whose displacement is known exactly.
+    """
 
     operator: Linear
     inverse: Linear
+    known: tuple[Real, Real] | None = None
 
-    def found(self, discs: Discs, start: Sheared, *, tolerance: float, share: float) -> Sheared:
-        """Return the shear on the discs, from a start of which shear and level count.
+    def displacement(self, shear: Real) -> Real:
+        """Return the displacement by shear, exactly for the one that is known."""
+        if self.known is None:
+            return self.operator(shear)
+        before, moved = self.known
+        return moved + self.operator(shear - before)
 
-        It is within the tolerance [length], and its total within a share of the sum of all bounds;
-        or it is the best that was found.
+    def found(
+        self,
+        discs: Discs,
+        start: tuple[Real, Real],
+        *,
+        tolerance: float,
+        share: float,
+        gain: float = 0.0,
+    ) -> Sheared:
+        """Return the shear on the discs, from a shear and a level.
+
+        It is within the tolerance [length], or that part of what the start leaves, and its total
+        within a share of the sum of all bounds; or it is the best that was found.
         """
-        shear, level = discs.within(start.shear), start.level
+        shear, level = discs.within(start[0]), start[1]
         slips = np.hypot(shear[:, 0], shear[:, 1]) >= discs.bound * (1 - 1e-12)
         enough, products = share * float(discs.bound.sum()), 0
         best: Sheared | None = None
         for rounds in range(_MOST_ROUNDS):
             products += 1
-            now = discs.judged(shear, level, self.operator(shear))
+            now = discs.judged(shear, level, self.displacement(shear))
             now = replace(now, rounds=rounds, products=products)
+            if not rounds:
+                tolerance = max(tolerance, gain * now.residual)
             if best is None or max(now.residual / tolerance, now.missing / enough) < max(
                 best.residual / tolerance, best.missing / enough
             ):
@@ -141,9 +163,7 @@ class _Round:
 
     def _allowed(self, vectors: Real) -> Real:
         """Return what of vectors nodes can follow: that along the rim where they slip."""
-        kept, slips, rim = vectors.copy(), self._slips, self._rim[self._slips]
-        kept[slips] = rim * np.einsum("ij,ij->i", rim, vectors[slips])[:, np.newaxis]
-        return kept
+        return followed(vectors, self._slips, self._rim)
 
     def _product(self, vectors: Real) -> Real:
         self.products += 1
@@ -168,14 +188,14 @@ class _Round:
                 lift = held.lift(step)
                 step, residual = step + held.steps(lift), residual + held.even(lift)
                 rise += lift
-            energy = float(np.vdot(residual, step))
+            energy = inner(residual, step)
             largest = float(np.abs(residual).max(initial=0.0))
             wrong = self._wrong(change)
             if largest <= max(_TOLERANCE_SHARE * tolerance, _STEP_SHARE * wrong) or not energy > 0:
                 break
             direction = step + (energy / before if before > 0 else 0.0) * direction
             before, response = energy, self._product(direction)
-            curvature = float(np.vdot(direction, response))
+            curvature = inner(direction, response)
             if not curvature > 0:
                 break
             change = change + energy / curvature * direction
@@ -184,10 +204,9 @@ class _Round:
 
     def _wrong(self, change: Real) -> float:
         """Return how far a change takes nodes out of the sets, as a length."""
-        bound, there = self._discs.bound, self._now.shear + change
-        over = np.hypot(there[:, 0], there[:, 1])
-        over -= bound  # also what a turn along the tangent leaves the rim by
-        return self._discs.diagonal * max(float(over.max(initial=0.0)), 0.0)
+        # also what a turn along the tangent leaves the rim by
+        excess = largest_excess(self._now.shear, change, self._discs.bound)
+        return self._discs.diagonal * excess
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,12 +224,12 @@ class _HeldTotal:
         ones = tuple(zeros + axis for axis in np.eye(2))
         along = allowed(ones[0]), allowed(ones[1])
         steps = preconditioned(along[0]), preconditioned(along[1])
-        matrix = np.array([[float(np.vdot(a, b)) for b in steps] for a in along])
+        matrix = np.array([[inner(a, b) for b in steps] for a in along])
         return cls(along, steps, np.linalg.pinv((matrix + matrix.T) / 2, rcond=1e-14))
 
     def lift(self, step: Real) -> Real:
         """Return the rise of the level after which a preconditioned step keeps the total."""
-        return -self.inverse @ np.array([float(np.vdot(each, step)) for each in self.ones])
+        return -self.inverse @ np.array([inner(each, step) for each in self.ones])
 
     def steps(self, lift: Real) -> Real:
         """Return what a rise of the level adds to the preconditioned step."""

@@ -30,18 +30,21 @@ from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangent
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
+from roughline.halfspace.operators.restricted_shear import RestrictedShear, is_uniform
 from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
 from roughline.halfspace.search.path import LoadPath
-from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
+from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.search.response import Response
 from roughline.halfspace.search.tangent import response
 
 _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
 _MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
+_FIRST_GUESS_SHARE = 1e-3  # of the way, to which the shear under the first guess is solved
+_GUESS_SHARE = 0.1  # of what a guess is off by, to which the shear under the next is solved
 _LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
 _MOST_TURNS = 40  # of corrections by the exact operator
 _TURN_SHARE = 0.1  # of what is wrong before a turn, to which it is solved
-_ROUGH_SHARE = 0.3  # the same of a turn with the rough operator, which goes farther than that
+_ROUGH_SHARE = 5e-3  # the same of a turn with the rough operator, and what that errs by
 _TOTAL_SHARE = 0.01  # of the tolerance, to which the shear force is kept
 _MOST_ALTERNATIONS = 60  # between pressures and shear
 _ROUGHEST_TURN = 1e-2  # tolerance of the first of them
@@ -108,6 +111,22 @@ class _Bodies:
         workspace = grid.inverse.operator.workspace
         return shear_on_grid(grid.half_space, grid.shape, grid.spacing, workspace)
 
+    def restricted(self, nodes: GridNodes) -> RestrictedShear | None:
+        """Return how shear displaces them roughly, if that costs less on some nodes."""
+        grid, forms = self.problem.grid, self.problem.grid.inverse.restricted
+        ratios = forms.ratios(nodes) if is_uniform(grid.half_space) else None
+        if ratios is None:
+            return None
+        if ratios not in self._made:
+            operator = grid.inverse.operator
+            made = RestrictedShear.of(self.exact, operator, ratios, forms.margins)
+            self._made[ratios] = made
+        return self._made[ratios]
+
+    @cached_property
+    def _made(self) -> dict[tuple[int, int], RestrictedShear]:
+        return {}
+
 
 class SlidePath:
     """The contact with friction along a path of loads."""
@@ -159,6 +178,7 @@ class SlidePath:
             start = last.contact.contact_set
             state = last.contact.nodes, last.shear
             lift = self._lift(*state, everywhere)
+        before = None if last is None else self._moved_by(last, everywhere)
         rtol, error = self._method.rtol, 1.0
         for _ in range(_MOST_ALTERNATIONS):
             aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
@@ -171,7 +191,7 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, state, aim)
+            step = _SlideStep(self._bodies, contact, last, (state, before), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -200,6 +220,12 @@ class SlidePath:
         convolutions += answer.convolutions + tangents.convolutions
         return replace(found, contact=contact, convolutions=convolutions, tangents=tangents)
 
+    def _moved_by(self, last: Slid, everywhere: GridNodes) -> Real:
+        """Return how a state displaces all of the grid along the surface."""
+        nodes, exact = self._problem.grid.nodes(last.contact.nodes), self._bodies.exact
+        moved = exact.by_pressure(last.contact.pressure, nodes, everywhere)
+        return moved + exact.displacement(last.shear, nodes, everywhere)
+
     def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
         """Return how shear displaces all of the grid into the body."""
         grid = self._problem.grid
@@ -227,28 +253,34 @@ class _SlideStep:
         bodies: _Bodies,
         contact: Contact,
         last: Slid | None,
-        start: tuple[InGrid, Real] | None = None,
+        start: tuple[tuple[InGrid, Real] | None, Real | None] = (None, None),
         rtol: float | None = None,
     ) -> None:
+        """Take the bodies, the contact, and the last state.
+
+        The start is some shear on nodes, and how the last state displaces all of the grid.
+        """
         grid, exact = bodies.problem.grid, bodies.exact
         self._exact, self._contact, self._last = exact, contact, last
         self._method = replace(bodies.method, rtol=rtol or bodies.method.rtol)
         self._untouched, self._friction = bodies.problem, bodies.friction
         self._nodes = nodes = grid.nodes(contact.nodes)
         self._bound = bodies.friction.bound(contact.pressure, contact.nodes)
-        self._operators = _Operators(exact, grid, nodes)
+        self._operators = _Operators(bodies, nodes)
         self._area = grid.cell_area
         self.convolutions = contact.convolutions
         self._slide_before = np.zeros(2) if last is None else last.slide
         self._pushed = exact.by_pressure(contact.pressure, nodes, nodes)
-        self._moved_before, self._start = self._before()
-        if start is not None:
-            self._start = _on(contact.nodes, *start)
+        # shear on the nodes, and the displacement by it
+        self._known: tuple[Real, Real] | None = None
+        self._moved_before, self._start = self._before(start[1])
+        if start[0] is not None:
+            self._start = _on(contact.nodes, *start[0])
         self._late = self._share_before_contact()
         strength = float(self._bound.sum()) / float(contact.pressure.sum())
         self._scale = contact.length_scale * strength
 
-    def _before(self) -> tuple[Real, Real]:
+    def _before(self, everywhere: Real | None) -> tuple[Real, Real]:
         """Return how the nodes of this load were displaced at the last one, and their shear.
 
         What their pressure displaces now is taken off: the shear has to add the rest.
@@ -259,13 +291,18 @@ class _SlideStep:
             return moved - self._pushed, shear
         before = last.contact
         shear = _on(nodes, before.nodes, last.shear)
-        if np.isin(nodes, before.nodes, assume_unique=True).all():
+        kept = int(np.isin(nodes, before.nodes, assume_unique=True).sum())
+        if kept == nodes.size:
             moved = _on(nodes, before.nodes, last.displacement)
+        elif everywhere is not None:
+            moved = everywhere[nodes]
         else:
             sources = before.problem.grid.nodes(before.nodes)
             self.convolutions += 2
             moved = self._exact.displacement(last.shear, sources, self._nodes)
             moved += self._exact.by_pressure(before.pressure, sources, self._nodes)
+        if kept == before.nodes.size and not before.problem.grid.half_space.is_coupled:
+            self._known = shear, moved
         return moved - self._pushed, shear
 
     def _share_before_contact(self) -> Real:
@@ -292,7 +329,7 @@ class _SlideStep:
         if load.slide is not None:
             way = np.array(load.slide) - self._slide_before
             target = self._moved_before + (1 - self._late)[:, np.newaxis] * way
-            found = self._solved(target, None, np.zeros(2), self._start, tolerance)
+            found = self._solved(target, None, (self._guess(way), np.zeros(2)), tolerance)
             return self._state(found, way, limit)
         assert load.force is not None
         force = np.array(load.force)
@@ -301,7 +338,8 @@ class _SlideStep:
         total = force / self._area
         way = self._guessed_way(force)
         if not self._late.any():
-            found = self._solved(self._moved_before, total, way, self._start, tolerance)
+            start = self._guess(way), way
+            found = self._solved(self._moved_before, total, start, tolerance)
             return self._state(found, found.level, limit)
         return self._state(*self._joined(total, way, tolerance), limit)
 
@@ -322,21 +360,43 @@ class _SlideStep:
         return contact.problem.grid.half_space.disc_stiffness(radius)
 
     @property
-    def _back(self) -> Real | None:
-        """The tangent of turning back, where it is known of the same contact."""
+    def _tangents(self) -> ShearTangents | None:
+        """Those of the last load, if it was of the same contact."""
         last = self._last
-        if last is None or last.tangents is None or last.contact.load != self._contact.load:
+        if last is None or last.contact.load != self._contact.load:
             return None
-        return last.tangents.back
+        return last.tangents
+
+    def _guess(self, way: Real) -> Real:
+        """Return about the shear after a way of the indenter: the last, led along its tangent."""
+        contact, last, tangents = self._contact, self._last, self._tangents
+        if tangents is not None and tangents.rates is not None:
+            assert last is not None
+            x, y = tangents.rates[0 if last.force @ way >= 0 else 1]
+            led: Real = self._start + way[0] * x + way[1] * y
+            return led
+        if contact.problem.grid.half_space.is_coupled:
+            return self._start
+        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
+        if not nearer > 0:
+            return self._start
+        before = (
+            0.0 if last is None else _on(contact.nodes, last.contact.nodes, last.contact.pressure)
+        )
+        slope = way / (nearer * contact.problem.grid.half_space.even_shear[1])
+        added: Real = (contact.pressure - before)[:, np.newaxis] * slope
+        return self._start + added
 
     def _guessed_way(self, force: Real) -> Real:
         """Return about how far the indenter slides: as it comes nearer, along a straight path."""
-        contact, last, stiffness = self._contact, self._last, self._back
+        contact, last, tangents = self._contact, self._last, self._tangents
         before = np.zeros(2) if last is None else last.force
-        if stiffness is not None:
+        if tangents is not None:
+            change = force - before
+            stiffness = tangents.on if before @ change >= 0 else tangents.back
             if not np.isfinite(stiffness).all():  # full contact, without a mean
                 return np.zeros(2)
-            return np.asarray(np.linalg.solve(stiffness, force - before), np.float64)
+            return np.asarray(np.linalg.solve(stiffness, change), np.float64)
         pushed = contact.force - (0.0 if last is None else last.contact.force)
         nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
         factor = contact.problem.grid.half_space.even_shear[1]
@@ -357,14 +417,20 @@ class _SlideStep:
         nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
         growth = pushed / (rigid * nearer) if rigid * nearer > 0 else 1.0
         slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
-        start, level, before = self._start, way, None
+        start, before = (self._guess(way), way), None
+        aim = max(tolerance, _FIRST_GUESS_SHARE * float(np.abs(way).max()))
         for _ in range(_MOST_GUESSES):
             target, way_taken = self._moved_before - late * way, way
-            found = self._solved(target, total, level, start, tolerance)
-            start, level = found.shear, found.level
+            found = self._solved(target, total, start, aim)
+            start = found.shear, found.level
             off = way - found.level
-            if float(np.abs(off).max()) <= tolerance:
-                break
+            wrong = float(np.abs(off).max())
+            if wrong <= tolerance:
+                if aim <= tolerance:
+                    break
+                aim = tolerance  # the guess is right, and the shear under it is not known so well
+                continue
+            aim = max(tolerance, _GUESS_SHARE * wrong)
             if before is not None:
                 step, change = way - before[0], off - before[1]
                 slope = slope + np.outer(change - slope @ step, step) / float(step @ step)
@@ -375,13 +441,14 @@ class _SlideStep:
         return replace(found, residual=residual), found.level
 
     def _solved(
-        self, target: Real, total: Real | None, level: Real, start: Real, tolerance: float
+        self, target: Real, total: Real | None, start: tuple[Real, Real], tolerance: float
     ) -> Sheared:
-        """Return the shear on the discs, to the tolerance by the exact operator."""
+        """Return the shear on the discs from one and a level, to the tolerance by the exact one."""
         discs = Discs(self._bound, target, total, self._exact.diagonal)
-        share = _TOTAL_SHARE * self._method.rtol
-        found = self._operators.found(discs, (start, level), tolerance, share)
+        accuracy = tolerance, _TOTAL_SHARE * self._method.rtol
+        found = self._operators.found(discs, start, self._known, accuracy)
         self.convolutions += self._operators.convolutions
+        self._known = found.shear, found.displacement
         return found
 
     def _state(self, found: Sheared, way: Real, limit: float) -> Slid:
@@ -395,7 +462,7 @@ class _SlideStep:
         tangents = None
         if converged and not self._contact.problem.grid.half_space.is_coupled:
             tangents = shear_tangents(
-                self._operators, self._contact, found.shear, sticks, self._method, self._back
+                self._operators, self._contact, (found.shear, sticks), self._method, self._tangents
             )
             self.convolutions += tangents.convolutions
         return Slid(
@@ -415,8 +482,8 @@ class _SlideStep:
 
 
 def _on(nodes: InGrid, others: InGrid, values: Real) -> Real:
-    """Return vectors, given on other nodes, on nodes; zero where they are not given."""
-    found = np.zeros((nodes.size, 2))
+    """Return values, given on other nodes, on nodes; zero where they are not given."""
+    found = np.zeros((nodes.size, *values.shape[1:]))
     if others.size:
         places = np.minimum(np.searchsorted(others, nodes), others.size - 1)
         known = others[places] == nodes
@@ -433,43 +500,44 @@ def _slips(found: Sheared, bound: Real, diagonal: float) -> Mask:
 class _Operators:
     """How shear displaces a set of nodes: exactly, and nearly, at the cost of the contact."""
 
-    def __init__(self, exact: ShearConvolution, grid: Grid, nodes: GridNodes) -> None:
-        self._exact, self.nodes = exact, nodes
+    def __init__(self, bodies: _Bodies, nodes: GridNodes) -> None:
+        self._exact, self.nodes, grid = bodies.exact, nodes, bodies.problem.grid
+        self._restricted = bodies.restricted(nodes)
         half_space, self._factor = grid.half_space.even_shear
         inverse = inverse_on(half_space, grid.shape, grid.spacing)
-        self._restricted = inverse.restricted.on(nodes)
         self._precondition = preconditioner(inverse, nodes)
+        self._inverse, self._normal = grid.inverse, grid.inverse.operator
         self.convolutions = 0
-        self.diagonal = exact.diagonal
+        self.diagonal = bodies.exact.diagonal
 
     def exact(self, shear: Real) -> Real:
         """Return the displacements by the exact operator."""
         self.convolutions += 2
         return self._exact.displacement(shear, self.nodes, self.nodes)
 
-    def by_pressure(self, pressure: Real) -> Real:
-        """Return the displacements along the surface under pressure."""
-        self.convolutions += 2
-        return self._exact.by_pressure(pressure, self.nodes, self.nodes)
+    def displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the displacements into the body and along the surface by pressure and shear."""
+        exact, normal, here = self._exact, self._normal, (self.nodes, self.nodes)
+        into = normal.displacement(pressure, *here) + exact.into_body(shear, *here)
+        return into, exact.displacement(shear, *here) + exact.by_pressure(pressure, *here)
 
-    def into_body(self, shear: Real) -> Real:
-        """Return the displacements into the body under shear."""
-        self.convolutions += 2
-        return self._exact.into_body(shear, self.nodes, self.nodes)
+    def roughly_displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the same, roughly."""
+        rough, here = self._restricted, (self.nodes, self.nodes)
+        normal = self._inverse.restricted.on(self.nodes)
+        assert rough is not None
+        assert normal is not None
+        into = normal.displacement(pressure, *here) + rough.into_body(shear, *here)
+        return into, rough.displacement(shear, *here) + rough.by_pressure(pressure, *here)
 
     @property
     def rough(self) -> Linear | None:
-        """Displacements as if shear along and across displaced alike, and roughly."""
+        """Displacements, roughly; None where the exact ones cost no more."""
         return None if self._restricted is None else self._roughly
 
     def _roughly(self, shear: Real) -> Real:
         assert self._restricted is not None
-        moved = np.empty_like(shear)
-        for axis in range(2):
-            part = np.ascontiguousarray(shear[:, axis])
-            moved[:, axis] = self._restricted.displacement(part, self.nodes, self.nodes)
-        moved *= self._factor
-        return moved
+        return self._restricted.displacement(shear, self.nodes, self.nodes)
 
     def inverse(self, moved: Real) -> Real:
         """Return about the shear that displaces so."""
@@ -480,34 +548,36 @@ class _Operators:
         return shear
 
     def found(
-        self, discs: Discs, start: tuple[Real, Real], tolerance: float, share: float
+        self,
+        discs: Discs,
+        start: tuple[Real, Real],
+        known: tuple[Real, Real] | None,
+        accuracy: tuple[float, float],
     ) -> Sheared:
         """Return the shear on the discs from one and a level, as :class:`DiscSearch` does.
 
-        Where there is a rough operator, it is corrected for what it misses of the shear so far.
+        Where there is a rough operator, it is corrected for what it misses of the shear so far, or
+        of one whose exact displacement is known. The accuracy is a tolerance and a share.
         """
-        self.convolutions, (shear, level) = 0, start
-        first = Sheared(shear, level, shear, shear, math.inf, 0.0)
-        exact = DiscSearch(self.exact, self.inverse)
-        if self.rough is None:
-            return exact.found(discs, first, tolerance=tolerance, share=share)
-        rough = DiscSearch(self.rough, self.inverse)
-        shear, before = discs.within(shear), math.inf
+        self.convolutions, (tolerance, share) = 0, accuracy
+        exact, rough = DiscSearch(self.exact, self.inverse), self.rough
+        if rough is None:
+            return exact.found(discs, start, tolerance=tolerance, share=share)
+        before, inside = math.inf, discs.within(start[0])
+        known = known or (inside, self.exact(inside))
         for _ in range(_MOST_TURNS):
-            now = discs.judged(shear, level, self.exact(shear))
+            search = DiscSearch(rough, self.inverse, known)
+            aims = {"tolerance": 0.5 * tolerance, "share": share, "gain": _ROUGH_SHARE}
+            better = search.found(discs, start, **aims)
+            start = better.shear, better.level
+            now = discs.judged(*start, self.exact(better.shear))
+            known = now.shear, now.displacement
             if now.residual <= tolerance and now.missing <= share * float(discs.bound.sum()):
                 return now
             if now.residual > 0.7 * before:
                 break
             before = now.residual
-            corrected = replace(
-                discs, target=discs.target - now.displacement + rough.operator(shear)
-            )
-            aim = max(0.3 * tolerance, _ROUGH_SHARE * now.residual)
-            better = rough.found(corrected, now, tolerance=aim, share=share)
-            shear, level = better.shear, better.level
-        begun = replace(first, shear=shear, level=level)
-        return exact.found(discs, begun, tolerance=tolerance, share=share)
+        return exact.found(discs, start, tolerance=tolerance, share=share)
 
 
 def _with_stiffness(answer: Response, stiffness: tuple[float, float]) -> Response:

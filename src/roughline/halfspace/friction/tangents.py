@@ -12,20 +12,31 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Mask, Real
+from roughline.computing.krylov import least_residual
 from roughline.halfspace.friction.discs import Linear
+from roughline.halfspace.friction.vectors import followed, inner
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, Method
 
 _ENERGY_MARGIN = 0.01  # part of the tolerance, to which the stiffness is solved
 _MOST_STEPS = 300
-_ROUGH_SHARE = 1e-2  # of the energy of an error, that steps with rough operators leave
+_ROUGH_SHARE = 1e-6  # of the energy of an error, that steps with rough operators leave
+_ROUGH_ERROR = 0.03  # of the energy that they find, at most
+_COUPLED_SHARE = 3e-3  # of what rough operators of coupled bodies correct, and what they err by
+_MOST_TURNS = 10  # of corrections
+_SCALE_SHARE = 0.1  # of the energy that counts, up to which they go on
+
+
+Rates = tuple[Real, Real]
+"""Shear of nodes by unit slides along x and along y, each of shape (nodes, 2)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +46,7 @@ class ShearTangents:
     on: Real
     back: Real
     convolutions: int = 0
+    rates: tuple[Rates, Rates] | None = None  # how shear follows, going on and turning back
 
 
 class ShearMaps(Protocol):
@@ -54,13 +66,15 @@ class ShearMaps(Protocol):
 def shear_tangents(
     maps: ShearMaps,
     contact: Contact,
-    shear: Real,
-    sticks: Mask,
+    state: tuple[Real, Mask],
     method: Method,
-    back: Real | None = None,
+    last: ShearTangents | None = None,
 ) -> ShearTangents:
-    """Solve for both tangents; that of turning back may be known of the same contact."""
-    grid = contact.problem.grid
+    """Solve for both tangents of a state, which is its shear, and where it sticks.
+
+    That of turning back is known from the last load, if that was of the same contact.
+    """
+    (shear, sticks), grid = state, contact.problem.grid
     rigid = np.diag([np.inf, np.inf])
     is_whole = contact.nodes.size == contact.separation.size
     if is_whole and grid.inverse.operator.mean_is_free and sticks.all():
@@ -68,13 +82,28 @@ def shear_tangents(
     accuracy, spent = _ENERGY_MARGIN * method.rtol, 0
     size = np.maximum(np.hypot(shear[:, 0], shear[:, 1]), 1e-300)
     rim = np.stack([-shear[:, 1] / size, shear[:, 0] / size], axis=1)
-    if back is None:
-        found, spent = _Stuck(maps, np.zeros(0, dtype=np.intp), rim).stiffness(accuracy)
+    if last is None or last.rates is None:
+        none = np.zeros_like(sticks)
+        found, rates, spent = _Stuck(maps, none, rim).stiffness(accuracy, _even_rates(contact))
         back = grid.cell_area * found
+        start = rates
+    else:
+        back, (start, rates) = last.back, last.rates
     if sticks.all():
-        return ShearTangents(back, back, spent)
-    found, more = _Stuck(maps, np.flatnonzero(~sticks), rim).stiffness(accuracy)
-    return ShearTangents(grid.cell_area * found, back, spent + more)
+        return ShearTangents(back, back, spent, (rates, rates))
+    found, on, more = _Stuck(maps, ~sticks, rim).stiffness(accuracy, start)
+    return ShearTangents(grid.cell_area * found, back, spent + more, (on, rates))
+
+
+def _even_rates(contact: Contact) -> Rates | None:
+    """Return shear that goes as the pressure does when the bodies come nearer."""
+    if contact.response is None:
+        return None
+    rate = contact.response.unloading.pressure_per_force
+    if not (rate.any() and np.isfinite(rate).all()):
+        return None
+    none = np.zeros_like(rate)
+    return np.stack([rate, none], axis=1), np.stack([none, rate], axis=1)
 
 
 class CoupledMaps(ShearMaps, Protocol):
@@ -83,11 +112,11 @@ class CoupledMaps(ShearMaps, Protocol):
     nodes: GridNodes
     diagonal: float
 
-    def by_pressure(self, pressure: Real) -> Real:
-        """Return the displacements along the surface."""
+    def displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the displacements into the body and along the surface."""
 
-    def into_body(self, shear: Real) -> Real:
-        """Return the displacements into the body."""
+    def roughly_displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the same roughly, if there are rough ones."""
 
 
 def coupled_tangents(
@@ -140,16 +169,20 @@ class _CoupledStuck:
         along = np.einsum("ij,ij->i", self._outward, vectors)
         return self._outward * along[:, np.newaxis]
 
-    def _product(self, unknown: Real) -> Real:
+    def _exactly(self, unknown: Real) -> Real:
+        self._products += 1
+        return self._product(unknown, self._maps.displaced)
+
+    def _roughly(self, unknown: Real) -> Real:
+        return self._product(unknown, self._maps.roughly_displaced)
+
+    def _product(self, unknown: Real, moved: Callable[[Real, Real], tuple[Real, Real]]) -> Real:
         """Return the displacements by pressure and shear, and what is left of the radial shear."""
         pressure, free = self._apart(unknown)
-        self._products += 1
         radial = self._radial(free)
         shear = free - radial + self._outward * (self._slope * pressure)[:, np.newaxis]
-        nodes, operator = self._maps.nodes, self._grid.inverse.operator
-        into = operator.displacement(pressure, nodes, nodes) + self._maps.into_body(shear)
-        along = self._maps.exact(shear) + self._maps.by_pressure(pressure)
-        along += self._maps.diagonal * radial - self._radial(along)
+        into, along = moved(pressure, shear)
+        along = along + self._maps.diagonal * radial - self._radial(along)
         return np.concatenate([into, along.ravel()])
 
     def _preconditioned(self, moved: Real) -> Real:
@@ -165,12 +198,7 @@ class _CoupledStuck:
 
     def stiffness(self, rtol: float) -> tuple[Real, int]:
         """Return total shear and pressure by unit slides and a unit approach, and the products."""
-        from scipy.sparse.linalg import LinearOperator, gmres  # here because it loads slowly
-
         count, matrix = self._slips.size, np.full((3, 3), np.nan)
-        shape = 3 * count, 3 * count
-        operator = LinearOperator(shape, self._product, dtype=np.float64)
-        inverse = LinearOperator(shape, self._preconditioned, dtype=np.float64)
         for axis in range(3):
             target = np.zeros(3 * count)
             if axis == 2:
@@ -178,9 +206,8 @@ class _CoupledStuck:
             else:
                 even = np.zeros((count, 2)) + np.eye(2)[axis]
                 target[count:] = (even - self._radial(even)).ravel()
-            given = {"rtol": rtol, "atol": 0.0, "restart": 80, "maxiter": 5}
-            found, failed = gmres(operator, target, M=inverse, **given)
-            if failed:
+            found = self._solved(target, rtol)
+            if found is None:
                 continue
             pressure, free = self._apart(found)
             shear = free - self._radial(free)
@@ -188,75 +215,106 @@ class _CoupledStuck:
             matrix[:, axis] = *shear.sum(axis=0), pressure.sum()
         return matrix, self._products
 
+    def _solved(self, target: Real, rtol: float) -> Real | None:
+        """Solve with rough operators, and correct what they miss; None without convergence."""
+        found, left = np.zeros_like(target), 1.0
+        if self._maps.rough is not None:
+            residual, whole = target, float(np.abs(target).max())
+            for _ in range(_MOST_TURNS):
+                aim = max(_COUPLED_SHARE, 0.3 * rtol / left)
+                found = (
+                    found + least_residual(self._roughly, self._preconditioned, residual, aim)[0]
+                )
+                residual = target - self._exactly(found)
+                before, left = left, float(np.abs(residual).max()) / whole
+                if left <= rtol:
+                    return found
+                if left > 0.5 * before:
+                    break
+        found, left = least_residual(self._exactly, self._preconditioned, target, rtol)
+        return found if left <= rtol else None
+
 
 class _Stuck:
     """A contact of which some nodes follow a slide along the rims of their discs alone."""
 
-    def __init__(self, maps: ShearMaps, slips: Indices, rim: Real) -> None:
-        self._maps, self._slips, self._rim, self._there = maps, slips, rim, rim[slips]
+    def __init__(self, maps: ShearMaps, slips: Mask, rim: Real) -> None:
+        self._maps, self._slips, self._rim = maps, slips, rim
 
     def _allowed(self, vectors: Real) -> Real:
-        if not self._slips.size:
-            return vectors
-        kept = vectors.copy()
-        along = np.einsum("ij,ij->i", self._there, vectors[self._slips])
-        kept[self._slips] = self._there * along[:, np.newaxis]
-        return kept
+        return followed(vectors, self._slips, self._rim)
 
-    def stiffness(self, accuracy: float) -> tuple[Real, int]:
-        """Return the total shear by unit slides along x and y, and the convolutions.
+    def stiffness(self, accuracy: float, start: Rates | None) -> tuple[Real, Rates, int]:
+        """Return the total shear by unit slides along x and y, the shear, and the convolutions.
 
-        It is the energy form of both solutions, so that it errs by the square of their residuals.
+        It is the energy form of both solutions, so that it errs by the square of their residuals;
+        of what these still displace, the energy form by the preconditioner is added.
         """
         spent, found = 0, []
         targets = [self._allowed(np.zeros_like(self._rim) + axis) for axis in np.eye(2)]
-        for target in targets:
-            shear, residual, products = self._solved(target, accuracy)
+        for axis, target in enumerate(targets):
+            begun = None if start is None else self._allowed(start[axis])
+            *solved, products = self._solved(target, begun, accuracy)
             spent += 2 * products
-            found.append((shear, residual))
+            found.append(solved)
         form = np.array(
             [
-                [float(np.vdot(target, shear) + np.vdot(other, rest)) for shear, rest in found]
-                for target, (other, _) in zip(targets, found, strict=True)
+                [
+                    inner(target, shear) + inner(other, rest) + inner(other_rest, step)
+                    for shear, rest, step in found
+                ]
+                for target, (other, other_rest, _) in zip(targets, found, strict=True)
             ]
         )
-        return (form + form.T) / 2, spent
+        return (form + form.T) / 2, (found[0][0], found[1][0]), spent
 
-    def _solved(self, target: Real, accuracy: float) -> tuple[Real, Real, int]:
+    def _solved(
+        self, target: Real, start: Real | None, accuracy: float
+    ) -> tuple[Real, Real, Real, int]:
         """Solve by conjugate gradients, whose preconditioner may be a solution by rough ones.
 
         As that differs from step to step, directions are conjugate by the change of residuals [1]_.
+        Return the shear, what it leaves, the next step, and the products.
         """
-        shear, residual = np.zeros_like(target), target.copy()
+        shear, residual, products = np.zeros_like(target), target.copy(), 0
+        if start is not None:
+            response = self._allowed(self._maps.exact(start))
+            length, products = inner(start, target) / inner(start, response), 1
+            shear, residual = length * start, residual - length * response
         direction, before, gone = np.zeros_like(target), 0.0, residual
-        for steps in range(_MOST_STEPS):
-            step = self._preconditioned(residual)
-            energy = float(np.vdot(residual, step))
-            if not energy > accuracy * max(float(np.vdot(shear, target)), 0.0):
-                return shear, residual, steps
-            part = float(np.vdot(residual - gone, step)) / before if before > 0 else 0.0
+        while True:
+            scale = accuracy * max(inner(shear, target), 0.0)
+            step, error = self._preconditioned(residual, scale)
+            energy = inner(residual, step)
+            if not error * energy > scale or products > _MOST_STEPS:
+                return shear, residual, step, products
+            part = inner(residual - gone, step) / before if before > 0 else 0.0
             direction = step + max(part, 0.0) * direction
             response = self._allowed(self._maps.exact(direction))
-            length = float(np.vdot(direction, residual)) / float(np.vdot(direction, response))
+            products += 1
+            length = inner(direction, residual) / inner(direction, response)
             before, gone = energy, residual
             shear, residual = shear + length * direction, residual - length * response
-        return shear, residual, _MOST_STEPS
 
-    def _preconditioned(self, residual: Real) -> Real:
-        """Return about the shear that displaces so, by some steps with rough operators."""
+    def _preconditioned(self, residual: Real, scale: float) -> tuple[Real, float]:
+        """Return about the shear that displaces so, by steps with rough operators, and its error.
+
+        The error is a part of its energy; less energy than the scale does not count.
+        """
         rough = self._maps.rough
         step = self._allowed(self._maps.inverse(residual))
         if rough is None:
-            return step
+            return step, 1.0
         shear, left, direction, before = np.zeros_like(residual), residual, step, 0.0
-        first = float(np.vdot(left, step))
+        gained = 0.0
         for _ in range(_MOST_STEPS):
-            energy = float(np.vdot(left, step))
-            if not energy > _ROUGH_SHARE * first:
+            energy = inner(left, step)
+            if not energy > max(_ROUGH_SHARE * gained, _SCALE_SHARE * scale):
                 break
             direction = step + (energy / before if before > 0 else 0.0) * direction
             before, response = energy, self._allowed(rough(direction))
-            length = energy / float(np.vdot(direction, response))
+            length = energy / inner(direction, response)
             shear, left = shear + length * direction, left - length * response
+            gained += length * energy
             step = self._allowed(self._maps.inverse(left))
-        return shear
+        return shear, _ROUGH_ERROR
