@@ -11,7 +11,7 @@ PEERS_PYTHON ?= $(BIN)/python
 unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs measured-figures validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers friction-speed permeance lab-benchmark study correlations finite-size area averaging sealing published docs measured-figures validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -122,6 +122,9 @@ pull-off: $(VENV)/installed
 
 layers: $(VENV)/installed
 	$(BIN)/python benchmarks/layers.py
+
+friction-speed: $(VENV)/installed
+	$(BIN)/python benchmarks/friction_speed.py
 
 permeance: $(VENV)/installed
 	$(BIN)/python benchmarks/permeance.py
