@@ -11,7 +11,7 @@ PEERS_PYTHON ?= $(BIN)/python
 unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing published docs measured-figures validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness friction-paths friction-speed soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing friction published paper-figures docs measured-figures validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -104,6 +104,9 @@ part-coverage: $(VENV)/installed
 robustness: $(VENV)/installed
 	$(BIN)/python benchmarks/robustness.py
 
+friction-paths: $(VENV)/installed
+	$(BIN)/python benchmarks/friction_paths.py friction_paths.csv
+
 soak: $(VENV)/installed
 	$(BIN)/python benchmarks/soak.py 100 1
 
@@ -122,6 +125,9 @@ pull-off: $(VENV)/installed
 
 layers: $(VENV)/installed
 	$(BIN)/python benchmarks/layers.py
+
+friction-speed: $(VENV)/installed
+	$(BIN)/python benchmarks/friction_speed.py
 
 permeance: $(VENV)/installed
 	$(BIN)/python benchmarks/permeance.py
@@ -167,18 +173,24 @@ sealing: $(VENV)/installed
 	$(BIN)/python -m studies reduce sealing out/sealing.jsonl
 	$(BIN)/python -m studies publish sealing
 
+# In an hour of two cores; resumable.
+friction: $(VENV)/installed
+	OMP_NUM_THREADS=1 $(BIN)/python -m studies.friction.run out/friction.jsonl 2
+	$(BIN)/python -m studies reduce friction out/friction.jsonl
+	$(BIN)/python -m studies publish friction
+
 # Of the data of the paper's study, which come with the package.
 averaging: $(VENV)/installed
 	$(BIN)/python -m studies reduce averaging
 	$(BIN)/python -m studies publish averaging
 
 published: $(VENV)/installed
-	$(BIN)/python -m studies publish paper correlations area averaging finite_size sealing
+	$(BIN)/python -m studies publish paper correlations area averaging finite_size sealing friction
 
 # The errors against exact solutions that the handbook tells, from the tests' own run.
 validation: $(VENV)/installed
 	rm -f docs/validation.json
-	ROUGHLINE_VALIDATION=1 $(BIN)/python -m pytest tests/halfspace/test_exact_solutions.py tests/halfspace/test_hardness_exact.py tests/reduction/test_exact_solutions.py
+	ROUGHLINE_VALIDATION=1 $(BIN)/python -m pytest tests/halfspace/test_exact_solutions.py tests/halfspace/test_hardness_exact.py tests/halfspace/friction/test_exact_friction.py tests/reduction/test_exact_solutions.py
 
 # The handbook as a site, which opens from disk: out/docs/index.html.
 docs: $(VENV)/installed
@@ -211,6 +223,10 @@ $(TOOLS)/installed:
 
 measured-figures: $(VENV)/installed
 	$(BIN)/python docs/draw_measured.py
+
+# Those of paper/paper.md, in a minute or two.
+paper-figures: $(VENV)/installed
+	$(BIN)/python paper/draw.py
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

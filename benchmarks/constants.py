@@ -260,9 +260,10 @@ def written(rows, maps):
     )
     page.say(
         f"{len(rows)} numbers decide how wide intervals are and what is said of them. A run, a "
-        f"page or a definition gives {len(rows) - unknown - needless} of them. {needless} limit "
-        f"the time of a search, the order of remarks and the like. What chose the other {unknown} "
-        "was not found; a run that counts intervals with them is named where there is one."
+        f"page or a definition gives {len(rows) - unknown - needless} of them. {needless} move "
+        "no number: they limit the time of a search, or say from where words are told. What chose "
+        f"the other {unknown} was not found; a run that counts intervals with them is named where "
+        "there is one."
     )
     page.say(
         f"Each is doubled alone, and small cases are solved again, of made surfaces{named}. A "

@@ -124,7 +124,10 @@ def measure_moves(browser, running, times, moves, points, dimension, seed):
 
 
 def pictures_in_long_drag(browser, running, key, points, dimension, seed):
-    """Drag a slider to and fro for seconds: pictures of the line and of 128² in a second."""
+    """Drag a slider to and fro for seconds: pictures of the line and of 128² in a second.
+
+    And how long the main thread of the page works for one of 128². [ms]
+    """
     pages = Pages(browser, running.address)
     page = opened(pages, f"?view=explore&v=1&D_f={dimension}&seed={seed}&n={points}&F=0.1")
     page.wait_for_selector("#plot-explore-area[data-shown]")
@@ -134,16 +137,27 @@ def pictures_in_long_drag(browser, running, key, points, dimension, seed):
     page.mouse.move(box["x"] + inner, y)
     page.mouse.down()
     page.evaluate("() => { recorder.pictures = {}; }")
+    session = page.context.new_cdp_session(page)
+    session.send("Performance.enable", {"timeDomain": "threadTicks"})
+    worked = -seconds_of_work(session)
     began = time.perf_counter()
     while (now := time.perf_counter() - began) < DRAG:
         share = abs((now / SWEEP) % 2 - 1)
         page.mouse.move(box["x"] + inner + share * (box["width"] - 2 * inner), y)
         time.sleep(max(0.0, began + now + MOUSE - time.perf_counter()))
     counts = page.evaluate("() => recorder.pictures")
+    worked += seconds_of_work(session)
     page.mouse.up()
     assert not pages.complaints, pages.complaints
     pages.close()
-    return [counts.get(name, 0) / now for name in ("line", "128")]
+    rates = [counts.get(name, 0) / now for name in ("line", "128")]
+    return [*rates, 1e3 * worked / max(counts.get("128", 0), 1)]
+
+
+def seconds_of_work(session):
+    """How long the main thread of a page has worked until now. [s]"""
+    metrics = session.send("Performance.getMetrics")["metrics"]
+    return next(each["value"] for each in metrics if each["name"] == "TaskDuration")
 
 
 def opened(pages, query):
@@ -186,17 +200,19 @@ def write(times, rates, browser, save):
         f"{DRAG:g} s from end to end and back with a mouse that moves every "
         f"{1e3 * MOUSE:.0f} ms; pictures per second, of all surfaces:"
     )
-    columns = ("reduced curve: least, median", "contact on 128²", "wanted")
-    page.table("slider, full grid", *columns, at_most=0)
+    columns = ("reduced curve: least, median", "contact on 128²", "work for one", "wanted")
+    page.table("slider, full grid", *columns, at_most=3)
     for (key, points), found in rates.items():
-        lines, contacts = (sorted(column) for column in zip(*found, strict=True))
+        lines, contacts, work = (sorted(column) for column in zip(*found, strict=True))
         page.row(
             f"{key}, {points}²",
             f"{lines[0]:.0f}, {np.median(lines):.0f}",
             f"{contacts[0]:.0f}, {np.median(contacts):.0f}",
+            shown(np.median(work)),
             f"{FEWEST_PICTURES} of the curve" if points == 128 else "-",
         )
     page.say(
+        "Work is that of the page's main thread, as processor time, for each picture of 128². "
         "A move counts from the event of the slider until the frame in which the picture of this "
         "value is on the screen. Sliders are dragged with the mouse over the loads, fractal "
         f"dimensions and cutoffs of {len(SURFACES)} surfaces; the times of 512² and 1024² points "

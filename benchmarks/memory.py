@@ -95,7 +95,7 @@ def main():
         "$p_c$ is the mean contact pressure of the elastic bodies, half of $E^*$ times the rms "
         f"slope. Loads rise and fall: F̄ = {', '.join(f'{f:g}' for f in HISTORY)}."
     )
-    page.table("grid", "half-space", "$p_c/H$", "F̄", *measures, at_most=0)
+    page.table("grid", "half-space", "$p_c/H$", "F̄", *measures, at_most=3)
     for row in YIELDING:
         page.row(*elsewhere(cells, *row))
     page.save()

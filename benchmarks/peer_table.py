@@ -103,7 +103,7 @@ def convolutions(rows, page):
         return [f"{row['n']}²", *times]
 
     columns = ("grid", "plain, zero-padded", "roughline, double", "single")
-    tabled(page, "One convolution beside", columns, of_kind(rows, "convolution"), cells, at_most=0)
+    tabled(page, "One convolution beside", columns, of_kind(rows, "convolution"), cells, at_most=3)
 
 
 def best(row, program):
@@ -192,7 +192,7 @@ def contact_areas(rows, page):
     )
     of_small = " on small grids" * are_small(rows)
     heading = f"Contact areas of these loads{of_small}"
-    tabled(page, heading, columns, found, cells, said, at_most=0)
+    tabled(page, heading, columns, found, cells, said, at_most=3)
 
 
 def paths(rows, page):

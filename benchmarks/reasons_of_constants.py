@@ -15,6 +15,10 @@ _FIT = "none found; counted by `make coverage-table`"
 _SEAL = "none found; counted by `make seal-coverage`"
 _LEAK = "none found; counted by `make leak-coverage`"
 _PART = "none found; counted by `make part-coverage`"
+_SEARCH = "needs none: how the search goes, not where it ends"
+_TOLD = "needs none: from where words are said; it moves no number"
+_TIME = "needs none: a limit of the time"
+_FINE = "`make constants`: doubled, it moves no width by more than"
 _DENSE = "none found: how finely values are tried; counted by `make coverage-table`"
 
 
@@ -23,7 +27,13 @@ def _of(file, **reasons):
 
 
 CHOSEN = {
-    **_of("margins/filling", _SHARE_IN_INTERVALS=_COUNTED),
+    **_of(
+        "margins/filling",
+        _SHARE_IN_INTERVALS=_COUNTED,
+        _WARNED_SHARE=_TOLD,
+        _GRAVE_SHARE=_TOLD,
+        _SMALLEST_CHANGE=_TOLD,
+    ),
     **_of("margins/grid", _UNSURE_RATIO=_COUNTED),
     **_of(
         "margins/spread",
@@ -45,6 +55,7 @@ CHOSEN = {
         _MEASURE_EXPONENT="`make intervals`, [the factors](science.md)",
         _YIELD_SHARE=_FACTORS,
         _GRID_WEIGHTS=_FACTORS,
+        _LARGEST_LOADING=f"{_FINE} 1 %",
         _NOISE_GROWTH="by definition: means over two by two points halve white noise",
     ),
     **_of(
@@ -52,18 +63,29 @@ CHOSEN = {
         _FEWEST_WAVES=_SEAL,
         _EXTRAPOLATION="`make seal-coverage`, half of [its parts](flow.md)",
     ),
-    **_of("fluid/reopening", _SMALLEST_SHARE=_SEAL, _NARROWEST_INTERVAL=_SEAL),
+    **_of(
+        "fluid/reopening",
+        _FIRST_SHARES="needs none: where the search begins, not where it ends",
+        _FIRST_STEP="needs none: where the search begins, not where it ends",
+        _SMALLEST_SHARE=_SEAL,
+        _NARROWEST_INTERVAL=_SEAL,
+    ),
     **_of(
         "fluid/sealing_pressure",
         _PERCOLATION_PRESSURE="by definition: Persson's area at [the area that seals](sealing.md)",
         _HARDNESS_SHARE="[the area that seals](sealing.md)",
         _FIRST_OF_GUESS="needs none: where the search begins, not where it ends",
         _FIRST_OF_EXPECTED="needs none: where the search begins, not where it ends",
+        _PART_OF_GAPS=f"{_FINE} 2 %",
+        _RTOL="needs none: a default, which callers give",
     ),
     **_of(
         "fluid/trials",
         _TRIAL_STEP="needs none: where the search begins, not where it ends",
         _MOST_TRIALS="needs none: a limit of the search",
+        _LARGEST_SHARE=_SEARCH,
+        _LARGEST_REACH=_SEARCH,
+        _SURENESS=_SEARCH,
         _LARGEST_STEP="36 maps of the study of sealing: 0.09 keeps 2 %, 0.12 does not",
     ),
     **_of("margins/spread", _PROBE="needs none: any small one shows what moves"),
@@ -73,15 +95,22 @@ CHOSEN = {
         _SIDE_TOLERANCE=_PART,
         _CHANCE=_PART,
     ),
-    **_of("margins/border_of_flow", COUNTED_RATIO=_LEAK, _END_ROUNDING=_DOUBLE),
+    **_of("margins/border_of_flow", COUNTED_RATIO=_TOLD, _END_ROUNDING=_DOUBLE),
     **_of("margins/scans", _LEAST_HEIGHTS="by definition: the scatter of a skewness"),
     **_of(
         "margins/scans",
         _CHANCE=_COUNTED,
         _SCAN_LINES=_COUNTED,
+        _SPRINGS_A_WAVE=f"{_FINE} 1 %",
+        _LEAST_SPRINGS=f"{_FINE} 1 %, and no value by more",
         _CUTS=_COUNTED,
     ),
-    **_of("question/case", _CHEAP="needs none: a limit of the time"),
+    **_of("assessment/facts", _WIDE_RATIO=_TOLD),
+    **_of("assessment/part_facts", _ADVISED_MAPS=_TOLD),
+    **_of("margins/place", _RTOL=f"{_FINE} 0.1 %"),
+    **_of("question/case", _CHEAP=_TIME, HALVED_FROM=_TIME),
+    **_of("question/meant", STEEP_SLOPE=_TOLD),
+    **_of("measurement/chance", MOST_CELLS=_TIME),
     **_of(
         "question/extrapolation",
         MOST_DOUBLINGS=f"`make interface-stiffness`, {_TILES}",
@@ -169,8 +198,8 @@ CHOSEN = {
         _LARGEST_FOLDED_BLUR=_FIT,
         _BLUR_STEP=_DENSE,
         _KNOWN_WITHIN=_FIT,
-        _DIRECTIONS=_DENSE,
-        _IMAGE_PLACES=_DENSE,
+        _DIRECTIONS=f"{_FINE} 0.5 %",
+        _IMAGE_PLACES=f"{_FINE} 0.5 %",
     ),
     **_of(
         "measurement/scan_bins",
@@ -205,7 +234,7 @@ GUARDS = {
         _RTOL="who gives no tolerance",
         _RTOL_FACTOR="cells that loads solved less well would decide",
     ),
-    **_of("fluid/reopening", _FIRST_SHARE="the number of presses"),
+    **_of("fluid/reopening", _FIRST_SHARES="the number of presses"),
     **_of(
         "fluid/trials",
         _MOST_TRIALS="bodies that never seal",

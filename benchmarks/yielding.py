@@ -60,7 +60,7 @@ def held(n, hardness):
 def add_memory(page):
     """Add the table of memory; processes count what the one that starts them holds."""
     page.heading("Memory over the interpreter, the generation included")
-    page.table("loads", "grid", "H", "elastic", "with yield", "ratio", at_most=0)
+    page.table("loads", "grid", "H", "elastic", "with yield", "ratio", at_most=3)
     for n in (1024, 2048):
         _, hardness = elsewhere(problem, n, 0.8, "12 loads")
         elastic, yielding = (elsewhere(held, n, each) for each in (np.inf, hardness))

@@ -24,6 +24,7 @@ from roughline.engineering.described import chemical_formulas
 from roughline.engineering.fluids import fluids
 from roughline.engineering.materials import materials
 from roughline.engineering.rules import rules
+from roughline.errors.earlier import EARLIER
 from roughline.exact import adhesion, flow, indenters, lines, mdr, punch, westergaard
 from roughline.texture.parameters import PROFILE_PARAMETERS, SURFACE_PARAMETERS
 from roughline.topography.files.formats import FORMATS
@@ -77,7 +78,7 @@ SECTIONS = {
     "Friction": (*("Friction", "SlidingCurve", "SlidingFields", "SlidingLineCurve", "cycle"),),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
-        *("Joint", "Ultrasound", "Theories", "Adhesion", "Fluid"),
+        *("Joint", "Ultrasound", "Theories", "Adhesion", "Fluid", "Shear"),
         *("export_table", "PartAssessment", "material", "Material", "Coated", "contact_modulus"),
         *("Rule", "Symbol", "rules", "own_words"),
         *("Cause", "OtherBodies", "Spread", "causes"),
@@ -101,6 +102,8 @@ SOURCES = {
     "made/commands.md": "../src/roughline/cli",
     "made/names.rst": "../src/roughline/__init__.pyi",
     "made/validation.md": "validation.json",
+    "made/findings.md": "../findings/README.md",
+    "made/earlier.md": "../src/roughline/errors/earlier.py",
     "made/gallery/index.rst": "gallery",
 }
 """Pages that are made, and what they are made of, from this folder; examples have their files.
@@ -108,6 +111,8 @@ SOURCES = {
 Links lead to what is in the repository, where pages are read as they are; in the handbook, they
 lead to the pages that are made.
 """
+
+FINDINGS = "https://github.com/roughline/roughline/blob/main/findings"
 
 _LINK = re.compile(r"(?<=\]\()[^)\s:#]+(?=\))")
 
@@ -131,11 +136,17 @@ GALLERY = (
     "rubber_over_time",
     "where_the_fluid_goes",
     "leak_over_load",
+    "which_way_it_leaks",
     "thin_gasket",
+    "how_thick_is_thick",
+    "line_seal",
     "ultrasound",
     "partial_slip",
     "loop_of_a_ball",
+    "where_it_slips",
+    "two_materials",
     "theories",
+    "why_not_better",
     "campaign_on_a_cluster",
     "trust",
 )
@@ -166,6 +177,8 @@ def write_pages(source: str | Path) -> None:
         "answers.md": page_of_answers(),
         "texture.md": page_of_texture(),
         "validation.md": page_of_validation(Path(source) / "validation.json"),
+        "earlier.md": page_of_earlier(),
+        "findings.md": page_of_findings(Path(source).parent / "findings"),
     }
     for name, text in pages.items():
         path = folder / name
@@ -369,6 +382,56 @@ def page_of_validation(path: Path) -> str:
         header = ("solution", "quantity", "points: error", "rate", "test")
         parts.append(table(header, map(_validated, of_model)))
     return "\n".join(parts)
+
+
+def page_of_earlier() -> str:
+    """Spellings of version 0.3 that are gone, each with the one that says the same now."""
+    rows = [(f"`{old}`", f"`{new}`") for old, new in sorted(EARLIER.items())]
+    own = "Each is refused in one line that tells the new one.\n"
+    return f"# Spellings of 0.3 that are gone\n\n{own}\n{table(('before', 'now'), rows)}"
+
+
+FINDING = re.compile(
+    r"#!/usr/bin/env bash\n"
+    r"# (?P<title>[^\n]+)\n#\n"
+    r"# One would guess (?P<guess>.+?)\n"
+    r"# What happens(?:, (?P<where>[^\n]+(?:\n# [^ ][^\n]+)*))?:\n"
+    r"(?P<happens>(?:#   [^\n]+\n)+)"
+    r"# Output seen(?: \([^)]+\))?:\n(?P<output>(?:#   [^\n]+\n)+)"
+    r"# Why it matters: (?P<why>.+?)\n"
+    r"# In roughline: (?P<ours>.+?)\n"
+    r"set -euo pipefail\n",
+    re.DOTALL,
+)
+"""The head of a script in ``findings/``."""
+
+
+def page_of_findings(folder: Path) -> str:
+    """What programs of the field do where a good guess goes wrong, from the heads of scripts."""
+    scripts = sorted(folder.glob("*.sh"))
+    parts = [
+        "# What other programs do otherwise than one would guess\n",
+        f"{len(scripts)} of them, each run on valid input in the versions that are named, and no "
+        "others. Many are as the programs' own pages say. The scripts print what they saw, and "
+        "fail if it has changed: `bash findings/NAME.sh`.\n",
+    ]
+    for script in scripts:
+        head = FINDING.match(script.read_text("utf-8"))
+        if head is None:
+            raise ValueError(f"{script.name}: its head is not of the form in CONTRIBUTING.md")
+        said = {
+            name: re.sub(r"\s*\n#\s*|\s+", " ", text or "")
+            for name, text in head.groupdict().items()
+        }
+        happens = said["happens"].strip("# ")
+        parts += [
+            f"## {said['title'].removesuffix('.')}\n",
+            f"**One would guess** {said['guess']}\n",
+            f"**What happens**{', ' * bool(said['where'])}{said['where']}: {happens}\n",
+            f"**Why it matters**: {said['why']}\n",
+            f"**In roughline**: {said['ours']} ([`{script.name}`]({FINDINGS}/{script.name}))\n",
+        ]
+    return "\n".join(parts).replace("<", "\\<")
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -16,6 +16,8 @@
 # Why it matters: a correlation length (Sal, 1/e) is where the curve has fallen to a share of its first
 # value. Read from the third line, the first value is zero and nothing falls: it must be taken from the
 # mean square height first.
+# In roughline: Sal and Str of rl.iso are read from the correlation itself, which begins at the mean square
+# height.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

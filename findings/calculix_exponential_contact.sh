@@ -17,6 +17,8 @@
 #   MORTAR, a table        0.154   4.615 1.000 |  0.385  11.538 1.000 |  0.615  18.461 1.000
 # Why it matters: light rough contact is close to exponential in the gap of the mean planes, which is
 # open as long as the law holds. SURFACE TO SURFACE drops all of that; MORTAR bears too little after it.
+# In roughline: A joint for CalculiX is a table. An exponential law stands beside it only where it meets the
+# loads within 5 %, and the file says which type of contact keeps which part of it.
 set -euo pipefail
 for tool in apt-get dpkg; do
   command -v "$tool" >/dev/null || { echo "This needs apt-get and dpkg of Debian 12."; exit 1; }

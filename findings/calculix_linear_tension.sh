@@ -16,6 +16,8 @@
 #   NODE TO SURFACE    3e13, 1e4      -2.000   0.000 | -0.500  -0.010 | -0.100  -0.010 |  0.154   4.608 |  0.615  18.453
 # Why it matters: rough joints are light, so that much of such a joint lies about the corner. It carries tension
 # there, and an opened seal or a rocking foot is held down.
+# In roughline: A joint for CalculiX is a table. The one linear law in it, with heat, is said to be for SURFACE
+# TO SURFACE alone.
 set -euo pipefail
 for tool in apt-get dpkg; do
   command -v "$tool" >/dev/null || { echo "This needs apt-get and dpkg of Debian 12."; exit 1; }

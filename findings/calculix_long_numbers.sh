@@ -17,6 +17,7 @@
 #   1.234567890123456713e-03  24 characters  1.234568 m
 # Why it matters: heights of rough surfaces in metres have digits to the end and an exponent. A mesh of them
 # that a script has written is the very case.
+# In roughline: Numbers of a joint for CalculiX have ten digits, and sixteen characters at most.
 set -euo pipefail
 for tool in apt-get dpkg; do
   command -v "$tool" >/dev/null || { echo "This needs apt-get and dpkg of Debian 12."; exit 1; }

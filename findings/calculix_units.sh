@@ -15,6 +15,8 @@
 #   micrometres    99.93   99.92   29.98   29.98
 # Why it matters: meshes of rough surfaces are made in metres, as files of instruments are. A joint of them is then
 # ten times softer than its roughness, and its fretting slip is all spring. Tell stiffness and stick slope.
+# In roughline: A joint for CalculiX states its pressure over the overclosure, in metres and pascals, so that
+# none is made up.
 set -euo pipefail
 for tool in apt-get dpkg; do
   command -v "$tool" >/dev/null || { echo "This needs apt-get and dpkg of Debian 12."; exit 1; }

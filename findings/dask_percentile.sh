@@ -15,6 +15,8 @@
 #   Dask, eight, 101 at once     -0.50   10.05   20.58
 # Why it matters: the Abbott curve, Sk and a robust datum are percentiles of large maps, which are chunked, and
 # which are tilted or wavy before they are levelled.
+# In roughline: The material ratio, Sk and what follows from it are of all heights of a map, sorted, whatever
+# its size.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

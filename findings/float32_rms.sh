@@ -19,6 +19,7 @@
 #   Numba, np.nanmean     1000.000     1.000
 # Why it matters: instruments write 32-bit heights above a far datum, and load, area and stiffness of a rough
 # contact go with the rms height and slope that such a line gives. Take the datum off first, or convert.
+# In roughline: Heights are in double precision as soon as they are read, whatever their type in the file.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

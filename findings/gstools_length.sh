@@ -13,6 +13,8 @@
 #   Gaussian, rescale=1  0.368  10.00  0.374
 # Why it matters: correlation lengths of rough surfaces, Sal among them, are read off such a fall. The rms
 # slope of a Gaussian surface, sqrt(2) Sq / l along a line, comes out 11 % too low, the curvature 21 %.
+# In roughline: A spectrum is told by wavenumbers, q_roll and q_high, and by no correlation length. Sal is where
+# the correlation has fallen to 0.2, as the standard says.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

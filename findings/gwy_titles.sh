@@ -14,6 +14,8 @@
 #   container    /0/data 1, /1/data 2, /2/data 3
 # Why it matters: a script that takes the height map of a title takes the retrace, without knowing that
 # there was a choice, and one that counts channels finds fewer than Gwyddion shows.
+# In roughline: Files of Gwyddion are read without that list: every channel can be had by its number, and those
+# of one name are told by trace and retrace.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

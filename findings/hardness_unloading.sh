@@ -3,7 +3,7 @@
 #
 # One would guess that two solvers for the contact of rough surfaces with a hardness agree: the peaks
 # that reached the hardness have yielded, so the surface unloads along another, stiffer curve.
-# What happens on the same periodic waves, E* = 1, hardness 0.1, loads 0.005 to 0.04 and back:
+# What happens, the same periodic waves, E* = 1, hardness 0.1, loads 0.005 to 0.04 and back:
 #   Both agree while the load grows, to the point of the grid.
 #   ContactMechanics 1.8.3 (on SurfaceTopography 1.27.1) keeps the flattened peaks: on return the contact
 #   is 1.6 and 2.7 times as large, and the greatest pressure falls below the hardness.
@@ -17,6 +17,8 @@
 #                         0.100  0.100  0.100  0.100  0.100
 # Why it matters: stiffness on unloading, residual gaps and a second loading need the flattened surface.
 # A saturated pressure says nothing of them, although it gives the first loading right.
+# In roughline: Peaks that have yielded keep their dents, and a curve has two stiffnesses: for more load, and
+# for less.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

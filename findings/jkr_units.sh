@@ -19,6 +19,8 @@
 #   the same, from the force                141.8  146.5  184.6
 # Why it matters: fits of indentation of soft matter are made in such units, and a radius of zero looks like
 # a sphere that has let go.
+# In roughline: Bodies that stick are scaled before they are solved. The same one in other units has the same
+# answer, which tests hold.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

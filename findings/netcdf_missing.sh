@@ -16,6 +16,8 @@
 #   SciPy              -500.0      0.0    500.0    500.5  15000.0 -16383.5
 # Why it matters: the points that an instrument rules out by its range, and lines of a scan that ended early,
 # come back as the highest peak and the deepest pit of the map.
+# In roughline: What lies outside valid_range, valid_min or valid_max is missing, and so is what the library
+# puts where nothing was written.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -17,6 +17,8 @@
 #   map_coordinates      0.02376   0.00006
 # Why it matters: periodic rough surfaces are shifted against each other (sliding, two bodies, a finer grid).
 # Only a strip as wide as the shift is wrong, yet its false steps are the steepest of the map.
+# In roughline: Of SciPy, periodic maps are given to filters alone. What is interpolated is no period, or is
+# made longer first.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

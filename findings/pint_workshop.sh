@@ -19,6 +19,8 @@
 #   kp, sccm, Torr, HV: refused
 # Why it matters: forces of presses are given in tons, roughness as Ra, seats in inches. A wrong dimension is
 # found when the quantity is converted; a ton that is 9 % light is not.
+# In roughline: Loads are forces or pressures: a ton or a tonne is refused as a load, kp too. Only ton_force is
+# still the short one.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -17,6 +17,8 @@
 #   BCR-1.0, Gwyddion      0      1      2 |      3      4      5 |      6  32767  16386
 # Why it matters: one missing point that is a height of 32767 steps is the peak that carries the contact, and
 # a surface upside down has another lay and meets another partner.
+# In roughline: Rows of BCR are in the order of the file, as Gwyddion has them, and both numbers are missing
+# points. The handbook's list of formats names the difference.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -14,6 +14,7 @@
 #   steps 1.0, 1.0, by 30 degrees: Sdq x 1.006, Sq x 0.998, steps 1.000, 1.000
 # Why it matters: profilers often have unlike steps, and a scan is turned to lay its lines along an axis.
 # Slope, area and period then belong to another surface, and contact, which follows the slope, with them.
+# In roughline: Maps are not turned by an angle. Their steps along x and y may differ everywhere.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

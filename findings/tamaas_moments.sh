@@ -16,6 +16,8 @@
 #   power law spectrum sqrt(2 m2) 54.5907  slope 343.0035  ratio 6.283185
 # Why it matters: asperity models take the density of summits from m4 / m2 and their curvature from
 # sqrt(m4). Either is 39.5 times too small where radians are meant.
+# In roughline: Wavenumbers are 2 pi over the wavelength throughout. Moments, slopes and curvatures have the
+# units of the lengths that the surface has.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

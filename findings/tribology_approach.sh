@@ -15,6 +15,8 @@
 #   dhertz, half the modulus   1.000
 # Why it matters: area and pressure, which one checks first, agree, so the approach and with it the stiffness
 # of a ball contact are believed: a stiffness of 1.59 times the true one.
+# In roughline: There is one modulus of contact, E*. rl.contact_modulus returns it of two materials, and all
+# formulas take it.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -16,6 +16,7 @@
 #   made with process=False, in m points 66049  faces 131072  without area      0  area 1.077
 # Why it matters: files for finite elements are often in metres, and points of an AFM scan a nanometre apart.
 # What is left is as large as before and has a point every 10 nm: its slopes and its contact are others.
+# In roughline: Meshes are not read. Maps keep all their points in any unit.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -14,6 +14,8 @@
 #   at once     1.00e-06  2.00e-06  3.00e-05 -2.55e-05
 # Why it matters: campaigns append one batch after another, made by other hands or other settings. Check the units
 # of the store before, and pack only what is known to stay within its range.
+# In roughline: A campaign's store has its units and types before the first batch, nothing is packed, and
+# nothing is appended.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

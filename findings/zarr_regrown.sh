@@ -14,6 +14,8 @@
 #   format 3, append   0  1  2  3  4  5 99
 # Why it matters: a store of many computations is cut back to drop a batch that failed, and enlarged before it is
 # written again. Whoever then asks which rows are still the fill value, to compute those, skips the bad ones.
+# In roughline: A store of a campaign grows only. Each case has a status of its own, by which it is computed
+# again or not.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

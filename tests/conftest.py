@@ -63,7 +63,7 @@ def pytest_unconfigure():
 @pytest.fixture
 def few_loads(monkeypatch):
     """Let a whole curve have few loads, each of which takes as long as the others."""
-    monkeypatch.setattr("roughline.question.loading._CURVE_LOADS", 3)
+    monkeypatch.setattr("roughline.question.loading.CURVE_LOADS", 3)
 
 
 @pytest.fixture(params=["few loads", "all loads"])

@@ -83,6 +83,7 @@ from roughline.measurement.fit import fit_self_affine as fit_self_affine
 from roughline.measurement.roughness import roughness as roughness
 from roughline.question.asked import Adhesion as Adhesion
 from roughline.question.asked import Joint as Joint
+from roughline.question.asked import Shear as Shear
 from roughline.question.asked import Theories as Theories
 from roughline.question.asked import Ultrasound as Ultrasound
 from roughline.question.question import Question as Question

@@ -1,3 +1,3 @@
 """The version, kept where importing it costs nothing."""
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"

@@ -2,25 +2,20 @@
 
     python -m studies.sealing.run FILE [PROCESSES]
 
-goes on where it stopped, by Ctrl-C or else: what the file has is not computed again, and no more is
-lost than the bodies in work. It takes some four hours of one core, or half of that of two; the
-file is the same whatever the processes. After each body it says how long the rest will take.
+goes on where it stopped, as :class:`studies.lines.Run` says. It takes some four hours of one core,
+or half of that of two.
 """
 
 from __future__ import annotations
 
 import json
-import multiprocessing
-import signal
 import sys
-import time
-from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import cache
-from pathlib import Path
 
 from roughline._version import __version__
-from roughline.errors import ConvergenceError, RoughlineError, StoreError
+from roughline.errors import ConvergenceError, StoreError
+from studies.lines import Run, in_turns, rounded
 from studies.sealing.body import ELASTIC, FULL, MOSTLY, WEAK, Case, measured
 
 HURSTS = (0.3, 0.5, 0.8)
@@ -42,7 +37,6 @@ FINE_CELLS, FINEST_CELLS = FINE_COUNTS
 Body = tuple[Case, int]
 """A case, and the number of one of its bodies."""
 
-_DIGITS = 5
 _FLOW = "cell"  # how gaps are closed along the flow; rows without it are of gaps with two ends
 _SECONDS, _GROWTH = 0.28, 1.85
 """What a small body takes without leaks [s], and the power of the side with which it grows."""
@@ -73,12 +67,7 @@ def counts() -> dict[Case, tuple[int, int]]:
 
 def planned() -> list[Body]:
     """Return all bodies in the order in which they are pressed: the same share of each case."""
-    shares = [
-        ((number + 0.5) / count, i, (case, number))
-        for i, (case, (count, _)) in enumerate(counts().items())
-        for number in range(count)
-    ]
-    return [body for *_, body in sorted(shares, key=lambda each: each[:2])]
+    return in_turns({case: count for case, (count, _) in counts().items()})
 
 
 def leaks(body: Body) -> bool:
@@ -94,48 +83,6 @@ def seconds(body: Body) -> float:
     return alone * (_LEAKING_TIMES if leaks(body) else 1.0)
 
 
-def run(bodies: Sequence[Body], file: Path, processes: int = 1) -> None:
-    """Press those bodies that a file does not have, and append them to it."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    done = set(map(body_of, _whole_lines(file)))
-    missing = [body for body in bodies if body not in done]
-    left, took = sum(map(seconds, missing)), 0.0
-    start = time.perf_counter()
-    with file.open("a", encoding="utf-8") as out:
-        lines = zip(missing, _lines(missing, processes), strict=True)
-        for number, (body, line) in enumerate(lines, len(done) + 1):
-            out.write(line)
-            out.flush()
-            took += seconds(body)
-            minutes = (time.perf_counter() - start) / 60 * (left / took - 1)
-            print(f"{number} of {len(bodies)}, {minutes:.0f} min left", flush=True)
-
-
-def _whole_lines(file: Path) -> list[str]:
-    """Lines that a file has, after one that was cut off is taken away."""
-    file.touch()
-    with file.open("r+b") as lines:
-        content = lines.read()
-        whole = content.rfind(b"\n") + 1
-        lines.truncate(whole)
-    return content[:whole].decode("utf-8").splitlines()
-
-
-def _lines(bodies: Sequence[Body], processes: int) -> Iterator[str]:
-    """Press bodies, and return the line of each in their order."""
-    if processes == 1:
-        yield from map(_line, bodies)
-        return
-    context = multiprocessing.get_context("spawn")
-    with context.Pool(processes, _leave_interrupts) as pool:
-        yield from pool.imap(_line, bodies)
-
-
-def _leave_interrupts() -> None:
-    """Leave Ctrl-C to the process that writes."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 def _line(body: Body) -> str:
     """Press a body, and write its line; nothing was found where a load was not solved."""
     case, number = body
@@ -143,16 +90,9 @@ def _line(body: Body) -> str:
         found = measured(case, number, leaks(body))
     except ConvergenceError:
         found = {}
-    rounded = {name: _rounded(value) for name, value in found.items()}
+    values = {name: rounded(value) for name, value in found.items()}
     of = {**asdict(case), "hardness": str(case.hardness), "number": number}
-    return json.dumps({**of, "flow": _FLOW, "version": __version__, **rounded}) + "\n"
-
-
-def _rounded(value: float | list[float]) -> float | list[float]:
-    """Round to the digits that are written."""
-    if isinstance(value, list):
-        return [float(f"{each:.{_DIGITS}g}") for each in value]
-    return float(f"{value:.{_DIGITS}g}")
+    return json.dumps({**of, "flow": _FLOW, "version": __version__, **values}) + "\n"
 
 
 def body_of(line: str) -> Body:
@@ -167,16 +107,7 @@ def body_of(line: str) -> Body:
     return Case(waves, hurst, float(content["hardness"]), cells), content["number"]
 
 
-def main(file: str, processes: str = "1") -> None:
-    """Run the study; an error is one line, and so are Ctrl-C and SIGTERM."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        run(planned(), Path(file), int(processes))
-    except RoughlineError as error:
-        sys.exit(f"error: {error}")
-    except KeyboardInterrupt:
-        sys.exit("stopped; the same command goes on from here")
-
+run = Run(_line, body_of, seconds)
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    run.main(planned(), *sys.argv[1:])

@@ -25,7 +25,7 @@ from roughline.campaign.cluster import interrupts_held_back
 from roughline.campaign.cost import chunk_shape
 from roughline.errors import ClusterError
 from short_files import short_files, shorten_files
-from small_campaign import finish, hear_interrupts, run, start, tree, with_first_results
+from small_campaign import HELD, finish, hear_interrupts, run, start, tree, with_first_results
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
 
@@ -86,7 +86,7 @@ def kill_a_worker(process):
 
 
 @pytest.fixture
-def disturbed(size, plan, invoke, monkeypatch):
+def disturbed(size, plan, invoke, monkeypatch, tmp_path):
     """Run a campaign that is disturbed on its way; its exit code, output and errors."""
 
     def here(store, disturb, *arguments, at):
@@ -94,10 +94,11 @@ def disturbed(size, plan, invoke, monkeypatch):
         return invoke("campaign", "run", plan, "--store", store, *arguments)
 
     def there(store, disturb, *arguments, at):
-        process = start(plan, store, *arguments)
+        process = start(plan, store, *arguments, until=tmp_path / "the end")
         for count in at:
             wait_for_results(store, process, count)
             disturb(process.pid)
+        (tmp_path / "the end").touch()
         return finish(process)
 
     return here if size == "few" else there
@@ -108,12 +109,9 @@ def begun(size, plan, tmp_path):
     """Start a campaign in a process of its own and wait for results; more are still to come."""
 
     def with_some_results(store):
-        if size == "many":
-            process = start(plan, store)
-            wait_for_results(store, process)
-        else:
-            process = start(plan, store, "--workers", 1, until=tmp_path / "the end")
-            wait_for_results(store, process, 1, "lines")
+        is_small = size == "few"
+        process = start(plan, store, *["--workers", 1] * is_small, until=tmp_path / "the end")
+        wait_for_results(store, process, *([1, "lines"] if is_small else []))
         return process
 
     return with_some_results
@@ -138,7 +136,7 @@ def test_workers_killed_and_another_campaign_on_the_same_store(
         assert "is in use by another campaign: wait for it to end" in err
         kill_a_worker(process)
 
-    workers = () if size == "many" else ("--workers", 1)
+    workers = "--workers", 2 if size == "many" else 1  # one of them may wait for the end
     code, out, err = disturbed(store, disturb, *workers, at=(2, 5))
     assert code == 0, err
     assert f"{cases_of(plan)} cases computed, 0 failed" in out
@@ -170,13 +168,15 @@ def test_the_client_stopped(plan, resume, begun, tmp_path, number):
 
 @pytest.fixture
 def soon_given_up(monkeypatch):
-    """Try only shortly to find a scheduler again that is gone."""
-    again = Client._reconnect
+    """Try only shortly to find a scheduler again that is gone, and close patiently."""
+    again, close = Client._reconnect, Client.close
 
     async def shortly(client):
         client._timeout = 0.1
         await again(client)
 
+    # whose own patience is twice that with which it connects
+    monkeypatch.setattr(Client, "close", lambda client: close(client, timeout=patience()))
     monkeypatch.setattr(Client, "_reconnect", shortly)
 
 
@@ -214,7 +214,7 @@ def test_the_scheduler_killed_while_it_is_asked(
         campaign.run(campaign.read_plan(few_plan_file), tmp_path / "store", scheduler=address)
 
 
-SCRIPT = """
+SCRIPT = """{held}
 from roughline import campaign
 if __name__ == "__main__":
     campaign.run(campaign.read_plan({plan!r}), {store!r}, workers=1)
@@ -248,7 +248,9 @@ def interrupted_here(plan, store, address):
 
 
 def interrupted_there(plan, store, script):
-    script.write_text(SCRIPT.format(plan=str(plan), store=str(store)))
+    end = script.with_name("the end")
+    text = SCRIPT.format(held=HELD.format(end=str(end)), plan=str(plan), store=str(store))
+    script.write_text(text)
     process = subprocess.Popen(
         [sys.executable, str(script)],
         stderr=subprocess.PIPE,
@@ -258,6 +260,7 @@ def interrupted_there(plan, store, script):
     )
     wait_for_results(store, process)
     os.killpg(process.pid, signal.SIGINT)
+    end.touch()
     return finish(process)[2]
 
 
@@ -360,7 +363,7 @@ def test_files_that_may_not_grow(
 
 def test_a_script_without_a_guard(few_plan_file, tmp_path):
     script, store = tmp_path / "study.py", tmp_path / "store"
-    guarded = SCRIPT.format(plan=str(few_plan_file), store=str(store))
+    guarded = SCRIPT.format(held="", plan=str(few_plan_file), store=str(store))
     script.write_text(guarded.replace('__name__ == "__main__"', "True"))
     done = ended([sys.executable, script])
     assert done.returncode == 1
@@ -383,7 +386,7 @@ asyncio.run(cell())
 def test_a_notebook_and_a_script_with_a_guard(few_plan_file, few_undisturbed, tmp_path, where):
     """Without a file to import, inside a running event loop; and from a file that is imported."""
     texts = {"cell": CELL, "script": SCRIPT}
-    text = texts[where].format(plan=str(few_plan_file), store=str(tmp_path / "store"))
+    text = texts[where].format(held="", plan=str(few_plan_file), store=str(tmp_path / "store"))
     (tmp_path / "study.py").write_text(text)
     done = ended([sys.executable, *(["-c", text] if where == "cell" else [tmp_path / "study.py"])])
     assert (done.returncode, done.stderr) == (0, "")

@@ -26,6 +26,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "not_offered.md"
             ("press", "x", "--coating", "gold"),
             "there is no option --coating; did you mean --materials?",
         ),
+        (("press", "x", "--slip", "1"), "there is no option --slip; did you mean --shear?"),
         (("press", "x", "--creep", "1"), "there is no option --creep; see roughline creep --help"),
         (("press", "x", "--radius", "1"), "there is no option --radius; see roughline ball --help"),
         (("press", "x", "--xyzzy"), "there is no option --xyzzy; --help lists the options"),
@@ -71,7 +72,7 @@ def test_a_mistake_in_a_command_is_one_line(invoke, arguments, told):
     assert errors.count("\n") == 1
 
 
-@pytest.mark.parametrize("option", ["--loss-modulus", "--slip", "--wear", "--lubricant"])
+@pytest.mark.parametrize("option", ["--loss-modulus", "--sliding", "--wear", "--lubricant"])
 def test_what_is_not_offered_is_said_to_be_so(invoke, option):
     code, _, errors = invoke("press", "x", option, "1")
     assert code == 2

@@ -105,6 +105,7 @@ def test_each_exact_test_stands_on_the_page_of_validation():
     page = made.page_of_validation(root / "docs" / "validation.json")
     told = {each["test"] for each in json.loads((root / "docs" / "validation.json").read_text())}
     files = ("halfspace/test_exact_solutions", "halfspace/test_hardness_exact")
+    files += ("halfspace/friction/test_exact_friction",)
     found = {
         f"tests/{file}.py::{name}"
         for file in (*files, "reduction/test_exact_solutions")
@@ -114,7 +115,7 @@ def test_each_exact_test_stands_on_the_page_of_validation():
         if "judged" in arguments
     }
     assert told == found
-    assert len(found) == 11
+    assert len(found) == 18
     for each in told:
         assert each.partition("::")[2].removeprefix("test_").replace("_", " ") in page
 
@@ -153,3 +154,9 @@ def test_the_citation_is_of_this_version():
     root = GALLERY.parents[1]
     assert f"version = {{{rl.__version__}}}" in (root / "docs" / "cite.md").read_text("utf-8")
     assert f"\nversion: {rl.__version__}\n" in (root / "CITATION.cff").read_text("utf-8")
+    assert json.loads((root / ".zenodo.json").read_text("utf-8"))["version"] == rl.__version__
+
+
+def test_the_changelog_begins_with_this_version():
+    text = (GALLERY.parents[1] / "CHANGELOG.md").read_text("utf-8")
+    assert re.findall(r"^## \[(.+?)\]", text, re.MULTILINE)[0] in ("Unreleased", rl.__version__)

@@ -15,7 +15,7 @@ STYLE = (
 
 def test_tables_do_not_run_out_of_the_page(browser):
     reader = MarkdownIt("commonmark").enable("table")
-    studies = ("area", "averaging", "correlations", "finite_size", "paper", "sealing")
+    studies = ("area", "averaging", "correlations", "finite_size", "friction", "paper", "sealing")
     assert {f"{name}.md" for name in studies} <= {p.name for p in PAGES}
     page = browser.new_page(viewport={"width": 1200, "height": 900})
     for path in PAGES:

@@ -13,7 +13,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse import cache
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.operators import coarse_grid, convolution
-from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
+from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid, Splines
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes
@@ -40,7 +40,7 @@ def contact_nodes(shape, seed, part):
 def made(operator, ratios):
     """Split an operator."""
     restricted = ApproximateInverse.of(operator).restricted
-    return RestrictedOperator.of(operator, ratios, restricted._margins)
+    return RestrictedOperator.of(operator, ratios, restricted.margins)
 
 
 def on(operator, nodes):
@@ -212,8 +212,9 @@ def damaged(name):
             far = dataclasses.replace(whole.far, convolution=weak)
             return dataclasses.replace(whole, far=far)
         if name == "weights of another place":
-            rolled = tuple(np.roll(each, 1, axis=0) for each in whole.far.weights)
-            return dataclasses.replace(whole, far=dataclasses.replace(whole.far, weights=rolled))
+            rolled = tuple(np.roll(each, 1, axis=0) for each in whole.far.splines.weights)
+            splines = dataclasses.replace(whole.far.splines, weights=rolled)
+            return dataclasses.replace(whole, far=dataclasses.replace(whole.far, splines=splines))
         assert name == "not a number"
         return dataclasses.replace(whole, taps=np.nan * whole.taps)
 
@@ -286,7 +287,8 @@ def test_later_searches_look_beside_the_contact_too(monkeypatch):
 def test_whole_fields_on_small_grids_are_displaced_as_others(shape, periodic):
     operator = on_grid(Homogeneous(2.0, periodic), shape, (1.0, 0.7))
     none = np.empty((1, 4), dtype=np.float32)
-    small = CoarseGrid(operator, (none, none), periodic)
+    splines = Splines(shape, (none, none), (periodic, periodic), operator.workspace)
+    small = CoarseGrid(operator, splines)
     rng = np.random.default_rng(3)
     for _ in range(2):
         pressure = rng.normal(size=shape).astype(np.float32)
@@ -301,7 +303,7 @@ def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
         on(operator, GridNodes.of(contact_nodes((256, 256), 1, part), (256, 256)))
         for part in (0.001, 0.1, 0.5, 1.0)
     ]
-    sides = [None if each is None else each.far.weights[0].shape[0] for each in shapes]
+    sides = [None if each is None else each.far.splines.weights[0].shape[0] for each in shapes]
     assert sides == [8, 4, 2, None]
 
 

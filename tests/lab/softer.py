@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import roughline as rl
-from roughline.lab.controls import Control
+from roughline.lab.controls import Number
 from roughline.lab.explore.state import Physics
 from roughline.lab.explore.words import item
 
@@ -17,7 +17,17 @@ class Softer(Physics):
     key = "times"
     tick = "the body is softer"
     meaning = "The body gives way so many times as far."
-    controls = (Control("times", "s", "softness", 1.0, 10.0, 2.0, "Of the body."),)
+    controls = (
+        Number(
+            key="times",
+            symbol="s",
+            name="softness",
+            low=1.0,
+            high=10.0,
+            default=2.0,
+            meaning="Of the body.",
+        ),
+    )
     unlike = "on the harder body"
     strip = {"times": "area"}  # noqa: RUF012
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
+from roughline.lab.explore.physics import PHYSICS
 from roughline.lab.explore.reading import read_state as explore_state
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, control_texts, page_question
@@ -42,6 +43,8 @@ def some(controls):
 STATES = some(
     {
         **{each.key: texts(each) for each in NUMBERS},
+        **{each.key: texts(each) for kind in PHYSICS for each in kind.controls},
+        "fluid": st.just("x"),
         **{each.key: st.sampled_from(list(each.options)) for each in WORDS},
         "n": st.sampled_from(["64", "128"]),
         "seed": st.integers(0, 999_999).map(str),
@@ -70,6 +73,9 @@ def test_an_address_of_explore_gives_its_state_again(said, with_units):
     asked = {"state": said | with_units}
     state, _ = usable(asked, explore_state, lambda found: {})
     assert explore_state(state.address()) == state
+    added = {each.key for each in state.added}
+    assert {kind.key for kind in PHYSICS} & state.address().keys() == added
+    assert all(kind.key in said | with_units for kind in PHYSICS if kind.key in added)
 
 
 @settings(max_examples=150, deadline=None)

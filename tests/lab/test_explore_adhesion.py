@@ -13,7 +13,6 @@ from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads, saved
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import adhesion, code, pictures
 from roughline.lab.explore.reading import read_state, usable_state
-from roughline.lab.explore.state import ExploreState
 
 SCALE = E_STAR * HEIGHT * LENGTH
 STICKS = {"n": "64", "D_f": "2.2", "seed": "7", "F": "0.08", "w": "1", "h0": "0.5"}
@@ -154,11 +153,7 @@ def test_works_and_ranges_may_have_units():
     assert state.added[0].numbers == pytest.approx({"w": 1, "h0": 0.4})
 
 
-def test_an_address_carries_both_and_without_the_tick_nothing_sticks():
-    state = read_state(POORLY)
-    assert {key: state.address()[key] for key in ("w", "h0")} == {"w": "1", "h0": "0.35"}
-    assert read_state(state.address()) == state
-    assert ExploreState().law is None
+def test_without_the_tick_nothing_sticks():
     with pytest.raises(ControlError) as error:
         answer(pictures.further, {**STICKS, "w": ""}, of="w")
     assert error.value.at == "w"

@@ -175,11 +175,7 @@ def test_a_load_that_is_not_solved_has_no_flow(monkeypatch):
     assert list(arrays) == []
 
 
-def test_an_address_carries_the_tick_and_refuses_another_word():
-    state = read_state(FLOWS)
-    assert state.address()["fluid"] == "x"
-    assert read_state(state.address()) == state
-    assert "fluid" not in read_state(SMALL).address()
+def test_another_word_is_refused_at_the_tick():
     with pytest.raises(ControlError) as refused:
         read_state({"fluid": "z"})
     assert refused.value.at == "fluid"

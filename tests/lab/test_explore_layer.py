@@ -92,13 +92,11 @@ def test_a_layer_that_a_coarser_grid_does_not_resolve_is_refused_at_what_was_cha
     assert state.points(64) == 256
 
 
-def test_an_address_carries_it_with_units():
+def test_its_numbers_may_have_units():
     state = read_state(SMALL | {"t": "50 um", "E_l": "22 GPa"})
     assert state.added[0].numbers == pytest.approx(
         {"t": 0.05, "E_l": 0.2, "nu_l": 0.3, "nu_b": 0.3}
     )
-    assert read_state(state.address()) == state
-    assert "t" not in read_state(SMALL | {"E_l": "2"}).address()
 
 
 @pytest.mark.parametrize(

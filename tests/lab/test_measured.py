@@ -22,11 +22,10 @@ from gwyddion_files import field, gwy
 from lab.unpacked import HALF_A_STEP, assert_sent, unpacked
 from roughline.comparison.compared import NamedBody, compare_models
 from roughline.errors.words import speaking
-from roughline.lab.measured import documents
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.controls import BY_CONTROL
 from roughline.lab.measured.examples import EXAMPLES, write_example
-from roughline.lab.measured.state import CONTROLS, control_texts, first_source, page_question
+from roughline.lab.measured.state import PAGE_WORDS, control_texts, first_source, page_question
 from roughline.lab.server.tasks import run_task
 from roughline.lab.site import TASKS
 from roughline.question.description import describe
@@ -189,7 +188,7 @@ def test_answers_are_those_of_the_library(page, key):
     said = {"example": key, **PAIR, **SMALL, "friction": "0.3", "frequency": "5 MHz"}
     source = first_source(said, page.session)
     question = page_question(said, source)
-    with speaking(CONTROLS):
+    with speaking(PAGE_WORDS):
         expected = rl.assess(question)
     header, arrays = page.ask("answer", said)
     rows = [
@@ -201,7 +200,7 @@ def test_answers_are_those_of_the_library(page, key):
     ]
     assert [header["tables"]["measured-answers"][:2], header["tables"]["measured-formulas"]] == rows
     assert table_of(header, "stiffness") == curve_table(expected)
-    with speaking(CONTROLS):
+    with speaking(PAGE_WORDS):
         first = [sentence(each.brief) for each in expected.facts[:3] if each.is_warning]
         in_words = sorted(map(in_full, expected.facts))
     assert header["lists"]["grave"] == first
@@ -544,39 +543,6 @@ def test_no_file_that_is_taken_away_tells_where_the_upload_lay(
     assert "<h1>Contact of Müller &lt;1&gt;.nc</h1>" in html
     with xarray.open_dataset(results / header["files"]["curve.nc"], engine="h5netcdf") as curve:
         assert curve.attrs["body_file"] == "Müller <1>.nc"
-
-
-def test_the_command_repeats_the_answers(
-    page, loads_of_curve, invoke, only_drawn, tmp_path, monkeypatch
-):
-    only_drawn()
-    said = {
-        **{"example": "ground", **PAIR, **SMALL, "outliers": "remove", "trend": "curvature"},
-        **{"crop": "0 um, 300 um, 0 um, 300 um", "friction": "0.3", "boundary": "periodic"},
-        **{"theories": "persson", "grid_error": "no", "fill": "nearest", "most_missing": "20 %"},
-    }
-    header, _ = page.ask("answer", said)
-    page.ask("code", said, which="command")
-    page.example("ground", tmp_path)
-    monkeypatch.chdir(tmp_path)
-    command = shlex.split(documents.as_command(said, ["ground-steel.x3p"]))
-    code, out, errors = invoke(*command[1:], "--all")
-    assert code == 0, errors
-    table = [row[1] for row in header["panels"]["stiffness"]["rows"]]
-    assert all(value.split(" (")[0] in out for value in table)
-    page_html = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
-    assert "Contact of ground-steel.x3p" in page_html
-
-
-def test_the_lines_of_python_repeat_the_answers(page, cells, tmp_path, monkeypatch):
-    said = {"example": "film", **PAIR, **cells, "crop": "0 um, 2 um, 0 um, 2 um"}
-    header, _ = page.ask("code", said, which="python")
-    page.example("film", tmp_path)
-    monkeypatch.chdir(tmp_path)
-    found = {}
-    exec(header["text"], found)
-    answered, _ = page.ask("answer", said)
-    assert answered["tables"]["measured-answers"][:2] == list(in_answers(found["result"]))
 
 
 EVERY = {

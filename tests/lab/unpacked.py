@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-HALF_A_STEP = 0.5001 / (2**16 - 2)  # of a map, over its range: that far numbers may be off
+HALF_A_STEP = 0.5001 / (2**16 - 1)  # of a small map, over its range: that far numbers may be off
 
 
 def unpacked(message, **held):
@@ -25,10 +25,12 @@ def _array(message, place, start):
     shape, count = place["shape"], int(np.prod(place["shape"]))
     if place["dtype"] != "packed":
         return np.frombuffer(message, place["dtype"], count, start).reshape(shape)
-    upper, lower = np.frombuffer(message, np.uint8, 2 * count, start).reshape(2, *shape).astype(int)
+    content = np.frombuffer(message, np.uint8, 2 * count + -(-count // 8), start)
+    upper, lower = content[: 2 * count].reshape(2, *shape).astype(int)
     turned = 256 * upper + lower
     steps = np.cumsum(np.cumsum(turned >> 1 ^ -(turned & 1), axis=0), axis=1) % 2**16
-    return np.where(steps > 0, place["low"] + place["step"] * (steps - 1), np.nan)
+    is_unknown = np.unpackbits(content[2 * count :], count=count).reshape(shape)
+    return np.where(is_unknown, np.nan, place["low"] + place["step"] * steps)
 
 
 def assert_sent(array, wanted):

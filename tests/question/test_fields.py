@@ -69,7 +69,7 @@ fields.FIELDS += (
 from roughline.cli.flags import FLAGS
 from roughline.lab.measured.documents import as_command, as_python
 from roughline.lab.measured.state import control_texts
-from roughline.lab.measured.state import CONTROLS
+from roughline.lab.measured.state import PAGE_WORDS
 from roughline.lab.site import page
 
 said = {"first": "steel", "second": "copper", "temperature": "300 K"}
@@ -79,7 +79,7 @@ assert "Temperature of both bodies." in page()
 assert "--temperature '300 K'" in as_command(said, ["a.nc"])
 assert "temperature='300 K'," in as_python(said, ["a.nc"])
 assert FLAGS.names["temperature"] == "--temperature"
-assert CONTROLS.names["temperature"] == "temperature"
+assert PAGE_WORDS.names["temperature"] == "temperature"
 """
 
 

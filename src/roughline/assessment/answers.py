@@ -9,6 +9,7 @@ import numpy as np
 from attrs import evolve
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.shear import margins_of_shear
 from roughline.assessment.solution import LeftOpen, Solution, combine_curves
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -20,6 +21,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
+from roughline.engineering.slip import ShearCycles
 from roughline.facts.fact import Fact
 from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.larger_surface import Differences, stiffness_of_the_piece
@@ -80,12 +82,15 @@ def margins_by_cause(
     left_open: LeftOpen | None,
     answers: Mapping[str, Answer],
     scatter: Mapping[str, Ends],
+    sheared: ShearCycles | None = None,
 ) -> Mapping[str, Sequence[Margin]]:
     """How far each cause alone leaves each answer open; its ends are NaN where that is not known.
 
     An answer that is sought brings an interval of its own, of its half grid and its quarters.
     """
     found: dict[str, list[Margin]] = {key: [] for key in answers}
+    for key, margins in margins_of_shear(case, sheared, answers).items():
+        found[key] += margins
     if left_open is None:  # of a line scan, whose lines are all that leaves it open
         for key, answer in answers.items():
             if answer.ends is not None and _is_open(answer):

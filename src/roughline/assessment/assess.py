@@ -12,6 +12,7 @@ from roughline.assessment.bounds import elastic_answers, widen_by_scatter
 from roughline.assessment.cost import Announce, announce_cost
 from roughline.assessment.facts import collect_facts
 from roughline.assessment.presses import list_presses
+from roughline.assessment.shear import sheared
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import (
     LeftOpen,
@@ -71,7 +72,8 @@ def assess_body(
     answers, left_out = work_out_answers(case, solution)
     theories, others = _theories(question, case.body, solution.curve)
     scatter, widened, intervals = widen_by_scatter(case, curves, solution, answers)
-    margins = margins_by_cause(case, curves, left_open, answers, scatter)
+    path = solution.sought.sheared
+    margins = margins_by_cause(case, curves, left_open, answers, scatter, path)
     loads = case.loads.asked_loads(solution.curve)
     result = Assessment(
         question,
@@ -109,7 +111,8 @@ def _solved(
     curves = _pressed(case, announce, progress)
     left_open = LeftOpen.of(case, curves)
     solution = combine_curves(case, curves, left_open)
-    sought = replace(solution.sought, slip=slip_at_largest_load(case, curves))
+    slip, path = slip_at_largest_load(case, curves), sheared(case, curves)
+    sought = replace(solution.sought, slip=slip, sheared=path)
     _refuse_all_at_the_hardness(case, solution.curve)
     return curves, left_open, replace(solution, sought=sought)
 

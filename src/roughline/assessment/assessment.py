@@ -80,7 +80,8 @@ class Assessment(WithFacts):
     sought : Sought
         What was sought beyond the loads, as far as that was asked for: at which mean pressure the
         gap of the map seals (``closing``), what it takes to draw bodies apart that stick
-        (``separation``), and how they slip (``slip``).
+        (``separation``), how they slip before they slide (``slip``), and what a shear force to and
+        fro does (``sheared``).
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved, rising, each once.
     facts : sequence of Fact
@@ -171,6 +172,8 @@ class Assessment(WithFacts):
     @property
     def is_solved(self) -> bool:
         """Whether all loads were solved, but for those under which a fluid lifts the bodies."""
+        if self.question.shear is not None and self.sought.sheared is None:
+            return False
         return bool((self.curve.converged | (self.curve.status == Status.LIFTED)).all())
 
     def load_on(self, force: Real) -> Real:

@@ -32,6 +32,7 @@ _ANNOUNCED_LOADS = 1000  # loads from which on the cost is announced
 # Memory of whole commands on 1024² and 2048² points, as measured. [bytes], and per point
 _BYTES_TO_READ = 30_000_000  # beside that of a press
 _BYTES_OF_OTHER_CURVES = 30  # with materials
+_BYTES_OF_SHEAR = 210  # as counted: how shear displaces, and fields of two loads with slip
 _BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
 _LOADS_TO_SEAL = 45  # that both are sought with, quarters and coarser grids included
 _SECONDS_OF_FLOW, _POWER_OF_FLOW = 1e-7, 1.25  # of points, as measured from 256² to 1024²
@@ -70,7 +71,9 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
         )
 
     costs = [(each, estimated(each)) for each in variants]
-    memory = _most_memory(case, body, max(cost.memory for _, cost in costs))
+    sheared = {"shear": _BYTES_OF_SHEAR * body.heights.size}
+    pressing = max(cost.memory + sheared.get(each.purpose, 0) for each, cost in costs)
+    memory = _most_memory(case, body, pressing)
 
     def seconds(purpose: str) -> float:
         return sum(each.share * cost.seconds for each, cost in costs if each.purpose == purpose)
@@ -78,6 +81,8 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
     text = f"about {gigabytes(memory)} and {duration(seconds('as asked'))}"
     if of_interface := seconds("interface"):
         text += f", then {duration(of_interface)} for the interface"
+    if of_shear := seconds("shear"):
+        text += f", {duration(of_shear)} for the shear force"
     if of_flow := _seconds_of_flow(case, variants):
         text += f", {duration(of_flow)} for what flows"
     if case.question.fluid is not None and case.question.fluid.closure:
@@ -98,7 +103,7 @@ def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
     taken = [
         each.share * math.prod(each.shape) ** _POWER_OF_FLOW
         for each in variants
-        if each.periodic == is_repeated and each.purpose != "slip"
+        if each.periodic == is_repeated and each.purpose not in ("slip", "shear")
     ]
     apertures = len(sealing.directions) * (1 if sealing.rarefied.is_even(0.0) else 2)
     return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)

@@ -10,6 +10,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.contact.borders import border_warnings
 from roughline.contact.curve import SurfaceCurve
 from roughline.engineering.conduction import facts_on_currents
+from roughline.engineering.rules.friction import SHEAR_ANSWERS
 from roughline.engineering.rules.mechanical import (
     CONTACT_STIFFNESS,
     INTERFACE_STIFFNESS,
@@ -48,6 +49,7 @@ def collect_facts(result: Assessment, of_causes: Sequence[Fact]) -> list[Fact]:
             *_on_theories(question, body),
             *(fact for each in result.answers.values() for fact in each.facts),
             *_on_wide_intervals(result),
+            *_on_shear(result),
             *limits_of_line(question, body),
             *(() if pair is None else pair.facts),
             *_on_layers(result),
@@ -139,6 +141,22 @@ def _without_interval(result: Assessment) -> tuple[list[str], str]:
     unbounded = [key for key, each in meant.items() if each.low is None]
     whole = "joint" if is_joint else "larger surface"
     return unbounded, whole if MOST_NAMED < len(unbounded) == len(meant) else ""
+
+
+def _on_shear(result: Assessment) -> Iterator[Fact]:
+    """Say what is not known of the answers of a shear force, or that there are none."""
+    question, sheared = result.question, result.sought.sheared
+    if question.shear is None:
+        return
+    if sheared is None:
+        yield Fact("shear_not_solved", interrupted=result.interrupted).grave()
+        return
+    of_shear = [each for each in result.answers.values() if each.rule in SHEAR_ANSWERS]
+    unknown = (each for answer in of_shear for each in answer.margins if not each.factor[-1] >= 1)
+    if titles := tuple(dict.fromkeys(each.title for each in unknown)):
+        has_ends = sheared.coarser is not None
+        fact = Fact("shear_left_open", causes=titles, has_ends=has_ends)
+        yield fact.concerning(*(each.key for each in of_shear))
 
 
 def _on_wide_intervals(result: Assessment) -> Iterator[Fact]:

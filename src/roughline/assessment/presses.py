@@ -11,19 +11,18 @@ from functools import partial
 
 import numpy as np
 
+from roughline.assessment.shear import shear_presses
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on
 from roughline.margins.variant import AS_ASKED, Curves, Variant, measures_of_map, repeated
 from roughline.question.case import Case
 from roughline.question.films import SPOT_RADIUS, find_film
+from roughline.question.loading import CURVE_LOADS, LIGHTEST_SHARE
 from roughline.question.loads import LoadCase
 from roughline.topography.body import Surface
 
 UNLOADED = "unloaded"
 """Name of the variant that is unloaded from the largest load, where bodies yield and slip."""
-
-_UNLOADING_LOADS = 16  # on the way back, which partial slip follows
-_LIGHTEST_SHARE = 1e-3  # of them, over the largest
 
 
 def list_presses(case: Case) -> list[Variant]:
@@ -35,9 +34,9 @@ def list_presses(case: Case) -> list[Variant]:
         each for cause in causes for pressed in first for each in cause.presses(case, pressed)
     ]
     if case.question.friction is not None and case.hardness is not None:
-        share, needed = _UNLOADING_LOADS / case.loads.count, partial(_unloaded, case)
+        share, needed = CURVE_LOADS / case.loads.count, partial(_unloaded, case)
         listed.append(replace(listed[0], name=UNLOADED, purpose="slip", needed=needed, share=share))
-    return listed
+    return listed + shear_presses(case, listed[0])
 
 
 def _as_asked(case: Case) -> Variant:
@@ -57,10 +56,10 @@ def _as_asked(case: Case) -> Variant:
 
 
 def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
-    """Press the surface that the largest load left, up to that load."""
+    """Press the surface that the largest load left, up to that load, as partial slip follows it."""
     curve, largest = curves.get(AS_ASKED), case.loads.largest
     if curve is None or not curve.converged[largest]:
         return None
-    forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST_SHARE, 1.0, _UNLOADING_LOADS)
+    forces = float(curve.force[largest]) * np.geomspace(LIGHTEST_SHARE, 1.0, CURVE_LOADS)
     left = curve.surface_after(largest)
     return LoadCase(left, case.loads.half_space, forces.tolist(), [], None)

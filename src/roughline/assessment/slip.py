@@ -20,7 +20,7 @@ def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:
     """
     curve, pair, friction = curves.as_asked, case.pair, case.question.friction
     largest = case.loads.largest
-    if pair is None or friction is None or not curve.converged[largest]:
+    if pair is None or pair.coated or friction is None or not curve.converged[largest]:
         return None
     branch = curve if curve.hardness is None else curves.complete(UNLOADED)
     if branch is None:

@@ -125,7 +125,7 @@ def press_command(
             "alone (--periodic-along): write its curve with --out"
         )
     if values.get("materials") is None and asks and not values.get("periodic_along"):
-        raise InputError("a report, reflection and partial slip need two --materials")
+        raise InputError("a report, reflection and friction need two --materials")
     if report is not None and not values.get("loads"):
         raise InputError('a report needs a --load, such as "10 N"')
     against = values.get("against")

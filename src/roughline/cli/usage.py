@@ -14,8 +14,7 @@ NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered
 
 _NOT_DONE = {
     "viscoelasticity of contacts that recede": "loss-modulus",
-    "sliding and coupled friction": "sliding slip stick-slip shear fretting coupled-friction "
-    "friction-coupled tangential tangential-load traction",
+    "steady sliding, and friction on strips": "sliding friction-on-strips",
     "lubrication": "lubrication lubricant oil ehl viscosity film-thickness",
     "wear": "wear abrasion archard running-in",
     "heat": "temperature heat heating thermal-expansion flash-temperature",
@@ -27,6 +26,8 @@ _NOT_DONE = {
 """What is not done, and words that options would be named by."""
 
 _CALLED = {
+    "--shear": "slip micro-slip stick-slip fretting coupled-friction friction-coupled tangential "
+    "tangential-load tangential-force traction hysteresis loss-factor",
     "--materials": "coating coatings coat layer layers layered film thickness substrate rubber",
     "--fluid": "leak leaks leakage leak-rate gasket flow permeance gas air gap-conductance",
     "--adhesion": "adhesive adhesion-energy work-of-adhesion surface-energy jkr dmt pull-off "

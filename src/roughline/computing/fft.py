@@ -133,16 +133,24 @@ def cosine_spectrum(quarter: Real, periods: tuple[int, int] = (0, 0)) -> None:
     share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, LINES_AT_A_TIME)
 
 
-def sine_spectrum(quarter: Real, odd: tuple[bool, bool]) -> None:
+def sine_spectrum(quarter: Real, odd: tuple[bool, bool], periods: tuple[int, int] = (0, 0)) -> None:
     """Turn a periodic array that is even or odd along each axis, given as its quarter, in place.
 
     Along odd axes it is a sine transform (DST-I), and what stands where such an array is its own
     opposite is taken as zero. The spectrum is what comes out, times -i for each odd axis. Periods
-    are even.
+    are even, which is taken for granted, or odd as that of :func:`cosine_spectrum`.
     """
 
     def transform(lines: Real, axis: int) -> None:
-        if odd[axis]:
+        if periods[axis] % 2 == 1:
+            lags = np.arange(periods[axis])
+            whole = np.take(lines, np.minimum(lags, periods[axis] - lags), axis)
+            if odd[axis]:
+                sign = np.where(2 * lags > periods[axis], -1.0, np.where(lags == 0, 0.0, 1.0))
+                whole *= sign[:, np.newaxis] if axis == 0 else sign
+            found = ducc0.fft.r2c(whole, axes=(axis,), nthreads=1)
+            lines[:] = -found.imag if odd[axis] else found.real
+        elif odd[axis]:
             inner = lines[1:-1] if axis == 0 else lines[:, 1:-1]
             found = ducc0.fft.dst(np.ascontiguousarray(inner), axes=(axis,), type=1, nthreads=1)
             lines[:] = 0.0
@@ -187,6 +195,27 @@ def convolved(values: Any, half_spectrum: Any, periods: tuple[int, int]) -> Any:
     fft_along(modes, 0, forward=False)
     ducc0.fft.c2r(modes[:nx], axes=(1,), lastsize=my, forward=False, out=rows, nthreads=1)
     return rows[:, :ny]
+
+
+def convolved_together(values: Any, half_spectra: Any, periods: tuple[int, int]) -> Any:
+    """Convolve fields with a matrix of kernels: each result is the sum of what all fields give.
+
+    The shape is (fields, nx, ny), and that of the spectra (results, fields, ...). Else it is as
+    :func:`convolved`.
+    """
+    (count, nx, ny), (mx, my) = values.shape, periods
+    rows = np.zeros((count, nx, my), dtype=values.dtype)
+    rows[:, :, :ny] = values
+    modes = np.zeros((count, mx, my // 2 + 1), dtype=np.result_type(values.dtype, np.complex64))
+    ducc0.fft.r2c(rows, axes=(2,), out=modes[:, :nx], nthreads=1)
+    fft_along(modes, 1, forward=True)
+    weighed = half_spectra[:, 0] * modes[0]
+    for field in range(1, count):
+        weighed += half_spectra[:, field] * modes[field]
+    fft_along(weighed, 1, forward=False)
+    return ducc0.fft.c2r(weighed[:, :nx], axes=(2,), lastsize=my, forward=False, nthreads=1)[
+        :, :, :ny
+    ]
 
 
 def synthesise_line(line: Real) -> None:

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import SurfaceCurve
-from roughline.contact.field_request import FieldRequest
 from roughline.contact.full_contact import in_full_contact
 from roughline.contact.loads import Loads
 from roughline.contact.measures import Measured
+from roughline.contact.pressing import Pressing
 from roughline.contact.selection import among_loads
 from roughline.contact.terraces import with_whole_plateaus
 from roughline.errors import InputError
 from roughline.facts.fact import Fact
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.operators.cell import cell_compliance
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
@@ -43,8 +44,12 @@ _FASTEST_POINT_GROWTH = 4 / 3
 _LARGEST_LOADING = 0.9  # of a softer body, over the force under which all of it yields
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
-_Press = Callable[..., SurfaceCurve]
-"""Presses another surface under some loads, by a contact law, and measures as the first was."""
+COARSER, PLATEAUS, AS_STEEP, STEEPER = "coarser grids", "whole plateaus", "as steep", "steeper"
+STAGES = (COARSER, PLATEAUS, AS_STEEP, STEEPER)
+"""What is pressed to learn the errors, in its order: what is needed is known from those before."""
+
+_OfStages = Mapping[str, Sequence[SurfaceCurve]]
+"""Curves of the stages that are done."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,10 +103,17 @@ class _Grids:
         return max(1.0, self.full.rms_slope / half) if half > 0 else 1.0
 
 
-def with_grid_error(
-    curve: SurfaceCurve, surface: Surface, loads: Loads, press: _Press
-) -> SurfaceCurve:
-    """Add to a curve the discretisation errors estimated from coarser grids.
+def with_grid_error(curve: SurfaceCurve, pressing: Pressing) -> SurfaceCurve:
+    """Add to a curve the discretisation errors estimated from coarser grids."""
+    study, found = GridStudy(pressing), dict[str, Sequence[SurfaceCurve]]()
+    for stage in STAGES:
+        found[stage] = [each.curve() for each in study.presses(stage, curve, found)]
+    return study.concluded(curve, found)
+
+
+@dataclass(frozen=True, eq=False)
+class GridStudy:
+    """How far the curve of a surface may differ from that of ever finer grids.
 
     The error of a stiffness is the steepening m, by which two finer grids raise the rms slope,
     times the root of squares by which its compliance differs between grids. Compliances add, and
@@ -128,36 +140,151 @@ def with_grid_error(
     .. [1] B. N. J. Persson, "Theory of rubber friction and contact mechanics", J. Chem. Phys. 115,
        3840-3861 (2001).
     """
-    k, k_u, area = curve.stiffness, curve.unloading_stiffness, curve.area_fraction_corrected
-    law, grids = curve.law, _Grids.of(surface)
-    laws = grids.laws(law)
-    try:
-        coarser = [press(*each) for each in zip(grids.coarser, [loads] * 3, laws, strict=True)]
-    except InputError as error:
-        if law.only_pushes:
-            raise
-        return _unknown(curve, error)
-    steepening, without_measures = grids.steepening, partial(press, wanted=FieldRequest())
-    rims_of_k, rims_of_area = _rim_differences(curve, surface, law, without_measures)
-    softer = _softer(grids, steepening, coarser[1], laws[1], without_measures)
-    with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        of_grids = steepening * _compliance_difference("unloading_stiffness", coarser, curve)
-        of_k_u = np.hypot(np.hypot(of_grids, _YIELD_FACTOR * _yielding_share(*softer)), rims_of_k)
-        taken = np.where((k > 0) & (k < k_u), _YIELD_SHARE * np.log(k_u / k), 0.0)
-        of_k = np.maximum(
-            steepening * _compliance_difference("stiffness", coarser, curve), of_k_u + taken
+
+    pressing: Pressing  # of the surface itself
+
+    @cached_property
+    def _grids(self) -> _Grids:
+        return _Grids.of(self.pressing.surface)
+
+    @cached_property
+    def _on_grids(self) -> Pressing:
+        """The same pressing, with the measures that coarser grids have as well."""
+        measures = [each for each in self.pressing.measures if not each.of_this_grid]
+        return replace(self.pressing, measures=measures)
+
+    @cached_property
+    def _coarser(self) -> list[Pressing]:
+        """The coarser selves, in the order of their weights, under the same loads."""
+        laws = self._grids.laws(self.pressing.law)
+        return [
+            replace(self._on_grids, surface=surface, law=law)
+            for surface, law in zip(self._grids.coarser, laws, strict=True)
+        ]
+
+    @cached_property
+    def _refusal(self) -> str:
+        """Why coarser grids do not resolve the law; empty where they do."""
+        if self.pressing.law.only_pushes:
+            return ""
+        coarser, half_space = self._coarser, self.pressing.half_space
+        try:
+            for each in coarser:
+                grid = each.surface.shape, each.surface.spacing
+                each.law.refuse_grid(cell_compliance(half_space, *grid))
+        except InputError as error:
+            return str(error)
+        return ""
+
+    def presses(self, stage: str, curve: SurfaceCurve, found: _OfStages) -> list[Pressing]:
+        """What is pressed in a stage, from the curve of the surface and of the stages before."""
+        if self._refusal:
+            return []
+        if stage == COARSER:
+            return self._coarser
+        followed = found[COARSER][1] if stage == AS_STEEP else curve
+        if not _known_forces(followed).any():
+            return []
+        if stage == PLATEAUS:
+            plateaus = with_whole_plateaus(self.pressing.surface)
+            return [] if plateaus is None else [self._again(curve, plateaus, curve.law)]
+        if stage == AS_STEEP:
+            laws = self._steeper_laws(followed)
+            return [self._again(followed, self._grids.half, law) for law in laws]
+        return self._steeper(curve, found[COARSER])
+
+    def concluded(self, curve: SurfaceCurve, found: _OfStages) -> SurfaceCurve:
+        """The curve with its errors, from the curves of all stages."""
+        if self._refusal:
+            return _unknown(curve, self._refusal)
+        k, k_u, area = curve.stiffness, curve.unloading_stiffness, curve.area_fraction_corrected
+        surface, coarser, steepening = self.pressing.surface, found[COARSER], self._grids.steepening
+        rims_of_k, rims_of_area = _rim_differences(curve, _over_loads(curve, found[PLATEAUS]))
+        with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
+            of_grids = steepening * _compliance_difference("unloading_stiffness", coarser, curve)
+            of_yield = _yielding_share(k, _over_loads(coarser[1], found[AS_STEEP]))
+            of_k_u = np.hypot(np.hypot(of_grids, _YIELD_FACTOR * of_yield), rims_of_k)
+            taken = np.where((k > 0) & (k < k_u), _YIELD_SHARE * np.log(k_u / k), 0.0)
+            of_k = np.maximum(
+                steepening * _compliance_difference("stiffness", coarser, curve), of_k_u + taken
+            )
+            steepest = max(steepening, grid_steepening(in_full_contact(surface, curve.half_space)))
+            of_area = _area_difference(curve, coarser, steepest, surface.heights.size)
+            of_area = np.hypot(of_area, rims_of_area)
+            return replace(
+                curve,
+                stiffness_error=_times(k, of_k),
+                unloading_stiffness_error=_times(k_u, of_k_u),
+                area_fraction_error=_times(area, of_area),
+                measured=self._measured(curve, found),
+                pull_off_force_error=_pull_off_error(curve, coarser),
+            )
+
+    def _again(
+        self, curve: SurfaceCurve, surface: Surface, law: ContactLaw, share: float = 1.0
+    ) -> Pressing:
+        """Press a surface softer under a share of the forces of a curve, as far as it bears them.
+
+        Measures are taken under a share alone.
+        """
+        forces = np.minimum(
+            share * curve.force[_known_forces(curve)],
+            _LARGEST_LOADING * Bounds.of(law).largest_force(surface.area),
         )
-        steepest = max(steepening, grid_steepening(in_full_contact(surface, curve.half_space)))
-        of_area = _area_difference(curve, law, coarser, steepest, surface.heights.size)
-        of_area = np.hypot(of_area, rims_of_area)
-        return replace(
-            curve,
-            stiffness_error=_times(k, of_k),
-            unloading_stiffness_error=_times(k_u, of_k_u),
-            area_fraction_error=_times(area, of_area),
-            measured=_measured(curve, surface, coarser, steepening, press),
-            pull_off_force_error=_pull_off_error(curve, coarser),
-        )
+        measures = self._on_grids.measures if share < 1 else ()
+        again = replace(self.pressing, surface=surface, law=law, measures=measures)
+        return replace(again, loads=Loads("forces", forces))
+
+    def _steeper_laws(self, half: SurfaceCurve) -> list[ContactLaw]:
+        """The law on n / 2 points that yield as the surface does, and as a finer grid will.
+
+        There are none where no slope is added, or no pressure of n / 2 points would be as large as
+        the steeper one bears.
+        """
+        step, steepening = self._grids.step, self._grids.steepening
+        # pressures and gaps of a surface so many times steeper, in units so many times larger
+        law = self._coarser[1].law
+        laws = [law.scaled(times, times) for times in (step, step * steepening)]
+        needless = steepening == 1 or is_elastic(half, float(np.min(laws[1].bounds(None)[1])))
+        return [] if needless else laws
+
+    def _steeper(self, curve: SurfaceCurve, coarser: Sequence[SurfaceCurve]) -> list[Pressing]:
+        """The surface as steep as a finer grid will be, where a measure is zero on one of them."""
+        steepening = self._grids.steepening
+        grids, pushes = (curve, *coarser), curve.law.only_pushes
+        values = [each.measured[name].values for each in grids for name in coarser[0].measured]
+        if not (pushes and steepening > 1 and any((each == 0).any() for each in values)):
+            return []
+        # pressures and gaps of the steeper surface, in units so many times larger
+        law = curve.law.scaled(steepening, steepening)
+        return [self._again(curve, self.pressing.surface, law, 1 / steepening)]
+
+    def _measured(self, curve: SurfaceCurve, found: _OfStages) -> Mapping[str, Measured]:
+        """The measures of a curve with the ends of their intervals.
+
+        A measure that is zero on one of the grids, as the flow through a gap that is sealed there,
+        is at most that of a surface as steep as a finer grid will be, whose contact is more open.
+        """
+        coarser, measured = found[COARSER], dict(curve.measured)
+        widening = self._grids.steepening**_MEASURE_EXPONENT
+        for name in coarser[0].measured:
+            on_grids = np.array([each.measured[name].values for each in (curve, *coarser)])
+            low, high = _ends_of_measure(on_grids, widening)
+            for steeper in _over_loads(curve, found[STEEPER]):
+                opened = np.fmax(high, steeper.measured[name].values)
+                high = np.where((on_grids == 0).any(axis=0), opened, high)
+            measured[name] = replace(measured[name], low=low, high=high)
+        return measured
+
+
+def _known_forces(curve: SurfaceCurve) -> Mask:
+    """Loads of a curve that have pushed, from which on others are pressed under their forces."""
+    return np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
+
+
+def _over_loads(curve: SurfaceCurve, found: Sequence[SurfaceCurve]) -> list[SurfaceCurve]:
+    """Curves under these forces, over all loads of the curve."""
+    return [among_loads(each, _known_forces(curve)) for each in found]
 
 
 def _pull_off_error(curve: SurfaceCurve, coarser: Sequence[SurfaceCurve]) -> float:
@@ -167,12 +294,12 @@ def _pull_off_error(curve: SurfaceCurve, coarser: Sequence[SurfaceCurve]) -> flo
     )
 
 
-def _unknown(curve: SurfaceCurve, error: InputError) -> SurfaceCurve:
+def _unknown(curve: SurfaceCurve, why: str) -> SurfaceCurve:
     """Say of a curve why its errors are not known."""
     unknown = np.full(curve.depth.shape, np.nan)
     return replace(
         curve,
-        facts=(*curve.facts, Fact("no_grid_error", why=str(error))),
+        facts=(*curve.facts, Fact("no_grid_error", why=why)),
         stiffness_error=unknown,
         unloading_stiffness_error=unknown,
         area_fraction_error=unknown,
@@ -202,17 +329,13 @@ def _compliance_difference(name: str, coarser: Sequence[SurfaceCurve], curve: Su
     return np.where(np.isinf(found) | is_separated, np.nan, found)
 
 
-def _rim_differences(
-    curve: SurfaceCurve, surface: Surface, law: ContactLaw, press: _Press
-) -> tuple[Real, Real]:
+def _rim_differences(curve: SurfaceCurve, raised: Sequence[SurfaceCurve]) -> tuple[Real, Real]:
     """What the rims of plateaus change of the compliance and of the area's logarithm."""
     none = np.zeros(curve.depth.shape)
-    plateaus = with_whole_plateaus(surface)
-    if plateaus is None:
+    if not raised:
         return none, none
-    found = _pressed_again(curve, plateaus, law, press)
     k, area = curve.unloading_stiffness, curve.area_fraction_corrected
-    stiffer, wider = found.unloading_stiffness, found.area_fraction_corrected
+    stiffer, wider = raised[0].unloading_stiffness, raised[0].area_fraction_corrected
     with np.errstate(invalid="ignore", divide="ignore"):
         of_k, of_area = np.abs(1 - k / stiffer), np.abs(np.log(wider / area))
     return np.where(k == stiffer, 0.0, of_k), np.where(area == wider, 0.0, of_area)
@@ -227,12 +350,15 @@ def _between(of_coarser: Sequence[Real] | Real, of_surface: Real | float) -> Rea
     )
 
 
-def _yielding_share(as_steep: SurfaceCurve, softer: SurfaceCurve) -> Real:
-    """Share that a softer body takes from the compliance on unloading.
+def _yielding_share(stiffness: Real, steep: Sequence[SurfaceCurve]) -> Real:
+    """Share that a softer body takes from the compliance on unloading; none without one.
 
     Near full contact a softer body is flattened more than waves alone would: it counts by the root
     of the area that it leaves open.
     """
+    if not steep:
+        return np.zeros_like(stiffness)
+    as_steep, softer = steep
     before, after = as_steep.unloading_stiffness, softer.unloading_stiffness
     area = softer.area_fraction_corrected
     share = 1 - np.minimum(before, after) / np.maximum(before, after)
@@ -240,18 +366,14 @@ def _yielding_share(as_steep: SurfaceCurve, softer: SurfaceCurve) -> Real:
 
 
 def _area_difference(
-    curve: SurfaceCurve,
-    law: ContactLaw,
-    coarser: Sequence[SurfaceCurve],
-    steepening: float,
-    points: int,
+    curve: SurfaceCurve, coarser: Sequence[SurfaceCurve], steepening: float, points: int
 ) -> Real:
     """Logarithm of the factor by which the contact area may differ."""
     area = curve.area_fraction_corrected
     values = np.array([each.area_fraction_corrected for each in coarser])
     between = _between(np.log(np.where(values == area, 1.0, values / area)), 0.0)
-    opened = np.hypot(_steeper(steepening**_STEEPENING_EXPONENT, area), _AREA_FACTOR * between)
-    most = Bounds.of(law).largest_force(curve.length**2)
+    opened = np.hypot(_opened(steepening**_STEEPENING_EXPONENT, area), _AREA_FACTOR * between)
+    most = Bounds.of(curve.law).largest_force(curve.length**2)
     if np.isfinite(most):
         least = curve.force / most
         opened = np.minimum(opened, np.maximum(np.log(area / least), 0.0))
@@ -269,80 +391,19 @@ def _excess(squares: Sequence[float], acceleration: float) -> float:
     return 1 - (second / first) ** acceleration * second / last if first > 0 else 0.0
 
 
-def _softer(
-    grids: _Grids, steepening: float, curve: SurfaceCurve, law: ContactLaw, press: _Press
-) -> tuple[SurfaceCurve, SurfaceCurve]:
-    """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
-
-    Where no slope is added, or no pressure would be as large as the steeper one bears, both are the
-    curve of n / 2 points.
-    """
-    # pressures and gaps of a surface so many times steeper, in units so many times larger
-    steeper = [law.scaled(times, times) for times in (grids.step, grids.step * steepening)]
-    if steepening == 1 or is_elastic(curve, float(np.min(steeper[1].bounds(None)[1]))):
-        return curve, curve
-    as_steep, softer = (_pressed_again(curve, grids.half, each, press) for each in steeper)
-    return as_steep, softer
-
-
 def is_elastic(curve: SurfaceCurve, hardness: float) -> bool:
     """Whether nothing yields under the loads of a curve, nor would with another hardness."""
     most = np.nanmax(curve.largest_pressure, initial=0.0)
     return not np.nan_to_num(curve.plastic_fraction).any() and bool(most <= hardness)
 
 
-def _pressed_again(
-    curve: SurfaceCurve, surface: Surface, law: ContactLaw, press: _Press, share: float = 1.0
-) -> SurfaceCurve:
-    """Press a surface softer under a share of the forces of its curve, as far as it bears them."""
-    known = np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
-    if not known.any():
-        return curve
-    forces = np.minimum(
-        share * curve.force[known], _LARGEST_LOADING * Bounds.of(law).largest_force(surface.area)
-    )
-    return among_loads(press(surface, Loads("forces", forces), law), known)
-
-
-def _steeper(steepening: float, area: Real) -> Real:
+def _opened(steepening: float, area: Real) -> Real:
     """Return how far the logarithm of an elastic contact area falls where slopes are steeper."""
     from scipy.special import erf, erfinv  # here because they load slowly
 
     # Persson: the error function of the pressure over the slope, times a constant
     steeper = erf(erfinv(np.minimum(area, 1.0)) / steepening)
     return np.where(area == 0, 0.0, np.log(np.minimum(area, 1.0) / steeper))
-
-
-def _measured(
-    curve: SurfaceCurve,
-    surface: Surface,
-    coarser: Sequence[SurfaceCurve],
-    steepening: float,
-    press: _Press,
-) -> Mapping[str, Measured]:
-    """Return the measures of a curve with the ends of their intervals.
-
-    A measure that is zero on one of the grids, as the flow through a gap that is sealed there, is
-    at most that of a surface as steep as a finer grid will be, whose contact is more open.
-    """
-    grids = {
-        name: np.array([each.measured[name].values for each in (curve, *coarser)])
-        for name in coarser[0].measured
-    }
-    steeper: Mapping[str, Measured] = {}
-    pushed = curve.law.only_pushes
-    if pushed and steepening > 1 and any((each == 0).any() for each in grids.values()):
-        # pressures and gaps of the steeper surface, in units so many times larger
-        law = curve.law.scaled(steepening, steepening)
-        steeper = _pressed_again(curve, surface, law, press, 1 / steepening).measured
-    found = {**curve.measured}
-    for name, on_grids in grids.items():
-        low, high = _ends_of_measure(on_grids, steepening**_MEASURE_EXPONENT)
-        if steeper:
-            opened = np.fmax(high, steeper[name].values)
-            high = np.where((on_grids == 0).any(axis=0), opened, high)
-        found[name] = replace(found[name], low=low, high=high)
-    return found
 
 
 def _ends_of_measure(on_grids: Real, widening: float) -> tuple[Real, Real]:

@@ -29,6 +29,7 @@ from roughline.contact.field_request import FieldRequest
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
 from roughline.contact.loads import GivenLoads, Loads, refuse_beyond_precision, surface_loads
 from roughline.contact.measures import Measure, checked_measures
+from roughline.contact.pressing import Pressing
 from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
 from roughline.contact.shear_loads import GivenShear
@@ -277,20 +278,17 @@ def press(
         refuse_few_points(body)
     # imported here because compiled loops load slowly
     from roughline.contact.cycle import cycle_of_depths
-    from roughline.contact.full import press_surface
     from roughline.halfspace.search.problem import Method
 
     method = Method(rtol, solver.max_iterations, solver.precision)
     if n_loads is not None and not law.only_pushes:
         loads = cycle_of_depths(body, half_space, law, loads.values.size, method)
         refuse_beyond_precision(body, half_space, loads, rtol, single)
-    pressed = partial(press_surface, half_space=half_space, method=method)
-    curve = pressed(body, loads, law, wanted=wanted, progress=progress)
+    pressing = Pressing(body, half_space, law, loads, rtol, measures, solver)
+    curve = pressing.curve(progress, wanted.loads)
     if grid_error:
         try:
-            on_coarser = [each for each in measures if not each.of_this_grid]
-            measured = partial(pressed, wanted=FieldRequest(measures=on_coarser))
-            curve = with_grid_error(curve, body, loads, measured)
+            curve = with_grid_error(curve, pressing)
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
     return _complete(body, curve, throw)

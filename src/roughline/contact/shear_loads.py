@@ -83,7 +83,7 @@ class GivenShear:
         if self.shear_forces is not None and self.slides is not None:
             raise InputError("shear_forces and slides are given; give one of the two")
         _refuse_law(law)
-        _refuse_half_space(half_space)
+        refuse_unknown_shear(half_space)
         self.friction.refuse_other_grids(shape)
         name: Literal["shear_forces", "slides"] = (
             "shear_forces" if self.slides is None else "slides"
@@ -142,15 +142,10 @@ def _refuse_law(law: ContactLaw) -> None:
         )
 
 
-def _refuse_half_space(half_space: HalfSpace) -> None:
+def refuse_unknown_shear(half_space: HalfSpace) -> None:
     """Refuse a half-space of which the friction is not solved."""
     half_space.shear_spectrum(np.ones(1))  # which refuses one that does not know it
-    if any(half_space.repeats) and not all(half_space.repeats):
-        raise InputError(
-            f"half_space is {half_space.boundary}, and friction is solved on one that is free or "
-            "periodic along both axes: give periodic=True or False"
-        )
-    if not any(half_space.repeats):  # which is refused if it does not know its kernel
+    if not all(half_space.repeats):  # which is refused if it does not know its kernel
         half_space.shear_kernel(
             0, (1.0, 1.0), (np.empty((1, 1)), np.empty((1, 1)), np.empty((1, 1)))
         )

@@ -17,6 +17,7 @@ from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +54,41 @@ class MaterialPair:
         elastic = [each for each in (self.first, self.second) if not math.isinf(each.surface.E)]
         bodies = [each.half_space(periodic=periodic) for each in elastic]
         return functools.reduce(operator.add, bodies)
+
+    def sheared_half_space(self, *, periodic: Periodic = False) -> HalfSpace:
+        """Return what both are pressed and sheared as: the first body slides over the second.
+
+        Of bodies of one material each it is one half-space, with E*, a Poisson's ratio nu of both
+        by nu / (1 - nu) = n = (E* / 2) (nu1 / G1 + nu2 / G2), and beta.
+        """
+        if not self.coated:
+            surfaces = (self.first.surface, self.second.surface)
+            n = self.E_star / 2 * sum(each.nu / each.shear_modulus for each in surfaces)
+            return Homogeneous(self.E_star, periodic, n / (1 + n), self.beta)
+        elastic = [each for each in (self.second, self.first) if not math.isinf(each.surface.E)]
+        bodies = [
+            each.half_space(periodic=periodic)
+            if isinstance(each, Coated)
+            else Homogeneous.of(each.E, each.nu, periodic=periodic)
+            for each in elastic
+        ]
+        return functools.reduce(operator.add, bodies)
+
+    @property
+    def beta(self) -> float:
+        """Dundurs' second parameter of what lies at both surfaces, seen from the second body.
+
+        beta = (E* / 4) ((1 - 2 nu2) / G2 - (1 - 2 nu1) / G1). [1]
+
+        References
+        ----------
+        K. L. Johnson, "Contact Mechanics" (1985), eq. 5.3.
+        """
+        first, second = (
+            (1 - 2 * each.surface.nu) / (4 * each.surface.shear_modulus)
+            for each in (self.first, self.second)
+        )
+        return self.E_star * (second - first)
 
     @property
     def layers_compliance(self) -> float:

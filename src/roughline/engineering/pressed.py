@@ -17,7 +17,7 @@ from roughline.engineering.attraction import Attraction
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.sealing import Closing, Fluid
-from roughline.engineering.slip import PartialSlip
+from roughline.engineering.slip import PartialSlip, ShearCycles
 from roughline.facts.fact import Fact
 
 
@@ -50,6 +50,7 @@ class Sought:
     closing: Closing | None = None  # at which pressure the gap seals, and down to which it does
     separation: Separation | None = None  # what it takes to draw bodies apart that stick
     slip: PartialSlip | None = None  # of the largest load, before the bodies slide
+    sheared: ShearCycles | None = None  # what a shear force to and fro does
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,7 +37,7 @@ from roughline.topography.body import Surface
 
 _LARGER_FACTOR = math.nextafter(1.0, 2.0), sys.float_info.max, "a factor above 1 is needed"
 _TIMES, _RTOL = 10.0, 0.01  # if not told
-_FIRST_SHARE = 0.4  # that is tried first, beside the smallest and all of it
+_FIRST_SHARES = 0.01, 0.1  # that are tried first, beside the smallest and all of it
 _FIRST_STEP = 1.18  # up and down from what another surface tells, to those that are tried first
 _SMALLEST_SHARE = 1e-4  # share of the load below which it counts as taken off
 _NARROWEST_INTERVAL = 3e-3  # below which an interval tells no shares apart
@@ -222,7 +222,7 @@ class _ShareSearch:
 
     def _bracketed(self) -> Hunt[Reopening]:
         """Search both ends."""
-        trials = yield from self._started([_SMALLEST_SHARE, _FIRST_SHARE])
+        trials = yield from self._started([_SMALLEST_SHARE, *_FIRST_SHARES])
         low = high = 0.0
         if trials.is_above(_SMALLEST_SHARE):
             bisect = partial(bisected, _SMALLEST_SHARE, 1.0, self.rtol)

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeVar
 
 import roughline as rl
 from roughline.errors.checks import shown
-from roughline.units import refuse_decimal_comma
+from roughline.units import engineering, in_si, refuse_decimal_comma
 
 VERSION = "1"
 """Of the addresses; one of another version is refused."""
@@ -38,23 +38,54 @@ class ControlError(rl.InputError):
         self.among = (at, *others)  # keys of all controls that do not go together
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Control:
-    """A number that can be set, by a slider or as text."""
+    """One value that is set on a page: from this follow its control, its address and its code.
 
-    key: str  # its name in the address
-    symbol: str  # what the field calls it
+    It is read over the scales of the state that those before it make, where it has scales.
+    """
+
+    key: str  # its name in the address, and in the state
     name: str  # the same in words
+    default: Any
+    meaning: str  # one sentence, with its unit
+
+    def read(self, text: str, state: Any = None) -> Any:
+        """Return the value in a text, or raise a ControlError."""
+        raise NotImplementedError
+
+    def text(self, value: Any) -> str:
+        """A value as an address has it."""
+        return str(value)
+
+    def read_in(self, texts: Texts, state: Any = None) -> Any:
+        """Return the value in the text of this control, or its default if there is no text."""
+        return self.read(texts[self.key], state) if self.key in texts else self.usual
+
+    @property
+    def usual(self) -> Any:
+        """The value where there is no text."""
+        return self.default
+
+
+@dataclass(frozen=True, kw_only=True)
+class Number(Control):
+    """A number, set by a slider or as text; with its unit it is divided by a scale."""
+
+    symbol: str  # what the field calls it
     low: float
     high: float
-    default: float
-    meaning: str  # one sentence, with its unit
     # how the slider runs; "whole" allows whole numbers alone
     scale: Literal["linear", "logarithmic", "whole"] = "logarithmic"
     step: float = 0.02  # of the slider: in the number or, on a logarithmic scale, in decades
+    unit: str = ""  # in which it may be given; empty for none
+    state_scale: Callable[[Any], float] = float  # gives the scale of a state, in the unit
+    over: str = ""  # what the scale is called
 
-    def read(self, text: str) -> float:
-        """Return the number in a text, or raise a ControlError."""
+    def read(self, text: str, state: Any = None) -> float:
+        """Return the number in a text, over the scale of a state if it has its unit."""
+        if self.unit and has_unit(text):
+            return self._over_scale(text, state)
         try:
             refuse_decimal_comma(text, self.name)
             if not is_number(text) or math.isinf(float(text)):
@@ -62,6 +93,31 @@ class Control:
         except rl.InputError as error:
             raise ControlError(f"{error}; give a number {self.range}", self.key) from None
         return self.checked(float(text))
+
+    def text(self, value: float) -> str:
+        """A number with the fewest digits that are read as the same."""
+        return as_text(value)
+
+    def in_unit(self, text: str, state: Any) -> float:
+        """The number in a text with a unit, in the unit of the control."""
+        return in_si(text, self.unit, self.name)
+
+    def _over_scale(self, text: str, state: Any) -> float:
+        try:
+            value = self.in_unit(text, state)
+        except rl.UnitError as error:
+            raise ControlError(str(error), self.key) from None
+        scale = self.state_scale(state)
+        try:
+            return self.checked(rounded(value / scale))
+        except ControlError:
+            unit = self.unit.replace("**2", "²")
+            low, high = (engineering(end * scale, unit, 3) for end in (self.low, self.high))
+            raise ControlError(
+                f"{self.name} is {shown(text.strip())}; give one from {low} to {high}, which is "
+                f"{self.range} {self.over}",
+                self.key,
+            ) from None
 
     def checked(self, value: float) -> float:
         """Return a number in range; an end that is written with fewer digits is the end."""
@@ -72,13 +128,11 @@ class Control:
                 return end
         if not self.low <= value <= self.high:
             raise ControlError(f"{self.name} is {value:.6g}; give a number {self.range}", self.key)
-        if self.scale == "whole" and value != math.floor(value):
+        if self.scale != "whole":
+            return value
+        if value != math.floor(value):
             raise ControlError(f"{self.name} is {value:g}; give a whole number", self.key)
-        return value
-
-    def read_in(self, texts: Texts) -> float:
-        """Return the number in the text of this control, or its default if there is none."""
-        return self.read(texts.get(self.key, str(self.default)))
+        return int(value)
 
     @property
     def range(self) -> str:
@@ -86,26 +140,71 @@ class Control:
         return f"from {self.low:g} to {self.high:g}"
 
 
-@dataclass(frozen=True)
-class Choice:
-    """One of several words."""
+@dataclass(frozen=True, kw_only=True)
+class Choice(Control):
+    """One of several words, which stand for values; the default is a word."""
 
-    key: str  # its name in the address
-    name: str  # the same in words
-    options: dict[str, str]  # by the word in the address, what the page shows
-    default: str  # a word in the address
-    meaning: str  # one sentence
+    options: Mapping[str, str]  # by the word in the address, what the page shows
+    of: Callable[[str], Any] = str  # gives the value of a word
 
-    def read(self, text: Any) -> str:
-        """Return the word if it is one of them, or raise a ControlError."""
+    def read(self, text: Any, state: Any = None) -> Any:
+        """Return the value of a word if it is one of them, or raise a ControlError."""
         if text not in self.options:
             allowed = ", ".join(self.options)
             raise ControlError(f"{self.name} is {shown(text)}; allowed are {allowed}", self.key)
-        return str(text)
+        return self.of(text)
 
-    def read_in(self, texts: Texts) -> str:
-        """Return the word of this control, or its default if there is no text."""
-        return self.read(texts.get(self.key, self.default))
+    @property
+    def usual(self) -> Any:
+        """The value of the default."""
+        return self.of(self.default)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Several(Choice):
+    """Some of several words, with commas between; the default is all of their values."""
+
+    is_needed: bool = False  # whether there has to be one
+
+    def read(self, text: str, state: Any = None) -> tuple[Any, ...]:
+        """Return the values of the words."""
+        words = [word for word in text.split(",") if word]
+        strange = [word for word in words if word not in self.options]
+        if strange or (self.is_needed and not words):
+            why = f"{self.name} is {shown(strange[0])}" if strange else f"no {self.name} is chosen"
+            allowed = ", ".join(self.options)
+            raise ControlError(f"{why}; choose one or more of {allowed}", self.key)
+        return tuple(self.of(word) for word in dict.fromkeys(words))
+
+    @property
+    def usual(self) -> tuple[Any, ...]:
+        """The default."""
+        return tuple(self.default)
+
+    def text(self, value: tuple[Any, ...]) -> str:
+        """The words with commas between."""
+        return ",".join(f"{each:g}" if isinstance(each, float) else str(each) for each in value)
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuantityText(Control):
+    """A quantity with its unit, which stays as it was typed."""
+
+    label: str  # what the field calls it
+    unit: str
+    ends: tuple[float, float]  # that are allowed, in the unit
+
+    def read(self, text: str, state: Any = None) -> str:
+        """Return the text, if it is such a quantity."""
+        try:
+            value = in_si(text, self.unit, self.name)
+        except rl.UnitError as error:
+            raise ControlError(str(error), self.key) from None
+        if not self.ends[0] <= value <= self.ends[1]:
+            low, high = (engineering(end, self.unit) for end in self.ends)
+            sentence = f"{self.name} is {shown(text)}; give one from {low} to {high}"
+            raise ControlError(sentence, self.key)
+        return text.strip()
 
 
 def is_number(text: str) -> bool:

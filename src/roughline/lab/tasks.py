@@ -1,4 +1,4 @@
-"""Where the tasks of the views are: each function loads a module, in the process that computes.
+"""Where the tasks of the views are: each function loads modules, in the process that computes.
 
 The server knows these functions, and loads nothing that they load.
 """
@@ -15,23 +15,15 @@ def warm_up() -> None:
     up()
 
 
-def load_explore_pictures(name: str) -> Task:
-    """The pictures of what Explore presses."""
-    from roughline.lab.explore import pictures
+def explore(name: str) -> Task:
+    """What Explore presses, and its code."""
+    from roughline.lab.explore import code, pictures
 
-    task: Task = getattr(pictures, name)
+    task: Task = code.code if name == "code" else getattr(pictures, name)
     return task
 
 
-def load_explore_code(name: str) -> Task:
-    """The code of what Explore shows."""
-    from roughline.lab.explore import code
-
-    task: Task = getattr(code, name)
-    return task
-
-
-def load_explore_downloads(name: str) -> Task:
+def explore_downloads(name: str) -> Task:
     """The files that Explore gives away."""
     from roughline.lab.explore import downloads
 
@@ -39,39 +31,22 @@ def load_explore_downloads(name: str) -> Task:
     return task
 
 
-def load_measured_file(name: str) -> Task:
-    """A file as it is read."""
-    from roughline.lab.measured import file
+def measured(name: str) -> Task:
+    """A file as it is read, the bodies that may be pressed, and the answers to a question."""
+    from roughline.lab.measured import answers, bodies, file, part
 
-    task: Task = getattr(file, name)
-    return task
-
-
-def load_measured_part(name: str) -> Task:
-    """The maps of a part."""
-    from roughline.lab.measured import part
-
-    task: Task = getattr(part, name)
-    return task
-
-
-def load_measured_bodies(name: str) -> Task:
-    """The bodies that may be pressed."""
-    from roughline.lab.measured import bodies
-
-    task: Task = getattr(bodies, name)
-    return task
+    tasks: dict[str, Task] = {
+        "look": file.look,
+        "prepare": file.prepare,
+        "maps": part.maps,
+        "bodies": bodies.bodies,
+        "answer": answers.answer,
+        "compare": answers.compare,
+    }
+    return tasks[name]
 
 
-def load_measured_answers(name: str) -> Task:
-    """The answers to a question."""
-    from roughline.lab.measured import answers
-
-    task: Task = getattr(answers, name)
-    return task
-
-
-def load_measured_documents(name: str) -> Task:
+def measured_documents(name: str) -> Task:
     """Reports and code of answers."""
     from roughline.lab.measured import documents
 
@@ -79,17 +54,9 @@ def load_measured_documents(name: str) -> Task:
     return task
 
 
-def load_published_fits(name: str) -> Task:
-    """The power laws of the paper's data."""
-    from roughline.lab.published import fits
+def published(name: str) -> Task:
+    """The power laws of the paper's data, and where the reduced model is trusted."""
+    from roughline.lab.published import fits, trust
 
-    task: Task = getattr(fits, name)
-    return task
-
-
-def load_published_trust(name: str) -> Task:
-    """Where the reduced model is trusted."""
-    from roughline.lab.published import trust
-
-    task: Task = getattr(trust, name)
-    return task
+    tasks: dict[str, Task] = {"fits": fits.fits, "point": trust.point}
+    return tasks[name]

@@ -138,7 +138,7 @@ def _other_body(
         return None
     if first.n_loads is not None and curve.converged.all():
         first = first.under_forces_from(curve)  # the same forces, not new ones
-    return replace(first, body=body, fields=(), grid_error=False)
+    return replace(first, body=body, fields=())
 
 
 @public

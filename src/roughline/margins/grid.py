@@ -3,29 +3,62 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import SurfaceCurve
+from roughline.contact.grid_error import AS_STEEP, COARSER, STAGES, GridStudy, refuse_few_points
+from roughline.contact.pressing import Pressing
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
 from roughline.margins.spread import Spread, Values, intervals_within
-from roughline.margins.variant import Curves
+from roughline.margins.variant import Curves, Variant
 from roughline.question.assumptions import broken
 from roughline.question.case import COARSENED_FROM, Case
+from roughline.question.loads import LoadCase
+from roughline.topography.body import Surface
+
+_SHARES = {COARSER: 9 / 16, AS_STEEP: 1 / 2}
+"""Points of what is pressed in these stages over those of the surface; of others, as many."""
 
 _UNSURE_RATIO = 5.0  # of both ends; above, a stiffness near full contact may be infinite
 
 
 class FinerGrid(Cause):
-    """A finer grid would show shorter waves; coarser ones are pressed with the body itself."""
+    """A finer grid would show shorter waves, as coarser ones and steeper bodies tell."""
 
     name = "grid"
     title = "the grid"
     remedy = "finer pixels"
+    takes = "for coarser grids"
+
+    def presses(self, case: Case, pressed: Variant) -> Sequence[Variant]:
+        """What tells how far the curve of a variant may differ; then that curve, with its errors.
+
+        Raises
+        ------
+        InputError
+            If the body has too few points.
+        """
+        if not case.loads.grid_error or not isinstance(case.body, Surface):
+            return ()
+        refuse_few_points(case.body)
+        of_grid = replace(pressed, purpose=self.name)
+        listed = [
+            replace(
+                of_grid,
+                name=_staged(pressed, stage),
+                needed=partial(_pressed_in_stage, pressed, stage),
+                share=_SHARES.get(stage, 1.0),
+            )
+            for stage in STAGES
+        ]
+        return [*listed, replace(of_grid, needed=partial(_with_errors, pressed), share=0.0)]
 
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """Both ends that finer grids leave open; None where their errors were not estimated."""
@@ -43,6 +76,49 @@ class FinerGrid(Cause):
         if curve.stiffness_error is None:
             found.append(Fact("grid_error_unknown", why=_why_unknown(case), points=COARSENED_FROM))
         return found
+
+
+def _staged(pressed: Variant, stage: str) -> str:
+    """Name of what is pressed in a stage."""
+    return f"{pressed.name}, {stage}"
+
+
+def _study(pressed: Variant, curves: Curves) -> tuple[LoadCase, GridStudy, SurfaceCurve] | None:
+    """Loads of a variant, its study and its curve under these; None if nothing presses it."""
+    loads, curve = pressed.needed(curves), curves.get(pressed.name)
+    if not isinstance(loads, LoadCase) or curve is None:
+        return None
+    alone = loads.alone(curve)
+    return (loads, GridStudy(loads.pressing()), alone) if alone.force.size else None
+
+
+def _found(pressed: Variant, curves: Curves) -> dict[str, Sequence[SurfaceCurve]]:
+    """Curves of the stages that are done."""
+    return {stage: curves.of_pieces.get(_staged(pressed, stage), ()) for stage in STAGES}
+
+
+def _pressed_in_stage(pressed: Variant, stage: str, curves: Curves) -> Sequence[Pressing] | None:
+    """What is pressed in a stage."""
+    if (study := _study(pressed, curves)) is None:
+        return None
+    return study[1].presses(stage, study[2], _found(pressed, curves))
+
+
+def _with_errors(pressed: Variant, curves: Curves) -> SurfaceCurve | None:
+    """The curve of a variant with its errors, which are not known of loads that lift the body."""
+    if (curve := curves.get(pressed.name)) is None:
+        return None
+    if (study := _study(pressed, curves)) is None:
+        unknown = np.full(curve.force.shape, np.nan)
+        return replace(
+            curve,
+            stiffness_error=unknown,
+            unloading_stiffness_error=unknown,
+            area_fraction_error=unknown,
+        )
+    loads, of_grid, alone = study
+    found = loads.spread(of_grid.concluded(alone, _found(pressed, curves)))
+    return replace(found, fields=curve.fields, dents=curve.dents, residual_of=curve.residual_of)
 
 
 def _why_unknown(case: Case) -> str:

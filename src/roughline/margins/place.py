@@ -12,6 +12,7 @@ from roughline.computing.arrays import Real
 from roughline.contact.curve import SurfaceCurve
 from roughline.contact.measures import Measure
 from roughline.contact.pieces import cut
+from roughline.contact.pressing import Pressing
 from roughline.engineering.intervals import Ends
 from roughline.margins.cause import Cause
 from roughline.margins.larger_measure import LargerMeasure
@@ -106,17 +107,23 @@ def measures_of_tiles(
 
 def tiled_curves(case: Case, curves: Curves, variant: str) -> TiledCurves | None:
     """Curves of a map and of its tiles, from its periodic curve; None if one is not known."""
-    body, of_map = case.map, curves.get(variant)
-    if body is None or not case.loads.grid_error:
+    body, curve = case.map, curves.get(variant)
+    if body is None or curve is None or not case.loads.grid_error:
         return None
-    shape = coarse_shape(body.shape)
-    if shape != body.shape:
-        of_map = curves.complete(_COARSE)
-    halves, quarters = (curves.of_pieces.get(_tiled(count), ()) for count in (2, 4))
-    if of_map is None or len(halves) < 4 or len(quarters) < 16:
+    loads, shape = case.loads.under_forces_from(curve), coarse_shape(body.shape)
+
+    def pieces(name: str) -> list[SurfaceCurve]:
+        """Curves over all loads, of which those that were solved were pressed."""
+        return [loads.spread(each) for each in curves.of_pieces.get(name, ())]
+
+    of_map = [curve] if shape == body.shape else pieces(_COARSE)
+    halves, quarters = pieces(_tiled(2)), pieces(_tiled(4))
+    if not of_map or len(halves) < 4 or len(quarters) < 16:
         return None
-    border = curves.complete(variant if has_few_points(body.shape) else _BORDER)
-    return TiledCurves(of_map, halves, quarters, shape[0] * shape[1], border)
+    whole = curves.complete(variant)
+    border = [whole] if has_few_points(body.shape) else pieces(_BORDER)
+    points = shape[0] * shape[1]
+    return TiledCurves(of_map[0], halves, quarters, points, border[0] if border else None)
 
 
 def _tiled(count: int) -> str:
@@ -135,13 +142,11 @@ def _listed(case: Case, map_name: str, body: Surface, purpose: str) -> list[Vari
 
     def whole(points: int, taken: Sequence[Measure], curves: Curves) -> Pressable:
         loads = _loads_of_pieces(case, curves.get(map_name), taken)
-        return None if loads is None else _on_piece(loads, coarse(points))
+        return None if loads is None else _on_pieces(loads, [coarse(points)])
 
     def tiles(count: int, curves: Curves) -> Pressable:
-        if (loads := _loads_of_pieces(case, curves.get(map_name), measures)) is None:
-            return None
-        pressed = [_on_piece(loads, each) for each in cut(coarse(), count)]
-        return [each for each in pressed if each is not None]
+        loads = _loads_of_pieces(case, curves.get(map_name), measures)
+        return None if loads is None else _on_pieces(loads, cut(coarse(), count))
 
     found = [Variant(_COARSE, purpose, partial(whole, POINTS_OF_TILES, measures), shape, True)]
     if shape == body.shape:
@@ -167,13 +172,16 @@ def _loads_of_pieces(
     if not loads.forces:
         return None
     repeated = replace(loads, half_space=loads.half_space.interface, measures=measures, rtol=_RTOL)
-    return replace(repeated, levelled=False, grid_error=False)
+    return replace(repeated, levelled=False)
 
 
-def _on_piece(loads: LoadCase, piece: Surface) -> LoadCase | None:
-    """The same mean pressures on a piece; None if its grid does not resolve the attraction."""
-    pull = loads.attraction
-    if pull and not pull.is_resolved(max(piece.spacing), loads.half_space.softest):
-        return None
-    share = piece.area / nominal_area(loads.body)
-    return replace(loads, body=piece, forces=[share * each for each in loads.forces])
+def _on_pieces(loads: LoadCase, pieces: Sequence[Surface]) -> list[Pressing]:
+    """The same mean pressures on pieces, without those whose grid does not resolve a pull."""
+    pull, found = loads.attraction, []
+    for piece in pieces:
+        if pull and not pull.is_resolved(max(piece.spacing), loads.half_space.softest):
+            continue
+        share = piece.area / nominal_area(loads.body)
+        forces = [share * each for each in loads.forces]
+        found.append(replace(loads, body=piece, forces=forces).pressing())
+    return found

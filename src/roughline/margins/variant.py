@@ -10,10 +10,10 @@ from typing import Literal
 
 import numpy as np
 
-from roughline.contact.arguments import sticking_law
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.measures import Measure
 from roughline.contact.press import press
+from roughline.contact.pressing import Pressing
 from roughline.engineering.pressed import Sought
 from roughline.errors import Interrupted
 from roughline.margins.tiles import FEWEST_POINTS, has_few_points
@@ -31,7 +31,7 @@ class Curves:
 
     by_name: Mapping[str, Curve]  # without the variants that proved needless
     of_pieces: Mapping[str, Sequence[SurfaceCurve]] = field(default_factory=dict)
-    """Those of pieces of one shape, which are one variant; only where all of them are done."""
+    """Those of surfaces that are one variant, over loads that press them; only of whole lists."""
 
     sought: Mapping[str, Sought] = field(default_factory=dict)  # beyond the loads, if asked for
     stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
@@ -52,8 +52,8 @@ class Curves:
         return None if name == self.stopped else self.get(name)
 
 
-Pressable = LoadCase | Sequence[LoadCase] | Curve | None
-"""What is pressed: a body, or pieces of one shape; the curve where it is known without that; or
+Pressable = LoadCase | Sequence[Pressing] | Curve | None
+"""What is pressed: a body, or other surfaces as one; the curve where it is known without that; or
 None where it is needless."""
 
 
@@ -94,24 +94,28 @@ def press_all(
     """
     done: dict[str, Curve] = {}
     pieces: dict[str, Sequence[SurfaceCurve]] = {}
+    solved: list[tuple[Pressing, SurfaceCurve]] = []
     points = max(math.prod(each.shape) for each in variants)
     steps = [math.ceil(loads * each.share * math.prod(each.shape) / points) for each in variants]
     before, total = 0, sum(steps)
     for i, (variant, here) in enumerate(zip(variants, steps, strict=True)):
-        found = variant.needed(Curves(done, pieces))
         report = partial(_report, progress, before, here, total) if progress else None
+        found: Pressable = None
         try:
+            found = variant.needed(Curves(done, pieces))
             if isinstance(found, LoadCase):
                 found = found.spread(_pressed(found, report))
             elif isinstance(found, Sequence):
-                pieces[variant.name] = _all_pieces(found, report)
-        except Interrupted as stop:
-            if isinstance(found, LoadCase):
+                pieces[variant.name] = _all_pieces(found, solved, report)
+        except KeyboardInterrupt as stop:
+            if isinstance(found, LoadCase) and isinstance(stop, Interrupted):
                 done[variant.name] = found.spread(stop.curve)
+            if not done:
+                raise
             missing = tuple(dict.fromkeys(each.purpose for each in variants[i:]))
             raise Stopped(Curves(done, pieces, {}, variant.name, missing)) from stop
         if isinstance(found, Curve):
-            if done and isinstance(found, SurfaceCurve):
+            if done and isinstance(found, SurfaceCurve) and variant.name not in done:
                 found = _with_largest_dents(found) if keep_dents else replace(found, dents=())
             done[variant.name] = found
         before += here
@@ -128,13 +132,20 @@ def _with_largest_dents(curve: SurfaceCurve) -> SurfaceCurve:
     return replace(curve, dents=(*[None] * largest, *curve.dents[largest:]))
 
 
-def _all_pieces(cases: Sequence[LoadCase], progress: LoadProgress | None) -> list[SurfaceCurve]:
-    """Press pieces of one shape, one after the other."""
-    curves = [
-        each.spread(_pressed(each, progress and partial(_report, progress, i, 1, len(cases))))
-        for i, each in enumerate(cases)
-    ]
-    return [each for each in curves if isinstance(each, SurfaceCurve)]
+def _all_pieces(
+    asked: Sequence[Pressing],
+    solved: list[tuple[Pressing, SurfaceCurve]],
+    progress: LoadProgress | None,
+) -> list[SurfaceCurve]:
+    """Press surfaces one after the other, each once: one that is solved is not pressed again."""
+    curves = []
+    for i, each in enumerate(asked):
+        curve = next((curve for other, curve in solved if other.tells(each)), None)
+        if curve is None:
+            curve = each.curve(progress and partial(_report, progress, i, 1, len(asked)))
+            solved.append((each, curve))
+        curves.append(curve)
+    return curves
 
 
 def _pressed(loads: LoadCase, progress: LoadProgress | None) -> Curve:
@@ -144,20 +155,18 @@ def _pressed(loads: LoadCase, progress: LoadProgress | None) -> Curve:
     """
     if loads.lifted is not None:
         loads = loads.beside_lifted(loads.lifted)
-    pull, law = loads.attraction, None
-    if pull is not None and pull.range is not None:
-        law = sticking_law(pull.law, pull.work, pull.range)
     return press(
         loads.body.detrended() if loads.levelled else loads.body,
         half_space=loads.half_space,
         hardness=loads.hardness,
-        law=law,
+        law=loads.sticking,
         n_loads=loads.n_loads,
         forces=loads.forces or None,
         depths=loads.depths or None,
+        friction=loads.friction,
+        shear_forces=loads.shear_forces or None,
         fields=loads.fields if isinstance(loads.body, Surface) else False,
         measures=loads.measures,
-        grid_error=loads.grid_error,
         rtol=loads.rtol,
         throw=False,
         progress=progress,

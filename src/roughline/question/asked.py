@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, get_args
@@ -11,8 +12,8 @@ from attrs import field, frozen
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated
 from roughline.engineering.sealing import Fluid
-from roughline.errors import InputError
-from roughline.errors.checks import allowed_choice, refuse
+from roughline.errors import InputError, UnitError
+from roughline.errors.checks import allowed_choice, as_number, refuse, whole_number
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.halfspace.friction.law import Friction
@@ -20,10 +21,11 @@ from roughline.halfspace.laws.dugdale import Dugdale
 from roughline.halfspace.laws.exponential import Exponential
 from roughline.question.arguments import quantity, several
 from roughline.question.fields import asked_in
-from roughline.units import engineering
+from roughline.units import engineering, load_in_newtons, refuse_decimal_comma
 
 _LARGEST_JOINT = 1e6  # [m²]
 _AREA_ROUNDING = 1e-9  # of the area of a map, which is a product of its sides
+_MOST_SHARE = 1 - 1e-9  # of what friction bears, that can be held
 
 
 def _attraction(given: float | str | Dugdale | Exponential | Attraction) -> Attraction:
@@ -100,6 +102,103 @@ class Ultrasound:
     frequency: float = field(converter=_frequency)
 
 
+def _shear_force(given: float | str | None) -> float | str | None:
+    """A shear force, or one over the nominal area, as it was typed."""
+    needed = 'a positive, finite force such as "20 N" is needed, or one over the area, "2 MPa"'
+    value = as_number(given) if not isinstance(given, str) else _in_newtons(given, 1.0)
+    if given is not None and (value is None or not 0 < value < math.inf):
+        refuse("shear", given, needed)
+    return given
+
+
+def _in_newtons(text: str, area: float) -> float:
+    """Read a shear force, or one over a nominal area [m²]. [N]"""
+    refuse_decimal_comma(text, "shear")
+    try:
+        return load_in_newtons(text, area)
+    except UnitError as error:
+        raise UnitError(error.statement, "shear") from None
+
+
+def _cycles(given: int | None) -> int | None:
+    """How often a shear force goes to and fro."""
+    return None if given is None else whole_number("cycles", given, 1, "at least 1 is needed")
+
+
+@public
+@frozen
+class Shear:
+    """A shear force on the pressed bodies that goes to and fro, asked for stick, slip and loop.
+
+    It is beside :class:`~roughline.Friction`, and under one load, which stays. The first body is
+    pushed along x, up to the force, down to as much the other way, and so on.
+
+    Parameters
+    ----------
+    force : float or str
+        Its size [N], such as "20 N", or over the nominal area, such as "2 MPa".
+    cycles : int, optional
+        How often it goes to and fro. Default: once; of bodies that pressure displaces along each
+        other, as of two materials, three times, until a cycle is as the one before.
+    """
+
+    force: float | str | None = field(default=None, converter=_shear_force)
+    cycles: int | None = field(default=None, converter=_cycles)
+
+    def newtons(self, area: float) -> float:
+        """Return the force on bodies of a nominal area [m²]. [N]"""
+        if isinstance(self.force, str):
+            return _in_newtons(self.force, area)
+        assert self.force is not None
+        return self.force
+
+    def refuse_beside(self, others: Iterable[Asked], *, yields: bool) -> None:
+        """Refuse what is not known of bodies that are sheared, and a shear that is none."""
+        shear, cycles = called("rl.Shear"), called("cycles")
+        if self.force is None:
+            raise InputError(
+                f"{cycles} is given without a shear force: give it too ({called('shear', '20 N')})",
+                None,
+                "cycles",
+                "shear",
+            )
+        if not any(isinstance(each, Friction) for each in others):
+            raise InputError(
+                f"a shear force ({shear}) needs friction that bears it: give its coefficient too "
+                f"({called('rl.Friction')})",
+                None,
+                "shear",
+                "friction",
+            )
+        if any(isinstance(each, Adhesion) for each in others):
+            raise InputError(
+                f"bodies that stick ({called('rl.Adhesion')}) and are sheared ({shear}) are not "
+                "solved: leave one of them out",
+                None,
+                "shear",
+                "adhesion",
+            )
+        if yields:
+            raise InputError(
+                f"bodies that yield and are sheared ({shear}) are not solved: take them as elastic "
+                f"({called('elastic', True)}), or leave {shear} out",
+                None,
+                "shear",
+                "elastic",
+            )
+
+    def refuse_beyond(self, force: float, pressing: float, friction: float) -> None:
+        """Refuse a shear force [N] that friction does not bear under the force that presses [N]."""
+        limit = friction * pressing
+        if not force < _MOST_SHARE * limit:
+            raise InputError(
+                f"is {engineering(force, 'N')}, and friction bears less than mu F = {friction:g} x "
+                f"{engineering(pressing, 'N')} = {engineering(limit, 'N')}: it is too large by "
+                f"{engineering(force - limit, 'N')}, and the bodies slide; give less",
+                "shear",
+            )
+
+
 @public
 @frozen
 class Joint:
@@ -151,12 +250,13 @@ def known_theories() -> list[str]:
     return list(THEORIES)
 
 
-Asked = Adhesion | Friction | Ultrasound | Joint | Theories | Fluid
+Asked = Adhesion | Friction | Shear | Ultrasound | Joint | Theories | Fluid
 KINDS: Mapping[str, type[Asked]] = {each.__name__: each for each in get_args(Asked)}
 """Classes of what is asked, by their names."""
 
 _NEEDING_MATERIALS = {
     Friction: "friction",
+    Shear: "shear",
     Ultrasound: "frequency",
     Joint: "joint_area",
     Fluid: "fluid",
@@ -168,6 +268,7 @@ _NOT_OF_LINES = {
     "rough line in many; leave it out, or press a map",
     Fluid: "along a line, in one dimension, any contact stops the flow; leave it out, or press a "
     "map",
+    Shear: "the springs of a line bear no shear; leave it out, or press a map",
     Joint: "a line stands for the square of its length alone, and what lies beyond is not known; "
     "leave it out",
 }
@@ -216,7 +317,8 @@ def refuse_uneven_friction(friction: Friction, coated: Sequence[Coated]) -> None
     for each in coated:
         raise InputError(
             f"partial slip ({name}) follows from the ratio of tangential and normal stiffness of "
-            f"bodies of one material each, and {each.name} is coated: leave {name} out",
+            f"bodies of one material each, and {each.name} is coated: leave {name} out, or give a "
+            f"shear force ({called('rl.Shear')}) under which it is solved",
             None,
             "friction",
             "materials",

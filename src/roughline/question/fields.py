@@ -322,6 +322,24 @@ FIELDS: tuple[Field, ...] = (
         read=_number("friction"),
     ),
     _of_answers(
+        name="shear",
+        of="Shear",
+        argument="force",
+        control="",
+        help='Shear force to and fro under the load, such as "20 N", or over the area "2 MPa": '
+        "adds stick and slip, tangential stiffness, and what a cycle dissipates.",
+        otherwise="none",
+    ),
+    _of_answers(
+        name="cycles",
+        of="Shear",
+        control="",
+        help="How often the shear force goes to and fro.",
+        otherwise="once, and three times where materials differ",
+        kind=int,
+        read=_whole_number,
+    ),
+    _of_answers(
         name="frequency",
         of="Ultrasound",
         fold=_FOLDED_AWAY,

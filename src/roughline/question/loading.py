@@ -24,8 +24,11 @@ DEFAULT_LOADS = 20
 UNLOADING = (0.75, 0.5, 0.25, 0.1, 0.0)
 """Loads over the largest one, on the way back to none."""
 
-_LIGHTEST_SHARE = 1e-3  # of the largest load, where a whole curve begins
-_CURVE_LOADS = 16  # of a whole curve
+LIGHTEST_SHARE = 1e-3
+"""Share of the largest load where a whole curve begins."""
+
+CURVE_LOADS = 16
+"""Loads of a whole curve."""
 
 
 @frozen
@@ -62,6 +65,20 @@ class Loading:
             raise InputError(f"{called('history', True)} {text}")
         self.forces(1.0)  # reads and checks them; a pressure waits for its area
         self.heights()
+
+    def refuse_unless_one_load(self) -> None:
+        """Refuse all but a single load, under which bodies are sheared."""
+        is_one = len(self.loads) == 1 and not (self.depths or self.unload or self.history)
+        if not is_one:
+            given = len(self.loads) + len(self.depths) or "none"
+            raise InputError(
+                f"bodies are sheared ({called('rl.Shear')}) under one load, which stays, and there "
+                f"are {given}: give one ({called('loads', '10 N')}), and neither depths nor "
+                f"{called('unload', True)}",
+                None,
+                "shear",
+                "loads",
+            )
 
     @property
     def n_loads(self) -> int | None:
@@ -151,6 +168,6 @@ def _with_curve(loads: list[float]) -> list[float]:
     """Loads for a whole curve up to the largest, those asked for among them, rising."""
     if max(loads) <= 0:  # a fluid lifts the body under all of them
         return sorted({*loads})
-    curve = np.geomspace(_LIGHTEST_SHARE * max(loads), max(loads), _CURVE_LOADS)
+    curve = np.geomspace(LIGHTEST_SHARE * max(loads), max(loads), CURVE_LOADS)
     others = [f for f in curve if not np.isclose(f, loads, rtol=0.02).any()]
     return sorted({*loads, *others})

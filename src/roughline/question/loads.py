@@ -4,25 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
-from roughline.contact.arguments import yielding_law
+from roughline.contact.arguments import given_law, sticking_law, yielding_law
 from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.measures import Measure
+from roughline.contact.pressing import Pressing
 from roughline.contact.selection import among_loads, at_loads
 from roughline.contact.status import Status
 from roughline.engineering.attraction import Attraction
 from roughline.errors import InputError
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.friction.law import Friction
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.question.kinds import is_map, nominal_area
 from roughline.question.loading import DEFAULT_LOADS
 from roughline.question.question import Question
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
+
+_CurveType = TypeVar("_CurveType", bound=Curve)
 
 LoadProgress = Callable[[int, int], None]
 """Called with (loads done, loads in all)."""
@@ -75,6 +81,10 @@ class LoadCase:
     rtol: float = 1e-6
     among: Mask | None = None  # which loads of a curve that is known these are; None for all
     lifted: Mask | None = None  # of forces, under which a fluid lifts the body; None for none
+    friction: Friction | None = (
+        None  # of a body that is sheared, and its shear forces along x and y
+    )
+    shear_forces: Sequence[tuple[float, float]] = ()
 
     @classmethod
     def of(cls, question: Question, body: Body) -> LoadCase:
@@ -143,23 +153,58 @@ class LoadCase:
         others = replace(self, forces=forces, depths=[], n_loads=None, fields=fields)
         return replace(others, among=solved, lifted=None)
 
+    def sheared(
+        self, half_space: HalfSpace, friction: float, shear_forces: Sequence[tuple[float, float]]
+    ) -> LoadCase:
+        """The same loads on a half-space that knows shear, each with its shear forces [N]."""
+        rubbing = Friction(friction)
+        return replace(self, half_space=half_space, friction=rubbing, shear_forces=shear_forces)
+
     def with_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
-        """Some of the same loads on a body of another hardness, without the grid's errors.
+        """Some of the same loads on a body of another hardness.
 
         Spaced loads are those of the curve that was solved under them.
         """
         values = np.array(self.depths or self.forces or curve.force)[loads].tolist()
         forces, depths = ([], values) if self.depths else (values, [])
-        others = replace(self, forces=forces, depths=depths, n_loads=None, grid_error=False)
+        others = replace(self, forces=forces, depths=depths, n_loads=None)
         return replace(others, hardness=hardness, among=loads, lifted=None)
 
-    def spread(self, curve: Curve) -> Curve:
+    def spread(self, curve: _CurveType) -> _CurveType:
         """A curve under these loads over all those that they are among, lifted ones included."""
         if self.lifted is not None:
             if self.lifted.all():
                 curve = replace(at_loads(curve, np.array([], int)), facts=())  # none of its own
             curve = among_loads(curve, ~self.lifted, Status.LIFTED)
-        return curve if self.among is None else among_loads(curve, self.among)
+        if self.among is None or self.among.all():
+            return curve
+        return among_loads(curve, self.among)
+
+    def alone(self, curve: SurfaceCurve) -> SurfaceCurve:
+        """A curve over all loads that these are among, under these alone; without its fields."""
+        if self.among is not None:
+            curve = at_loads(curve, np.flatnonzero(self.among))
+        return curve if self.lifted is None else at_loads(curve, np.flatnonzero(~self.lifted))
+
+    @property
+    def sticking(self) -> ContactLaw | None:
+        """The law of bodies that stick; None of others."""
+        pull = self.attraction
+        if pull is None or pull.range is None:
+            return None
+        return sticking_law(pull.law, pull.work, pull.range)
+
+    def pressing(self) -> Pressing:
+        """How a surface is pressed under those of these loads that press it."""
+        assert isinstance(self.body, Surface)
+        surface = self.body.detrended() if self.levelled else self.body
+        forces = self.forces
+        if self.lifted is not None:
+            forces = np.array(forces)[~self.lifted].tolist()
+        law = given_law(self.sticking, self.hardness)
+        given = GivenLoads(self.depths or None, forces or None, self.n_loads)
+        loads = surface_loads(surface, self.half_space, given, self.rtol, single=False, law=law)
+        return Pressing(surface, self.half_space, law, loads, self.rtol, self.measures)
 
     def beside_lifted(self, lifted: Mask) -> LoadCase:
         """The loads that press, or a light one where there is none, as a curve has one."""

@@ -11,6 +11,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from roughline.contact.arguments import given_half_space
+from roughline.contact.shear_loads import refuse_unknown_shear
 from roughline.contact.strain import LARGEST_STRAIN, LINEARITY
 from roughline.engineering.attraction import Attraction
 from roughline.engineering.coated import Coated, Solid
@@ -37,6 +38,7 @@ from roughline.question.asked import (
     Adhesion,
     Asked,
     Joint,
+    Shear,
     Theories,
     Ultrasound,
     asked,
@@ -113,7 +115,7 @@ class Question:
     n_loads : int, optional
         Number of forces from first touch to saturation; 20 if no loads and no depths are given.
     ask : what is asked beside the contact, or sequence of it, optional
-        Any of :class:`roughline.Adhesion`, :class:`roughline.Friction`,
+        Any of :class:`roughline.Adhesion`, :class:`roughline.Friction`, :class:`roughline.Shear`,
         :class:`roughline.Ultrasound`, :class:`roughline.Joint`, :class:`roughline.Theories` and
         :class:`roughline.Fluid`.
     against : Surface, Line, str or Path, optional
@@ -211,7 +213,10 @@ class Question:
         if self.materials is None:
             refuse_without_materials(self.ask)
         refuse_unless_one_modulus(self.E_star, self.materials)
-        self._asked(Friction, lambda asked: refuse_uneven_friction(asked, self.coated))
+        coated = self.coated if self.shear is None else []
+        self._asked(Friction, lambda asked: refuse_uneven_friction(asked, coated))
+        self._asked(Shear, lambda asked: asked.refuse_beside(self.ask, yields=self._yields))
+        self._asked(Shear, lambda _: self.loading.refuse_unless_one_load())
         self._asked(Adhesion, lambda asked: asked.refuse_beside(self.ask, yields=self._yields))
         if self.is_of_several:
             self._refuse_maps()
@@ -237,6 +242,17 @@ class Question:
     def friction(self) -> float | None:
         """Coefficient of friction that partial slip is asked for. [1]"""
         return self._asked(Friction, lambda asked: as_number(asked.coefficient))
+
+    @property
+    def shear(self) -> Shear | None:
+        """The shear force that is asked for; None without."""
+        return self._asked(Shear, lambda asked: asked)
+
+    def shear_on(self, area: float) -> float:
+        """Shear force on a body of a nominal area [m²]; of a joint, its share of it. [N]"""
+        scale = self.loading.scale(area)
+        force = self._asked(Shear, lambda asked: asked.newtons(area * scale))
+        return 0.0 if force is None else force / scale
 
     @property
     def frequency_in_hertz(self) -> float | None:
@@ -295,6 +311,12 @@ class Question:
         if pair is None:
             return given_half_space(None, self.E_star, along)
         return pair.half_space().interface if along is True else pair.half_space(periodic=along)
+
+    @property
+    def sheared_half_space(self) -> HalfSpace | None:
+        """What both bodies are sheared as; None without materials."""
+        along = self.repeated_along
+        return None if self.pair is None else self.pair.sheared_half_space(periodic=along)
 
     @property
     def modulus(self) -> float:
@@ -356,6 +378,7 @@ class Question:
             self._refuse_line(body)
         else:
             self._asked(Joint, lambda asked: asked.refuse_map(body.area))
+            self._asked(Shear, lambda asked: self._refuse_sliding(asked, body))
             if self.attraction is not None:
                 self.attraction.refuse_too_strong(min(body.sizes), self.modulus)
         for ratio, fact in self.strains(body):
@@ -366,6 +389,16 @@ class Question:
                 "theories are evaluated for a rough surface of 8 x 8 points or more, whose pixels "
                 "are nearly square"
             )
+
+    def _refuse_sliding(self, shear: Shear, body: Surface) -> None:
+        """Refuse a shear force beyond what friction bears, and what is not solved with friction."""
+        area, friction = body.area, self.friction
+        (pressing,) = self.pressing(area)
+        if friction is None or self.sheared_half_space is None:
+            return
+        scale = self.loading.scale(area)
+        shear.refuse_beyond(self.shear_on(area) * scale, pressing * scale, friction)
+        refuse_unknown_shear(self.sheared_half_space)
 
     def _refuse_line(self, line: Line) -> None:
         """Refuse what belongs to a surface."""

@@ -90,7 +90,7 @@ def overview(assessment: Assessment) -> Figure:
         panels.append(partial(_draw_separation, assessment=assessment, drawn=separation.curve))
     if _has_falling_loads(assessment):
         panels.append(partial(_draw_force, assessment=assessment))
-    if assessment.question.friction is not None:
+    if _has_closed_form(assessment):
         panels.append(partial(_draw_partial_slip, slip=assessment.partial_slip))
     rows = -(-len(panels) // 2)
     figure = new_figure(PAGE, min(_PANEL_HEIGHT * rows, _MOST_HEIGHT))
@@ -133,7 +133,7 @@ def overview_in_words(assessment: Assessment) -> str:
         panels.append("force over depth as the bodies are drawn apart after the largest load")
     if _has_falling_loads(assessment):
         panels.append("force over depth")
-    if question.friction is not None:
+    if _has_closed_form(assessment):
         panels.append("partial slip at the largest load")
     with_theories = "; with theories for the same spectrum" if assessment.theories else ""
     return f"{'; '.join(panels)}{with_theories}."
@@ -263,6 +263,12 @@ def _draw_partial_slip(axes: Axes, slip: PartialSlip | None) -> None:
     y_label, y = in_unit("tangential force $Q$", slip.force, "N")
     axes.plot(slip.displacement * x, slip.force * y, color="k")
     axes.set(xlabel=x_label, ylabel=y_label)
+
+
+def _has_closed_form(assessment: Assessment) -> bool:
+    """Whether partial slip is drawn by its closed form: a shear force has a picture of its own."""
+    question = assessment.question
+    return question.friction is not None and question.shear is None
 
 
 def draw_filled(axes: Axes, assessment: Assessment) -> None:

@@ -49,6 +49,12 @@ _ASSUMPTION_ON_LAYERS = (
     "hardness of a coated body is that of its top layer, and what lies below does not yield. No "
     "interval of a coated body holds what a map does not show of the surface around it."
 )
+_ASSUMPTION_ON_SHEAR = (
+    "A shear force goes to and fro under the load, slowly. Each point bears at most the "
+    "coefficient of friction times its pressure, however far it has slipped; pressure and shear "
+    "are solved together where they move each other. The bodies do not turn, and nothing wears or "
+    "heats up."
+)
 _ASSUMPTION_ON_PART = (
     "Intervals of the part hold the scatter between its places as well. They assume that the "
     "places were chosen at random, and that quantities scatter by factors."
@@ -178,6 +184,7 @@ def _assumptions(assessment: Assessment) -> list[str]:
         "the normal problem, static loads.",
         _ASSUMPTION_ON_HEIGHTS,
         *([] if assessment.question.joint is None else [_ASSUMPTION_ON_JOINT]),
+        *([] if assessment.question.shear is None else [_ASSUMPTION_ON_SHEAR]),
         *_interval_assumptions(assessment),
         *([_ASSUMPTION_ON_LAYERS] if pair is not None and pair.coated else []),
         *(f"{theory.name}: {theory.validity}." for theory in assessment.theories),

@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from roughline.contact.selection import loads_with_fields
 from roughline.plot.distributions import draw_distribution, draw_patches
 from roughline.plot.flows import draw_flow
+from roughline.plot.sliding import draw_loop, draw_stick_and_slip
 from roughline.plot.style import PAGE, new_figure, save
 from roughline.report.page import Picture, Section, Table
 from roughline.report.values import length
@@ -18,6 +20,7 @@ from roughline.units import decimal, engineering
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.contact.fields import Fields
+    from roughline.engineering.slip import ShearCycles
 
 _DIGITS = 3  # of statistics of one map
 _FLOW_CAPTION = (
@@ -66,7 +69,44 @@ def write_fields(assessment: Assessment, folder: Path) -> tuple[list[Section], l
             behind="where it goes, and where it is throttled",
         )
         sections.insert(0, of_flow)
+    if (sheared := assessment.sought.sheared) is not None:
+        drawn = save(shear_figure(sheared), folder, "stick_and_slip")
+        shear = engineering(sheared.amplitude * assessment.scale, "N")
+        of_shear = Section(
+            f"Stick and slip at {force}, sheared by {shear}",
+            pictures=[Picture(drawn[0], "Stick and slip", _shear_caption(assessment, sheared))],
+            behind="the loop of shear force and slide, and where the contact slips",
+        )
+        sections, files = [of_shear, *sections], [*files, *drawn]
     return sections, files
+
+
+def _shear_caption(assessment: Assessment, sheared: ShearCycles) -> str:
+    """Say what the pictures of a shear force show."""
+    of_map = " on the map" if assessment.question.joint is not None else ""
+    return (
+        f"Left: shear force{of_map} along x over the slide of the first body, to and fro; what the "
+        "last cycle dissipates is filled. Right: black where the contact never slips in it, orange "
+        "where it does, white where the bodies are apart; arrows along the last slip, one for each "
+        f"place, the longest {engineering(_last_slip(sheared), 'm', _DIGITS)}."
+    )
+
+
+def _last_slip(sheared: ShearCycles) -> float:
+    """The longest slip of a point in the last load. [m]"""
+    fields = sheared.fields
+    return 0.0 if fields is None else float(np.hypot(*np.moveaxis(fields.slip, -1, 0)).max())
+
+
+def shear_figure(sheared: ShearCycles) -> Figure:
+    """Two panels: the loop of shear force and slide, and where the contact sticks and slips."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    curve, fields, never = sheared.curve, sheared.fields, sheared.never_slips
+    draw_loop(left, curve.slide[:, 0], curve.shear_force[:, 0], sheared.per_cycle)
+    if fields is not None and never is not None:
+        draw_stick_and_slip(right, fields, never, "m")
+    return figure
 
 
 def _flow_caption(assessment: Assessment, load: int) -> str:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughline._version import __version__
-from roughline.contact.quantities import IN_JSON
+from roughline.contact.quantities import IN_JSON, SLIDING_QUANTITIES
 from roughline.contact.status import Status
 from roughline.facts.fact import Fact
 from roughline.report.texture_table import texture_json
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
     from roughline.comparison.compared import ModelComparison
     from roughline.contact.measures import Measured
+    from roughline.engineering.slip import ShearCycles
     from roughline.measurement.fit import SelfAffineFit
     from roughline.question.description import Description
 
@@ -42,8 +43,8 @@ def assessment_json(assessment: Assessment, files: Sequence[Path] = ()) -> dict[
     """
     intervals = assessment.intervals_as_asked
     pair = assessment.question.pair
-    question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip
-    content = {
+    question, curve = assessment.question, assessment.curve_as_asked
+    return {
         "file": (question.reading.name or question.body)
         if isinstance(question.body, Path)
         else None,
@@ -87,10 +88,39 @@ def assessment_json(assessment: Assessment, files: Sequence[Path] = ()) -> dict[
         "facts": list(map(_fact_json, assessment.facts)),
         "settings": curve.settings,
         "files": list(files),
+        **_friction_json(assessment),
     }
+
+
+def _friction_json(assessment: Assessment) -> dict[str, Any]:
+    """Partial slip and the path of a shear force, as far as they are asked for."""
+    question, slip, found = assessment.question, assessment.partial_slip, dict[str, Any]()
     if question.friction is not None:
-        content["partial_slip"] = None if slip is None else vars(slip)
-    return content
+        found["partial_slip"] = None if slip is None else vars(slip)
+    if question.shear is not None:
+        found["sheared"] = _sheared_json(assessment.sought.sheared)
+    return found
+
+
+def _sheared_json(sheared: ShearCycles | None) -> dict[str, Any] | None:
+    """The path of a shear force, on the body that was pressed, and its last cycle."""
+    if sheared is None:
+        return None
+    path = {
+        each.name: getattr(sheared.curve, each.name)
+        for each in SLIDING_QUANTITIES
+        if "x" not in each.dims
+    }
+    closed = sheared.closed_form
+    return {
+        "friction": sheared.friction,
+        "loads_of_a_cycle": sheared.per_cycle,
+        "cycles": sheared.cycles,
+        "force": sheared.curve.force,
+        **path,
+        "energy_of_cycles": sheared.energies,
+        "closed_form": None if closed is None else vars(closed),
+    }
 
 
 def _fact_json(fact: Fact) -> dict[str, Any]:

@@ -104,19 +104,17 @@ class DensePath:
     def to(self, depth, slide, sweeps=20000):
         """Go to the next depth and slide."""
         before, slide = self.state, np.asarray(slide, float)
-        share = np.ones(self.separation.size)
-        if depth > before.depth:
-            share -= np.clip(before.gap / (depth - before.depth), 0.0, 1.0)
         moved = (self.matrix @ before.traction.ravel()).reshape(3, -1)
         target = np.array(
             [
-                share * (slide[0] - before.slide[0]) + moved[0],
-                share * (slide[1] - before.slide[1]) + moved[1],
+                slide[0] - before.slide[0] + moved[0],
+                slide[1] - before.slide[1] + moved[1],
                 depth - self.separation,
             ]
         )
         traction = before.traction.copy()
-        _sweep(self.matrix, target, self.coefficient, self.strength, traction, sweeps)
+        bounds = self.coefficient, self.strength
+        _sweep(self.matrix, target, np.maximum(before.gap, 0.0), *bounds, traction, sweeps)
         there = (self.matrix @ traction.ravel()).reshape(3, -1)
         gap = np.where(traction[2] > 0, 0.0, there[2] - target[2])
         self.state = DenseState(traction, slide, depth, gap)
@@ -124,7 +122,7 @@ class DensePath:
 
 
 @njit(cache=True)
-def _sweep(matrix, target, coefficient, strength, traction, sweeps):
+def _sweep(matrix, target, gap, coefficient, strength, traction, sweeps):
     count = target.shape[1]
     flat = traction.reshape(-1)
     for _ in range(sweeps):
@@ -140,8 +138,15 @@ def _sweep(matrix, target, coefficient, strength, traction, sweeps):
                 else:
                     along, across = matrix[i], matrix[count + i]
                     stiff = max(along[i], across[count + i])
-                    x = traction[0, i] + (target[0, i] - along @ flat) / stiff
-                    y = traction[1, i] + (target[1, i] - across @ flat) / stiff
+                    x, y = traction[0, i], traction[1, i]
+                    off_x, off_y = target[0, i] - along @ flat, target[1, i] - across @ flat
+                    if gap[i] > 0.0 and traction[2, i] > 0.0:  # what it moved before it joined
+                        own = (along[i] + across[count + i]) / 2
+                        spring = own / matrix[2 * count + i, 2 * count + i]
+                        spring *= gap[i] / traction[2, i]
+                        off_x, off_y = off_x - spring * x, off_y - spring * y
+                        stiff += spring
+                    x, y = x + off_x / stiff, y + off_y / stiff
                     most = min(coefficient[i] * traction[2, i], strength[i])
                     if traction[2, i] == 0.0:
                         most = 0.0
@@ -150,5 +155,5 @@ def _sweep(matrix, target, coefficient, strength, traction, sweeps):
                         x, y = x * most / size, y * most / size
                     changed = max(changed, abs(x - traction[0, i]), abs(y - traction[1, i]))
                     traction[0, i], traction[1, i] = x, y
-        if changed < 1e-16 * np.abs(flat).max():
+        if changed < 1e-14 * np.abs(flat).max():
             break

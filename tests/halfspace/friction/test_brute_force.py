@@ -11,16 +11,14 @@ TIGHT = {"rtol": 1e-10, "solver": rl.Solver(precision="float64")}
 ONE_SIDED = 2 / 7
 
 
-def random_case(seed, shape, spacing, *, periodic, beta=0.0):
+def random_case(seed, shape, spacing, *, periodic):
     """Return a rough surface, and depths and slides of a path that turns and comes back."""
     rng = np.random.default_rng(seed)
     sizes = shape[0] * spacing[0], shape[1] * spacing[1]
     surface = rl.Surface(0.1 * rng.normal(size=shape), sizes=sizes)
     separation = surface.heights.max() - surface.heights
     deep = 0.5 * separation.mean() if periodic else np.quantile(separation, 0.3)
-    # a step without a change of depth is left to bodies without coupling: nodes that join then
-    # slip from its start on, and from their contact on where the depth grows by the least
-    depths = deep * np.array([0.6, 1.0, 1.0 if beta == 0 else 0.97, 1.1, 0.7, 1.2])
+    depths = deep * np.array([0.6, 1.0, 1.0, 1.1, 0.7, 1.2])
     slides = 0.15 * deep * rng.normal(size=(6, 2))
     return surface, separation, depths, slides
 
@@ -39,9 +37,7 @@ def random_case(seed, shape, spacing, *, periodic, beta=0.0):
     ],
 )
 def test_every_state_of_a_path_is_that_of_brute_force(seed, shape, spacing, periodic, beta):
-    surface, separation, depths, slides = random_case(
-        seed, shape, spacing, periodic=periodic, beta=beta
-    )
+    surface, separation, depths, slides = random_case(seed, shape, spacing, periodic=periodic)
     poisson = (0.0, 0.3, 0.5)[seed % 3] if beta == 0 else 0.3
     n, mu = poisson / (1 - poisson), (0.1, 0.3, 0.5)[seed % 3]
     body = rl.Homogeneous(1.0, periodic, poisson=poisson, beta=beta)
@@ -72,7 +68,7 @@ def test_every_state_of_a_path_is_that_of_brute_force(seed, shape, spacing, peri
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("beta", [0.0, ONE_SIDED])
 def test_forces_lead_through_the_states_of_depths_and_slides(periodic, beta):
-    surface, _, depths, slides = random_case(5, (9, 8), (1.0, 0.7), periodic=periodic, beta=beta)
+    surface, _, depths, slides = random_case(5, (9, 8), (1.0, 0.7), periodic=periodic)
     given = {
         "half_space": rl.Homogeneous(1.0, periodic, poisson=0.3, beta=beta),
         "friction": rl.Friction(0.4),

@@ -97,15 +97,17 @@ def test_rough_bodies_slip_as_the_difference_of_two_normal_contacts(n, periodic)
         assert curve.fields[load].shear[..., 0] == pytest.approx(traction, abs=1e-5 * largest)
 
 
+@pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("steps", [1, 3])
-def test_oblique_loading_below_the_friction_angle_slips_nowhere(steps):
+def test_oblique_loading_below_the_friction_angle_slips_nowhere(steps, periodic):
     """In any number of steps: nodes that join slip from their contact on."""
     surface, slope = rough(32), MU / 2
     depths = np.linspace(0.0, 0.02, steps + 1)[1:]
-    told = rl.press(surface, half_space=NO_SIDE, depths=depths, rtol=1e-9)
+    body = rl.Homogeneous(1.0, periodic, poisson=0.0)
+    told = rl.press(surface, half_space=body, depths=depths, rtol=1e-9)
     curve = rl.press(
         surface,
-        half_space=NO_SIDE,
+        half_space=body,
         friction=rl.Friction(MU),
         forces=told.force,
         shear_forces=slope * told.force,
@@ -154,6 +156,100 @@ def test_a_flat_disc_of_another_material_is_as_stiff_as_spence_says(
     if sticks:
         assert sqrt(curve.stick_fraction[0]) == pytest.approx(sticks, abs=1.0 / n)
     assert curve.stiffness[0] == pytest.approx(curve.force[0] / 1e-3, rel=1e-4)
+
+
+@pytest.mark.parametrize("angle", [0, 90, 210])
+def test_oblique_loading_with_a_side_slips_the_same_way_round(angle):
+    """With Poisson's ratio of 0.3 it is exact but for the displacement across shear."""
+    surface, turn = rough(32), np.deg2rad(angle)
+    force = 0.02 * MU / 2 * np.array([np.cos(turn), np.sin(turn)])
+    asked = {"half_space": rl.Homogeneous(1.0, poisson=0.3), "friction": rl.Friction(MU)}
+    once = rl.press(surface, forces=[0.02], shear_forces=[force], **asked)
+    finely = rl.press(
+        surface,
+        forces=np.linspace(0.0, 0.02, 9)[1:],
+        shear_forces=np.outer(np.arange(1, 9) / 8, force),
+        **asked,
+    )
+    assert once.slide[0] == pytest.approx(finely.slide[-1], abs=4e-3 * np.hypot(*once.slide[0]))
+
+
+@pytest.mark.parametrize(
+    ("n", "steps", "within"), [(32, 1, 0.08), (32, 4, 0.02), (64, 4, 0.005), (64, 8, 0.01)]
+)
+def test_a_sphere_of_another_material_sticks_where_spence_says(n, steps, within):
+    """Whatever the steps: nodes at their bound slip on or stick as the rates say."""
+    depths = DEPTH * (np.geomspace(0.25, 1, steps) if steps > 1 else np.ones(1))
+    curve = rl.press(
+        sphere(n),
+        half_space=rl.Homogeneous(1.0, poisson=0.3, beta=2 / 7),
+        friction=rl.Friction(MU),
+        depths=depths,
+    )
+    assert sqrt(curve.stick_fraction[-1]) == pytest.approx(0.8959447, abs=within)
+
+
+def test_of_a_sphere_that_turns_back_all_sticks_and_going_on_what_did():
+    """The same loads in more steps show the same: a load that stands asks as the one before."""
+    force = MU * FORCE
+    shears = [0.0, 0.3 * force, 0.6 * force, 0.6 * force, 0.6 * force]
+    forces = [FORCE, FORCE, FORCE, FORCE, 1.02 * FORCE]
+    asked = {"half_space": NO_SIDE, "friction": rl.Friction(MU)}
+    curve = rl.press(sphere(32), forces=forces, shear_forces=shears, **asked)
+    sticks = curve.stick_fraction
+    assert sqrt(sticks[2]) == pytest.approx(0.4 ** (1 / 3), abs=0.03)
+    assert sticks[3] == sticks[2]
+    assert sticks[4] == 1  # the bound grows and the shear does not: nothing slips on
+    assert curve.shear_stiffness[4] == pytest.approx(curve.shear_stiffness_back[4])
+
+
+@pytest.mark.parametrize("control", ["shear_forces", "slides"])
+def test_a_sphere_that_is_lifted_off_comes_back_as_springs_do(control):
+    """History is tractions and the slide: of bodies that came off, where the highest point was."""
+    radii = np.linspace(0, 0.6, 201)
+    springs = rl.Profile(radii, -(radii**2) / 2)
+    forces = FORCE * np.array([1, 1, 0, 1, 0.8, 0, 0.5])
+    along = {
+        "shear_forces": MU * FORCE * np.array([0, 0.7, 0, 0.3, -0.4, 0, 0.2]),
+        "slides": MU * DEPTH * np.array([0.2, 1.6, 1.6, 1.9, 1.0, 0.9, 1.1]),
+    }[control]
+    asked = {"half_space": NO_SIDE, "friction": rl.Friction(MU), "forces": forces, control: along}
+    full, reduced = rl.press(sphere(32), **asked), rl.press(springs, **asked)
+    assert full.slide[:, 0] == pytest.approx(reduced.slide[:, 0], abs=2e-3 * MU * DEPTH)
+    assert full.shear_force[:, 0] == pytest.approx(reduced.shear_force[:, 0], abs=2e-3 * MU * FORCE)
+    if control == "shear_forces":
+        assert full.slide[[2, 5], 0] == pytest.approx(0.0, abs=2e-3 * MU * DEPTH)
+
+
+def test_a_sphere_that_slid_before_it_came_off_stays_where_it_slid_to():
+    """Of bodies that slid by two slides before, springs and nodes tell the same place."""
+    radii = np.linspace(0, 0.6, 201)
+    asked = {"half_space": NO_SIDE, "friction": rl.Friction(MU)}
+    slides = MU * DEPTH * np.array([0.0, 2.0])
+    for body in (sphere(32), rl.Profile(radii, -(radii**2) / 2)):
+        slid = rl.press(body, forces=[FORCE] * 2, slides=slides, **asked)
+        assert slid.shear_force[1, 0] == pytest.approx(slid.shear_limit[1], rel=1e-6)
+    shears = MU * FORCE * np.array([0.999, -0.999, 0.0, 0.0])
+    forces = [FORCE, FORCE, FORCE, 0.0]
+    left = [
+        rl.press(body, forces=forces, shear_forces=shears, **asked).slide[:, 0]
+        for body in (sphere(32), rl.Profile(radii, -(radii**2) / 2))
+    ]
+    assert left[0] == pytest.approx(left[1], abs=5e-3 * MU * DEPTH)
+
+
+def test_two_materials_that_come_nearer_are_much_the_same_in_few_steps():
+    """Nodes that join leave out what they were moved before; four steps do what sixteen do."""
+    body = rl.Homogeneous(1.0, poisson=0.3, beta=2 / 7)
+    asked = {"half_space": body, "friction": rl.Friction(MU)}
+    found = {}
+    for steps in (1, 2, 4, 8):
+        depths = DEPTH * np.arange(1, steps + 1) / steps
+        found[steps] = rl.press(sphere(32), depths=depths, **asked).force[-1]
+    off = [abs(found[steps] / found[8] - 1) for steps in (1, 2, 4)]
+    assert off[0] < 5e-3
+    assert off[1] < 1e-3
+    assert off[2] < 2e-4
 
 
 @pytest.mark.parametrize("periodic", [False, True])

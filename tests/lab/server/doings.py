@@ -6,9 +6,6 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
-
-import roughline as rl
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.lab.controls import ControlError
@@ -101,26 +98,6 @@ def need_memory(arguments, progress):
     return b""
 
 
-def name_folders(arguments, progress):
-    """Refuse, with the names of folders of the lab and of the program."""
-    folder = arguments["session"]["folder"]
-    raise InputError(f"cannot read {folder}/a-1.pickle, nor {processes.__file__} (its name)")
-
-
 def fail_to_open(arguments, progress):
     """Fail to open a file that is not there."""
     return Path(arguments["session"]["folder"], "none").read_bytes()
-
-
-def write_surface(arguments, progress):
-    """Write a surface as the lab does."""
-    heights = np.random.default_rng(0).normal(size=(64, 64))
-    rl.write(rl.Surface(heights, (1.0, 1.0)), Path(arguments["session"]["folder"]) / "body.nc")
-    return b""
-
-
-def write_file(arguments, progress):
-    """Write a file that is too large."""
-    with Path(arguments["path"]).open("wb") as file:
-        file.truncate(3_000_000_000)
-    return b""

@@ -110,17 +110,13 @@ def test_questions_are_answered(lasting):
         ("refuse_at", "too rough", "h"),
         ("die", "ended unexpectedly", ""),
         ("take_memory", "more memory than one page may have", ""),
-        ("write_file", "the disk has no room for the files of this", ""),
         ("need_memory", "more than one computation may have here, 1 GB: take less", ""),
-        ("name_folders", "cannot read a file of the lab, nor a file of the lab (its name)", ""),
         ("fail_to_open", "could not be read or written (No such file or directory): ask", ""),
     ],
 )
-def test_what_goes_wrong_is_one_sentence_and_the_next_question_is_answered(
-    task, sentence, at, tmp_path
-):
+def test_what_goes_wrong_is_one_sentence_and_the_next_question_is_answered(task, sentence, at):
     async def scenario(lane, asker):
-        asker.ask(task, bytes=3_000_000_000, path=str(tmp_path / "large"))
+        asker.ask(task, bytes=3_000_000_000)
         outcome = await asker.of("slot")
         assert outcome.answer is None
         assert sentence in outcome.error
@@ -205,30 +201,6 @@ def test_a_stopped_task_frees_its_core(tmp_path):
         lane.withdraw("session")
         await becomes(lambda: not psutil.pid_exists(pid))
         assert not asker.outcomes
-
-    run(scenario, lasting=False)
-
-
-def test_long_tasks_give_way(tmp_path, monkeypatch):
-    monkeypatch.setattr(lanes, "_LETS_PASS_AFTER", 0.1)
-
-    async def scenario(lane, asker):
-        mark = tmp_path / "mark"
-        asker.ask("compute", slot="long", mark=str(mark))
-        await becomes(lambda: mark.exists() and mark.read_text())
-        found = psutil.Process(int(mark.read_text()))
-        await becomes(lambda: found.nice() == processes.LOWEST_PRIORITY)
-
-    run(scenario, lasting=False)
-
-
-def test_questions_of_a_page_that_wait_are_bounded():
-    async def scenario(lane, asker):
-        for number in range(30):
-            asker.ask("sleep", slot=f"{number}", seconds=LONG)
-        refused = [outcome for outcome in asker.outcomes.values() if "too many" in outcome.error]
-        assert len(refused) == 30 - 2 - 16
-        lane.withdraw("session")
 
     run(scenario, lasting=False)
 

@@ -1,4 +1,4 @@
-"""Sessions that wait for their pages: what goes on, and how long and how many."""
+"""Sessions that wait for their pages: what goes on, and how long."""
 
 import asyncio
 import json
@@ -11,9 +11,8 @@ from tornado.netutil import bind_sockets
 
 from lab.server.serving import Lab, becomes, upload
 from roughline.lab.server import sessions
-from roughline.lab.server.files import Upload
 from roughline.lab.server.handlers import application
-from roughline.lab.server.sessions import _MOST_HELD_BYTES, Server
+from roughline.lab.server.sessions import Server
 from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import TaskOutcome
 from roughline.lab.site import site
@@ -120,17 +119,14 @@ def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twic
     run(scenario, tmp_path)
 
 
-def test_answers_that_nobody_heard_are_kept_up_to_a_size(tmp_path):
+def test_what_a_page_says_of_its_session_does_not_count(tmp_path):
     async def scenario(lab, server):
         async with lab.page() as page:
-            for slot in ("small", "large"):
-                await page.ask("explore.full", slot)
-            await becomes(lambda: len(server.slow.requests) == 2)
-            await dropped(server, page)
-            small, large = server.slow.requests
-            small.answer(TaskOutcome(b"1"))
-            large.answer(TaskOutcome(bytes(_MOST_HELD_BYTES)))
-        assert list(server.sessions[page.token].asked) == ["small"]
+            await page.ask("explore.full", state={}, session={"folder": "/etc", "names": None})
+            await becomes(lambda: server.slow.requests)
+            told = server.slow.requests[0].arguments
+            assert told["state"] == {}
+            assert told["session"]["folder"] == str(tmp_path / page.token)
 
     run(scenario, tmp_path)
 
@@ -186,26 +182,5 @@ def test_a_page_takes_over_from_another_that_is_told_so(tmp_path):
             server.quick.requests[0].answer(TaskOutcome(error="told to the other"))
             assert (await copied.answer())[1] == "told to the other"
             assert list(server.sessions) == [copied.token]
-
-    run(scenario, tmp_path)
-
-
-def test_sessions_that_wait_give_way_to_pages(tmp_path, monkeypatch):
-    monkeypatch.setattr(sessions, "_MOST_PAGES", 3)
-
-    class Opened:
-        """A line to a page."""
-
-    async def scenario(lab, server):
-        def opened():
-            return server.session_for(Opened(), "")
-
-        waiting = [opened() for _ in range(2)]
-        for session in waiting:
-            session.files.uploads["key"] = Upload("key", tmp_path / "a", "a", 0)
-            server.line_closed(session, is_left=False)
-        pages = [opened() for _ in range(3)]
-        assert list(server.sessions.values()) == pages
-        assert opened() is None
 
     run(scenario, tmp_path)

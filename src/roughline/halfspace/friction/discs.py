@@ -3,12 +3,14 @@
 A node that sticks is displaced as its target says, and its shear is within its disc. One that slips
 has its shear on the rim of its disc, in the direction in which the target runs ahead of it. With q
 the shear, A the half-space and w = target + level - A q the slip, that is q = Pi(q + w / m) for any
-m > 0 [1]_, where Pi projects onto the discs. Its residual, times m, is a length.
+m > 0 [1]_, where Pi projects onto the discs. Its residual, times m, is a length. A node may have a
+spring of its own beside the half-space, which displaces it by as much more as it bears more.
 
 Unknowns are two numbers at a node that sticks and one, the turn along the rim, at a node that
 slips. On fixed sets Newton's equations (P A P + lambda) y = P w are positive definite: P takes what
 lies along the rim, and the radius w q / g² of the slip resists a turn. They are solved by conjugate
-gradients, in which the slip is as stiff as it is, (1 + lambda / m)^-1/2 on both sides.
+gradients, in which the slip is as stiff as it is, (1 + lambda / m)^-1/2 on both sides; lambda holds
+the springs, too.
 
 References
 ----------
@@ -24,6 +26,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
+from roughline.halfspace.friction.vectors import followed, inner, largest_excess
 
 _MOST_ROUNDS = 60
 _MOST_STEPS = 300  # of conjugate gradients in a round
@@ -56,6 +59,7 @@ class Discs:
     target: Real  # shape (nodes, 2) [length]
     total: Real | None  # sum of the shear, shape (2,); None: the targets are what they are
     diagonal: float  # m, displacement of a node by shear on itself [length / pressure]
+    springs: Real  # shape (nodes,): of each node beside the half-space [length / pressure]
 
     def within(self, shear: Real) -> Real:
         """Project shear onto the discs."""
@@ -67,7 +71,7 @@ class Discs:
 
     def judged(self, shear: Real, level: Real, displacement: Real) -> Sheared:
         """Return shear with its slip, and how far both are from the conditions."""
-        slip = self.target + level - displacement
+        slip = self.target + level - displacement - self.springs[:, np.newaxis] * shear
         off = shear - self.within(shear + slip / self.diagonal)
         residual = self.diagonal * float(np.hypot(off[:, 0], off[:, 1]).max(initial=0.0))
         missing = 0.0
@@ -78,25 +82,46 @@ class Discs:
 
 @dataclass(frozen=True, eq=False)
 class DiscSearch:
-    """Newton's method with an operator and an approximate inverse of it."""
+    """Newton's method with an operator and an approximate inverse of it.
+
+    Of a rough operator there may be some shear whose displacement is known exactly.
+    """
 
     operator: Linear
     inverse: Linear
+    known: tuple[Real, Real] | None = None
 
-    def found(self, discs: Discs, start: Sheared, *, tolerance: float, share: float) -> Sheared:
-        """Return the shear on the discs, from a start of which shear and level count.
+    def displacement(self, shear: Real) -> Real:
+        """Return the displacement by shear, exactly for the one that is known."""
+        if self.known is None:
+            return self.operator(shear)
+        before, moved = self.known
+        return moved + self.operator(shear - before)
 
-        It is within the tolerance [length], and its total within a share of the sum of all bounds;
-        or it is the best that was found.
+    def found(
+        self,
+        discs: Discs,
+        start: tuple[Real, Real],
+        *,
+        tolerance: float,
+        share: float,
+        gain: float = 0.0,
+    ) -> Sheared:
+        """Return the shear on the discs, from a shear and a level.
+
+        It is within the tolerance [length], or that part of what the start leaves, and its total
+        within a share of the sum of all bounds; or it is the best that was found.
         """
-        shear, level = discs.within(start.shear), start.level
+        shear, level = discs.within(start[0]), start[1]
         slips = np.hypot(shear[:, 0], shear[:, 1]) >= discs.bound * (1 - 1e-12)
         enough, products = share * float(discs.bound.sum()), 0
         best: Sheared | None = None
         for rounds in range(_MOST_ROUNDS):
             products += 1
-            now = discs.judged(shear, level, self.operator(shear))
+            now = discs.judged(shear, level, self.displacement(shear))
             now = replace(now, rounds=rounds, products=products)
+            if not rounds:
+                tolerance = max(tolerance, gain * now.residual)
             if best is None or max(now.residual / tolerance, now.missing / enough) < max(
                 best.residual / tolerance, best.missing / enough
             ):
@@ -125,7 +150,7 @@ class _Round:
     ) -> None:
         self._search, self._discs, self._now = search, discs, now
         self._slips, self._rim = slips, rim
-        self._curve = curve[:, np.newaxis]  # lambda [length / pressure]
+        self._curve = (curve + discs.springs)[:, np.newaxis]  # lambda [length / pressure]
         self._scale = 1 / np.sqrt(1 + self._curve / discs.diagonal)
         self.products = 0
 
@@ -141,9 +166,7 @@ class _Round:
 
     def _allowed(self, vectors: Real) -> Real:
         """Return what of vectors nodes can follow: that along the rim where they slip."""
-        kept, slips, rim = vectors.copy(), self._slips, self._rim[self._slips]
-        kept[slips] = rim * np.einsum("ij,ij->i", rim, vectors[slips])[:, np.newaxis]
-        return kept
+        return followed(vectors, self._slips, self._rim)
 
     def _product(self, vectors: Real) -> Real:
         self.products += 1
@@ -168,14 +191,14 @@ class _Round:
                 lift = held.lift(step)
                 step, residual = step + held.steps(lift), residual + held.even(lift)
                 rise += lift
-            energy = float(np.vdot(residual, step))
+            energy = inner(residual, step)
             largest = float(np.abs(residual).max(initial=0.0))
             wrong = self._wrong(change)
             if largest <= max(_TOLERANCE_SHARE * tolerance, _STEP_SHARE * wrong) or not energy > 0:
                 break
             direction = step + (energy / before if before > 0 else 0.0) * direction
             before, response = energy, self._product(direction)
-            curvature = float(np.vdot(direction, response))
+            curvature = inner(direction, response)
             if not curvature > 0:
                 break
             change = change + energy / curvature * direction
@@ -184,10 +207,9 @@ class _Round:
 
     def _wrong(self, change: Real) -> float:
         """Return how far a change takes nodes out of the sets, as a length."""
-        bound, there = self._discs.bound, self._now.shear + change
-        over = np.hypot(there[:, 0], there[:, 1])
-        over -= bound  # also what a turn along the tangent leaves the rim by
-        return self._discs.diagonal * max(float(over.max(initial=0.0)), 0.0)
+        # also what a turn along the tangent leaves the rim by
+        excess = largest_excess(self._now.shear, change, self._discs.bound)
+        return self._discs.diagonal * excess
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,12 +227,12 @@ class _HeldTotal:
         ones = tuple(zeros + axis for axis in np.eye(2))
         along = allowed(ones[0]), allowed(ones[1])
         steps = preconditioned(along[0]), preconditioned(along[1])
-        matrix = np.array([[float(np.vdot(a, b)) for b in steps] for a in along])
+        matrix = np.array([[inner(a, b) for b in steps] for a in along])
         return cls(along, steps, np.linalg.pinv((matrix + matrix.T) / 2, rcond=1e-14))
 
     def lift(self, step: Real) -> Real:
         """Return the rise of the level after which a preconditioned step keeps the total."""
-        return -self.inverse @ np.array([float(np.vdot(each, step)) for each in self.ones])
+        return -self.inverse @ np.array([inner(each, step) for each in self.ones])
 
     def steps(self, lift: Real) -> Real:
         """Return what a rise of the level adds to the preconditioned step."""

@@ -1,10 +1,16 @@
 """A path of loads with friction: each state follows from the last shear and the last slide.
 
-Displacements are linear in the tractions, so that the path has left nothing else. What a node has
-slipped since the last load is w = share · (slide - last slide) - (u - last u). The share is one at
-nodes that were in contact before. A node that joins slips from its contact on only: of the way
-along which the bodies come nearer by D it misses the part gap / D before, with its gap at the last
-load [1]_. Along a straight path, with no displacement across shear (n = 0), that is exact.
+Displacements are linear in the tractions, so that the path has left nothing else. A node has moved
+along the other body by t = slide - last slide - (u - last u) since the last load. One that was in
+contact has slipped by that. A node that joins had a gap h, and a part of t is on its way to
+contact. With its own pressure p and shear q, which displace it by m p and m' q, it came nearer by
+h + m p, and along by t + m' q. If both went evenly it has slipped since by
+
+    w = m p / (h + m p) · (t - (m' / m) (h / p) q),
+
+which is as if it had a spring (m' / m) h / p of its own. It sticks where q / p is m / m' times
+t / h. Along a straight path, with no displacement across shear (n = 0), that is exact [1]_, as all
+moves in proportion then.
 
 References
 ----------
@@ -26,22 +32,23 @@ import numpy as np
 from roughline.computing.arrays import InGrid, Mask, Real
 from roughline.halfspace.friction.discs import Discs, DiscSearch, Linear, Sheared
 from roughline.halfspace.friction.law import Friction
+from roughline.halfspace.friction.rates import Going, Rim
 from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangents, shear_tangents
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
+from roughline.halfspace.operators.restricted_shear import RestrictedShear, is_uniform
+from roughline.halfspace.operators.shear import ShearConvolution, at_origin, shear_on_grid
 from roughline.halfspace.search.path import LoadPath
-from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
+from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.search.response import Response
 from roughline.halfspace.search.tangent import response
 
 _SLIDES_FROM = 1 - 1e-9  # of what friction bears, from which on it bears no more
-_MOST_GUESSES = 40  # of the slide, where nodes join under a given shear force
-_LEAST_GROWTH = 0.02  # of the force over the stiffness, for the first of them
+_SAME_HEIGHT = 1e-9  # of the approach, up to which nodes are as high as the highest
 _MOST_TURNS = 40  # of corrections by the exact operator
 _TURN_SHARE = 0.1  # of what is wrong before a turn, to which it is solved
-_ROUGH_SHARE = 0.3  # the same of a turn with the rough operator, which goes farther than that
+_ROUGH_SHARE = 5e-3  # the same of a turn with the rough operator, and what that errs by
 _TOTAL_SHARE = 0.01  # of the tolerance, to which the shear force is kept
 _MOST_ALTERNATIONS = 60  # between pressures and shear
 _ROUGHEST_TURN = 1e-2  # tolerance of the first of them
@@ -67,10 +74,12 @@ class Slid:
     slide: Real  # of the indenter, shape (2,) [length]
     force: Real  # shape (2,)
     slip: Real  # since the last load, shape (nodes, 2) [length]
-    sticks: Mask
+    sticks: Mask  # where nodes do not slip on
     limit: float  # largest shear force that friction bears [force]
     residual: float  # over its scale [1]
     convolutions: int
+    load: ShearLoad | None = None
+    went: Going | None = None  # how loads went to it
     tangents: ShearTangents | None = None
 
     @property
@@ -107,6 +116,28 @@ class _Bodies:
         grid = self.problem.grid
         workspace = grid.inverse.operator.workspace
         return shear_on_grid(grid.half_space, grid.shape, grid.spacing, workspace)
+
+    @cached_property
+    def diagonal(self) -> float:
+        """Displacement of a node by the pressure on itself. [length / pressure]"""
+        operator = self.problem.operator
+        return at_origin(operator.spectrum, operator.periods)
+
+    def restricted(self, nodes: GridNodes) -> RestrictedShear | None:
+        """Return how shear displaces them roughly, if that costs less on some nodes."""
+        grid, forms = self.problem.grid, self.problem.grid.inverse.restricted
+        ratios = forms.ratios(nodes) if is_uniform(grid.half_space) else None
+        if ratios is None:
+            return None
+        if ratios not in self._made:
+            operator = grid.inverse.operator
+            made = RestrictedShear.of(self.exact, operator, ratios, forms.margins)
+            self._made[ratios] = made
+        return self._made[ratios]
+
+    @cached_property
+    def _made(self) -> dict[tuple[int, int], RestrictedShear]:
+        return {}
 
 
 class SlidePath:
@@ -159,6 +190,7 @@ class SlidePath:
             start = last.contact.contact_set
             state = last.contact.nodes, last.shear
             lift = self._lift(*state, everywhere)
+        before = None if last is None else self._moved_by(last, everywhere)
         rtol, error = self._method.rtol, 1.0
         for _ in range(_MOST_ALTERNATIONS):
             aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
@@ -171,7 +203,7 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, state, aim)
+            step = _SlideStep(self._bodies, contact, last, (state, before), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -198,7 +230,19 @@ class SlidePath:
         tangents, stiffness = step.coupled_tangents(found)
         contact = replace(contact, response=_with_stiffness(answer, stiffness))
         convolutions += answer.convolutions + tangents.convolutions
-        return replace(found, contact=contact, convolutions=convolutions, tangents=tangents)
+        return replace(
+            found,
+            contact=contact,
+            convolutions=convolutions,
+            sticks=tangents.sticks,
+            tangents=tangents,
+        )
+
+    def _moved_by(self, last: Slid, everywhere: GridNodes) -> Real:
+        """Return how a state displaces all of the grid along the surface."""
+        nodes, exact = self._problem.grid.nodes(last.contact.nodes), self._bodies.exact
+        moved = exact.by_pressure(last.contact.pressure, nodes, everywhere)
+        return moved + exact.displacement(last.shear, nodes, everywhere)
 
     def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
         """Return how shear displaces all of the grid into the body."""
@@ -227,28 +271,36 @@ class _SlideStep:
         bodies: _Bodies,
         contact: Contact,
         last: Slid | None,
-        start: tuple[InGrid, Real] | None = None,
+        start: tuple[tuple[InGrid, Real] | None, Real | None] = (None, None),
         rtol: float | None = None,
     ) -> None:
+        """Take the bodies, the contact, and the last state.
+
+        The start is some shear on nodes, and how the last state displaces all of the grid.
+        """
         grid, exact = bodies.problem.grid, bodies.exact
         self._exact, self._contact, self._last = exact, contact, last
         self._method = replace(bodies.method, rtol=rtol or bodies.method.rtol)
         self._untouched, self._friction = bodies.problem, bodies.friction
         self._nodes = nodes = grid.nodes(contact.nodes)
         self._bound = bodies.friction.bound(contact.pressure, contact.nodes)
-        self._operators = _Operators(exact, grid, nodes)
+        self._operators = _Operators(bodies, nodes)
         self._area = grid.cell_area
         self.convolutions = contact.convolutions
         self._slide_before = np.zeros(2) if last is None else last.slide
         self._pushed = exact.by_pressure(contact.pressure, nodes, nodes)
-        self._moved_before, self._start = self._before()
-        if start is not None:
-            self._start = _on(contact.nodes, *start)
-        self._late = self._share_before_contact()
+        # shear on the nodes, and the displacement by it
+        self._known: tuple[Real, Real] | None = None
+        self._moved_before, self._start = self._before(start[1])
+        if start[0] is not None:
+            self._start = _on(contact.nodes, *start[0])
+        gap, own = self._gaps_before(), bodies.diagonal * contact.pressure
+        self._springs = gap / own * exact.diagonal
+        self._since_contact = own / (gap + own)
         strength = float(self._bound.sum()) / float(contact.pressure.sum())
         self._scale = contact.length_scale * strength
 
-    def _before(self) -> tuple[Real, Real]:
+    def _before(self, everywhere: Real | None) -> tuple[Real, Real]:
         """Return how the nodes of this load were displaced at the last one, and their shear.
 
         What their pressure displaces now is taken off: the shear has to add the rest.
@@ -259,31 +311,30 @@ class _SlideStep:
             return moved - self._pushed, shear
         before = last.contact
         shear = _on(nodes, before.nodes, last.shear)
-        if np.isin(nodes, before.nodes, assume_unique=True).all():
+        kept = int(np.isin(nodes, before.nodes, assume_unique=True).sum())
+        if kept == nodes.size:
             moved = _on(nodes, before.nodes, last.displacement)
+        elif everywhere is not None:
+            moved = everywhere[nodes]
         else:
             sources = before.problem.grid.nodes(before.nodes)
             self.convolutions += 2
             moved = self._exact.displacement(last.shear, sources, self._nodes)
             moved += self._exact.by_pressure(before.pressure, sources, self._nodes)
+        if kept == before.nodes.size and not before.problem.grid.half_space.is_coupled:
+            self._known = shear, moved
         return moved - self._pushed, shear
 
-    def _share_before_contact(self) -> Real:
-        """Return the part of the way that nodes miss before they join."""
-        contact, last, nodes = self._contact, self._last, self._contact.nodes
-        touch = self._untouched.touch
+    def _gaps_before(self) -> Real:
+        """Return the gaps that nodes had at the last load; zero where they were in contact."""
+        last, nodes = self._last, self._contact.nodes
         if last is None or not last.contact.nodes.size:
-            before = touch if last is None else last.contact.depth
-            gap = self._untouched.separation.ravel()[nodes] - before
-        else:
-            before = last.contact.depth
-            gap = np.zeros(nodes.size)
-            joined = ~np.isin(nodes, last.contact.nodes, assume_unique=True)
-            gap[joined] = last.contact.gap_at(InGrid(nodes[joined]))
-        nearer = contact.depth - before
-        if not nearer > 0:
-            return np.zeros(nodes.size)
-        return np.clip(gap / nearer, 0.0, 1.0)
+            before = self._untouched.touch if last is None else last.contact.depth
+            return np.maximum(self._untouched.separation.ravel()[nodes] - before, 0.0)
+        gap = np.zeros(nodes.size)
+        joined = ~np.isin(nodes, last.contact.nodes, assume_unique=True)
+        gap[joined] = np.maximum(last.contact.gap_at(InGrid(nodes[joined])), 0.0)
+        return gap
 
     def under(self, load: ShearLoad) -> Slid:
         """Return the state under a load along the surface."""
@@ -291,26 +342,22 @@ class _SlideStep:
         tolerance = self._method.rtol * self._scale
         if load.slide is not None:
             way = np.array(load.slide) - self._slide_before
-            target = self._moved_before + (1 - self._late)[:, np.newaxis] * way
-            found = self._solved(target, None, np.zeros(2), self._start, tolerance)
-            return self._state(found, way, limit)
+            start = self._guess(way), np.zeros(2)
+            found = self._solved(self._moved_before + way, None, start, tolerance)
+            return self._state(found, way, limit, load)
         assert load.force is not None
         force = np.array(load.force)
         if not np.hypot(*force) < _SLIDES_FROM * limit:
             return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
-        total = force / self._area
-        way = self._guessed_way(force)
-        if not self._late.any():
-            found = self._solved(self._moved_before, total, way, self._start, tolerance)
-            return self._state(found, found.level, limit)
-        return self._state(*self._joined(total, way, tolerance), limit)
+        total, way = force / self._area, self._guessed_way(force)
+        found = self._solved(self._moved_before, total, (self._guess(way), way), tolerance)
+        return self._state(found, found.level, limit, load)
 
     def coupled_tangents(self, found: Slid) -> tuple[ShearTangents, tuple[float, float]]:
         """Return the tangents of bodies that are coupled, and the normal stiffness on both."""
-        contact, friction = self._contact, self._friction
-        slope = friction.slope(contact.pressure, contact.nodes)
-        state = found.shear, found.sticks, slope
-        return coupled_tangents(self._operators, contact, state, self._method)
+        assert found.went is not None
+        rim = self._rim(found.shear)
+        return coupled_tangents(self._operators, self._contact, rim, found.went, self._method)
 
     @property
     def _rigid(self) -> float:
@@ -322,21 +369,43 @@ class _SlideStep:
         return contact.problem.grid.half_space.disc_stiffness(radius)
 
     @property
-    def _back(self) -> Real | None:
-        """The tangent of turning back, where it is known of the same contact."""
+    def _tangents(self) -> ShearTangents | None:
+        """Those of the last load, if it was of the same contact."""
         last = self._last
-        if last is None or last.tangents is None or last.contact.load != self._contact.load:
+        if last is None or last.contact.load != self._contact.load:
             return None
-        return last.tangents.back
+        return last.tangents
+
+    def _guess(self, way: Real) -> Real:
+        """Return about the shear after a way of the indenter: the last, led along its tangent."""
+        contact, last, tangents = self._contact, self._last, self._tangents
+        if tangents is not None and tangents.led is not None:
+            assert last is not None
+            x, y = tangents.led[0 if last.force @ way >= 0 else 1]
+            led: Real = self._start + way[0] * x + way[1] * y
+            return led
+        if contact.problem.grid.half_space.is_coupled:
+            return self._start
+        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
+        if not nearer > 0:
+            return self._start
+        before = (
+            0.0 if last is None else _on(contact.nodes, last.contact.nodes, last.contact.pressure)
+        )
+        slope = way / (nearer * contact.problem.grid.half_space.even_shear[1])
+        added: Real = (contact.pressure - before)[:, np.newaxis] * slope
+        return self._start + added
 
     def _guessed_way(self, force: Real) -> Real:
         """Return about how far the indenter slides: as it comes nearer, along a straight path."""
-        contact, last, stiffness = self._contact, self._last, self._back
+        contact, last, tangents = self._contact, self._last, self._tangents
         before = np.zeros(2) if last is None else last.force
-        if stiffness is not None:
+        if tangents is not None:
+            change = force - before
+            stiffness = tangents.on if before @ change >= 0 else tangents.back
             if not np.isfinite(stiffness).all():  # full contact, without a mean
                 return np.zeros(2)
-            return np.asarray(np.linalg.solve(stiffness, force - before), np.float64)
+            return np.asarray(np.linalg.solve(stiffness, change), np.float64)
         pushed = contact.force - (0.0 if last is None else last.contact.force)
         nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
         factor = contact.problem.grid.half_space.even_shear[1]
@@ -345,57 +414,50 @@ class _SlideStep:
             return (force - before) / pushed * nearer * factor
         return (force - before) / rigid * factor if rigid > 0 else np.zeros(2)
 
-    def _joined(self, total: Real, way: Real, tolerance: float) -> tuple[Sheared, Real]:
-        """Return the shear and the way of the indenter, of which joining nodes miss a part.
-
-        The way that they miss follows from the way that is found: a fixed point of two numbers, by
-        Broyden's method. It begins with the slope that it has where all of the contact sticks.
-        """
-        contact, late = self._contact, self._late[:, np.newaxis]
-        rigid, last = self._rigid, self._last
-        pushed = contact.force - (0.0 if last is None else last.contact.force)
-        nearer = contact.depth - (self._untouched.touch if last is None else last.contact.depth)
-        growth = pushed / (rigid * nearer) if rigid * nearer > 0 else 1.0
-        slope = np.eye(2) * min(max(growth, _LEAST_GROWTH), 1.0)
-        start, level, before = self._start, way, None
-        for _ in range(_MOST_GUESSES):
-            target, way_taken = self._moved_before - late * way, way
-            found = self._solved(target, total, level, start, tolerance)
-            start, level = found.shear, found.level
-            off = way - found.level
-            if float(np.abs(off).max()) <= tolerance:
-                break
-            if before is not None:
-                step, change = way - before[0], off - before[1]
-                slope = slope + np.outer(change - slope @ step, step) / float(step @ step)
-            before = way, off
-            way = way - np.linalg.lstsq(slope, off, rcond=None)[0]
-        # what the joining nodes miss of the way is off by as much
-        residual = max(found.residual, float(np.abs(way_taken - found.level).max()))
-        return replace(found, residual=residual), found.level
-
     def _solved(
-        self, target: Real, total: Real | None, level: Real, start: Real, tolerance: float
+        self, target: Real, total: Real | None, start: tuple[Real, Real], tolerance: float
     ) -> Sheared:
-        """Return the shear on the discs, to the tolerance by the exact operator."""
-        discs = Discs(self._bound, target, total, self._exact.diagonal)
-        share = _TOTAL_SHARE * self._method.rtol
-        found = self._operators.found(discs, (start, level), tolerance, share)
+        """Return the shear on the discs from one and a level, to the tolerance by the exact one."""
+        discs = Discs(self._bound, target, total, self._exact.diagonal, self._springs)
+        accuracy = tolerance, _TOTAL_SHARE * self._method.rtol
+        found = self._operators.found(discs, start, self._known, accuracy)
         self.convolutions += self._operators.convolutions
+        self._known = found.shear, found.displacement
         return found
 
-    def _state(self, found: Sheared, way: Real, limit: float) -> Slid:
+    def _rim(self, shear: Real) -> Rim:
+        """Return which nodes have all the shear that they bear."""
+        slope = self._friction.slope(self._contact.pressure, self._contact.nodes)
+        return Rim.of(shear, self._bound, self._springs > 0, slope)
+
+    def _went(self, load: ShearLoad, way: Real) -> Going:
+        """Return how loads went to this one; if nothing changed, as they went before."""
+        contact, last = self._contact, self._last
+        assert contact.load is not None
+        coupled, touch = contact.problem.grid.half_space.is_coupled, self._untouched.touch
+        by_depth = coupled and contact.load.depth is not None
+        normal = contact.depth - touch if by_depth else contact.force
+        along = way if load.force is None else np.array(load.force)
+        if last is not None:
+            same, before = last.contact.load == contact.load, last.contact
+            normal -= before.depth - touch if by_depth else before.force
+            normal = 0.0 if same else normal
+            if load.force is not None:
+                along = np.zeros(2) if last.load == load else along - last.force
+        going = Going(float(normal), (along[0], along[1]), not by_depth, load.force is not None)
+        return last.went if going.stands and last is not None and last.went else going
+
+    def _state(self, found: Sheared, way: Real, limit: float, load: ShearLoad) -> Slid:
         """Return the state with some shear."""
         scale = self._scale
         force = self._area * found.shear.sum(axis=0)
         off = self._area * found.missing / limit if limit else 0.0
         residual = max(found.residual / scale if scale else 0.0, off)
         converged = residual <= self._method.rtol
-        sticks = ~_slips(found, self._bound, self._exact.diagonal)
-        tangents = None
+        rim, going, tangents = self._rim(found.shear), self._went(load, way), None
         if converged and not self._contact.problem.grid.half_space.is_coupled:
             tangents = shear_tangents(
-                self._operators, self._contact, found.shear, sticks, self._method, self._back
+                self._operators, self._contact, rim, going, self._method, self._tangents
             )
             self.convolutions += tangents.convolutions
         return Slid(
@@ -405,18 +467,20 @@ class _SlideStep:
             found.displacement + self._pushed,
             self._slide_before + way,
             force,
-            found.slip,
-            sticks,
+            found.slip * self._since_contact[:, np.newaxis],
+            ~rim.full if tangents is None else tangents.sticks,
             limit,
             residual,
             self.convolutions,
+            load,
+            going,
             tangents,
         )
 
 
 def _on(nodes: InGrid, others: InGrid, values: Real) -> Real:
-    """Return vectors, given on other nodes, on nodes; zero where they are not given."""
-    found = np.zeros((nodes.size, 2))
+    """Return values, given on other nodes, on nodes; zero where they are not given."""
+    found = np.zeros((nodes.size, *values.shape[1:]))
     if others.size:
         places = np.minimum(np.searchsorted(others, nodes), others.size - 1)
         known = others[places] == nodes
@@ -424,52 +488,47 @@ def _on(nodes: InGrid, others: InGrid, values: Real) -> Real:
     return found
 
 
-def _slips(found: Sheared, bound: Real, diagonal: float) -> Mask:
-    """Return which nodes are at their bound and slip."""
-    size = np.hypot(found.shear[:, 0], found.shear[:, 1])
-    return size >= bound * (1 - 1e-10)
-
-
 class _Operators:
     """How shear displaces a set of nodes: exactly, and nearly, at the cost of the contact."""
 
-    def __init__(self, exact: ShearConvolution, grid: Grid, nodes: GridNodes) -> None:
-        self._exact, self.nodes = exact, nodes
+    def __init__(self, bodies: _Bodies, nodes: GridNodes) -> None:
+        self._exact, self.nodes, grid = bodies.exact, nodes, bodies.problem.grid
+        self._restricted = bodies.restricted(nodes)
         half_space, self._factor = grid.half_space.even_shear
         inverse = inverse_on(half_space, grid.shape, grid.spacing)
-        self._restricted = inverse.restricted.on(nodes)
         self._precondition = preconditioner(inverse, nodes)
+        self._inverse, self._normal = grid.inverse, grid.inverse.operator
         self.convolutions = 0
-        self.diagonal = exact.diagonal
+        self.diagonal = bodies.exact.diagonal
 
     def exact(self, shear: Real) -> Real:
         """Return the displacements by the exact operator."""
         self.convolutions += 2
         return self._exact.displacement(shear, self.nodes, self.nodes)
 
-    def by_pressure(self, pressure: Real) -> Real:
-        """Return the displacements along the surface under pressure."""
-        self.convolutions += 2
-        return self._exact.by_pressure(pressure, self.nodes, self.nodes)
+    def displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the displacements into the body and along the surface by pressure and shear."""
+        exact, normal, here = self._exact, self._normal, (self.nodes, self.nodes)
+        into = normal.displacement(pressure, *here) + exact.into_body(shear, *here)
+        return into, exact.displacement(shear, *here) + exact.by_pressure(pressure, *here)
 
-    def into_body(self, shear: Real) -> Real:
-        """Return the displacements into the body under shear."""
-        self.convolutions += 2
-        return self._exact.into_body(shear, self.nodes, self.nodes)
+    def roughly_displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the same, roughly."""
+        rough, here = self._restricted, (self.nodes, self.nodes)
+        normal = self._inverse.restricted.on(self.nodes)
+        assert rough is not None
+        assert normal is not None
+        into = normal.displacement(pressure, *here) + rough.into_body(shear, *here)
+        return into, rough.displacement(shear, *here) + rough.by_pressure(pressure, *here)
 
     @property
     def rough(self) -> Linear | None:
-        """Displacements as if shear along and across displaced alike, and roughly."""
+        """Displacements, roughly; None where the exact ones cost no more."""
         return None if self._restricted is None else self._roughly
 
     def _roughly(self, shear: Real) -> Real:
         assert self._restricted is not None
-        moved = np.empty_like(shear)
-        for axis in range(2):
-            part = np.ascontiguousarray(shear[:, axis])
-            moved[:, axis] = self._restricted.displacement(part, self.nodes, self.nodes)
-        moved *= self._factor
-        return moved
+        return self._restricted.displacement(shear, self.nodes, self.nodes)
 
     def inverse(self, moved: Real) -> Real:
         """Return about the shear that displaces so."""
@@ -480,34 +539,36 @@ class _Operators:
         return shear
 
     def found(
-        self, discs: Discs, start: tuple[Real, Real], tolerance: float, share: float
+        self,
+        discs: Discs,
+        start: tuple[Real, Real],
+        known: tuple[Real, Real] | None,
+        accuracy: tuple[float, float],
     ) -> Sheared:
         """Return the shear on the discs from one and a level, as :class:`DiscSearch` does.
 
-        Where there is a rough operator, it is corrected for what it misses of the shear so far.
+        Where there is a rough operator, it is corrected for what it misses of the shear so far, or
+        of one whose exact displacement is known. The accuracy is a tolerance and a share.
         """
-        self.convolutions, (shear, level) = 0, start
-        first = Sheared(shear, level, shear, shear, math.inf, 0.0)
-        exact = DiscSearch(self.exact, self.inverse)
-        if self.rough is None:
-            return exact.found(discs, first, tolerance=tolerance, share=share)
-        rough = DiscSearch(self.rough, self.inverse)
-        shear, before = discs.within(shear), math.inf
+        self.convolutions, (tolerance, share) = 0, accuracy
+        exact, rough = DiscSearch(self.exact, self.inverse), self.rough
+        if rough is None:
+            return exact.found(discs, start, tolerance=tolerance, share=share)
+        before, inside = math.inf, discs.within(start[0])
+        known = known or (inside, self.exact(inside))
         for _ in range(_MOST_TURNS):
-            now = discs.judged(shear, level, self.exact(shear))
+            search = DiscSearch(rough, self.inverse, known)
+            aims = {"tolerance": 0.5 * tolerance, "share": share, "gain": _ROUGH_SHARE}
+            better = search.found(discs, start, **aims)
+            start = better.shear, better.level
+            now = discs.judged(*start, self.exact(better.shear))
+            known = now.shear, now.displacement
             if now.residual <= tolerance and now.missing <= share * float(discs.bound.sum()):
                 return now
             if now.residual > 0.7 * before:
                 break
             before = now.residual
-            corrected = replace(
-                discs, target=discs.target - now.displacement + rough.operator(shear)
-            )
-            aim = max(0.3 * tolerance, _ROUGH_SHARE * now.residual)
-            better = rough.found(corrected, now, tolerance=aim, share=share)
-            shear, level = better.shear, better.level
-        begun = replace(first, shear=shear, level=level)
-        return exact.found(discs, begun, tolerance=tolerance, share=share)
+        return exact.found(discs, start, tolerance=tolerance, share=share)
 
 
 def _with_stiffness(answer: Response, stiffness: tuple[float, float]) -> Response:
@@ -528,8 +589,17 @@ def _unknown(contact: Contact, outcome: Outcome) -> Slid:
 
 
 def _apart(contact: Contact, shear: ShearLoad, last: Slid | None) -> Slid:
-    """Return bodies that are apart: nothing is sheared."""
+    """Return bodies that are apart: nothing is sheared.
+
+    With no shear force they come off where the highest nodes, which are the last in contact and
+    stick till then, bear no shear any more.
+    """
     slide = np.zeros(2) if last is None else last.slide
+    if last is not None and last.contact.nodes.size:
+        separation = last.contact.separation.ravel()[last.contact.nodes]
+        above = separation - separation.min()
+        highest = above <= _SAME_HEIGHT * (last.contact.depth - separation.min())
+        slide = slide - last.displacement[highest].mean(axis=0)
     if shear.slide is not None:
         slide = np.array(shear.slide)
     nothing = np.zeros((contact.nodes.size, 2))

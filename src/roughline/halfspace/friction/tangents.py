@@ -12,29 +12,43 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Mask, Real
+from roughline.computing.krylov import least_residual
 from roughline.halfspace.friction.discs import Linear
+from roughline.halfspace.friction.rates import Going, Rates, Rim, slip_on
+from roughline.halfspace.friction.vectors import followed, inner
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, Method
 
 _ENERGY_MARGIN = 0.01  # part of the tolerance, to which the stiffness is solved
 _MOST_STEPS = 300
-_ROUGH_SHARE = 1e-2  # of the energy of an error, that steps with rough operators leave
+_NOTHING_RESISTS = 1e-9  # of the largest stiffness along the surface
+_ROUGH_SHARE = 1e-6  # of the energy of an error, that steps with rough operators leave
+_ROUGH_ERROR = 0.03  # of the energy that they find, at most
+_COUPLED_SHARE = 3e-3  # of what rough operators of coupled bodies correct, and what they err by
+_MOST_TURNS = 10  # of corrections
+_SCALE_SHARE = 0.1  # of the energy that counts, up to which they go on
+
+UnitShear = tuple[Real, Real]
+"""Shear of nodes by unit slides along x and along y, each of shape (nodes, 2)."""
 
 
 @dataclass(frozen=True, eq=False)
 class ShearTangents:
-    """Stiffness dQ/d(slide) at a state, each 2 by 2. [force / length]"""
+    """Stiffness dQ/d(slide) at a state, each 2 by 2, and where it sticks. [force / length]"""
 
+    sticks: Mask  # if loads go on as they did last
     on: Real
     back: Real
     convolutions: int = 0
+    led: tuple[UnitShear, UnitShear] | None = None  # how shear follows, going on and turning back
 
 
 class ShearMaps(Protocol):
@@ -45,7 +59,7 @@ class ShearMaps(Protocol):
 
     @property
     def rough(self) -> Linear | None:
-        """Displacements as of one kind of shear alone; None where the exact ones cost no more."""
+        """Displacements, roughly; None where the exact ones cost no more."""
 
     def inverse(self, moved: Real) -> Real:
         """Return about the shear that displaces so."""
@@ -54,27 +68,92 @@ class ShearMaps(Protocol):
 def shear_tangents(
     maps: ShearMaps,
     contact: Contact,
-    shear: Real,
-    sticks: Mask,
+    rim: Rim,
+    going: Going,
     method: Method,
-    back: Real | None = None,
+    last: ShearTangents | None = None,
 ) -> ShearTangents:
-    """Solve for both tangents; that of turning back may be known of the same contact."""
-    grid = contact.problem.grid
-    rigid = np.diag([np.inf, np.inf])
-    is_whole = contact.nodes.size == contact.separation.size
-    if is_whole and grid.inverse.operator.mean_is_free and sticks.all():
-        return ShearTangents(rigid, rigid)
-    accuracy, spent = _ENERGY_MARGIN * method.rtol, 0
-    size = np.maximum(np.hypot(shear[:, 0], shear[:, 1]), 1e-300)
-    rim = np.stack([-shear[:, 1] / size, shear[:, 0] / size], axis=1)
-    if back is None:
-        found, spent = _Stuck(maps, np.zeros(0, dtype=np.intp), rim).stiffness(accuracy)
-        back = grid.cell_area * found
-    if sticks.all():
-        return ShearTangents(back, back, spent)
-    found, more = _Stuck(maps, np.flatnonzero(~sticks), rim).stiffness(accuracy)
-    return ShearTangents(grid.cell_area * found, back, spent + more)
+    """Solve for both tangents of a state.
+
+    That of turning back is known from the last load, if that was of the same contact.
+    """
+    grid, nodes, nobody = contact.problem.grid, contact.nodes.size, np.zeros_like(rim.full)
+    accuracy = _ENERGY_MARGIN * method.rtol
+    rates = _ShearRates(maps, contact, rim, going, accuracy)
+    if nodes == contact.separation.size and grid.inverse.operator.mean_is_free:
+        back = np.diag([np.inf, np.inf])
+    elif last is not None and last.led is not None:
+        back = last.back
+        rates.start_from(nobody, last.led[1], back / grid.cell_area)
+    else:
+        back = grid.cell_area * rates.form(nobody)
+    stuck = rates.known
+    slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
+    on = grid.cell_area * rates.form(slips) if slips.any() else back
+    led = None if stuck is None else (rates.known or stuck, stuck)
+    return ShearTangents(~slips, on, back, rates.spent, led)
+
+
+class _ShearRates:
+    """How the shear goes on where pressures do not depend on it."""
+
+    def __init__(
+        self, maps: ShearMaps, contact: Contact, rim: Rim, going: Going, accuracy: float
+    ) -> None:
+        self._maps, self._rim, self._going, self._accuracy = maps, rim, going, accuracy
+        self._area, self.spent = contact.problem.grid.cell_area, 0
+        self._slips: Mask | None = None  # of the nodes, for which all is known
+        self.known: UnitShear | None = _as_pressed(contact)
+        answer = contact.response
+        assert answer is not None
+        tangent = answer.loading if going.normal > 0 else answer.unloading
+        self._bears_more = rim.slope * tangent.pressure_per_force * going.normal
+
+    def start_from(self, slips: Mask, unit: UnitShear, form: Real) -> None:
+        """Take the shear by unit slides, and its totals, where some nodes slip."""
+        self._slips, self.known, self._form = slips, unit, form
+
+    def form(self, slips: Mask) -> Real:
+        """Return the totals of the shear by unit slides."""
+        if self._slips is None or (self._slips != slips).any():
+            stuck = _Stuck(self._maps, slips, self._rim.outward)
+            form, unit, spent = stuck.stiffness(self._accuracy, self.known)
+            self.spent += spent
+            self.start_from(slips.copy(), unit, form)
+        return self._form
+
+    def of(self, slips: Mask) -> Rates | None:
+        """Return how nodes go on where some slip; None if nothing goes on."""
+        if self._going.stands:
+            return None
+        form = self.form(slips)
+        assert self.known is not None
+        x, y = self.known
+        rate = np.where(slips, self._bears_more, 0.0)[:, np.newaxis] * self._rim.outward
+        if rate.any():
+            stuck = _Stuck(self._maps, slips, self._rim.outward)
+            moved = stuck.allowed(self._maps.exact(rate))
+            follows, *_, products = stuck.solved(-moved, None, self._accuracy)
+            rate, self.spent = rate + follows, self.spent + 2 * (1 + products)
+        slide = np.array(self._going.along)
+        if self._going.by_shear:
+            missing = slide / self._area - rate.sum(axis=0)
+            slide = np.linalg.lstsq(form, missing, rcond=None)[0]
+        rate = rate + slide[0] * x + slide[1] * y
+        self.spent += 2
+        slip = self._rim.along(slide - self._maps.exact(rate))
+        return Rates(slip, self._rim.along(rate) - self._bears_more)
+
+
+def _as_pressed(contact: Contact) -> UnitShear | None:
+    """Return shear that goes as the pressure does when the bodies come nearer."""
+    if contact.response is None:
+        return None
+    rate = contact.response.unloading.pressure_per_force
+    if not (rate.any() and np.isfinite(rate).all()):
+        return None
+    none = np.zeros_like(rate)
+    return np.stack([rate, none], axis=1), np.stack([none, rate], axis=1)
 
 
 class CoupledMaps(ShearMaps, Protocol):
@@ -83,73 +162,118 @@ class CoupledMaps(ShearMaps, Protocol):
     nodes: GridNodes
     diagonal: float
 
-    def by_pressure(self, pressure: Real) -> Real:
-        """Return the displacements along the surface."""
+    def displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the displacements into the body and along the surface."""
 
-    def into_body(self, shear: Real) -> Real:
-        """Return the displacements into the body."""
+    def roughly_displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
+        """Return the same roughly, if there are rough ones."""
 
 
 def coupled_tangents(
-    maps: CoupledMaps, contact: Contact, state: tuple[Real, Mask, Real], method: Method
+    maps: CoupledMaps, contact: Contact, rim: Rim, going: Going, method: Method
 ) -> tuple[ShearTangents, tuple[float, float]]:
     """Solve for both tangents of bodies that are coupled, and for dF/dd on both.
 
-    The state is the shear, where it sticks, and how much more shear nodes bear under more pressure.
     Where a node slips its shear follows the pressure, so that the equations are not symmetric. The
     tangents are those under a constant force, and dF/dd is that under a constant shear force.
     """
-    (shear, sticks, slope), grid = state, contact.problem.grid
-    whole = contact.nodes.size == contact.separation.size
-    unknown = np.full((2, 2), np.nan)
-    if whole and grid.inverse.operator.mean_is_free:
-        return ShearTangents(unknown, unknown), (np.inf, np.inf)
-    found, spent = [], 0
-    everywhere = np.ones_like(sticks)
-    for holds in (everywhere,) if sticks.all() else (everywhere, sticks):
-        matrix, products = _CoupledStuck(maps, contact, shear, holds, slope).stiffness(method.rtol)
-        found.append(grid.cell_area * matrix)
-        spent += 7 * products
-    (along_back, normal_back), (along_on, normal_on) = map(_condensed, (found[0], found[-1]))
-    return ShearTangents(along_on, along_back, spent), (normal_on, normal_back)
+    grid, nobody = contact.problem.grid, np.zeros_like(rim.full)
+    if contact.nodes.size == contact.separation.size and grid.inverse.operator.mean_is_free:
+        unknown = np.full((2, 2), np.nan)
+        return ShearTangents(~rim.full, unknown, unknown), (np.inf, np.inf)
+    rates = _CoupledRates(maps, contact, rim, going, method.rtol)
+    along_back, normal_back = _condensed(grid.cell_area * rates.form(nobody))
+    slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
+    along_on, normal_on = _condensed(grid.cell_area * rates.form(slips))
+    return ShearTangents(~slips, along_on, along_back, rates.spent), (normal_on, normal_back)
+
+
+class _CoupledRates:
+    """How pressures and shear go on where both move each other."""
+
+    def __init__(
+        self, maps: CoupledMaps, contact: Contact, rim: Rim, going: Going, rtol: float
+    ) -> None:
+        self._maps, self._contact, self._rim, self._going = maps, contact, rim, going
+        self._rtol, self.spent = rtol, 0
+        self._known: tuple[Mask, list[tuple[Real, Real]], Real] | None = None
+
+    def _columns(self, slips: Mask) -> tuple[list[tuple[Real, Real]], Real]:
+        """Return pressures and shear by unit slides and a unit approach, and their totals."""
+        if self._known is None or (self._known[0] != slips).any():
+            stuck = _CoupledStuck(self._maps, self._contact, self._rim, slips)
+            form, products = stuck.stiffness(self._rtol)
+            self.spent += 7 * products
+            self._known = slips.copy(), stuck.found, form
+        return self._known[1:]
+
+    def form(self, slips: Mask) -> Real:
+        """Return the totals of shear and pressure by unit slides and a unit approach."""
+        return self._columns(slips)[1]
+
+    def of(self, slips: Mask) -> Rates | None:
+        """Return how nodes go on where some slip; None if nothing goes on, or it is not solved."""
+        going, area = self._going, self._contact.problem.grid.cell_area
+        columns, form = self._columns(slips)
+        if going.stands or np.isnan(form).any():
+            return None
+        asked, given = area * form, np.array([*going.along, going.normal])
+        if not going.by_shear:
+            asked[:2] = np.eye(3)[:2]
+        if not going.by_force:
+            asked[2] = np.eye(3)[2]
+        moved = np.linalg.lstsq(asked, given, rcond=None)[0]
+        pressure = sum(each * p for each, (p, _) in zip(moved, columns, strict=True))
+        shear = sum(each * q for each, (_, q) in zip(moved, columns, strict=True))
+        self.spent += 7
+        _, there = self._maps.displaced(pressure, shear)
+        slip = self._rim.along(moved[:2] - there)
+        return Rates(slip, self._rim.along(shear) - self._rim.slope * pressure)
 
 
 def _condensed(matrix: Real) -> tuple[Real, float]:
-    """Return dQ/d(slide) under a constant force, and dF/dd under a constant shear force."""
+    """Return dQ/d(slide) under a constant force, and dF/dd under a constant shear force.
+
+    Where nothing resists a slide, as where the bodies slide, dF/dd is that without it.
+    """
     along, normal = matrix[:2, :2], float(matrix[2, 2])
     of_depth, of_slide = matrix[:2, 2], matrix[2, :2]
     held = along - np.outer(of_depth, of_slide) / normal
-    return held, normal - float(of_slide @ np.linalg.solve(along, of_depth))
+    if not np.isfinite(matrix).all():
+        return held, np.nan
+    slide = np.linalg.lstsq(along, of_depth, rcond=_NOTHING_RESISTS)[0]
+    return held, normal - float(of_slide @ slide)
 
 
 class _CoupledStuck:
     """A contact of coupled bodies, of which some nodes slip on."""
 
-    def __init__(
-        self, maps: CoupledMaps, contact: Contact, shear: Real, holds: Mask, slope: Real
-    ) -> None:
-        self._maps, self._grid, self._slips = maps, contact.problem.grid, ~holds
-        size = np.maximum(np.hypot(shear[:, 0], shear[:, 1]), 1e-300)[:, np.newaxis]
-        self._outward = np.where(self._slips[:, np.newaxis], shear / size, 0.0)
-        self._slope = slope
-        self._products = 0
+    def __init__(self, maps: CoupledMaps, contact: Contact, rim: Rim, slips: Mask) -> None:
+        self._maps, self._grid, self._slips = maps, contact.problem.grid, slips
+        self._outward = np.where(slips[:, np.newaxis], rim.outward, 0.0)
+        self._slope, self._products = rim.slope, 0
         self._normal = preconditioner(self._grid.inverse, maps.nodes)
+        self.found: list[tuple[Real, Real]] = []  # pressures and shear by unit ways
 
     def _radial(self, vectors: Real) -> Real:
         """Return what of vectors nodes that slip cannot follow."""
         along = np.einsum("ij,ij->i", self._outward, vectors)
         return self._outward * along[:, np.newaxis]
 
-    def _product(self, unknown: Real) -> Real:
+    def _exactly(self, unknown: Real) -> Real:
+        self._products += 1
+        return self._product(unknown, self._maps.displaced)
+
+    def _roughly(self, unknown: Real) -> Real:
+        return self._product(unknown, self._maps.roughly_displaced)
+
+    def _product(self, unknown: Real, moved: Callable[[Real, Real], tuple[Real, Real]]) -> Real:
         """Return the displacements by pressure and shear, and what is left of the radial shear."""
         pressure, free = self._apart(unknown)
-        self._products += 1
         radial = self._radial(free)
         shear = free - radial + self._outward * (self._slope * pressure)[:, np.newaxis]
-        nodes, operator = self._maps.nodes, self._grid.inverse.operator
-        into = operator.displacement(pressure, nodes, nodes) + self._maps.into_body(shear)
-        along = self._maps.exact(shear) + self._maps.by_pressure(pressure)
-        along += self._maps.diagonal * radial - self._radial(along)
+        into, along = moved(pressure, shear)
+        along = along + self._maps.diagonal * radial - self._radial(along)
         return np.concatenate([into, along.ravel()])
 
     def _preconditioned(self, moved: Real) -> Real:
@@ -165,12 +289,7 @@ class _CoupledStuck:
 
     def stiffness(self, rtol: float) -> tuple[Real, int]:
         """Return total shear and pressure by unit slides and a unit approach, and the products."""
-        from scipy.sparse.linalg import LinearOperator, gmres  # here because it loads slowly
-
         count, matrix = self._slips.size, np.full((3, 3), np.nan)
-        shape = 3 * count, 3 * count
-        operator = LinearOperator(shape, self._product, dtype=np.float64)
-        inverse = LinearOperator(shape, self._preconditioned, dtype=np.float64)
         for axis in range(3):
             target = np.zeros(3 * count)
             if axis == 2:
@@ -178,85 +297,118 @@ class _CoupledStuck:
             else:
                 even = np.zeros((count, 2)) + np.eye(2)[axis]
                 target[count:] = (even - self._radial(even)).ravel()
-            given = {"rtol": rtol, "atol": 0.0, "restart": 80, "maxiter": 5}
-            found, failed = gmres(operator, target, M=inverse, **given)
-            if failed:
+            found = self._solved(target, rtol)
+            if found is None:
                 continue
             pressure, free = self._apart(found)
             shear = free - self._radial(free)
             shear += self._outward * (self._slope * pressure)[:, np.newaxis]
             matrix[:, axis] = *shear.sum(axis=0), pressure.sum()
+            self.found.append((pressure, shear))
         return matrix, self._products
+
+    def _solved(self, target: Real, rtol: float) -> Real | None:
+        """Solve with rough operators, and correct what they miss; None without convergence."""
+        found, left = np.zeros_like(target), 1.0
+        if self._maps.rough is not None:
+            residual, whole = target, float(np.abs(target).max())
+            for _ in range(_MOST_TURNS):
+                aim = max(_COUPLED_SHARE, 0.3 * rtol / left)
+                found = (
+                    found + least_residual(self._roughly, self._preconditioned, residual, aim)[0]
+                )
+                residual = target - self._exactly(found)
+                before, left = left, float(np.abs(residual).max()) / whole
+                if left <= rtol:
+                    return found
+                if left > 0.5 * before:
+                    break
+        found, left = least_residual(self._exactly, self._preconditioned, target, rtol)
+        return found if left <= rtol else None
 
 
 class _Stuck:
     """A contact of which some nodes follow a slide along the rims of their discs alone."""
 
-    def __init__(self, maps: ShearMaps, slips: Indices, rim: Real) -> None:
-        self._maps, self._slips, self._rim, self._there = maps, slips, rim, rim[slips]
+    def __init__(self, maps: ShearMaps, slips: Mask, outward: Real) -> None:
+        self._maps, self._slips = maps, slips
+        self._rim = np.stack([-outward[:, 1], outward[:, 0]], axis=1)
 
-    def _allowed(self, vectors: Real) -> Real:
-        if not self._slips.size:
-            return vectors
-        kept = vectors.copy()
-        along = np.einsum("ij,ij->i", self._there, vectors[self._slips])
-        kept[self._slips] = self._there * along[:, np.newaxis]
-        return kept
+    def allowed(self, vectors: Real) -> Real:
+        """Return what of vectors nodes can follow."""
+        return followed(vectors, self._slips, self._rim)
 
-    def stiffness(self, accuracy: float) -> tuple[Real, int]:
-        """Return the total shear by unit slides along x and y, and the convolutions.
+    def stiffness(self, accuracy: float, start: UnitShear | None) -> tuple[Real, UnitShear, int]:
+        """Return the total shear by unit slides along x and y, the shear, and the convolutions.
 
-        It is the energy form of both solutions, so that it errs by the square of their residuals.
+        It is the energy form of both solutions, so that it errs by the square of their residuals;
+        of what these still displace, the energy form by the preconditioner is added.
         """
         spent, found = 0, []
-        targets = [self._allowed(np.zeros_like(self._rim) + axis) for axis in np.eye(2)]
-        for target in targets:
-            shear, residual, products = self._solved(target, accuracy)
+        targets = [self.allowed(np.zeros_like(self._rim) + axis) for axis in np.eye(2)]
+        for axis, target in enumerate(targets):
+            begun = None if start is None else self.allowed(start[axis])
+            *solved, products = self.solved(target, begun, accuracy)
             spent += 2 * products
-            found.append((shear, residual))
+            found.append(solved)
         form = np.array(
             [
-                [float(np.vdot(target, shear) + np.vdot(other, rest)) for shear, rest in found]
-                for target, (other, _) in zip(targets, found, strict=True)
+                [
+                    inner(target, shear) + inner(other, rest) + inner(other_rest, step)
+                    for shear, rest, step in found
+                ]
+                for target, (other, other_rest, _) in zip(targets, found, strict=True)
             ]
         )
-        return (form + form.T) / 2, spent
+        return (form + form.T) / 2, (found[0][0], found[1][0]), spent
 
-    def _solved(self, target: Real, accuracy: float) -> tuple[Real, Real, int]:
+    def solved(
+        self, target: Real, start: Real | None, accuracy: float
+    ) -> tuple[Real, Real, Real, int]:
         """Solve by conjugate gradients, whose preconditioner may be a solution by rough ones.
 
         As that differs from step to step, directions are conjugate by the change of residuals [1]_.
+        Return the shear, what it leaves, the next step, and the products.
         """
-        shear, residual = np.zeros_like(target), target.copy()
+        shear, residual, products = np.zeros_like(target), target.copy(), 0
+        if start is not None:
+            response = self.allowed(self._maps.exact(start))
+            length, products = inner(start, target) / inner(start, response), 1
+            shear, residual = length * start, residual - length * response
         direction, before, gone = np.zeros_like(target), 0.0, residual
-        for steps in range(_MOST_STEPS):
-            step = self._preconditioned(residual)
-            energy = float(np.vdot(residual, step))
-            if not energy > accuracy * max(float(np.vdot(shear, target)), 0.0):
-                return shear, residual, steps
-            part = float(np.vdot(residual - gone, step)) / before if before > 0 else 0.0
+        while True:
+            scale = accuracy * max(inner(shear, target), 0.0)
+            step, error = self._preconditioned(residual, scale)
+            energy = inner(residual, step)
+            if not error * energy > scale or products > _MOST_STEPS:
+                return shear, residual, step, products
+            part = inner(residual - gone, step) / before if before > 0 else 0.0
             direction = step + max(part, 0.0) * direction
-            response = self._allowed(self._maps.exact(direction))
-            length = float(np.vdot(direction, residual)) / float(np.vdot(direction, response))
+            response = self.allowed(self._maps.exact(direction))
+            products += 1
+            length = inner(direction, residual) / inner(direction, response)
             before, gone = energy, residual
             shear, residual = shear + length * direction, residual - length * response
-        return shear, residual, _MOST_STEPS
 
-    def _preconditioned(self, residual: Real) -> Real:
-        """Return about the shear that displaces so, by some steps with rough operators."""
+    def _preconditioned(self, residual: Real, scale: float) -> tuple[Real, float]:
+        """Return about the shear that displaces so, by steps with rough operators, and its error.
+
+        The error is a part of its energy; less energy than the scale does not count.
+        """
         rough = self._maps.rough
-        step = self._allowed(self._maps.inverse(residual))
+        step = self.allowed(self._maps.inverse(residual))
         if rough is None:
-            return step
+            return step, 1.0
         shear, left, direction, before = np.zeros_like(residual), residual, step, 0.0
-        first = float(np.vdot(left, step))
+        gained = 0.0
         for _ in range(_MOST_STEPS):
-            energy = float(np.vdot(left, step))
-            if not energy > _ROUGH_SHARE * first:
+            energy = inner(left, step)
+            if not energy > max(_ROUGH_SHARE * gained, _SCALE_SHARE * scale):
                 break
             direction = step + (energy / before if before > 0 else 0.0) * direction
-            before, response = energy, self._allowed(rough(direction))
-            length = energy / float(np.vdot(direction, response))
+            before, response = energy, self.allowed(rough(direction))
+            length = energy / inner(direction, response)
             shear, left = shear + length * direction, left - length * response
-            step = self._allowed(self._maps.inverse(left))
-        return shear
+            gained += length * energy
+            step = self.allowed(self._maps.inverse(left))
+        return shear, _ROUGH_ERROR

@@ -34,11 +34,15 @@ class PaddedGrid:
 
     @classmethod
     def of(
-        cls, shape: tuple[int, int], margins: tuple[int, int], workspace: Workspace
+        cls,
+        shape: tuple[int, int],
+        margins: tuple[int, int],
+        workspace: Workspace,
+        part: str = "padded grid",
     ) -> PaddedGrid:
         """Put a margin around a grid."""
         padded = shape[0] + 2 * margins[0], shape[1] + 2 * margins[1]
-        return cls(workspace.array("padded grid", padded, np.float32), margins)
+        return cls(workspace.array(part, padded, np.float32), margins)
 
     def wrap(self, repeats: tuple[bool, bool]) -> None:
         """Fill the margins along x and y, where these repeat, with what lies a period away."""
@@ -58,16 +62,84 @@ class PaddedGrid:
 
 
 @dataclass(frozen=True, eq=False)
-class CoarseGrid:
-    """A smooth kernel on a coarse grid, between nodes of the fine one [1]_.
+class Splines:
+    """Cubic B-splines, which take values from nodes of a fine grid to a coarse one, and back [1]_.
 
     The weights are those of the four coarse rows around a row, by its place between two of them,
     and those of the columns around a column.
     """
 
-    convolution: Convolution
+    shape: tuple[int, int]  # of the coarse grid
     weights: tuple[Single, Single]
     repeats: tuple[bool, bool]  # along x and y
+    workspace: Workspace
+
+    @classmethod
+    def of(cls, operator: Convolution, ratios: tuple[int, int]) -> Splines:
+        """Take a coarse grid with so many cells of the operator along the sides of a cell."""
+        nx, ny = (
+            n // ratio if repeated else -(-n // ratio) + _SPLINE_MARGIN
+            for n, ratio, repeated in zip(operator.shape, ratios, operator.repeats, strict=True)
+        )
+        weights = _spline_weights(ratios[0]), _spline_weights(ratios[1])
+        return cls((nx, ny), weights, operator.repeats, operator.workspace)
+
+    def array(self, part: str) -> Single:
+        """Return memory for values on the coarse grid, and beyond it where it repeats."""
+        nx, ny = (
+            n + _SPLINE_MARGIN if repeated else n
+            for n, repeated in zip(self.shape, self.repeats, strict=True)
+        )
+        memory: Single = self.workspace.array(part, (nx, ny), np.float32)
+        return memory
+
+    def spread(self, values: Single, sources: GridNodes, grid: PaddedGrid, part: str) -> Single:
+        """Spread values over the coarse grid, and leave them on a fine one."""
+        spread = self.array(part)
+        lines = np.empty((sources.rows.size, spread.shape[1]), dtype=np.float32)
+        place = sources.place_of_rows
+        along, across = self.weights[1], self.weights[0]
+
+        def spread_along(first: int, last: int) -> None:
+            parts = (first, last), grid.values, grid.margins, lines
+            _spread_along_rows(values, sources.listed, along, *parts)
+
+        def spread_across(first: int, last: int) -> None:
+            _spread_across_rows(lines, place, across, first, last, spread)
+
+        fft.share_out_blocks(
+            spread_along, sources.rows.size, sources.rows_holding(fft.VALUES_AT_A_TIME)
+        )
+        fft.share_out_blocks(spread_across, len(spread), 1 + fft.VALUES_AT_A_TIME // len(spread))
+        if not any(self.repeats):
+            return spread
+        grid.wrap(self.repeats)
+        for values, repeated in zip((spread, spread.T), self.repeats, strict=True):
+            if repeated:  # what lies beyond a period, to a period away
+                values[-_SPLINE_MARGIN] += values[0]
+                values[1:_SPLINE_MARGIN] += values[-2:]
+        return np.ascontiguousarray(self.inside(spread))
+
+    def inside(self, values: Single) -> Single:
+        """Return what lies within a period where the grid repeats."""
+        (nx, ny), margins = values.shape, [(1, 2) if each else (0, 0) for each in self.repeats]
+        (left, right), (low, high) = margins
+        return values[left : nx - right, low : ny - high]
+
+    def wrap(self, values: Single) -> Single:
+        """Fill what lies beyond a period with what lies a period away."""
+        for each, repeated in zip((values, values.T), self.repeats, strict=True):
+            if repeated:
+                each[0], each[-2:] = each[-3], each[1:3]
+        return values
+
+
+@dataclass(frozen=True, eq=False)
+class CoarseGrid:
+    """A smooth kernel on a coarse grid, between nodes of the fine one."""
+
+    convolution: Convolution
+    splines: Splines
 
     @classmethod
     def of(cls, operator: Convolution, ratios: tuple[int, int], spectrum: Real) -> CoarseGrid:
@@ -76,19 +148,11 @@ class CoarseGrid:
         The ratios are cells of the operator along the sides of a coarse cell, and divide its
         periods.
         """
+        splines = Splines.of(operator, ratios)
         px, py = (period // ratio for period, ratio in zip(operator.periods, ratios, strict=True))
-        # the spectrum of a B-spline's values on the grid, there and back
-        x, y = ((2 + np.cos(2 * np.pi / n * np.arange(n // 2 + 1))) / 3 for n in (px, py))
-        corrected = spectrum / (x[:, np.newaxis] * y) ** 2
-        nx, ny = (
-            n // ratio if repeated else -(-n // ratio) + _SPLINE_MARGIN
-            for n, ratio, repeated in zip(operator.shape, ratios, operator.repeats, strict=True)
-        )
         dx, dy = (ratio * side for ratio, side in zip(ratios, operator.spacing, strict=True))
-        work = operator.workspace
-        convolution = Convolution((nx, ny), (dx, dy), (px, py), corrected, workspace=work)
-        weights = _spline_weights(ratios[0]), _spline_weights(ratios[1])
-        return cls(convolution, weights, operator.repeats)
+        given = splines.shape, (dx, dy), (px, py), sharpened(spectrum, (px, py))
+        return cls(Convolution(*given, workspace=operator.workspace), splines)
 
     @cached_property
     def _half_spectrum(self) -> Single:
@@ -103,45 +167,13 @@ class CoarseGrid:
 
     def displacement(self, pressure: Single, sources: GridNodes, grid: PaddedGrid) -> Single:
         """Return the displacement of the coarse nodes, and leave the pressures on a fine grid."""
-        nx, ny = (
-            n + _SPLINE_MARGIN if repeated else n
-            for n, repeated in zip(self.convolution.shape, self.repeats, strict=True)
-        )
-        spread, moved = (
-            self.convolution.workspace.array(part, (nx, ny), np.float32)
-            for part in ("spread pressures", "coarse displacements")
-        )
-        lines = np.empty((sources.rows.size, spread.shape[1]), dtype=np.float32)
-        place = sources.place_of_rows
-        along, across = self.weights[1], self.weights[0]
-
-        def spread_along(first: int, last: int) -> None:
-            parts = (first, last), grid.values, grid.margins, lines
-            _spread_along_rows(pressure, sources.listed, along, *parts)
-
-        def spread_across(first: int, last: int) -> None:
-            _spread_across_rows(lines, place, across, first, last, spread)
-
-        fft.share_out_blocks(
-            spread_along, sources.rows.size, sources.rows_holding(fft.VALUES_AT_A_TIME)
-        )
-        fft.share_out_blocks(spread_across, len(spread), 1 + fft.VALUES_AT_A_TIME // len(spread))
-        if any(self.repeats):
-            grid.wrap(self.repeats)
-            for values, repeated in zip((spread, spread.T), self.repeats, strict=True):
-                if repeated:  # what lies beyond a period, to a period away
-                    values[-_SPLINE_MARGIN] += values[0]
-                    values[1:_SPLINE_MARGIN] += values[-2:]
-            margins = [(1, 2) if repeated else (0, 0) for repeated in self.repeats]
-            (left, right), (low, high) = margins
-            inner = np.ascontiguousarray(spread[left : nx - right, low : ny - high])
-            middle = moved[left : nx - right, low : ny - high]
-            middle[:] = self._convolved(inner, np.empty_like(inner))
-            for values, repeated in zip((moved, moved.T), self.repeats, strict=True):
-                if repeated:
-                    values[0], values[-2:] = values[-3], values[1:3]
-            return moved
-        return self._convolved(spread, moved)
+        splines = self.splines
+        spread = splines.spread(pressure, sources, grid, "spread pressures")
+        moved = splines.array("coarse displacements")
+        if not any(splines.repeats):
+            return self._convolved(spread, moved)
+        splines.inside(moved)[:] = self._convolved(spread, np.empty_like(spread))
+        return splines.wrap(moved)
 
     def _convolved(self, pressure: Single, out: Single) -> Single:
         """Convolve on the coarse grid; all is in single precision, whatever the types say."""
@@ -153,6 +185,13 @@ class CoarseGrid:
         result: Any = out
         self.convolution.displacement(values, self._everywhere, None, "float32", result)
         return out
+
+
+def sharpened(spectrum: Real, periods: tuple[int, int]) -> Real:
+    """Return a quarter of a spectrum without what splines take from it, there and back."""
+    # the spectrum of a B-spline's values on the grid
+    x, y = ((2 + np.cos(2 * np.pi / n * np.arange(n // 2 + 1))) / 3 for n in periods)
+    return spectrum / (x[:, np.newaxis] * y) ** 2
 
 
 def _spline_weights(ratio: int) -> Single:

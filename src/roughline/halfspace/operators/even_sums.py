@@ -1,4 +1,4 @@
-"""Fourier sums of even spectra at few lags."""
+"""Fourier sums of even spectra, and of odd ones, at few lags."""
 
 from __future__ import annotations
 
@@ -17,14 +17,17 @@ def even_sums(
     sides: tuple[int, int] = (1, 1),
     *,
     inverse: bool = False,
+    odd: tuple[bool, bool] = (False, False),
 ) -> Real:
     """Transform the quarter of an even spectrum, or of one over it, back at lags along x and y.
+
+    Along odd axes sines take the place of cosines.
 
     Sums are averaged over the cells of two blocks of the given sides, of which the lags are
     multiples then; those of single cells may be at parts of a cell. The inverse is zero where the
     spectrum is.
     """
-    x, y = (_modes(*axis) for axis in zip(periods, lags, sides, strict=True))
+    x, y = (_modes(*axis) for axis in zip(periods, lags, sides, odd, strict=True))
     along_y = np.empty((len(lags[1]), len(quarter)))
 
     def transform(first: int, last: int) -> None:
@@ -37,7 +40,7 @@ def even_sums(
     return _summed(along_y, *x)
 
 
-def _modes(period: int, lags: Real | Indices, side: int) -> tuple[Real, Real]:
+def _modes(period: int, lags: Real | Indices, side: int, odd: bool) -> tuple[Real, Real]:
     """Return the weights of modes, and the cosines at each lag of those that differ at the lags.
 
     Where all differ, the cosines come with the weights.
@@ -48,7 +51,8 @@ def _modes(period: int, lags: Real | Indices, side: int) -> tuple[Real, Real]:
     weights[1:] *= (np.sin(side * angle) / (side * np.sin(angle))) ** 2
     differ = min(period // gcd(period, side), modes.size)
     turns = np.outer(lags, modes[:differ]) % period  # so that angles stay small and exact
-    cosines = np.cos(2 * np.pi / period * turns)
+    angles = 2 * np.pi / period * turns
+    cosines = np.sin(angles) if odd else np.cos(angles)
     return weights, cosines * weights if differ == modes.size else cosines
 
 

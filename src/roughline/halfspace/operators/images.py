@@ -22,6 +22,8 @@ References
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
@@ -40,8 +42,22 @@ _LARGEST_SPREAD = 1e8  # of a load by layers, in periods: sums are good to 1e-11
 _STRETCH_TOLERANCE = 3e-11  # of the images beyond the last stretch, over the largest displacement
 
 
+@dataclass(frozen=True)
+class Summed:
+    """A kernel of which images are summed, and how it falls along the period."""
+
+    fill: Callable[[int, Real], None]  # rows of the table, from a distance along the period on
+    is_odd: bool = False  # along the period
+    power: int = 1  # a pair of images falls with their distance to the minus this; 1, 2 or 3
+
+
 def fill_with_images(
-    half_space: HalfSpace, period: int, spacing: tuple[float, float], width: float, table: Real
+    half_space: HalfSpace,
+    period: int,
+    spacing: tuple[float, float],
+    width: float,
+    table: Real,
+    kernel: Summed | None = None,
 ) -> None:
     """Fill the table of displacements under unit pressure on one cell and all its images.
 
@@ -57,6 +73,8 @@ def fill_with_images(
         Width of the surface across, from which displacements count. [length]
     table : ndarray, shape (period // 2 + 1, columns)
         Overwritten, by the distances along the period and across, in cells. [length / pressure]
+    kernel : Summed, optional
+        What is summed in place of the displacements under pressure.
 
     Raises
     ------
@@ -69,18 +87,21 @@ def fill_with_images(
             f"its images is known up to {_LARGEST_SPREAD:.0e}: give thinner or softer layers, or a "
             f"surface that repeats along both axes ({called('periodic', True)})"
         )
-    images = _Images(half_space, period, spacing, table.shape[1])
+    if kernel is None:
+        kernel = Summed(lambda first, rows: half_space.kernel(first, spacing, rows))
+    lengths = period * spacing[0], half_space.has_base
+    images, sign = _Images(kernel, period, lengths, table.shape[1]), -1.0 if kernel.is_odd else 1.0
     farther = images.farther_images(width + half_space.spread)
 
     def fill(first: int, last: int) -> None:
         rows = table[first:last]
-        half_space.kernel(first, spacing, rows)
+        kernel.fill(first, rows)
         image = np.empty_like(rows)
         for place in range(period, (_NEAREST_IMAGES + 1) * period, period):
-            half_space.kernel(place + first, spacing, image)
+            kernel.fill(place + first, image)
             rows += image
-            half_space.kernel(place - last + 1, spacing, image)
-            rows += image[::-1]
+            kernel.fill(place - last + 1, image)
+            rows += sign * image[::-1]
         rows += images.interpolation(np.arange(first, last)) @ farther
 
     fft.share_out_blocks(fill, len(table), 1 + fft.VALUES_AT_A_TIME // table.shape[1])
@@ -90,37 +111,44 @@ class _Images:
     """Pairs of images, one on either side, seen from some lags along the period."""
 
     def __init__(
-        self, half_space: HalfSpace, period: int, spacing: tuple[float, float], columns: int
+        self, kernel: Summed, period: int, lengths: tuple[float, bool], columns: int
     ) -> None:
-        self._half_space, self._period, self._spacing = half_space, period, spacing
-        self._columns, half = columns, period // 2
+        self._kernel, self._period, self._columns = kernel, period, columns
+        (self._length, self._has_base), half = lengths, period // 2
         roots = np.sin(
             np.pi / 4 * (2 * np.arange(_KNOWN_LAGS) + 1) / _KNOWN_LAGS
         )  # Chebyshev's, of squares
         lags = np.arange(half + 1) if half < _KNOWN_LAGS else np.unique(np.round(half * roots))
         self._lags = lags.astype(np.intp)
+        if kernel.is_odd and half:
+            self._lags = self._lags[self._lags > 0]
 
     def _row(self, place: int) -> Real:
         """Return the kernel at a distance along the period, in cells."""
         row = np.empty((1, self._columns))
-        self._half_space.kernel(place, self._spacing, row)
+        self._kernel.fill(place, row)
         return row[0]
 
     def _pair(self, image: int) -> Real:
         """Return what the two images so many periods away displace, at each lag."""
-        place = image * self._period
-        return np.array([self._row(place + i) + self._row(place - i) for i in self._lags.tolist()])
+        place, sign = image * self._period, -1.0 if self._kernel.is_odd else 1.0
+        return np.array(
+            [self._row(place + i) + sign * self._row(place - i) for i in self._lags.tolist()]
+        )
 
     def interpolation(self, lags: Indices) -> Real:
         """Return the weights of the values at the known lags, for each lag.
 
-        Both images of a pair together are an even function of the lag.
+        Both images of a pair together are an even function of the lag, or the lag times one.
         """
         half, known = max(self._period // 2, 1), self._lags
         of_known, of_lags = (
             chebvander(2 * (each / half) ** 2 - 1.0, known.size - 1) for each in (known, lags)
         )
-        return np.asarray(np.linalg.solve(of_known.T, of_lags.T).T, dtype=np.float64)
+        weights = np.asarray(np.linalg.solve(of_known.T, of_lags.T).T, dtype=np.float64)
+        if self._kernel.is_odd:
+            weights *= np.divide.outer(lags, np.maximum(known, 1))
+        return weights
 
     def farther_images(self, datum: float) -> Real:
         """Return the sum over all pairs of images beyond the nearest ones, at the known lags.
@@ -130,7 +158,7 @@ class _Images:
         total = sum(
             (self._pair(m) for m in range(_NEAREST_IMAGES + 1, _FIRST_STRETCHED)), np.zeros(())
         )
-        scale = float(np.abs(self._row(0)).max())
+        scale = float(np.abs([self._row(0), self._row(1)]).max())
         at, pairs = (
             _FIRST_STRETCHED,
             [self._pair(_FIRST_STRETCHED), self._pair(2 * _FIRST_STRETCHED)],
@@ -154,19 +182,24 @@ class _Images:
     def _rest(self, at: int, pairs: Real, datum: float) -> Real:
         """Return the sum over pairs from some place on, less the one over all of a line.
 
-        A pair that is m periods away displaces by a / m + b / m³ + c / m^5 there. Those at this
-        place, and at twice and four times as many periods, tell a, b and c.
+        A pair that is m periods away displaces by a / m + b / m³ + c / m^5 there, or by another
+        power and the second and fourth ones after it. Those at this place, and at twice and four
+        times as many periods, tell a, b and c. Only 1 / m has no sum by itself.
         """
         from scipy import special  # here because it loads slowly
 
-        if self._half_space.has_base:
+        if self._has_base:
             return np.zeros_like(pairs[0])
-        far = np.array([1.0, 2.0, 4.0])
-        times = pairs * (at * far)[:, np.newaxis, np.newaxis]
-        level = math.log(datum / (2 * self._period * self._spacing[0])) - special.digamma(at)
-        sums = level, at**2 * special.zeta(3, at), at**4 * special.zeta(5, at)
+        far, power = np.array([1.0, 2.0, 4.0]), self._kernel.power
+        times = pairs * ((at * far) ** power)[:, np.newaxis, np.newaxis]
+        if power == 1:
+            first = math.log(datum / (2 * self._length)) - special.digamma(at)
+        else:
+            first = special.zeta(power, at)
+        sums = first, at**2 * special.zeta(power + 2, at), at**4 * special.zeta(power + 4, at)
         terms = np.tensordot(np.linalg.inv(np.vander(far**-2, increasing=True)), times, 1)
-        terms[0] = terms[0].mean()  # one for all places: so its rounding moves none of them alone
+        if power == 1:
+            terms[0] = terms[0].mean()  # one for all places: so rounding moves none of them alone
         rest: Real = np.tensordot(sums, terms, 1)
         return rest
 

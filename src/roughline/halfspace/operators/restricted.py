@@ -35,13 +35,13 @@ from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.even_sums import even_sums
 from roughline.halfspace.operators.grid_nodes import RUN_UNIT, GridNodes, Precision
 
-_SMOOTHING_WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
-_NEAR_RADIUS = 2.25  # of the near part, in cells of the coarse grid
+SMOOTHING_WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
+NEAR_RADIUS = 2.25  # of the near part, in cells of the coarse grid
 # Cells along the side of a coarse cell, where these are square, and up to which part of the grid
 # they serve best.
 _SIDES = (8, 0.025), (4, 0.35), (2, 1.0)
 _LARGEST_SHARE = 0.15  # of the grid for each mode a point; up to it the exact operator takes longer
-_MOST_REACH = int(_NEAR_RADIUS * _SIDES[0][0])  # of the near part, at most
+_MOST_REACH = int(NEAR_RADIUS * _SIDES[0][0])  # of the near part, at most
 RESOLVED_EXCESS = 0.15  # compliance that lower layers may add for a coarse grid's shortest waves
 
 
@@ -68,19 +68,19 @@ class RestrictedOperator:
         kx, ky = np.arange(coarse[0] // 2 + 1), np.arange(coarse[1] // 2 + 1)
         q = 2 * np.pi * np.hypot(kx[:, np.newaxis] / (px * dx), ky / (py * dy))
         spectrum = operator.spectrum[: kx.size, : ky.size]
-        share = erfc(q * _SMOOTHING_WIDTH * side / 2)
+        share = erfc(q * SMOOTHING_WIDTH * side / 2)
         spectrum = operator.spectrum[: kx.size, : ky.size]
         steep, limit, rest = _split(operator, side, q)
         smooth = steep * share + rest
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
-        smooth[0, 0] -= limit / (px * py) * _SMOOTHING_WIDTH * side / np.sqrt(np.pi)
+        smooth[0, 0] -= limit / (px * py) * SMOOTHING_WIDTH * side / np.sqrt(np.pi)
         lags = (
-            np.arange(int(_NEAR_RADIUS * side / dx) + 1),
-            np.arange(int(_NEAR_RADIUS * side / dy) + 1),
+            np.arange(int(NEAR_RADIUS * side / dx) + 1),
+            np.arange(int(NEAR_RADIUS * side / dy) + 1),
         )
         near = even_sums(operator.spectrum, operator.periods, lags)
         near -= even_sums(smooth, coarse, (lags[0] / rx, lags[1] / ry))
-        inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _NEAR_RADIUS * side
+        inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= NEAR_RADIUS * side
         near[~inside] = 0
         # what the cut leaves out, far more where the body has a length of its own, is smooth
         x, y = (
@@ -116,7 +116,7 @@ class RestrictedOperator:
         result = np.empty(targets.indices.size, dtype=np.float32)
 
         def add(first: int, last: int) -> None:
-            near, far = (self.taps, self.reach), (moved, self.far.weights)
+            near, far = (self.taps, self.reach), (moved, self.far.splines.weights)
             padded = grid.values, grid.margins
             parts = padded, near, *far, nodes, (first, last), result
             _add_near_and_far(*parts)
@@ -124,7 +124,7 @@ class RestrictedOperator:
         # for fewer near sums, starting a thread does not pay
         rows_at_a_time = targets.rows_holding(2**21 // self.taps.size)
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
-        grid.clear(sources, wrapped=self.far.repeats)
+        grid.clear(sources, wrapped=self.far.splines.repeats)
         return np.multiply(result, unit, dtype=np.float64)
 
 
@@ -139,21 +139,25 @@ class RestrictedOperators:
         self._ratios = _ratios(operator)
         if self._ratios:
             margins = max(margins[0], _MOST_REACH), max(margins[1], _MOST_REACH + RUN_UNIT)
-        self._margins = margins
+        self.margins = margins
         self._made: dict[tuple[int, int], RestrictedOperator] = {}
 
     @property
     def grid(self) -> PaddedGrid:
         """Memory for values on the grid and on a margin; zero when not in use."""
-        return PaddedGrid.of(self._operator.shape, self._margins, self._operator.workspace)
+        return PaddedGrid.of(self._operator.shape, self.margins, self._operator.workspace)
 
     def on(self, nodes: GridNodes) -> RestrictedOperator | None:
         """Return the cheapest one for some nodes, or None where the exact operator is cheaper."""
-        part = nodes.runs[1][:, 2].sum() / np.prod(self._operator.shape) if self._ratios else 1.0
-        ratios = next((each for each, share in self._ratios if part <= share), None)
+        ratios = self.ratios(nodes)
         if ratios and ratios not in self._made:
-            self._made[ratios] = RestrictedOperator.of(self._operator, ratios, self._margins)
+            self._made[ratios] = RestrictedOperator.of(self._operator, ratios, self.margins)
         return self._made[ratios] if ratios else None
+
+    def ratios(self, nodes: GridNodes) -> tuple[int, int] | None:
+        """Return the cells along the sides of a coarse cell that serve some nodes best, if any."""
+        part = nodes.runs[1][:, 2].sum() / np.prod(self._operator.shape) if self._ratios else 1.0
+        return next((each for each, share in self._ratios if part <= share), None)
 
 
 def _split(operator: Convolution, side: float, q: Real) -> tuple[Real, float, Real]:
@@ -197,7 +201,7 @@ def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
     most = _LARGEST_SHARE * math.prod(operator.periods) / math.prod(operator.shape)
     for side, share in _SIDES:
         rx, ry = (side * 2 ** round(np.log2(max(dx, dy) / each)) for each in (dx, dy))
-        radius = _NEAR_RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
+        radius = NEAR_RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
         divide = operator.periods[0] % rx == operator.periods[1] % ry == 0
         large = min(operator.shape) >= 64 and not operator.small_grid
         if large and divide and radius < _MOST_REACH + 1:
@@ -234,7 +238,7 @@ def _add_near_and_far(
     far, sums = np.empty_like(coarse[0]), np.empty_like(grid[0])
     flat, width = grid.reshape(-1), grid.shape[1]
     for k in range(block[0], block[1]):
-        _interpolate_row(coarse, weights[0], rows[k], far)
+        interpolate_row(coarse, weights[0], rows[k], far)
         above = (rows[k] + margins[0] - radius) * width
         for run in range(first_run[k], first_run[k + 1]):
             begin, end, length = runs[run]
@@ -249,7 +253,7 @@ def _add_near_and_far(
 
 
 @compiled
-def _interpolate_row(coarse: Floats, weights: Floats, row: int, far: Floats) -> None:
+def interpolate_row(coarse: Floats, weights: Floats, row: int, far: Floats) -> None:
     """Interpolate between coarse rows, for all coarse columns."""
     ratio = weights.shape[0]
     above, part = row // ratio, row % ratio

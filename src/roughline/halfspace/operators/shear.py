@@ -27,6 +27,7 @@ from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.discretisation import grid_periods
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
+from roughline.halfspace.operators.images import Summed, fill_with_images
 from roughline.halfspace.operators.workspace import Workspace
 
 _ODD = (False, False), (False, False), (True, True), (True, False), (False, True)
@@ -145,10 +146,11 @@ def shear_on_grid(
     InputError
         If it is not known how shear displaces the half-space.
     """
-    made = _periodic if all(half_space.repeats) else _free
+    repeats = half_space.repeats
+    made = _periodic if all(repeats) else _strip if any(repeats) else _free
     periods = grid_periods(shape, half_space.repeats)
     xx, yy, xy, towards = made(half_space, shape, spacing, periods)
-    diagonal = (_at_origin(xx, periods) + _at_origin(yy, periods)) / 2
+    diagonal = (at_origin(xx, periods) + at_origin(yy, periods)) / 2
     mean, part = (xx + yy) / 2, (xx - yy) / 2
     workspace = workspace or Workspace()
     return ShearConvolution(shape, periods, mean, part, xy, towards, diagonal, workspace)
@@ -175,9 +177,57 @@ def _free(
             half_space.coupling_kernel(first, spacing, (towards[0], towards[1]))
 
     fft.share_out_blocks(fill, rows, 1 + fft.VALUES_AT_A_TIME // columns)
+    return _spectra(half_space, tables, periods)
+
+
+def _strip(
+    half_space: HalfSpace,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    periods: tuple[int, int],
+) -> _Quarters:
+    """Return the same of kernels with all their images along one axis.
+
+    Bodies and kernels may be seen from either side, so that rows are distances along the period.
+    """
+    along = half_space.repeats.index(True)
+    across = 1 - along
+    cell, width = (spacing[along], spacing[across]), shape[across] * spacing[across]
+
+    def shear_part(which: int) -> Callable[[int, Real], None]:
+        def fill(first: int, rows: Real) -> None:
+            parts = [np.empty_like(rows) for _ in range(3)]
+            half_space.shear_kernel(first, cell, (parts[0], parts[1], parts[2]))
+            rows[:] = parts[which]
+
+        return fill
+
+    def coupling_part(which: int) -> Callable[[int, Real], None]:
+        def fill(first: int, rows: Real) -> None:
+            parts = [np.empty_like(rows) for _ in range(2)]
+            half_space.coupling_kernel(first, cell, (parts[0], parts[1]))
+            rows[:] = parts[which]
+
+        return fill
+
+    kernels = [Summed(shear_part(0)), Summed(shear_part(1)), Summed(shear_part(2), True, 3)]
+    if half_space.is_coupled:
+        kernels += [Summed(coupling_part(0), True, 2), Summed(coupling_part(1), False, 2)]
+    tables = []
+    for kernel in kernels:
+        table = np.empty((periods[along] // 2 + 1, periods[across] // 2 + 1))
+        fill_with_images(half_space, shape[along], cell, width, table, kernel)
+        tables.append(table)
+    if along == 1:
+        tables = [np.ascontiguousarray(tables[i].T) for i in (1, 0, 2, 4, 3)[: len(tables)]]
+    return _spectra(half_space, tables, periods)
+
+
+def _spectra(half_space: HalfSpace, tables: list[Real], periods: tuple[int, int]) -> _Quarters:
+    """Return the spectra of tables of the kernels, which are overwritten."""
     for each, odd in zip(tables, _ODD, strict=False):
         each /= math.prod(periods)
-        fft.sine_spectrum(each, odd)
+        fft.sine_spectrum(each, odd, periods)
         if not np.isfinite(each[1, 1]):
             raise InputError(
                 f"{type(half_space).__name__} gives numbers that are not finite; finite "
@@ -186,7 +236,7 @@ def _free(
     xx, yy, xy = tables[:3]
     np.negative(xy, out=xy)
     # x / r² has the spectrum -i times this, and pressure draws the surface together
-    return xx, yy, xy, (tables[3], tables[4]) if coupled else None
+    return xx, yy, xy, (tables[3], tables[4]) if half_space.is_coupled else None
 
 
 def _periodic(
@@ -223,7 +273,7 @@ def _periodic(
     return xx, yy, xy, towards if half_space.is_coupled else None
 
 
-def _at_origin(quarter: Real, periods: tuple[int, int]) -> float:
+def at_origin(quarter: Real, periods: tuple[int, int]) -> float:
     """Return the sum over all modes of an even spectrum."""
     times_x, times_y = (
         np.where((np.arange(n // 2 + 1) == 0) | (2 * np.arange(n // 2 + 1) == n), 1.0, 2.0)

@@ -11,8 +11,7 @@ import numpy as np
 import roughline as rl
 from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM
 from roughline.halfspace.operators.cell import cell_compliance
-from roughline.lab.controls import ControlError, as_code
-from roughline.lab.explore.controls import ScaledControl
+from roughline.lab.controls import ControlError, Number, as_code
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import pressed_under
 from roughline.lab.explore.state import SURFACE_KEYS, ExploreState, Item, PageAnswer, Physics
@@ -55,7 +54,7 @@ class AdhesionPhysics(Physics):
         "way back, and come off under a pull. Without a hardness alone."
     )
     controls = (
-        ScaledControl(
+        Number(
             key="w",
             symbol="w L/(E*h²)",
             name="work of adhesion",
@@ -68,7 +67,7 @@ class AdhesionPhysics(Physics):
             state_scale=lambda state: float(state.E_star * state.rms_height**2 / state.length),
             over="E* h² / L",
         ),
-        ScaledControl(
+        Number(
             key="h0",
             symbol="h_0/h",
             name="range of the pull",

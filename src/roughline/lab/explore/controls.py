@@ -2,59 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-import roughline as rl
 from roughline.errors.checks import shown
-from roughline.lab.controls import Choice, Control, ControlError, has_unit, rounded
-from roughline.units import engineering, in_si
+from roughline.lab.controls import (
+    Choice,
+    Control,
+    ControlError,
+    Number,
+    QuantityText,
+    Several,
+    is_number,
+)
+from roughline.units import load_in_newtons
+
+_HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
 
 
-@dataclass(frozen=True)
-class ScaledControl(Control):
-    """A number that may be given with its unit, and is then divided by a scale."""
+@dataclass(frozen=True, kw_only=True)
+class _Dimension(Number):
+    """The fractal dimension, or 3 less the Hurst exponent, which may be typed instead."""
 
-    unit: str = "1"
-    state_scale: Callable[[Any], float] = float  # gives the scale of a state, in the unit
-    over: str = ""  # what the scale is called
+    def read(self, text: str, state: Any = None) -> float:
+        typed = _HURST.fullmatch(text)
+        if not typed:
+            return super().read(text, state)
+        hurst = typed["hurst"]
+        value = float(hurst) if is_number(hurst) else -1.0
+        if not 0 <= value <= 1:
+            sentence = f"H is {shown(hurst.strip())}; give a number from 0 to 1"
+            raise ControlError(sentence, self.key, "H")
+        return round(3 - value, 12)
 
-    def read_over(self, text: str, state: Any) -> float:
-        """Return the number in a text, over the scale of a state.
 
-        Raises
-        ------
-        ControlError
-            If it is none, has another unit, or is out of range.
-        """
-        if not has_unit(text):
-            return self.read(text)
-        try:
-            value = in_si(text, self.unit, self.name)
-        except rl.UnitError as error:
-            raise ControlError(str(error), self.key) from None
-        scale = self.state_scale(state)
-        try:
-            return self.checked(rounded(value / scale))
-        except ControlError:
-            unit = self.unit.replace("**2", "²")
-            low, high = (engineering(end * scale, unit, 3) for end in (self.low, self.high))
-            raise ControlError(
-                f"{self.name} is {shown(text.strip())}; give one from {low} to {high}, which is "
-                f"{self.range} {self.over}",
-                self.key,
-            ) from None
+@dataclass(frozen=True, kw_only=True)
+class _LoadNumber(Number):
+    """A force, or a pressure on the whole surface."""
+
+    def in_unit(self, text: str, state: Any) -> float:
+        return load_in_newtons(text, state.length**2)
 
 
 _length = partial(
-    ScaledControl, unit="m", state_scale=lambda state: float(state.length), over="sides"
+    Number, unit="m", state_scale=lambda state: float(state.length), over="sides"
 )  # over the side of the surface
 
 
 _NUMBERS = (
-    Control(
+    _Dimension(
         key="D_f",
         symbol="D_f",
         name="fractal dimension",
@@ -95,7 +93,7 @@ _NUMBERS = (
         meaning="Root-mean-square height. Relative to the side of the surface, or with a unit: 0.3 "
         "um.",
     ),
-    Control(
+    Number(
         key="slope",
         symbol="∇h",
         name="rms slope",
@@ -105,7 +103,7 @@ _NUMBERS = (
         meaning="Root-mean-square slope of the surface on its grid, without unit; the theory "
         "assumes small slopes.",
     ),
-    Control(
+    Number(
         key="seed",
         symbol="seed",
         name="seed",
@@ -117,7 +115,7 @@ _NUMBERS = (
         scale="whole",
         step=1,
     ),
-    Control(
+    _LoadNumber(
         key="F",
         symbol="F̄",
         name="load",
@@ -126,6 +124,9 @@ _NUMBERS = (
         default=0.1,
         meaning="Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean "
         "pressure such as 2 MPa.",
+        unit="N",
+        state_scale=lambda state: float(state.force(1.0)),
+        over="E* h L",
     ),
 )
 _CHOICES = (
@@ -134,6 +135,7 @@ _CHOICES = (
         name="points along a side",
         options={str(n): str(n) for n in (64, 128, 256, 512, 1024)},
         default="512",
+        of=int,
         meaning="Points along a side of the grid: more points give finer waves and take longer.",
     ),
     Choice(
@@ -161,7 +163,7 @@ _CHOICES = (
         default="area",
         meaning="What lies on the relief of the surface.",
     ),
-    Choice(
+    Several(
         key="theories",
         name="theory",
         options={
@@ -169,15 +171,40 @@ _CHOICES = (
             "bush-gibson-thomas": "Bush, Gibson, Thomas",
             "greenwood-williamson": "Greenwood, Williamson",
         },
-        default="",
+        default=(),
         meaning="Theories for the same waves, drawn with the curves; they hold for periodic "
         "surfaces.",
+    ),
+)
+_QUANTITIES = (
+    QuantityText(
+        key="L",
+        name="side of the surface",
+        label="side L",
+        default="1 mm",
+        meaning="Side of the surface, with a unit. The dimensionless numbers do not depend on it.",
+        unit="m",
+        ends=(1e-12, 1e3),
+    ),
+    QuantityText(
+        key="E",
+        name="contact modulus",
+        label="modulus E*",
+        default="110 GPa",
+        meaning="Contact modulus, with a unit. The dimensionless numbers do not depend on it.",
+        unit="Pa",
+        ends=(1.0, 1e14),
     ),
 )
 NUMBERS = {each.key: each for each in _NUMBERS}
 """Numbers by their keys."""
 CHOICES = {each.key: each for each in _CHOICES}
 """Choices by their keys."""
+LOAD = "F"
+"""Key of the load, which is read when all else is."""
+CONTROLS: dict[str, Control] = {each.key: each for each in (*_QUANTITIES, *_CHOICES, *_NUMBERS)}
+"""All controls by their keys, in the order in which they are read: the side and the modulus, which
+are scales of others, come first, and the load last."""
 
 FILES = {
     "maps.nc": "all maps, NetCDF",

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import roughline as rl
-from roughline.lab.controls import Control, ControlError, as_code
-from roughline.lab.explore.controls import ScaledControl
+from roughline.lab.controls import ControlError, Number, as_code
 from roughline.lab.explore.state import ExploreState, Item, Physics
 from roughline.lab.explore.words import item
 from roughline.report.values import figure, up_to_three_digits
@@ -31,7 +30,7 @@ class LayerPhysics(Physics):
         "the base: F̄, k / (E* L), p_c, the hardness and the work of adhesion are over it."
     )
     controls = (
-        ScaledControl(
+        Number(
             key="t",
             symbol="t/L",
             name="thickness of the layer",
@@ -44,7 +43,7 @@ class LayerPhysics(Physics):
             state_scale=lambda state: float(state.length),
             over="sides",
         ),
-        ScaledControl(
+        Number(
             key="E_l",
             symbol="E*_l/E*",
             name="modulus of the layer",
@@ -57,7 +56,7 @@ class LayerPhysics(Physics):
             state_scale=lambda state: float(state.E_star),
             over="E*",
         ),
-        Control(
+        Number(
             key="nu_l",
             symbol="ν_l",
             name="Poisson's ratio of the layer",
@@ -69,7 +68,7 @@ class LayerPhysics(Physics):
             scale="linear",
             step=0.01,
         ),
-        Control(
+        Number(
             key="nu_b",
             symbol="ν_b",
             name="Poisson's ratio of the base",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
-from roughline.lab.controls import Choice, Control
+from roughline.lab.controls import Choice, Number
 from roughline.lab.explore.adhesion import AdhesionPhysics
 from roughline.lab.explore.controls import CHOICES, NUMBERS
 from roughline.lab.explore.fluid import FluidPhysics
@@ -21,24 +21,15 @@ _STRIP = ("stiffness_3d", "area", "pressure", "depth", "force", "roughness")
 _LEADING = 3  # of them, in large figures
 
 
-def numbers() -> dict[str, Control]:
+def numbers() -> dict[str, Number]:
     """All numbers that can be set, by their keys."""
     return NUMBERS | {control.key: control for kind in PHYSICS for control in kind.controls}
 
 
 def second_map_choice() -> Choice:
     """The choice of the second map, with the maps that kinds add."""
-    choice = CHOICES["shown"]
-    options = dict(choice.options)
-    for kind in PHYSICS:
-        options |= kind.maps
-    return Choice(
-        key=choice.key,
-        name=choice.name,
-        options=options,
-        default=choice.default,
-        meaning=choice.meaning,
-    )
+    added = {name: shown for kind in PHYSICS for name, shown in kind.maps.items()}
+    return replace(CHOICES["shown"], options={**CHOICES["shown"].options, **added})
 
 
 def panels() -> dict[str, Panel]:

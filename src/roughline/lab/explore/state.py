@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any, ClassVar, Literal, Self
 
@@ -16,15 +16,14 @@ from roughline.errors.checks import shown
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.lab.controls import (
     VERSION,
-    Control,
     ControlError,
+    Number,
     Texts,
     as_code,
-    as_text,
     has_unit,
     is_number,
 )
-from roughline.lab.explore.controls import CHOICES, NUMBERS, ScaledControl
+from roughline.lab.explore.controls import CONTROLS
 from roughline.lab.maps import Map
 from roughline.lab.panels import Panel, PanelContent, Series
 from roughline.lab.server.tasks import Progress
@@ -51,7 +50,7 @@ class Physics:
     tick: ClassVar[str]  # what stands beside its tick
     meaning: ClassVar[str]
     word: ClassVar[str] = ""  # that the key is set to, if no number is
-    controls: ClassVar[tuple[Control, ...]] = ()
+    controls: ClassVar[tuple[Number, ...]] = ()
     unlike: ClassVar[str] = ""  # what the reduced model is without it
     excludes: ClassVar[Mapping[str, str]] = {}  # why it does not go with others, by their keys
     maps: ClassVar[Mapping[str, str]] = {}  # those it adds, with the words that choose them
@@ -72,15 +71,7 @@ class Physics:
         if cls.word and set_to != cls.word:
             sentence = f"{cls.tick} is {shown(set_to)}; allowed is {cls.word}, or nothing"
             raise ControlError(sentence, cls.key)
-        numbers = {}
-        for control in cls.controls:
-            text = texts.get(control.key, as_text(control.default))
-            numbers[control.key] = (
-                control.read_over(text, state)
-                if isinstance(control, ScaledControl)
-                else control.read(text)
-            )
-        return cls(**numbers)
+        return cls(**{each.key: each.read_in(texts, state) for each in cls.controls})
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -149,20 +140,20 @@ class ExploreState:
     Lengths are in sides of the surface.
     """
 
-    D_f: float = NUMBERS["D_f"].default
-    roll_off: float = NUMBERS["roll_off"].default
-    cutoff: float = NUMBERS["cutoff"].default
-    rms: str = CHOICES["rms"].default
-    h: float = NUMBERS["h"].default
-    slope: float = NUMBERS["slope"].default
-    seed: int = int(NUMBERS["seed"].default)
-    n: int = int(CHOICES["n"].default)
-    boundary: str = CHOICES["boundary"].default
-    F: float = NUMBERS["F"].default
-    shown: str = CHOICES["shown"].default
-    L: str = "1 mm"  # side of the surface
-    E: str = "110 GPa"  # contact modulus
-    theories: tuple[str, ...] = ()  # drawn beside the curve
+    D_f: float = CONTROLS["D_f"].usual
+    roll_off: float = CONTROLS["roll_off"].usual
+    cutoff: float = CONTROLS["cutoff"].usual
+    rms: str = CONTROLS["rms"].usual
+    h: float = CONTROLS["h"].usual
+    slope: float = CONTROLS["slope"].usual
+    seed: int = CONTROLS["seed"].usual
+    n: int = CONTROLS["n"].usual
+    boundary: str = CONTROLS["boundary"].usual
+    F: float = CONTROLS["F"].usual
+    shown: str = CONTROLS["shown"].usual
+    L: str = CONTROLS["L"].usual  # side of the surface
+    E: str = CONTROLS["E"].usual  # contact modulus
+    theories: tuple[str, ...] = CONTROLS["theories"].usual  # drawn beside the curve
     added: tuple[Physics, ...] = ()
     typed_texts: Mapping[str, str] = field(default_factory=dict, compare=False)  # texts of controls
 
@@ -300,10 +291,10 @@ class ExploreState:
 
     def texts(self) -> dict[str, str]:
         """All that is set, as texts by the keys of the controls."""
-        names = [each.name for each in fields(self) if each.name not in ("added", "typed_texts")]
-        texts = {name: _in_address(getattr(self, name)) for name in names}
-        for each in self.added:
-            texts |= {each.key: each.word} | {k: as_text(v) for k, v in each.numbers.items()}
+        texts = {key: each.text(getattr(self, key)) for key, each in CONTROLS.items()}
+        for kind in self.added:
+            texts |= {kind.key: kind.word}
+            texts |= {each.key: each.text(getattr(kind, each.key)) for each in kind.controls}
         return texts
 
     def address(self) -> dict[str, str]:
@@ -312,13 +303,8 @@ class ExploreState:
         What is more than a number stands there as it was typed: under another height a pressure is
         another F̄, and stays the pressure.
         """
-        default = ExploreState().texts()
-        default |= {
-            control.key: as_text(control.default)
-            for each in self.added
-            for control in each.controls
-            if control.key != each.key
-        }
+        added = [each for kind in self.added for each in kind.controls if each.key != kind.key]
+        default = {each.key: each.text(each.usual) for each in (*CONTROLS.values(), *added)}
         texts = {
             key: text
             for key, text in self.texts().items()
@@ -341,9 +327,3 @@ class ExploreState:
 @lru_cache(maxsize=4)
 def _surface(spectrum: rl.SelfAffine, n: int, seed: int) -> rl.Surface:
     return replace(spectrum.surface(n, seed), unit="m")
-
-
-def _in_address(value: object) -> str:
-    if isinstance(value, tuple):
-        return ",".join(value)
-    return as_text(value) if isinstance(value, float) else str(value)

@@ -8,8 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 import roughline as rl
-from roughline.lab.controls import as_code
-from roughline.lab.explore.controls import ScaledControl
+from roughline.lab.controls import Number, as_code
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
@@ -39,7 +38,7 @@ class YieldingPhysics(Physics):
         "indented; without a hardness both bodies are elastic."
     )
     controls = (
-        ScaledControl(
+        Number(
             key="hardness_bar",
             symbol="H/(E*∇h)",
             name="hardness",

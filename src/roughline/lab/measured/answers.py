@@ -20,11 +20,11 @@ from roughline.facts.fact import own_words
 from roughline.facts.kinds import DATA, INTERVALS, LIMITS
 from roughline.lab.frames import drawn
 from roughline.lab.measured.cache import cached
+from roughline.lab.measured.controls import at
 from roughline.lab.measured.part import part_in_words
 from roughline.lab.measured.pictures import contact_pictures, curve_panels, model_panels
 from roughline.lab.measured.state import (
-    CONTROLS,
-    at,
+    PAGE_WORDS,
     control_texts,
     first_source,
     page_question,
@@ -55,7 +55,7 @@ from roughline.units import engineering
 _SLIP_ROWS = 12
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def answer(arguments: Arguments, progress: Progress) -> bytes:
     """Assess the question of the page; the result is kept for the report.
 
@@ -166,7 +166,7 @@ class _Steps:
         self._map, self._maps = done, total
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def compare(arguments: Arguments, progress: Progress) -> bytes:
     """Compare the models on the surface as the file has it, without its tilt."""
     texts = control_texts(arguments)

@@ -17,7 +17,7 @@ from roughline.lab.controls import STRANGE, ControlError, sent_texts
 from roughline.lab.explore.controls import CHOICES as EXPLORED
 from roughline.lab.frames import frame
 from roughline.lab.measured import controls as c
-from roughline.lab.measured.state import CONTROLS, ControlTexts, Source, at, page_question, used_in
+from roughline.lab.measured.state import PAGE_WORDS, ControlTexts, Source, page_question, used_in
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.question.asked import Theories
 from roughline.question.loading import DEFAULT_LOADS
@@ -30,7 +30,7 @@ from roughline.report.values import up_to_three_digits
 from roughline.topography.body import Body, Line, Surface
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def bodies(arguments: Arguments, progress: Progress) -> bytes:
     """E* of the bodies, and what each load is in all on the `sides` of the prepared body. [m]
 
@@ -40,7 +40,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
 
     def read(texts: ControlTexts) -> tuple[Question, ControlTexts]:
         question = page_question(texts, Source(Path("no file yet"), "", ""))
-        with at("joint_area" if "joint_area" in texts else ""):
+        with c.at("joint_area" if "joint_area" in texts else ""):
             if body is not None:
                 asked = [each for each in question.ask if not isinstance(each, Theories)]
                 question = evolve(question, body=body, reading=Reading(), ask=asked)

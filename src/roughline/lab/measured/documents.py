@@ -17,7 +17,7 @@ from roughline.lab.controls import is_number
 from roughline.lab.frames import digest, frame
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.state import (
-    CONTROLS,
+    PAGE_WORDS,
     ControlTexts,
     control_texts,
     field_values,
@@ -42,7 +42,7 @@ _WRITTEN = (
 )
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def report(arguments: Arguments, progress: Progress) -> bytes:
     """Write the report and the curve to the folder of the session."""
     texts = control_texts(arguments)
@@ -80,7 +80,7 @@ def _names(texts: ControlTexts, arguments: Arguments) -> list[str]:
     return [each.name for each in page_sources(texts, arguments["session"])]
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def code(arguments: Arguments, progress: Progress) -> bytes:
     """Lines of Python, or commands, that answer the same question for the file."""
     texts, is_python = control_texts(arguments), arguments.get("which") == "python"

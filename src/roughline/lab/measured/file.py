@@ -9,12 +9,12 @@ from typing import Any, Literal
 from roughline.errors.words import speaking
 from roughline.lab.frames import drawn
 from roughline.lab.measured.cache import cached
+from roughline.lab.measured.controls import at
 from roughline.lab.measured.pictures import file_pictures, preparation_pictures
 from roughline.lab.measured.state import (
-    CONTROLS,
+    PAGE_WORDS,
     ControlTexts,
     Source,
-    at,
     control_texts,
     first_source,
     page_preparation,
@@ -34,7 +34,7 @@ from roughline.topography.low_pass import inner_points
 from roughline.topography.preparation import Preparation
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def look(arguments: Arguments, progress: Progress) -> bytes:
     """What the file holds, what it leaves open, and its roughness as it is read."""
     found, refused, _ = _described(arguments, "file")
@@ -55,7 +55,7 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
     return drawn(header, *file_pictures(found))
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def prepare(arguments: Arguments, progress: Progress) -> bytes:
     """The file before and after its preparation."""
     found, refused, crop = _described(arguments, "preparation")

@@ -14,7 +14,7 @@ from roughline.errors.checks import shortened
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import (
-    CONTROLS,
+    PAGE_WORDS,
     control_texts,
     page_preparation,
     page_reading,
@@ -31,7 +31,7 @@ from roughline.report.values import figure, up_to_three_digits, written_scale
 _GIVEN_WITHIN = 1e-9  # relative range up to which an answer was given and did not come out
 
 
-@speaking(CONTROLS)
+@speaking(PAGE_WORDS)
 def maps(arguments: Arguments, progress: Progress) -> bytes:
     """Each map of a part as it is read and prepared, or why it is refused."""
     sources = page_sources(control_texts(arguments), arguments["session"])

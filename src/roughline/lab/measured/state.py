@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-import roughline as rl
 from roughline.engineering.materials import material
 from roughline.errors.words import Words
 from roughline.lab.controls import ControlError, refuse_strange, sent_texts, usable
 from roughline.lab.measured import controls as c
+from roughline.lab.measured.controls import at
 from roughline.lab.measured.examples import EXAMPLES, write_example
 from roughline.lab.server.tasks import Arguments
 from roughline.question import from_fields
@@ -25,29 +23,20 @@ from roughline.topography.preparation import Preparation
 
 _FILES = ("file", "example")
 _KNOWN = (*_FILES, *c.KEYS)
-_CONTROL_KEYS = {each.name: (key,) for key, each in c.BY_CONTROL.items()} | {
-    field.name: tuple(field.texts) for field, _ in c.BODIES.values()
-}
-"""Keys of controls by the names of arguments."""
-
 _CHOICE_WORDS = dict(pair for field in c.BY_CONTROL.values() for pair in field.choices.values())
 """What the page calls the values of choices."""
 
-CONTROLS = Words(
+PAGE_WORDS = Words(
     names_by(lambda field: field.word or field.label or field.control.replace("_", " "))
     | {"forces": "loads"},
     lambda text: f'"{_CHOICE_WORDS.get(text, text)}"',
 )
 """What the page calls arguments of the library: its controls."""
 
-_DEFAULTS = {key: each.default for key, each in c.CHOICES.items()} | {
-    key: each.otherwise for key, each in c.BY_CONTROL.items() if each.kind is float
-}
-"""Of controls that mean something without a text."""
+_MEANWHILE = {key: each.default for key, each in c.CONTROLS.items() if each.default}
+"""What is used without a text, in words."""
 _NEEDED = {key: c.BEGINS[key] for key in c.BODIES}
 """Of controls without whose text there is no answer: what is used while there is none."""
-_MOST_VALUES = {"points": c.MOST_POINTS, "loads": 20}
-"""Largest numbers, or most texts, that this lab takes, by the names of fields."""
 
 _Read = TypeVar("_Read")
 ControlTexts = Mapping[str, str]
@@ -83,7 +72,7 @@ def used_in(
     return usable(
         {**arguments, "state": settings},
         lambda texts: read(control_texts({"state": texts})),
-        lambda found: _DEFAULTS,
+        lambda found: _MEANWHILE,
         _NEEDED,
     )
 
@@ -116,32 +105,11 @@ def page_sources(texts: ControlTexts, session: Mapping[str, Any]) -> list[Source
 
 def field_values(texts: ControlTexts, *groups: str) -> dict[str, Any]:
     """What the controls of the fields in some groups tell, by the names of the fields."""
-    values = {}
-    for key, field in c.BY_CONTROL.items():
-        text = texts.get(key)
-        if groups and field.group not in groups:
-            continue
-        if field.choices:
-            values[field.name] = field.choices[c.CHOICES[key].read(text or _DEFAULTS[key])][0]
-        elif text is not None:
-            with at(key):
-                values[field.name] = value = field.value(_split(text, field.separator))
-                refuse_alone(field, value)
-                count = len(value) if isinstance(value, list) else value
-                if field.name in _MOST_VALUES and count > _MOST_VALUES[field.name]:
-                    most = _MOST_VALUES[field.name]
-                    raise ControlError(
-                        f"{field.label or key}: {count} are too many; this lab takes up to {most}",
-                        key,
-                    )
-    return values
-
-
-def _split(text: str, separator: str) -> str | list[str]:
-    """The texts of a control that takes several, which a comma with a space parts as well."""
-    if not separator:
-        return text
-    return [part.strip() for part in re.split(rf"{separator}|,\s", text) if part.strip()]
+    return {
+        field.name: c.CONTROLS[key].read_in(texts)
+        for key, field in c.BY_CONTROL.items()
+        if (not groups or field.group in groups) and (key in texts or field.choices)
+    }
 
 
 def page_reading(texts: ControlTexts, name: str | None) -> Reading:
@@ -180,15 +148,3 @@ def body_values(texts: ControlTexts) -> dict[str, Any]:
 def typed_loads(texts: ControlTexts) -> list[str]:
     """The loads, as they were typed."""
     return list(field_values(texts, LOADS).get("loads", ()))
-
-
-@contextmanager
-def at(key: str) -> Iterator[None]:
-    """Say of a refusal at which control it arose, in the words of the page."""
-    try:
-        yield
-    except rl.RoughlineError as error:
-        about = [getattr(error, "argument", None), *getattr(error, "others", ())]
-        keys = [each for name in about for each in _CONTROL_KEYS.get(name or "", (name,))]
-        among = getattr(error, "among", [key for key in keys if key in c.KEYS] or [key])
-        raise ControlError(str(error), *among) from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from roughline.lab.controls import Choice, Control
+from roughline.lab.controls import Choice, Control, Number, Several
 
 if TYPE_CHECKING:
     from roughline.paper.stated import ModelLabel
@@ -31,10 +31,10 @@ _MEANING_OF_EDGES = (
 )
 
 
-def _edges(model: str, lowest: float, window: tuple[float, float], step: float) -> list[Control]:
+def _edges(model: str, lowest: float, window: tuple[float, float], step: float) -> list[Number]:
     """The two edges of the window of a model."""
     return [
-        Control(
+        Number(
             key=f"{end}_{model}",
             symbol="F̄",
             name=f"{word} ({model})",
@@ -54,7 +54,7 @@ WINDOWS = {"1D": _edges("1D", 1e-5, (1e-4, 1e-2), 0.1), "3D": _edges("3D", 1e-3,
 _NUMBERS = (
     *WINDOWS["1D"],
     *WINDOWS["3D"],
-    Control(
+    Number(
         key="tolerance",
         symbol="±",
         name="tolerance",
@@ -65,7 +65,7 @@ _NUMBERS = (
         scale="linear",
         step=0.01,
     ),
-    Control(
+    Number(
         key="map_D_f",
         symbol="D_f",
         name="fractal dimension",
@@ -76,7 +76,7 @@ _NUMBERS = (
         scale="linear",
         step=0.05,
     ),
-    Control(
+    Number(
         key="map_F",
         symbol="F̄",
         name="load",
@@ -113,7 +113,18 @@ _CHOICES = (
         "has no plateau.",
     ),
 )
+_SHOWN = Several(
+    key="D_f",
+    name="fractal dimension",
+    options={f"{each:g}": f"{each}" for each in DIMENSIONS},
+    of=float,
+    default=DIMENSIONS,
+    is_needed=True,
+    meaning="Which curves are drawn and fitted.",
+)
 NUMBERS = {each.key: each for each in _NUMBERS}
 """Numbers by their keys."""
 CHOICES = {each.key: each for each in _CHOICES}
 """Choices by their keys."""
+CONTROLS: dict[str, Control] = {each.key: each for each in (_SHOWN, *_CHOICES, *_NUMBERS)}
+"""All controls by their keys."""

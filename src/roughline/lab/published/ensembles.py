@@ -67,8 +67,8 @@ def stiffness_curve(model: ModelLabel, dimension: float, averaging: Any) -> Mean
 
 def normalised_law(state: PublishedState, model: ModelLabel, dimension: float) -> PowerLaw:
     """The power law of one fractal dimension in the window of its model, as it is normalised."""
-    law = _law(model, dimension, fitted_window(state, model), state.words["mean"])
-    punch = _PUNCHES[state.words["punch"]] if model == "3D" else 1.0
+    law = _law(model, dimension, fitted_window(state, model), state["mean"])
+    punch = _PUNCHES[state["punch"]] if model == "3D" else 1.0
     first, last = law.prefactor_interval
     return replace(
         law, prefactor=law.prefactor / punch, prefactor_interval=(first / punch, last / punch)

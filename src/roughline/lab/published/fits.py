@@ -42,7 +42,7 @@ class _Fit:
     def of(cls, state: PublishedState, model: ModelLabel, dimension: float) -> _Fit:
         law, curve = (
             normalised_law(state, model, dimension),
-            stiffness_curve(model, dimension, state.words["mean"]),
+            stiffness_curve(model, dimension, state["mean"]),
         )
         inside = inside_window(curve.force_bar, law.window)
         is_saturated = curve.mean[inside].max() >= SATURATED * curve.mean.max()
@@ -84,7 +84,7 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
         }
         answer["words"][f"error-{model}"] = next(refused, "")
         answer["words"][f"doubt-{model}"] = _doubt(found)
-        answer["words"][f"note-{model}"] = _note(state.words["mean"], window, model, found)
+        answer["words"][f"note-{model}"] = _note(state["mean"], window, model, found)
         answer["strip"] += _strip(model, found)
     rows = [answer["tables"][f"fit-{model}"]["rows"] for model in MODELS]
     answer["tables"]["published-exponents"] = {

@@ -11,7 +11,7 @@ _EVERY = [(f"{d:g}", f"ramp-{i}", _MARKERS[i]) for i, d in enumerate(DIMENSIONS)
 _CURVES = (
     *(band(f"{d} mean", "", colour, line_dash="dashed") for d, colour, _ in _EVERY),
     *(line(f"{d} sure", "", colour, 1.6) for d, colour, _ in _EVERY),
-    *(marks(f"{d} marks", f"D_f = {d}", colour, size=6, marker=m) for d, colour, m in _EVERY),
+    *(marks(f"{d} marks", d, colour, size=6, marker=m) for d, colour, m in _EVERY),
 )
 """Of each fractal dimension, with its standard error; dashed where the grid decides."""
 
@@ -28,10 +28,10 @@ def _stiffness(model: str, title: str, ranges: tuple[AxisRange, AxisRange]) -> P
 
 PANELS = (
     _stiffness(
-        "1D", "Figure 3: stiffness over force, reduced model, lines", ((1e-5, 10), (1e-4, 1.6))
+        "1D", "Figure 3: stiffness over force, reduced model, lines", ((3e-6, 10), (1e-4, 1.6))
     ),
     _stiffness(
-        "3D", "Figure 4: stiffness over force, full model, surfaces", ((1e-3, 10), (5e-3, 1.6))
+        "3D", "Figure 4: stiffness over force, full model, surfaces", ((6e-4, 10), (5e-3, 1.6))
     ),
     Panel(
         key="exponents",
@@ -48,7 +48,7 @@ PANELS = (
             estimates("1D", "1D, window chosen", "here", marker="triangle"),
             estimates("3D", "3D, window chosen", "dark-line", marker="circle"),
         ),
-        ranges=((1.97, 3.03), (0.4, 1.02)),
+        ranges=((1.97, 3.25), (0.4, 1.02)),
         is_logarithmic=False,
     ),
 )

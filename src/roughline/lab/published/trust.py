@@ -12,8 +12,8 @@ from roughline.paper.tables import three_digits
 def point(arguments: Arguments, progress: Progress) -> bytes:
     """The sentence of a point, and its verdict."""
     state, settled = usable_state(arguments)
-    dimension, force, tolerance = (state.numbers[x] for x in ("map_D_f", "map_F", "tolerance"))
-    roll_off = state.words["roll_off"]
+    dimension, force, tolerance = (state[x] for x in ("map_D_f", "map_F", "tolerance"))
+    roll_off = state["roll_off"]
     found = trust_map().at(dimension, force, float(roll_off))
     verdict = found.verdict(tolerance)
     size = "stiffer" if found.value >= 0 else "softer"

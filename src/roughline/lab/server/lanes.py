@@ -7,17 +7,12 @@ import logging
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any
 
-from roughline.lab.server.process import LOST, LOWEST_PRIORITY, NOT_BEGUN, Process
+from roughline.lab.server.process import LOST, Process
 from roughline.lab.server.tasks import Place, TaskOutcome
 
 _log = logging.getLogger(__name__)
-_LETS_PASS_AFTER = 1.5  # after which a task lets shorter ones pass [s]
-MOST_PARTS = 16  # of a page that may wait for something at once
-TOO_MANY = TaskOutcome(error="too many requests of this page wait: let some end first")
-_MOST_TRIES = 5  # of processes that may be gone before they have their task
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
 
 
@@ -37,7 +32,6 @@ class Request:
     # while it is served: by which process, and whether it is still wanted
     process: Process | None = field(default=None, init=False)
     is_wanted: bool = field(default=True, init=False)
-    tries: int = field(default=0, init=False)
 
     @property
     def key(self) -> tuple[str, str]:
@@ -64,9 +58,6 @@ class Lane:
 
     def submit(self, request: Request) -> None:
         """Take a request; it replaces one that waits for the same part of the same page."""
-        own = [each for each in self._waiting.values() if each.session == request.session]
-        if request.key not in self._waiting and len(own) >= MOST_PARTS:
-            return request.answer(TOO_MANY)
         if not self._lasting and request.key not in self._waiting:  # it has its place in turn
             self.withdraw(*request.key)
         self._waiting[request.key] = request
@@ -139,11 +130,9 @@ class Lane:
                 outcome = await self._outcome(request, process)
         except Exception:  # such as no process to be had, or an argument that cannot be sent
             _log.exception("%s failed in the server", request.place)
-        request.process, request.tries = None, request.tries + 1
+        request.process = None
         try:
-            if request.is_wanted and outcome is NOT_BEGUN and request.tries < _MOST_TRIES:
-                self._waiting.setdefault(request.key, request)
-            elif request.is_wanted:
+            if request.is_wanted:
                 request.is_wanted = False
                 request.answer(outcome)
             await self._put_back(process, has_read=request.place.reads_files)
@@ -159,15 +148,7 @@ class Lane:
         def progress(done: int, total: int) -> None:
             loop.call_soon_threadsafe(request.progress, done, total)
 
-        later = None
-        if not self._lasting:
-            later = loop.call_later(_LETS_PASS_AFTER, process.lower_priority, LOWEST_PRIORITY)
-        try:
-            ask = partial(process.ask, place, arguments, progress)
-            return await loop.run_in_executor(self._threads, ask)
-        finally:
-            if later is not None:
-                later.cancel()
+        return await loop.run_in_executor(self._threads, process.ask, place, arguments, progress)
 
     def _fill(self) -> None:
         """Have processes stand by."""

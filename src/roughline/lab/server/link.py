@@ -13,13 +13,12 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from roughline._version import __version__
 from roughline.lab.server.guarded import Guarded
-from roughline.lab.server.lanes import MOST_PARTS, TOO_MANY
 from roughline.lab.server.sessions import Session
+from roughline.lab.server.tasks import PACKING
 
 MOST_BYTES = 2**16  # longest message of a page; files come another way
-_LONGEST_SLOT, _LONGEST_TEXT, _MOST_DEPTH = 40, 2000, 6
-_MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
-PACKING = 4  # of 9: how hard bytes are packed, against the time that this takes
+_LONGEST_SLOT = 40
+_MOST_UNSENT = 1_000_000  # answers on their way to a page until its questions are held [bytes]
 _LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
 
 
@@ -50,11 +49,8 @@ class Link(Guarded, WebSocketHandler):
         self._unsent = 0  # [bytes]
         # questions by their slots, as the session takes them; the latest of a slot counts
         self._held: dict[str, tuple[int, str, str, dict[str, Any]]] = {}
-        session = self.server.session_for(self, self._before)
-        if session is None:
-            self.close(1013, "no more pages may be open at once: close one")
-            return
-        self._begun, uploads = session, session.files.uploads.items()
+        self._begun = session = self.server.session_for(self, self._before)
+        uploads = session.files.uploads.items()
         files = {key: {"name": it.name, "digest": it.digest} for key, it in uploads if it.digest}
         opened = {"session": session.token, "resumed": session.token == self._before}
         self.send({**opened, "files": files, "version": __version__})
@@ -81,10 +77,8 @@ class Link(Guarded, WebSocketHandler):
             session.forget_files()
         elif not isinstance(task, str) or task not in self.server.site.tasks:
             why = "the lab has no such task: reload the page"
-        elif not isinstance(arguments, dict) or not _is_plain(arguments):
-            why = "what is set here is too long, or not in a form the lab knows"
-        elif slot not in self._held and len(self._held) >= MOST_PARTS:
-            why = TOO_MANY.error
+        elif not isinstance(arguments, dict):
+            why = "what is set here is not in a form the lab knows: reload the page"
         else:
             self._held[slot] = number, slot, task, arguments
         if why:
@@ -113,13 +107,3 @@ class Link(Guarded, WebSocketHandler):
             sending = self.write_message(text, binary=text is message)
             self._unsent += len(text)
             sending.add_done_callback(sent)
-
-
-def _is_plain(content: Any, depth: int = _MOST_DEPTH) -> bool:
-    """Whether texts in what a page said are short, and lists and tables in it are not deep."""
-    if isinstance(content, str):
-        return len(content) <= _LONGEST_TEXT
-    if isinstance(content, dict | list):
-        parts = [*content, *content.values()] if isinstance(content, dict) else content
-        return depth > 0 and all(_is_plain(part, depth - 1) for part in parts)
-    return True

@@ -22,18 +22,13 @@ from roughline.lab.server.tasks import Place, TaskOutcome, run_task
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
 _warms_up: Callable[[], None] | None = None
-_LARGEST_FILE = 2_000_000_000  # that a task may ever write [bytes]
-_LOW_PRIORITY, LOWEST_PRIORITY = 3, 15
-"""Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
+_LOW_PRIORITY = 3  # of tasks that are not quick, as `nice` counts
 
 LOST = TaskOutcome(
     error="the process that computed this ended unexpectedly, perhaps for lack of memory: ask "
     "again, or take fewer points"
 )
 """The outcome of a task whose process was lost."""
-
-NOT_BEGUN = TaskOutcome(error="no process could begin this: ask again")
-"""The outcome of a task whose process was gone before it had it: another may do it."""
 
 
 class Process:
@@ -57,7 +52,8 @@ class Process:
         theirs.close()
         self._process = process
         if gives_way:
-            self.lower_priority(_LOW_PRIORITY)
+            with suppress(AttributeError, OSError):  # not everywhere, and it may have ended
+                os.setpriority(os.PRIO_PROCESS, process.pid, _LOW_PRIORITY)
 
     @property
     def is_alive(self) -> bool:
@@ -75,22 +71,13 @@ class Process:
     ) -> TaskOutcome:
         """Have a task done; waits for it, so it is called from a thread."""
         self.tasks += 1
-        outcome = NOT_BEGUN
         try:
             self._connection.send((place, arguments))
             while not isinstance(received := self._connection.recv(), TaskOutcome):
-                if received is None:  # it has the task
-                    outcome = LOST
-                else:
-                    progress(*received)
+                progress(*received)
         except (EOFError, OSError):  # it was stopped, or died
-            return outcome
+            return LOST
         return received
-
-    def lower_priority(self, nice: int) -> None:
-        """Let other processes of this machine go first."""
-        with suppress(AttributeError, OSError):  # not everywhere, and it may have ended
-            os.setpriority(os.PRIO_PROCESS, self._process.pid, nice)
 
     def stop(self) -> None:
         """Stop it at once, whatever it is doing, if it has begun."""
@@ -165,11 +152,9 @@ def _serve(connection: Connection, memory: float, warm_up: Callable[[], None] | 
     from roughline.computing.memory import limit_process  # here because the server needs it not
 
     limit_process(int(memory))
-    _limit_files()
     with suppress(EOFError, OSError):  # the server is gone
         while True:
             place, arguments = connection.recv()
-            connection.send(None)
             outcome = run_task(place, arguments, lambda *steps: connection.send(steps))
             connection.send(outcome)
 
@@ -180,12 +165,3 @@ def _end_with_server() -> None:
     if server is not None:
         wait([server.sentinel])
         os._exit(1)
-
-
-def _limit_files() -> None:
-    """Refuse larger files from now on, and leave no image of memory, where possible."""
-    if sys.platform == "linux":
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

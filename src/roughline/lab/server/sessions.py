@@ -23,11 +23,8 @@ from roughline.lab.server.tasks import Site, TaskOutcome
 
 _PAGE_WITHIN = 600.0  # that a session waits for its page [s]
 _RELOAD_WITHIN = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]
-_MOST_PAGES = 50  # that are open, or waited for
 _SWEEP_INTERVAL = 1.0  # after which it is looked again for what is over [s]
 _PROGRESS_INTERVAL = 0.1  # between messages on progress [s]
-_MOST_HELD = 16  # outcomes that wait for a page to come back
-_MOST_HELD_BYTES = 10_000_000  # of their answers
 _ELSEWHERE = 4001  # with which the websocket of the older page is closed
 _USABLE = 0.9  # of the memory that is free when the server starts
 _SERVER_BYTES = 500_000_000  # of the server itself and what all processes share [bytes]
@@ -146,12 +143,7 @@ class Session:
             else:
                 asked.line.send({"id": asked.number, "error": outcome.error, "at": outcome.at})
         elif is_latest:
-            held = [each.outcome for each in self.asked.values() if each.outcome is not None]
-            size = sum(len(each.answer or b"") for each in (*held, outcome))
-            if len(held) < _MOST_HELD and size <= _MOST_HELD_BYTES:
-                asked.outcome = outcome
-            else:
-                del self.asked[slot]  # it is done anew when it is asked again
+            asked.outcome = outcome
 
 
 class Server:
@@ -172,22 +164,14 @@ class Server:
         self._sweeping = PeriodicCallback(self.sweep, 1000 * _SWEEP_INTERVAL)
         self._sweeping.start()
 
-    def session_for(self, line: PageLine, token: str) -> Session | None:
-        """The session of a page that opens: the one with its token, or a new one.
-
-        Those that wait for their pages give way; there is none where all places are taken.
-        """
+    def session_for(self, line: PageLine, token: str) -> Session:
+        """The session of a page that opens: the one with its token, or a new one."""
         before = self.sessions.get(token)
         if before is not None:
             older, before.line = before.line, line
             if older is not None:  # it still seems open
                 older.close(_ELSEWHERE, "another page goes on with this one's file")
             return before
-        while len(self.sessions) >= _MOST_PAGES:
-            waiting = [each for each in self.sessions.values() if each.line is None]
-            if not waiting:
-                return None
-            min(waiting, key=lambda each: each.since).end()
         session = Session(self, line)
         self.sessions[session.token] = session
         return session

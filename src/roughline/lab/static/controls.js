@@ -6,6 +6,7 @@ const CHOICES = ':is(select, input[type="radio"], input[type="checkbox"])[data-k
 
 export class Controls {
   #root; #changed; #said = {}; #defaults = {};
+  #places = new Map(); // elements by selectors
   #used = {}; // texts that the server used last
   #refused = new Set(); // keys of those that it does not use
 
@@ -35,6 +36,9 @@ export class Controls {
 
   // What the server is asked with: all texts, those that count where one cannot be used, and which are red.
   get asked() { return {state: this.said, before: {...this.#used}, red: [...this.#refused]}; }
+
+  // Texts as they stand at the controls: what was set, and else the defaults.
+  get shown() { return {...this.#defaults, ...this.used}; }
 
   isRefused(key) { return this.#refused.has(key); }
 
@@ -99,13 +103,13 @@ export class Controls {
   }
 
   get #keys() {
-    const places = [...this.#root.querySelectorAll("[data-error]")].map(({dataset}) => dataset.error);
+    const places = this.#all("[data-error]").map(({dataset}) => dataset.error);
     return [...places.filter(Boolean), ...Object.keys(this.#said)];
   }
 
   // Write a sentence beside a control; an empty one takes it away. Tells whether it can be seen there.
   refuse(key, sentence) {
-    const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
+    const [place] = this.#all(`[data-error="${CSS.escape(key)}"]`);
     if (!place) return !sentence;
     if ((place.dataset.sentence ?? "") !== sentence) {
       place.dataset.sentence = sentence;
@@ -158,9 +162,15 @@ export class Controls {
     field.value = slider ? shown(value) : String(value);
   }
 
-  #choices(key) { return [...this.#root.querySelectorAll(`${CHOICES}[data-key="${CSS.escape(key)}"]`)]; }
-  #slider(key) { return this.#root.querySelector(`input[type="range"][data-key="${CSS.escape(key)}"]`); }
-  #text(key) { return this.#root.querySelector(`input[data-text="${CSS.escape(key)}"]`); }
+  #choices(key) { return this.#all(`${CHOICES}[data-key="${CSS.escape(key)}"]`); }
+  #slider(key) { return this.#all(`input[type="range"][data-key="${CSS.escape(key)}"]`)[0]; }
+  #text(key) { return this.#all(`input[data-text="${CSS.escape(key)}"]`)[0]; }
+
+  // Elements of the page, which stay: each answer asks for all of them.
+  #all(selector) {
+    if (!this.#places.has(selector)) this.#places.set(selector, [...this.#root.querySelectorAll(selector)]);
+    return this.#places.get(selector);
+  }
 }
 
 // The word that is chosen; of boxes all that are, with commas between.

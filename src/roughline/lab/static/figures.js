@@ -16,7 +16,7 @@ export const LOGARITHMIC = {x_axis_type: "log", y_axis_type: "log"};
 // An empty plot with the labels of its axes and their ranges.
 export function plot([x_axis_label, y_axis_label], [x_range, y_range], look = {}) {
   const made = new Bokeh.Plotting.Figure({
-    x_axis_label, y_axis_label, x_range, y_range, tools: tools(look.match_aspect), sizing_mode: "stretch_both", ...look,
+    x_axis_label, y_axis_label, x_range, y_range, lod_threshold: null, tools: tools(look.match_aspect), sizing_mode: "stretch_both", ...look,
   });
   for (const axis of made.axes) {
     axis.major_label_policy = new Bokeh.NoOverlap();
@@ -61,8 +61,9 @@ function tools(match_aspect = false) {
 const legends = new WeakMap();
 export function legendOf(plot) { return legends.get(plot) ?? []; }
 
-// Let a plot draw the columns of a source, which several glyphs may share, and name it.
-export function draw(plot, kind, source_name, {colours = {}, legend, ...look} = {}) {
+// Let a plot draw the columns of a source, which several glyphs may share, and name it. What has the level "overlay" has a
+// canvas of its own above the others, and these are not painted again when it moves.
+export function draw(plot, kind, source_name, {colours = {}, legend, level = "glyph", ...look} = {}) {
   const fields = Object.fromEntries(Object.entries(COLUMNS[kind]).map(([key, field]) => [key, {field}]));
   if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
   const source = plot.renderers.find(({data_source}) => data_source.name === source_name)?.data_source
@@ -70,7 +71,7 @@ export function draw(plot, kind, source_name, {colours = {}, legend, ...look} = 
   const wanted = [...Object.values({...fields, ...look}).map((each) => each?.field)].filter(Boolean);
   source.data = {...source.data, ...Object.fromEntries(wanted.map((column) => [column, []]))};
   const drawn = plot[kind]({...fields, ...look, source});
-  drawn.setv({selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
+  drawn.setv({level, selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
   drawn.glyph.tags = [{colours}];
   if (legend) legends.set(plot, [...legendOf(plot), {source: source.name, legend, colours}]);
   return drawn;

@@ -164,20 +164,21 @@ function unpacked(buffer, start) {
   for (const [name, {dtype, shape, offset, low, step, above}] of Object.entries(header.arrays)) {
     const count = shape.reduce((product, n) => product * n, 1);
     header.arrays[name] = dtype === "packed"
-      ? {dtype: "float32", shape, above, values: numbersOf(new Uint8Array(buffer, data + offset, 2 * count), shape[1], low, step)}
+      ? {dtype: "float32", shape, above, step, values: numbersOf(new Uint8Array(buffer, data + offset), count, shape[1], low, step)}
       : {dtype, shape, values: new TYPES[dtype](buffer, data + offset, count)};
   }
   return header;
 }
 
-// Numbers of a map that the server has packed in 16 bits: second differences of steps, upper bytes first.
-function numbersOf(bytes, columns, low, step) {
-  const count = bytes.length / 2, steps = new Uint16Array(count), values = new Float32Array(count);
+// Numbers of a map as the server packs them: second differences of steps, upper bytes first, and a bit for each
+// that is not known.
+function numbersOf(bytes, count, columns, low, step) {
+  const steps = new Uint16Array(count), values = new Float32Array(count);
   for (let i = 0; i < count; i += 1) {
     const turned = bytes[i] * 256 + bytes[count + i], left = i % columns ? steps[i - 1] : 0;
     const above = i < columns ? 0 : steps[i - columns] - (i % columns ? steps[i - columns - 1] : 0);
     steps[i] = (turned >>> 1 ^ -(turned & 1)) + left + above; // which wraps at 2^16
-    values[i] = steps[i] ? low + step * (steps[i] - 1) : NaN;
+    values[i] = bytes[2 * count + (i >> 3)] & (128 >> (i & 7)) ? NaN : low + step * steps[i];
   }
   return values;
 }

@@ -9,6 +9,7 @@ import {fillCaption} from "./tables.js";
 
 export const NOTHING = {image: [], x: [], y: [], dw: [], dh: []};
 const BORDERS = {left: 66, right: 40, top: 8, bottom: 46}; // for the axes and their names [px]
+const SHARED = 8; // below a map whose profile has the axis for both [px]
 const LOWEST = 48; // frame of a map that is much longer than wide [px]
 const HIGHEST = 0.38, AT_LEAST = 280; // frame, in heights of the window, and [px]
 const FAINTEST = 40, DEEPEST = 1; // of the colours of a flow: those before are too near to paper or ink
@@ -24,19 +25,23 @@ const GREYS = { // of the relief by the theme: flat, per brightness, per height 
 
 // An empty map, whose numbers get the colours of a palette. Rings may be drawn on it in a colour.
 export function mapFigure(name, {hasRelief = false, rings = "", ranges}) {
-  const borders = Object.fromEntries(Object.entries(BORDERS).map(([side, width]) => [`min_border_${side}`, width]));
+  const borders = Object.fromEntries(Object.entries({...BORDERS, bottom: hasRelief ? SHARED : BORDERS.bottom}).map(([side, width]) => [`min_border_${side}`, width]));
   const made = plot(["x", "y"], ranges, {match_aspect: true, ...borders});
   const mapper = new Bokeh.LinearColorMapper({palette: Bokeh.Palettes.Cividis256, low: -1, high: 1, name: `${name} colours`});
-  if (hasRelief) draw(made, "image_rgba", `${name} relief`);
-  draw(made, "image", name, {color_mapper: mapper});
+  if (hasRelief) {
+    draw(made, "image_rgba", `${name} relief`);
+    made.xaxes[0].visible = false;
+  }
+  const level = hasRelief ? "overlay" : "glyph"; // the relief stays while a load moves
+  draw(made, "image", name, {color_mapper: mapper, level});
   for (const grid of made.grids) grid.visible = false;
   if (rings) {
     for (const [line_width, shown] of [[4, "paper"], [1.5, rings]]) { // the one is seen around the other
-      draw(made, "scatter", `${name} rings`, {size: 22, line_width, fill_alpha: 0, colours: {line_color: shown}});
+      draw(made, "scatter", `${name} rings`, {size: 22, line_width, fill_alpha: 0, level, colours: {line_color: shown}});
     }
   }
   for (const [line_width, shown] of [[3, "paper"], [1.2, "text"]]) {
-    draw(made, "line", `${name} cut`, {line_width, colours: {line_color: shown}});
+    draw(made, "line", `${name} cut`, {line_width, level: "overlay", colours: {line_color: shown}});
   }
   return made;
 }
@@ -48,11 +53,12 @@ export function sharedRanges() { return [1, 2].map(() => new Bokeh.Range1d({star
 export function profileFigure() {
   const sides = Object.fromEntries(["left", "right"].map((side) => [`min_border_${side}`, BORDERS[side]])); // below its map
   const made = plot(["along the line", "height"], [[0, 1], [0, 1]], sides);
-  draw(made, "varea", "profile gap", {fill_alpha: 0.3, colours: {fill_color: "pull"}});
+  const level = "overlay"; // of what moves with the load
   draw(made, "varea", "profile surface", {fill_alpha: 0.4, colours: {fill_color: "line"}});
   draw(made, "line", "profile surface", {line_width: 1, colours: {line_color: "line"}});
-  draw(made, "line", "profile body", {line_width: 1.5, colours: {line_color: "text"}});
-  draw(made, "line", "profile touching", {line_width: 4, colours: {line_color: "touch"}});
+  draw(made, "varea", "profile gap", {fill_alpha: 0.3, level, colours: {fill_color: "pull"}});
+  draw(made, "line", "profile body", {line_width: 1.5, level, colours: {line_color: "text"}});
+  draw(made, "line", "profile touching", {line_width: 4, level, colours: {line_color: "touch"}});
   return made;
 }
 
@@ -96,7 +102,7 @@ export class Maps {
   // Light heights, {values, shape}, below a map; without any its paper shows.
   lay(name, height) {
     const before = this.#reliefs[name];
-    if (before?.values.length === height?.values.length && (!height || before.values.every((value, i) => value === height.values[i]))) return;
+    if (before === height || !(before || height)) return;
     this.#reliefs[name] = height;
     this.#light(name);
     if (Boolean(before) !== Boolean(height) && this.#looks[name]) this.#colour(name);
@@ -128,13 +134,8 @@ export class Maps {
   // Draw numbers, {values, shape, dtype}, over the sides from a corner, in the colours of `look`: palette, low and
   // high, title, unit, and whether they are logarithms.
   show(name, {values, shape, dtype}, look, sizes = this.#sizes, [x, y] = [0, 0]) {
-    const place = {x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]}, {data} = this.#plots.model(name);
-    const isSame = data.image[0] && JSON.stringify([data.image[0].shape, data.x, data.y, data.dw, data.dh])
-      === JSON.stringify([shape, ...Object.values(place)]) && values.every((value, i) => Object.is(value, data.image[0][i]));
-    if (!isSame) {
-      const {ndarray} = Bokeh.require("core/util/ndarray");
-      this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], ...place});
-    }
+    const {ndarray} = Bokeh.require("core/util/ndarray");
+    this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]});
     if (!look) return;
     const before = this.#looks[name];
     this.#looks[name] = look;
@@ -153,7 +154,8 @@ export class Maps {
     const isOfTheme = Array.isArray(palette), isLit = Boolean(this.#reliefs[name]);
     const shown = (each) => (!isLit ? colour(each) : each === "paper" ? CLEAR : colour(ON_RELIEF[each] ?? each));
     const wanted = isOfTheme ? palette.map(shown) : palette === "flux" ? ofFlux() : Bokeh.Palettes[palette];
-    this.#plots.model(`${name} colours`).setv({palette: wanted, low, high: high > low ? high : low + 1, low_color: shown("paper"),
+    this.#plots.model(`${name} colours`).setv({palette: wanted, low, high: high > low ? high : low + 1,
+      low_color: low < 0 && !isLogarithmic ? wanted[0] : shown("paper"), // the deepest is deep; of what begins at none there is none
       nan_color: shown(blank)});
     const {glyph} = this.#plots.root(this.#plot(name)).renderers.find(({data_source}) => data_source.name === name);
     glyph.global_alpha = {value: isLit && !isOfTheme && !(low > 0) ? VEIL : 1};
@@ -164,17 +166,17 @@ export class Maps {
   // Give all maps the size at which the sides of the surface fill the frame: as wide as their rooms, and as high as
   // these, or as a part of the window where rooms are as high as what is in them.
   #fit() {
-    const [along, up] = this.#sizes, places = Object.values(this.#places).filter((each) => each.offsetParent !== null);
+    const [along, up] = this.#sizes, below = this.#profile?.hasCross ? SHARED : BORDERS.bottom, places = Object.values(this.#places).filter((each) => each.offsetParent !== null);
     if (!places.length) return;
     const rooms = places.map(({parentElement}) => parentElement), isGiven = getComputedStyle(rooms[0]).contain.includes("size");
     const across = Math.min(...rooms.map(({clientWidth}) => clientWidth)) - BORDERS.left - BORDERS.right;
-    const high = isGiven ? Math.min(...rooms.map(({clientHeight}) => clientHeight)) - BORDERS.top - BORDERS.bottom
+    const high = isGiven ? Math.min(...rooms.map(({clientHeight}) => clientHeight)) - BORDERS.top - below
       : Math.max(AT_LEAST, HIGHEST * innerHeight);
     const scale = Math.max(Math.min(across / along, high / up), 1 / Math.max(along, up));
     for (const place of places) {
       const width = `${Math.round(scale * along) + BORDERS.left + BORDERS.right}px`;
       place.style.width = scaleAbove(place).style.width = width;
-      place.style.height = `${Math.max(Math.round(scale * up), LOWEST) + BORDERS.top + BORDERS.bottom}px`;
+      place.style.height = `${Math.max(Math.round(scale * up), LOWEST) + BORDERS.top + below}px`;
       if (this.#profile?.hasCross) document.querySelector(`#plot-${this.#profile.plot}`).style.width = width;
     }
   }
@@ -233,7 +235,7 @@ export class Maps {
       (from.x + share * (to.x - from.x)) / this.#sizes[0], (from.y + share * (to.y - from.y)) / this.#sizes[1]));
     const path = shares.map((share) => share * Math.hypot(to.x - from.x, to.y - from.y)), surface = along(height);
     const above = gap ? along(gap) : [], body = above.map((value, i) => surface[i] + (value || 0));
-    const ends = endsAbout([...surface, ...body]), both = gap ? path : [];
+    const ends = roundAbout([...surface, ...body]), both = gap ? path : [];
     this.#plots.set("profile surface", {x: path, y: surface, low: path.map(() => ends[0]), high: surface});
     this.#plots.set("profile gap", {x: both, low: gap ? surface : [], high: body});
     this.#plots.set("profile body", {x: both, y: body});
@@ -287,6 +289,12 @@ function endsAbout(values) {
   return [low - room, high + room];
 }
 
+// The same, of round numbers, which stay as a load moves: so does all that need not be drawn anew.
+function roundAbout(values) {
+  const [low, high] = endsAbout(values), step = roundStep((high - low) / 10);
+  return [Math.floor(low / step) * step, Math.ceil(high / step) * step];
+}
+
 // A quantity with its unit, or over a scale: height [µm], height / h.
 function withUnit(name, unit) {
   if (!unit) return name;
@@ -299,10 +307,18 @@ function at({array: {values, shape: [rows, columns]}}, x, y) {
   return values[index(y, rows) * columns + index(x, columns)];
 }
 
-function wordsOf({title, unit, low, nothing = "", is_logarithmic: isLogarithmic = false}, value) {
+function wordsOf({title, unit, low, array, nothing = "", is_logarithmic: isLogarithmic = false}, value) {
   if (!Number.isFinite(value) || value === 0 || (isLogarithmic && value < low)) return nothing;
   if (isLogarithmic) return `${title} ${value > low ? "" : "below "}${digits(10 ** value)} ${unit}`;
-  return `${title} ${digits(value)} ${unit.replace("/ ", "")}`;
+  return `${title} ${digitsAbove(array.step, value)} ${unit.replace("/ ", "")}`;
+}
+
+// Three digits, and none much finer than the steps in which a number was sent.
+function digitsAbove(step, value) {
+  const finest = step > 0 ? 10 ** Math.round(Math.log10(step)) : 0;
+  if (Math.abs(value) >= 100 * finest) return digits(value);
+  if (Math.abs(value) < finest / 2) return `below ${Number(finest.toPrecision(1))}`;
+  return (Math.round(value / finest) * finest).toFixed(Math.max(0, Math.round(-Math.log10(finest))));
 }
 
 function digits(value) {
@@ -329,10 +345,15 @@ function roundNumbers(low, high, isWhole) {
     return [1, 2, 5].flatMap((factor) => Array.from({length: Math.ceil(high) - Math.floor(low) + 1},
       (_, i) => Math.floor(low) + i + Math.log10(factor))).filter((value) => value >= low && value <= high).sort((a, b) => a - b);
   }
-  const rough = (high - low) / 4, power = 10 ** Math.floor(Math.log10(rough));
-  const step = Math.max([1, 2, 5, 10].find((factor) => factor * power >= rough) * power, isWhole ? 1 : 0);
+  const step = Math.max(roundStep((high - low) / 4), isWhole ? 1 : 0);
   const first = Math.ceil(low / step - 1e-9);
   return Array.from({length: Math.floor(high / step + 1e-9) - first + 1}, (_, i) => Number(((first + i) * step).toPrecision(6)));
+}
+
+// The next of 1, 2, 5, 10 and so on.
+function roundStep(rough) {
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return [1, 2, 5, 10].find((factor) => factor * power >= rough) * power;
 }
 
 // A colour of Bokeh: a name, red, green, blue and opacity, or all four in one number.

@@ -6,6 +6,7 @@ import {fillTable} from "./tables.js";
 
 const FILLED = ["scatter", "varea"]; // glyphs that have an inside
 const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
+const OF_LOAD = "here"; // the series that moves with the load, as its cursor does
 const SLOPE = 0.6; // of the names of places [rad]
 
 // Embed the panels that the page of a view has, and its other figures, which may change those of the panels.
@@ -25,14 +26,14 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
       if (kind === "whisker") { drawIntervals(made, `${key} ${name}`, edge || colour, look.size); continue; }
       const fill = FILLED.includes(kind) ? {fill_color: colour} : {};
       const line = kind === "varea" ? {} : {line_color: edge || colour};
-      draw(made, kind, `${key} ${name}`, {legend, ...look, colours: {...fill, ...line}});
+      draw(made, kind, `${key} ${name}`, {legend, ...look, level: name === OF_LOAD ? "overlay" : "glyph", colours: {...fill, ...line}});
     }
   }
   const line = {dimension: "width", location: 0, line_width: 1, colours: {line_color: "line"}};
   if (!isLogarithmic) add(made, "Span", `${key} zero`, line);
   if (cursor) {
     add(made, "Span", `${key} cursor`, {
-      dimension: cursor, location: 0.1, line_width: 3, editable: true, colours: {line_color: "here", hover_line_color: "mark"},
+      dimension: cursor, location: 0.1, line_width: 3, editable: true, level: "overlay", colours: {line_color: "here", hover_line_color: "mark"},
     });
   }
   if (isOfPlaces) {
@@ -44,7 +45,6 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
 class Panels {
   #view; #declared;
   #answers = new Map(); // what the last of each kind has for panels, those that came last at the end
-  #drawn = new Map(); // columns by their sources, as text
 
   constructor(plots, view, declared) {
     this.plots = plots;
@@ -58,7 +58,7 @@ class Panels {
     this.#answers.delete(what);
     this.#answers.set(what, panels);
     for (const [key, {series}] of Object.entries(before)) {
-      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.#empty(`${key} ${name}`);
+      for (const name of Object.keys(series)) if (!panels[key]?.series[name]) this.plots.empty(`${key} ${name}`);
       if (panels[key]) continue;
       this.#fillRows(key);
       this.#remark(key, "");
@@ -101,11 +101,6 @@ class Panels {
     return [`panel,series,${columns}`, ...[...remarks, ...heads].map((each) => `# ${each.replace(/\s+/g, " ")}`), ...rows, ""].join("\n");
   }
 
-  #empty(source) {
-    this.#drawn.delete(source);
-    this.plots.empty(source);
-  }
-
   #plot(key) { return `${this.#view}-${key}`; }
   #find(key, selector) { return document.querySelector(`#${this.#plot(key)} ${selector}`); }
   #remark(key, text) { this.#find(key, "[data-remarks]")?.replaceChildren(...typeset(text)); }
@@ -126,10 +121,7 @@ class Panels {
     const known = Object.entries(columns).map(([column, values]) => [column, values.map((value) => value ?? NaN)]);
     const drawn = Object.fromEntries(known);
     if (isLogarithmic && drawn.y) drawn.y = drawn.y.map((value) => (value === 0 ? foot : value));
-    const text = JSON.stringify(drawn), source = `${key} ${name}`;
-    if (this.#drawn.get(source) === text) return; // one series is drawn anew, not all
-    this.#drawn.set(source, text);
-    this.plots.set(source, drawn);
+    this.plots.set(`${key} ${name}`, drawn);
   }
 
   // Put zeros of all answers at the foot of an axis whose range has changed.

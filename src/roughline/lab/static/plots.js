@@ -4,7 +4,8 @@ import {legendOf} from "./figures.js";
 import {takeHands} from "./hands.js";
 
 const TYPE = "12px"; // of all words in pictures
-const BESIDE = 6; // of names from curves and edges [px]
+const BESIDE = 6, STEP = 8, MOST = 40; // of names from curves and edges, and of curves that names should not cover [px]; at most
+const CROWDED = 10, WORSE = 1000; // another end there, and to cover another name, in steps of a curve that are covered
 const documents = [], recoloured = [];
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
 const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
@@ -31,13 +32,21 @@ export async function embedded(declared) {
 
 // With each picture Bokeh writes the places of all that it draws into the style of the page and asks that for colours,
 // hundreds of times a second while a slider moves, and each time the browser styles the page anew. A place that is the
-// same is not written, that of a glyph is not asked for, and the page has no such colours.
+// same is not written, that of a glyph is not asked for, the page has no such colours, and all type is of one size. It also gives the points of each glyph to
+// four copies, for what is selected, passed or muted, which nothing is here.
 function spareStyles() {
   const {InlineStyleSheet} = Bokeh.require("core/dom"), {VisualProperties} = Bokeh.require("core/visuals/visual");
   const {GlyphRendererView} = Bokeh.require("models/renderers/glyph_renderer");
+  const {PlotView} = Bokeh.require("models/plots/plot_canvas");
   InlineStyleSheet.prototype._update = function (css) { if (this.css !== css) this.el.textContent = css; };
   VisualProperties.prototype._get_css_value = () => "";
   GlyphRendererView.prototype.update_position = () => {};
+  Object.defineProperty(PlotView.prototype, "base_font_size", {value: parseFloat(TYPE)});
+  const give = GlyphRendererView.prototype.set_data;
+  GlyphRendererView.prototype.set_data = async function (indices) {
+    await give.call(this, indices); // once they are given none
+    for (const each of [this.decimated_glyph, this.selection_glyph, this.nonselection_glyph, this.muted_glyph]) each.set_data = async () => {};
+  };
 }
 
 function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)}`); }
@@ -46,6 +55,7 @@ class Plots {
   #shown = new Map();
   #named = new Map(); // names of curves by the sources of these
   #counts = {}; // points in a source
+  #models = new Map(); // by their names, for which Bokeh looks through all
 
   constructor(made) {
     this.made = made;
@@ -79,13 +89,17 @@ class Plots {
     });
   }
 
-  model(name) { return this.made.get_model_by_name(name); }
+  model(name) {
+    if (!this.#models.has(name)) this.#models.set(name, this.made.get_model_by_name(name));
+    return this.#models.get(name);
+  }
 
   root(name) { return this.made.roots().find((each) => each.name === name); }
 
-  // Give a source its columns; what there is has its name.
+  // Give a source its columns, unless it has them; what there is has its name.
   set(name, columns) {
     const source = this.model(name), [first] = Object.values(columns);
+    if (isSame(source.data, columns)) return;
     for (const column of Object.keys(source.data)) if (!(column in columns)) delete source.data[column]; // the shortest counts
     Object.assign(source.data, columns); // a new table would have Bokeh look for models in it
     source.change.emit();
@@ -118,26 +132,49 @@ class Plots {
     placeOf(root.name).append(element("ul", {className: "names"}, ...items));
   }
 
-  // Put the names of a plot to the ends of what they name, below each other where ends are near.
+  // Put the names of a plot to ends of what they name: where these are apart, and a name covers least.
   #placeNames(root) {
     const {frame: {bbox, x_scale, y_scale}} = Bokeh.index.find_one(root), taken = [];
-    const shown = [...placeOf(root.name).querySelectorAll(".names li:not([hidden])")].map((item) => {
-      const ends = item.dataset.sources.split(";").map((name) => lastOf(this.model(name).data)).filter(Boolean);
-      const [x, y] = ends.map(([x, y]) => [x_scale.compute(x), y_scale.compute(y)]).sort(([one], [other]) => other - one)[0] ?? [bbox.right, bbox.top];
-      return {item, x, y};
+    const named = [...placeOf(root.name).querySelectorAll(".names li:not([hidden])")].map((item) => {
+      const lines = item.dataset.sources.split(";").map((name) => this.#lineOf(name, x_scale, y_scale)).filter(({points}) => points.length);
+      return {item, lines, lasts: lines.map(({points}) => points.at(-1)), firsts: lines.map(({points}) => points[0])};
     });
-    for (const {item, x, y} of shown.sort((one, other) => one.y - other.y)) {
-      const {width, high} = sizeOf(item);
-      const isBeside = x + 2 * BESIDE + width < bbox.right, isAbove = y - BESIDE - high > bbox.top;
-      const left = isBeside ? x + 2 * BESIDE : Math.max(bbox.right - width - BESIDE, bbox.left + BESIDE);
-      let top = isBeside ? y - high / 2 : isAbove ? y - BESIDE - high : y + BESIDE;
-      top = Math.min(Math.max(top, bbox.top + BESIDE), bbox.bottom - high - BESIDE);
-      for (const each of taken) if (left < each.right && left + width > each.left && top < each.bottom && top + high > each.top) top = each.bottom;
-      taken.push({left, right: left + width, top, bottom: top + high});
-      const place = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
+    const steps = named.flatMap(({lines}) => lines.flatMap((line) => line.steps));
+    for (const {item, lasts, firsts} of named.sort((one, other) => (one.lasts[0]?.[1] ?? 0) - (other.lasts[0]?.[1] ?? 0))) {
+      const {width, high} = sizeOf(item), rest = named.filter((each) => each.item !== item);
+      const about = ([x, y], beside) => {
+        const isNear = ([left, top]) => Math.abs(left - x) < width && Math.abs(top - y) < high;
+        const cost = CROWDED * rest.filter((each) => [...each.lasts, ...each.firsts].some(isNear)).length;
+        return [[beside, y - high / 2], [x - width / 2, y - BESIDE - high], [x - width / 2, y + BESIDE]].map((place) => ({place, cost}));
+      };
+      const costs = ({place, cost}) => {
+        const left = within(place[0], bbox.left + BESIDE, bbox.right - width - BESIDE), right = left + width;
+        const top = within(place[1], bbox.top + BESIDE, bbox.bottom - high - BESIDE), bottom = top + high;
+        const covered = steps.filter(([x, y]) => x > left - BESIDE && x < right && y > top && y < bottom);
+        const others = taken.filter((each) => left < each.right && right > each.left && top < each.bottom && bottom > each.top);
+        return {left, right, top, bottom, cost: cost + covered.length + WORSE * others.length};
+      };
+      const {cost: _, ...best} = [
+        ...lasts.flatMap((end) => about(end, end[0] + 2 * BESIDE)), ...firsts.flatMap((end) => about(end, end[0] - 2 * BESIDE - width)),
+        ...taken.map(({left, bottom}) => ({place: [left, bottom], cost: WORSE / 2})), {place: [bbox.right, bbox.top], cost: WORSE / 2},
+      ].map(costs).reduce((best, each) => (each.cost < best.cost ? each : best));
+      taken.push(best);
+      const place = `translate(${Math.round(best.left)}px, ${Math.round(best.top)}px)`;
       if (item.style.transform !== place) item.style.transform = place;
     }
   }
+
+  // Where the points of a source are on the screen, and what lies between them, which stays until one or the other changes.
+  #lineOf(name, x_scale, y_scale) {
+    const {data} = this.model(name), of = [data.x, data.y ?? data.low, ...[x_scale, y_scale].flatMap(({source_range: {start, end}, target_range}) =>
+      [start, end, target_range.start, target_range.end])];
+    const known = this.#lines.get(name);
+    if (known && of.every((each, i) => each === known.of[i])) return known;
+    const points = pointsOf(data).map(([x, y]) => [x_scale.compute(x), y_scale.compute(y)]), line = {of, points, steps: stepsOf(points)};
+    this.#lines.set(name, line);
+    return line;
+  }
+  #lines = new Map();
 
   // Name the axes of a plot; one without a name keeps its own.
   label(plot, x, y) {
@@ -173,6 +210,14 @@ export function recolourAll() {
 // Call when the theme was changed.
 export function onRecolour(told) { recoloured.push(told); }
 
+// Whether two are made of the same numbers; arrays of maps have shapes too.
+function isSame(one, other) {
+  if (Object.is(one, other)) return true;
+  if (![one, other].every((each) => each && typeof each === "object") || String(one.shape) !== String(other.shape)) return false;
+  if (one.length >= 0) return one.length === other.length && one.every((each, i) => isSame(each, other[i]));
+  return Object.keys(one).length === Object.keys(other).length && Object.keys(one).every((key) => isSame(one[key], other[key]));
+}
+
 const sizes = new WeakMap(); // of names; to ask for one makes the browser lay out the page
 
 function sizeOf(item) {
@@ -181,12 +226,21 @@ function sizeOf(item) {
   return sizes.get(item);
 }
 
-// The last point of a source that is known: of marks and lines x and y, of bands their middle.
-function lastOf({x = [], y, low, high}) {
+// The points of a source that are known: of marks and lines x and y, of bands their middle.
+function pointsOf({x = [], y, low, high}) {
   const up = y ?? (low ?? []).map((each, i) => (each + high[i]) / 2);
-  for (let i = x.length - 1; i >= 0; i--) if (Number.isFinite(up[i])) return [x[i], up[i]];
-  return null;
+  return Array.from(x, (each, i) => [each, up[i]]).filter((point) => point.every(Number.isFinite));
 }
+
+// A line in steps of a few pixels.
+function stepsOf(line) {
+  return line.flatMap(([x, y], i) => {
+    const [left, up] = line[i - 1] ?? [x, y], count = Math.min(Math.ceil(Math.hypot(x - left, y - up) / STEP), MOST) || 1;
+    return Array.from({length: count}, (_, k) => [x - (k / count) * (x - left), y - (k / count) * (y - up)]);
+  });
+}
+
+function within(value, low, high) { return Math.max(Math.min(value, high), low); }
 
 const known = new Map(); // colours: to ask for one makes the browser style the page again
 

@@ -122,12 +122,13 @@ class Published {
 
   // Show the curves for what is chosen, of the fractal dimensions that are chosen.
   #showCurves() {
-    const {mean, punch, D_f} = this.#state, wanted = D_f?.split(",");
-    if (!this.#constants || !wanted || this.#shown === `${mean} ${punch} ${D_f}`) return;
-    this.#shown = `${mean} ${punch} ${D_f}`;
+    const {mean, punch, D_f} = {...this.#controls.shown, ...this.#state}, wanted = D_f.split(",");
+    const names = [`1D ${mean}`, `3D ${mean} ${punch}`], curves = this.#constants?.curves ?? {};
+    if (!names.every((name) => name in curves) || this.#shown === `${names} ${D_f}`) return;
+    this.#shown = `${names} ${D_f}`;
     const some = (cells) => cells.filter((_, i) => i === 0 || wanted.includes(DIMENSIONS[i - 1]));
-    for (const name of [`1D ${mean}`, `3D ${mean} ${punch}`]) {
-      const {panels, tables} = this.#constants.curves[name];
+    for (const name of names) {
+      const {panels, tables} = curves[name];
       this.#take(name.slice(0, 2), {
         panels: mapped(panels, ({series, ...panel}) => ({...panel, series: ofDimensions(series, wanted)})),
         tables: mapped(tables, ({header, rows}) => ({header: some(header), rows: rows.map(some)})),

@@ -42,11 +42,9 @@ export async function pictureOf(plots, panels) {
 
 // Lines above a picture: what it is of, the scale of its colours, and its curves with their colours.
 function wordsOf(panel) {
-  const said = (selector) => [...panel.querySelectorAll(selector)].map((each) => each.selectedOptions?.[0].text ?? each.innerText.trim());
-  const names = [...panel.querySelectorAll(".names li:not([hidden])")].map((item) => {
-    const {stroke, fill} = getComputedStyle(item.querySelector("svg *"));
-    return {text: item.innerText.trim(), colour: stroke === "none" ? fill : stroke};
-  });
-  const head = [said(".title, figcaption select, figcaption small").filter(Boolean).join("; "), said(".scale").join("").replace(/\s+/g, " ")];
+  const said = (selector) => [...panel.querySelectorAll(`:scope > ${selector}`)].map((each) => each.selectedOptions?.[0].text ?? each.innerText.trim());
+  const names = [...panel.querySelectorAll(".names li:not([hidden])")].map((item) =>
+    ({text: item.innerText.trim(), colour: getComputedStyle(item).borderLeftColor}));
+  const head = [said("figcaption :is(.title, select, small)").filter(Boolean).join("; "), said(".scale").join("").replace(/\s+/g, " ")];
   return [...head.filter(Boolean).map((text) => ({text})), ...names];
 }

@@ -69,7 +69,7 @@ export function fillGroups(place, groups) {
 // The answers that lead, in large figures.
 export function fillFigures(place, figures) {
   place.replaceChildren(...figures.map(({name, value, interval}) => element("div", {},
-    element("dt", {textContent: name}), ...[value, interval].map((textContent) => element("dd", {textContent})))));
+    ...[["dt", name], ["dd", value], ["dd", interval]].map(([kind, text]) => element(kind, {}, ...typeset(text))))));
 }
 
 // Why answers are not known better: below the whole interval of each a bar for each cause, all on one axis; a fold that is
