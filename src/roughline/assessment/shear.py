@@ -50,7 +50,8 @@ class _ShearPath:
     def of(cls, case: Case) -> _ShearPath | None:
         """The path of a case; None where no shear is asked for."""
         question = case.question
-        shear, friction, body = question.shear, question.friction, question.sheared_half_space
+        shear, friction = question.shear, question.friction
+        body = None if shear is None else question.sheared_half_space
         if shear is None or friction is None or body is None:
             return None
         coupled = body.is_coupled
