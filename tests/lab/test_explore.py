@@ -165,7 +165,7 @@ def test_the_answer_strip_says_what_the_library_says(curve, surface):
     value, _, interval = up_to_three_digits(k, ends, "N/m").partition(" (")
     over_sides = figure(k / (E_STAR * LENGTH), supported_digits(k, ends, 3))
     assert said["stiffness_3d"]["value"] == value
-    assert said["stiffness_3d"]["below"] == f"({interval} k / (E* L) {over_sides}"
+    assert said["stiffness_3d"]["below"] == f"({interval}, k / (E* L) {over_sides}"
     assert interval.endswith("MN/m)")
     area = 100 * curve.area_fraction_corrected[0]
     assert float(said["area"]["value"].rstrip("%")) == pytest.approx(area, rel=0.05)
@@ -174,7 +174,7 @@ def test_the_answer_strip_says_what_the_library_says(curve, surface):
     ends = in_contact * area / 100 / high, in_contact * area / 100 / low
     value, _, interval = up_to_three_digits(in_contact, ends, "Pa").partition(" (")
     assert said["pressure"]["value"] == value
-    assert said["pressure"]["below"] == f"({interval} {figure(in_contact / E_STAR)} E*"
+    assert said["pressure"]["below"] == f"({interval}, {figure(in_contact / E_STAR)} E*"
     assert said["depth"]["value"] == f"{curve.depth[0] / HEIGHT:#.3g} h"
     assert said["roughness"]["value"] == "1.00 µm"
     assert said["roughness"]["below"] == f"slope {surface.rms_slope:.3g}"

@@ -81,7 +81,7 @@ def test_the_map_shows_where_bodies_touch_and_where_they_pull(pressed):
     found = said(header)
     assert found["pulling"]["value"] == f"{100 * pressed.pulling_fraction[0]:#.3g}%"
     mean = fields.pressure[fields.contact].mean()
-    assert f" {mean / E_STAR:#.3g} E*" in found["pressure"]["below"]
+    assert f"{mean / E_STAR:#.3g} E*" in found["pressure"]["below"]
 
 
 def test_the_way_back_and_the_pull_off_are_those_of_the_library(pressed, pull_off, cycle):

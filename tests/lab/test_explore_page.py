@@ -82,7 +82,7 @@ def test_strip_and_tables_say_what_the_library_says(fresh):
     of_area = of_area[0], min(of_area[1], pressed.area_fraction_most[0])
     value, _, ends = up_to_three_digits(k, of_k, "N/m").partition(" (")
     over_disc = figure(k / (E_STAR * LENGTH), supported_digits(k, of_k, 3))
-    assert said["stiffness_3d"] == [value, f"({ends} k / (E* L) {over_disc}"]
+    assert said["stiffness_3d"] == [value, f"({ends}, k / (E* L) {over_disc}"]
     assert said["area"][0] == figure(100 * area, supported_digits(area, of_area, 3)) + "%"
     assert said["force"] == ["22.0 N", "22.0 MPa over the nominal area"]
     assert said["roughness"][0] == "1.00 µm"

@@ -106,7 +106,7 @@ def _pressure_and_depth(
             value=rounded_value(in_contact, ends, "Pa"),
             meaning="Mean pressure within the contact, over the cells that touch. The interval is "
             "that of the contact area.",
-            below=f"{rounded_ends(in_contact, ends, 'Pa')} {figure(in_contact / state.E_star)} E*"
+            below=after_ends(in_contact, ends, "Pa", f"{figure(in_contact / state.E_star)} E*")
             + over_hardness,
         ),
         item(
@@ -148,10 +148,15 @@ def rounded_ends(value: float, ends: tuple[float, float] | None, unit: str) -> s
     return bracket.strip() + interval
 
 
+def after_ends(value: float, ends: tuple[float, float] | None, unit: str, more: str) -> str:
+    """The interval of a value, and more of it."""
+    return ", ".join(filter(None, (rounded_ends(value, ends, unit), more)))
+
+
 def beside_stiffness(value: float, ends: tuple[float, float] | None, state: ExploreState) -> str:
     """The interval of a stiffness, and what it is over the modulus and the side."""
     over_side = figure(state.stiffness_bars(value), supported_digits(value, ends, _DIGITS))
-    return f"{rounded_ends(value, ends, 'N/m')} k / (E* L) {over_side}".strip()
+    return after_ends(value, ends, "N/m", f"k / (E* L) {over_side}")
 
 
 def first(ends: Any) -> tuple[float, float] | None:
