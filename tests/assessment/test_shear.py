@@ -102,6 +102,15 @@ def test_a_ball_slips_as_cattaneo_and_mindlin_say(n, error):
     assert closed.energy == pytest.approx(answers["cycle_energy"], rel=2e-3)
 
 
+def test_what_but_sticks_dissipates_nothing():
+    found = rl.assess(asked(rough(), loads="1 uN", shear="0.1 uN")).answers
+    for key in ("micro_slip", "cycle_energy", "loss_factor", "fretting"):
+        answer = found[key]
+        assert answer.values.tolist() == [0.0], key
+        assert answer.low is None or not (answer.low > 0).any()
+    assert found["sticking_share"].values.tolist() == [1.0]
+
+
 def test_two_materials_give_the_coupling_of_the_sum_of_their_half_spaces():
     first, second = (70e9, 0.33), (3e9, 0.4)
     pair = rl.Question(

@@ -16,8 +16,8 @@ from roughline.contact.sliding import SlidingCurve, SlidingFields
 COUPLED_FROM = 0.05
 """Size of Dundurs' beta from which on the closed form is said to be off. [1]"""
 
-# Points that slip less in a cycle never slip: over the largest slip, and, where bodies but stick,
-# over the way between turns, to which slip is known.
+# Points that slip less in a cycle than this part of the largest slip never slip; and over the
+# way between turns, to what slip is known, as where bodies but stick.
 _STICKS, _KNOWN_TO = 1e-3, 1e-6
 
 # By how much bodies move further than the closed form says, at 0.95 of what friction bears, over
@@ -121,13 +121,16 @@ class ShearCycles:
     @property
     def micro_slip(self) -> float:
         """What slip adds to the displacement of bodies whose contact sticks. [m]"""
-        return self.displacement - self.amplitude / self.stiffness_before
+        slip = self.displacement - self.amplitude / self.stiffness_before
+        return slip if abs(slip) > _KNOWN_TO * self.displacement else 0.0
 
     @property
     def energies(self) -> Real:
         """What each cycle dissipates, shape (cycles,). [J]"""
         of_loads = self.curve.dissipated[self._turning + 1 :]
-        return of_loads.reshape(self.cycles, self.per_cycle).sum(axis=1)
+        energies: Real = of_loads.reshape(self.cycles, self.per_cycle).sum(axis=1)
+        known_to = _KNOWN_TO * self.amplitude * 4 * self.displacement
+        return np.where(energies > known_to, energies, 0.0)
 
     @property
     def energy(self) -> float:
@@ -153,7 +156,8 @@ class ShearCycles:
         first, last = (each for _, each in loads_with_fields(self.curve))
         if not (isinstance(first, SlidingFields) and isinstance(last, SlidingFields)):
             return None
-        return last.slip_total - first.slip_total
+        slip: Real = last.slip_total - first.slip_total
+        return np.where(slip > _KNOWN_TO * 4 * self.displacement, slip, 0.0)
 
     @property
     def never_slips(self) -> Mask | None:
@@ -161,8 +165,7 @@ class ShearCycles:
         slip, fields = self.slip, self.fields
         if slip is None or fields is None:
             return None
-        least = max(_STICKS * slip.max(), _KNOWN_TO * 4 * self.displacement)
-        return fields.contact & (slip <= least)
+        return fields.contact & (slip <= _STICKS * slip.max())
 
     @property
     def sticking_share(self) -> float | None:
