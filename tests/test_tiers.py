@@ -32,6 +32,14 @@ def test_a_walk_stands_for_what_takes_long_in_its_file():
 
 
 @known
+def test_names_of_tests_hold_no_folder_of_a_machine():
+    """Else they are other tests elsewhere, and count as short there."""
+    folders = str(DURATIONS.parents[1]), "/docs/", "/src/", "/tests/"
+    names = [node.partition("::")[2] for node in durations()]
+    assert not [name for name in names if any(each in name for each in folders)]
+
+
+@known
 @pytest.mark.parametrize("of", [1, 2, 3, 12])
 def test_parts_are_all_of_it_once_and_take_as_long_as_each_other(of):
     taken = durations()

@@ -61,7 +61,9 @@ def surface_of(row):
     return rl.SelfAffine(hurst=float(row.get("H", 0.8)), rms_height=1.0).surface(n, 7)
 
 
-@pytest.mark.parametrize(("page", "part", "target"), WRITTEN, ids=lambda each: str(each))
+@pytest.mark.parametrize(
+    ("page", "part", "target"), WRITTEN, ids=lambda each: getattr(each, "name", each)
+)
 def test_a_part_names_the_command_that_writes_it(page, part, target):
     written = page.read_text("utf-8").partition(f"<!-- {part}: ")[2]
     written = written.partition(f"<!-- end of {part} -->")[0]
