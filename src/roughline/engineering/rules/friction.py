@@ -89,7 +89,7 @@ def _rows_of_shear(
         rows, coarser = [one], sheared.coarser
         if coarser is not None and one > 0:
             other = found(coarser)
-            factor = math.nan if not other else max(other / one, one / other)
+            factor = max(other / one, one / other) if other and other > 0 else math.nan
             rows += [one / factor, one * factor]
         scale = pressed.scale if extensive else 1.0
         return np.where(pressed.curve.converged, np.array(rows)[:, np.newaxis] * scale, np.nan)
