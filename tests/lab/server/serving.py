@@ -283,10 +283,14 @@ def alive(lab):
 
 
 def alive_still(process):
-    """Whether a process runs, and is not only waited for."""
+    """Whether a process runs, and is not only waited for.
+
+    The first of its threads may have ended before the others, which hold its pipes open.
+    """
     try:
-        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
-    except psutil.NoSuchProcess:
+        ended = process.status() == psutil.STATUS_ZOMBIE and process.num_threads() <= 1
+        return process.is_running() and not ended
+    except (psutil.NoSuchProcess, psutil.ZombieProcess):
         return False
 
 

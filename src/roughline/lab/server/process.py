@@ -41,6 +41,7 @@ class Process:
     def __init__(self, threads: ThreadPoolExecutor, memory: float, *, gives_way: bool) -> None:
         self.tasks = 0  # that it was asked for
         self._process: Any = None
+        self._is_stopped = False  # it may take a moment until it is gone
         self.begun = threads.submit(self._begin, memory, gives_way)
 
     def _begin(self, memory: float, gives_way: bool) -> None:
@@ -62,7 +63,7 @@ class Process:
             return True
         try:
             alive = self._process is not None and self._process.is_alive()
-            return alive and not self._connection.poll()
+            return alive and not self._is_stopped and not self._connection.poll()
         except OSError:  # on Windows, where it has died
             return False
 
@@ -82,6 +83,7 @@ class Process:
     def stop(self) -> None:
         """Stop it at once, whatever it is doing, if it has begun."""
         if self._process is not None:
+            self._is_stopped = True
             self._process.kill()
 
     def end(self) -> None:
