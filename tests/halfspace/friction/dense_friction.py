@@ -93,12 +93,12 @@ class DenseState:
 class DensePath:
     """States along a path of depths and slides, each from the one before."""
 
-    def __init__(self, matrix, separation, coefficient, strength=np.inf):
+    def __init__(self, matrix, separation, coefficient, strength=np.inf, hardness=np.inf):
         count = separation.size
         self.matrix, self.separation = matrix, separation.ravel()
         self.coefficient = np.broadcast_to(np.ravel(coefficient), count).copy()
         self.strength = np.broadcast_to(np.ravel(strength), count).copy()
-        touch = self.separation.min()
+        self.hardness, touch = hardness, self.separation.min()
         self.state = DenseState(np.zeros((3, count)), np.zeros(2), touch, self.separation - touch)
 
     def to(self, depth, slide, sweeps=20000):
@@ -113,16 +113,18 @@ class DensePath:
             ]
         )
         traction = before.traction.copy()
-        bounds = self.coefficient, self.strength
+        bounds = self.coefficient, self.strength, self.hardness
         _sweep(self.matrix, target, np.maximum(before.gap, 0.0), *bounds, traction, sweeps)
         there = (self.matrix @ traction.ravel()).reshape(3, -1)
         gap = np.where(traction[2] > 0, 0.0, there[2] - target[2])
+        yields = traction[2] >= self.hardness
+        self.separation = self.separation + np.where(yields, target[2] - there[2], 0.0)
         self.state = DenseState(traction, slide, depth, gap)
         return self.state
 
 
 @njit(cache=True)
-def _sweep(matrix, target, gap, coefficient, strength, traction, sweeps):
+def _sweep(matrix, target, gap, coefficient, strength, hardness, traction, sweeps):
     count = target.shape[1]
     flat = traction.reshape(-1)
     for _ in range(sweeps):
@@ -132,7 +134,7 @@ def _sweep(matrix, target, gap, coefficient, strength, traction, sweeps):
                 if axis == 2:
                     row = matrix[2 * count + i]
                     off = target[2, i] - row @ flat
-                    new = max(0.0, traction[2, i] + off / row[2 * count + i])
+                    new = min(max(0.0, traction[2, i] + off / row[2 * count + i]), hardness)
                     changed = max(changed, abs(new - traction[2, i]))
                     traction[2, i] = new
                 else:
@@ -142,8 +144,9 @@ def _sweep(matrix, target, gap, coefficient, strength, traction, sweeps):
                     off_x, off_y = target[0, i] - along @ flat, target[1, i] - across @ flat
                     if gap[i] > 0.0 and traction[2, i] > 0.0:  # what it moved before it joined
                         own = (along[i] + across[count + i]) / 2
-                        spring = own / matrix[2 * count + i, 2 * count + i]
-                        spring *= gap[i] / traction[2, i]
+                        row = matrix[2 * count + i]
+                        dent = max(0.0, target[2, i] - row @ flat) * (traction[2, i] >= hardness)
+                        spring = own * gap[i] / (row[2 * count + i] * traction[2, i] + dent)
                         off_x, off_y = off_x - spring * x, off_y - spring * y
                         stiff += spring
                     x, y = x + off_x / stiff, y + off_y / stiff

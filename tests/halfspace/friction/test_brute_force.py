@@ -101,3 +101,38 @@ def test_friction_may_differ_from_point_to_point_and_have_a_strength():
         expected = path.to(depth, slide).traction
         found = fields.shear.reshape(-1, 2).T
         assert found == pytest.approx(expected[:2], abs=SAME * expected[2].max())
+
+
+@pytest.mark.parametrize(
+    ("seed", "shape", "spacing", "periodic", "share"),
+    [
+        (11, (8, 9), (1.0, 0.7), False, 0.7),
+        (12, (8, 8), (0.6, 1.0), True, 0.7),
+        (13, (7, 8), (1.0, 1.0), False, 0.4),
+        (14, (8, 7), (1.0, 1.0), True, 0.4),
+    ],
+)
+def test_bodies_that_yield_follow_brute_force(seed, shape, spacing, periodic, share):
+    """The hardness is some share of the largest elastic pressure."""
+    surface, separation, depths, slides = random_case(seed, shape, spacing, periodic=periodic)
+    body = rl.Homogeneous(1.0, periodic, poisson=0.3)
+    elastic = rl.press(surface, half_space=body, depths=depths).largest_pressure
+    hardness = share * elastic.max()
+    curve = rl.press(
+        surface,
+        half_space=body,
+        hardness=hardness,
+        friction=rl.Friction(0.3),
+        depths=depths,
+        slides=slides,
+        fields=True,
+        **TIGHT,
+    )
+    assert (curve.plastic_fraction > 0).sum() > 1
+    matrix = dense_matrix(shape, spacing, n=3 / 7, beta=0.0, periodic=periodic)
+    path = DensePath(matrix, separation, 0.3, hardness=hardness)
+    for depth, slide, fields in zip(depths, slides, curve.fields, strict=True):
+        expected = path.to(depth, slide).traction
+        found = fields.shear.reshape(-1, 2).T
+        assert fields.pressure.ravel() == pytest.approx(expected[2], abs=SAME * hardness)
+        assert found == pytest.approx(expected[:2], abs=SAME * hardness)

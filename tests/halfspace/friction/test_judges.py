@@ -25,6 +25,9 @@ def disc(n, radius=0.4):
     return surface, sqrt(inside.sum() / pi) / n  # the radius of the same area
 
 
+HARDNESS = 0.1  # of rough bodies, at which a part of them yields
+
+
 def rough(n, seed=7):
     return rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(n, rng=seed)
 
@@ -66,32 +69,36 @@ def test_a_cycle_dissipates_what_cattaneo_and_mindlin_say(n, error):
     assert curve.drift[-4, 0] > 0 > curve.drift[-2, 0]
 
 
-def jaeger(surface, body, force, shear):
-    """Return slide and traction by the theorem of Ciavarella and Jäger, with n = 0."""
-    curve = rl.press(
-        surface, half_space=body, forces=[force, force - shear / MU], fields=True, rtol=1e-9
-    )
+def jaeger(surface, force, shear, **bodies):
+    """Return slide and traction by the theorem of Ciavarella and Jäger, with n = 0.
+
+    Bodies that have yielded unload as elastic ones.
+    """
+    forces = [force, force - shear / MU]
+    curve = rl.press(surface, forces=forces, fields=True, rtol=1e-9, **bodies)
     slipping = curve.fields[0].pressure - curve.fields[1].pressure
     return MU * (curve.depth[0] - curve.depth[1]), MU * slipping
 
 
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("n", [32, 64])
-def test_rough_bodies_slip_as_the_difference_of_two_normal_contacts(n, periodic):
+@pytest.mark.parametrize("hardness", [None, HARDNESS])
+def test_rough_bodies_slip_as_the_difference_of_two_normal_contacts(n, periodic, hardness):
     surface, force = rough(n), 0.02
-    body = rl.Homogeneous(1.0, periodic, poisson=0.0)
+    bodies = {"half_space": rl.Homogeneous(1.0, periodic, poisson=0.0), "hardness": hardness}
     shears = [share * MU * force for share in (0.3, 0.7, 0.95)]
     curve = rl.press(
         surface,
-        half_space=body,
         friction=rl.Friction(MU),
         forces=[force] * 4,
         shear_forces=[0.0, *shears],
         fields=True,
         rtol=1e-8,
+        **bodies,
     )
+    assert (curve.plastic_fraction > 0.1).all() or hardness is None
     for load, shear in enumerate(shears, 1):
-        slide, traction = jaeger(surface, body, force, shear)
+        slide, traction = jaeger(surface, force, shear, **bodies)
         assert curve.slide[load, 0] == pytest.approx(slide, rel=1e-6)
         largest = MU * curve.fields[load].pressure.max()
         assert curve.fields[load].shear[..., 0] == pytest.approx(traction, abs=1e-5 * largest)
@@ -253,7 +260,8 @@ def test_two_materials_that_come_nearer_are_much_the_same_in_few_steps():
 
 
 @pytest.mark.parametrize("periodic", [False, True])
-def test_what_shear_does_is_stored_or_dissipated(periodic):
+@pytest.mark.parametrize("hardness", [None, HARDNESS])
+def test_what_shear_does_is_stored_or_dissipated(periodic, hardness):
     """W - U - D = 0 with tractions in the middle of each step, on one material."""
     surface, force = rough(32), 0.02
     body = rl.Homogeneous(1.0, periodic, poisson=0.3)
@@ -265,6 +273,7 @@ def test_what_shear_does_is_stored_or_dissipated(periodic):
         friction=rl.Friction(MU),
         forces=[force] * 5,
         shear_forces=shears,
+        hardness=hardness,
         fields=True,
         rtol=1e-9,
     )
@@ -285,7 +294,8 @@ def test_what_shear_does_is_stored_or_dissipated(periodic):
 
 
 @pytest.mark.parametrize("angle", [0.0, 30.0, 150.0, 180.0])
-def test_tangents_are_those_of_small_steps(angle):
+@pytest.mark.parametrize("hardness", [None, HARDNESS])
+def test_tangents_are_those_of_small_steps(angle, hardness):
     """Going on within a cone about the last increment, turning back within another."""
     surface, depth, small = rough(16), 0.02, 1e-6
     last = np.array([4e-4, 1e-4])
@@ -298,6 +308,7 @@ def test_tangents_are_those_of_small_steps(angle):
         friction=rl.Friction(MU),
         depths=[depth] * 4,
         slides=[(0, 0), 4 * last, 5 * last, 5 * last + way],
+        hardness=hardness,
         rtol=1e-12,
         solver=rl.Solver(precision="float64"),
     )
@@ -306,6 +317,30 @@ def test_tangents_are_those_of_small_steps(angle):
     change = curve.shear_force[3] - curve.shear_force[2]
     assert change == pytest.approx(tangent @ way, abs=3e-3 * small * tangent[0, 0])
     assert tangent == pytest.approx(tangent.T)
+
+
+@pytest.mark.parametrize("hardness", [None, HARDNESS, HARDNESS / 2])
+@pytest.mark.parametrize(("first", "shear"), [(0.01, 0.0029), (0.019, 0.004)])
+def test_what_slips_on_is_what_slips_in_a_small_further_step(hardness, first, shear):
+    """Nodes that yield bear no more, and slip only where they have all the shear that they bear."""
+    way = 1 + 1e-5
+    curve = rl.press(
+        rough(48),
+        half_space=rl.Homogeneous(1.0, poisson=0.3),
+        hardness=hardness,
+        friction=rl.Friction(MU),
+        forces=[first, 0.02, first + (0.02 - first) * way],
+        shear_forces=[0.0, shear, shear * way],
+        fields=True,
+        rtol=1e-12,
+        solver=rl.Solver(precision="float64"),
+    )
+    pressed, before, after = curve.fields
+    known = (pressed.contact & before.contact) | before.plastic
+    slid = np.hypot(*(curve.slide[2] - curve.slide[1]))
+    slips = np.hypot(after.slip[..., 0], after.slip[..., 1]) > 1e-4 * slid
+    assert (slips[known] == ~before.stick[known]).all()
+    assert 0.01 < slips[known].mean() < 0.6
 
 
 @pytest.mark.parametrize(("angle", "beta"), [(0.0, 2 / 7), (20.0, 0.5), (180.0, 2 / 7)])

@@ -8,7 +8,7 @@ sticks must not bear more than it can,
     dw · q >= 0  or  dw = 0  and  dq · q <= dg |q|.
 
 That holds for a node that has joined within the load, too, whatever it bears: it has borne nothing
-yet beside what goes on.
+yet beside what goes on, unless it yields and its pressure grows no more.
 Sets are changed where they are wrong until they are not, as for a contact [1]_.
 
 References

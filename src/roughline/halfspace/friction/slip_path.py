@@ -10,7 +10,7 @@ h + m p, and along by t + m' q. If both went evenly it has slipped since by
 
 which is as if it had a spring (m' / m) h / p of its own. It sticks where q / p is m / m' times
 t / h. Along a straight path, with no displacement across shear (n = 0), that is exact [1]_, as all
-moves in proportion then.
+moves in proportion then. Where a node yields, the dent that it takes adds to m p.
 
 References
 ----------
@@ -294,7 +294,7 @@ class _SlideStep:
         self._moved_before, self._start = self._before(start[1])
         if start[0] is not None:
             self._start = _on(contact.nodes, *start[0])
-        gap, own = self._gaps_before(), bodies.diagonal * contact.pressure
+        gap, own = self._gaps_before(), bodies.diagonal * contact.pressure + self._dented()
         self._springs = gap / own * exact.diagonal
         self._since_contact = own / (gap + own)
         strength = float(self._bound.sum()) / float(contact.pressure.sum())
@@ -330,11 +330,20 @@ class _SlideStep:
         last, nodes = self._last, self._contact.nodes
         if last is None or not last.contact.nodes.size:
             before = self._untouched.touch if last is None else last.contact.depth
-            return np.maximum(self._untouched.separation.ravel()[nodes] - before, 0.0)
+            bodies = self._untouched if last is None else last.contact
+            return np.maximum(bodies.separation.ravel()[nodes] - before, 0.0)
         gap = np.zeros(nodes.size)
         joined = ~np.isin(nodes, last.contact.nodes, assume_unique=True)
         gap[joined] = np.maximum(last.contact.gap_at(InGrid(nodes[joined])), 0.0)
         return gap
+
+    def _dented(self) -> Real | float:
+        """Return how much deeper nodes were dented since the last load."""
+        if self._untouched.law.memory != "dents":
+            return 0.0
+        before = self._untouched if self._last is None else self._last.contact
+        change: Real = self._contact.separation - before.separation
+        return change.ravel()[self._contact.nodes]
 
     def under(self, load: ShearLoad) -> Slid:
         """Return the state under a load along the surface."""
@@ -427,8 +436,9 @@ class _SlideStep:
 
     def _rim(self, shear: Real) -> Rim:
         """Return which nodes have all the shear that they bear."""
-        slope = self._friction.slope(self._contact.pressure, self._contact.nodes)
-        return Rim.of(shear, self._bound, self._springs > 0, slope)
+        contact = self._contact
+        slope = self._friction.slope(contact.pressure, contact.nodes)
+        return Rim.of(shear, self._bound, (self._springs > 0) & ~contact.plastic, slope)
 
     def _went(self, load: ShearLoad, way: Real) -> Going:
         """Return how loads went to this one; if nothing changed, as they went before."""
