@@ -19,15 +19,14 @@ def test_the_area_that_is_filled_is_the_energy_of_the_last_cycle():
     assert area == pytest.approx(np.pi * 2 * 3 * np.sin(0.4), rel=1e-2)
 
 
-def test_arrows_stand_where_points_slip_and_point_along_their_slip():
-    shape = (20, 30)
-    contact, never = np.zeros(shape, bool), np.zeros(shape, bool)
-    contact[5:15, 5:15] = True
+def sheared(contact):
+    """Return fields of a contact that slips along y, which stick within."""
+    never, shape = np.zeros_like(contact), contact.shape
     never[8:12, 8:12] = True
     slip = np.zeros((*shape, 2))
     slip[..., 1] = 1e-9
     nothing = np.zeros(shape)
-    fields = SlidingFields(
+    return SlidingFields(
         pressure=nothing,
         displacement=nothing,
         gap=nothing,
@@ -42,7 +41,13 @@ def test_arrows_stand_where_points_slip_and_point_along_their_slip():
         slip_total=nothing,
         stick=never,
     )
-    axes = Figure().subplots()
+
+
+def test_arrows_stand_where_points_slip_and_point_along_their_slip():
+    contact = np.zeros((20, 30), bool)
+    contact[5:15, 5:15] = True
+    fields = sheared(contact)
+    axes, never = Figure().subplots(), fields.stick
     draw_stick_and_slip(axes, fields, never, "m")
     (image,), (arrows,) = axes.images, axes.collections
     assert (contact.astype(int) + never == np.asarray(image.get_array()).T).all()
@@ -53,3 +58,16 @@ def test_arrows_stand_where_points_slip_and_point_along_their_slip():
         assert not never[x, y]
     assert (arrows.U == 0).all()
     assert (arrows.V > 0).all()
+
+
+def test_a_small_contact_is_seen_in_a_piece_of_its_map_and_others_in_all_of_it():
+    contact = np.zeros((200, 300), bool)  # points are 10 µm wide
+    contact[5:15, 5:15] = True
+    for spread, shown in ((False, (0, 0.24)), (True, (0, 2))):
+        contact[150, 250] = spread
+        fields = sheared(contact)
+        axes = Figure().subplots()
+        draw_stick_and_slip(axes, fields, fields.stick, "m")
+        assert axes.get_xlim() == pytest.approx(shown)
+        low, high = axes.get_ylim()[::-1]
+        assert high - low == pytest.approx(3 if spread else 0.24)

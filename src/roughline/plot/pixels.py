@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from roughline.plot.style import in_unit
 
 _MOST_PIXELS = 600  # along a side; a picture shows no more
+_LEAST_SHOWN = 24  # points along a side of a piece of a map
 
 
 def draw_map(
@@ -57,6 +58,27 @@ def any_marked(marks: NDArray[Any]) -> NDArray[Any]:
     for axis, step in enumerate(_steps(marks.shape)):
         marks = np.maximum.reduceat(marks, np.arange(0, marks.shape[axis], step), axis=axis)
     return marks
+
+
+def look_at(axes: Axes, image: AxesImage, marked: NDArray[np.bool_]) -> None:
+    """Show the square piece that holds all marked points of a drawn map, if it is a small one."""
+    sides, shape = drawn_sides(image), marked.shape
+    places = [np.flatnonzero(marked.any(axis=1 - axis)) for axis in (0, 1)]
+    if not places[0].size:
+        return
+    steps = [side / n for side, n in zip(sides, shape, strict=True)]
+    middles = [
+        (each[0] + each[-1] + 1) / 2 * step for each, step in zip(places, steps, strict=True)
+    ]
+    held = [(np.ptp(each) + 1) * step for each, step in zip(places, steps, strict=True)]
+    side = max(1.5 * max(held), _LEAST_SHOWN * max(steps))
+    if side > min(sides) / 2:
+        return
+    x, y = (
+        min(max(middle, side / 2), whole - side / 2)
+        for middle, whole in zip(middles, sides, strict=True)
+    )
+    axes.set(xlim=(x - side / 2, x + side / 2), ylim=(y + side / 2, y - side / 2))
 
 
 def _steps(shape: tuple[int, ...]) -> list[int]:

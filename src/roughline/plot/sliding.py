@@ -8,7 +8,7 @@ from matplotlib.colors import ListedColormap
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.sliding import SlidingFields
-from roughline.plot.pixels import any_marked, draw_map
+from roughline.plot.pixels import any_marked, draw_map, drawn_sides, look_at
 from roughline.plot.style import in_unit, ink
 
 _OPEN_SLIP_STICK = ListedColormap(["white", "tab:orange", "black"])
@@ -41,13 +41,13 @@ def draw_stick_and_slip(axes: Axes, fields: SlidingFields, never_slips: Mask, un
         axes, any_marked(marks), fields.sizes, unit, cmap=_OPEN_SLIP_STICK, vmin=0, vmax=2
     )
     image.set_interpolation("nearest")
+    look_at(axes, image, fields.contact)
     places, slip = _largest_slips(np.where(slips[..., np.newaxis], fields.slip, 0.0))
     if not places.size:
         return
-    left, right, bottom, _top = image.get_extent()
-    steps = np.array([(right - left) / marks.shape[0], bottom / marks.shape[1]])
+    steps = np.array(drawn_sides(image)) / marks.shape
     at, length = (places + 0.5) * steps, np.hypot(*slip.T)
-    along = slip / length.max() * (right - left) / _ARROWS * 1.5
+    along = slip / length.max() * np.ptp(axes.get_xlim()) / _ARROWS * 1.5
     axes.quiver(
         *at.T,
         *along.T,
@@ -61,10 +61,16 @@ def draw_stick_and_slip(axes: Axes, fields: SlidingFields, never_slips: Mask, un
 
 
 def _largest_slips(slip: Real) -> tuple[Real, Real]:
-    """Return the points with the largest slip of each piece of a map, and their slips."""
+    """Return the points with the largest slip of each piece of what slips, and their slips."""
     size = np.hypot(slip[..., 0], slip[..., 1])
     places = []
-    edges = [np.linspace(0, n, min(n, _ARROWS) + 1).astype(int) for n in size.shape]
+    slipping = [np.flatnonzero(size.any(axis=1 - axis)) for axis in (0, 1)]
+    if not slipping[0].size:
+        return np.empty((0, 2)), np.empty((0, 2))
+    edges = [
+        np.linspace(each[0], each[-1] + 1, min(int(np.ptp(each)) + 1, _ARROWS) + 1).astype(int)
+        for each in slipping
+    ]
     for first, end in zip(edges[0][:-1], edges[0][1:], strict=True):
         for low, high in zip(edges[1][:-1], edges[1][1:], strict=True):
             piece = size[first:end, low:high]

@@ -87,8 +87,9 @@ def _shear_caption(assessment: Assessment, sheared: ShearCycles) -> str:
     return (
         f"Left: shear force{of_map} along x over the slide of the first body, to and fro; what the "
         "last cycle dissipates is filled. Right: black where the contact never slips in it, orange "
-        "where it does, white where the bodies are apart; arrows along the last slip, one for each "
-        f"place, the longest {engineering(_last_slip(sheared), 'm', _DIGITS)}."
+        "where it does, white where the bodies are apart; if all of the contact lies in a small "
+        "piece of the map, that is shown; arrows along the last slip, one for each place, "
+        f"the longest {engineering(_last_slip(sheared), 'm', _DIGITS)}."
     )
 
 
