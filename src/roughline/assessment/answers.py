@@ -60,7 +60,7 @@ def work_out_answers(
     elif not question.periodic:
         ends = intervals.unloading if intervals else None
         is_layered = bool(question.coated)
-        interface = stiffness_of_the_piece(body, curve, ends, is_layered=is_layered)
+        interface = stiffness_of_the_piece(body, curve, solution.punch, ends, is_layered=is_layered)
     pressed = _pressed(question, question.pair, body, curve, interface, intervals, case.moments)
     found = replace(
         pressed,

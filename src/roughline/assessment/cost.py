@@ -79,7 +79,7 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
         return sum(each.share * cost.seconds for each, cost in costs if each.purpose == purpose)
 
     text = f"about {gigabytes(memory)} and {duration(seconds('as asked'))}"
-    if of_interface := seconds("interface"):
+    if of_interface := seconds("interface") + seconds("punch"):
         text += f", then {duration(of_interface)} for the interface"
     if of_shear := seconds("shear"):
         text += f", {duration(of_shear)} for the shear force"
@@ -103,7 +103,7 @@ def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
     taken = [
         each.share * math.prod(each.shape) ** _POWER_OF_FLOW
         for each in variants
-        if each.periodic == is_repeated and each.purpose not in ("slip", "shear")
+        if each.periodic == is_repeated and each.purpose not in ("punch", "slip", "shear")
     ]
     apertures = len(sealing.directions) * (1 if sealing.rarefied.is_even(0.0) else 2)
     return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)

@@ -14,6 +14,7 @@ import numpy as np
 from roughline.assessment.shear import shear_presses
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on
+from roughline.margins.larger_surface import flat_punch, punch_name
 from roughline.margins.variant import AS_ASKED, Curves, Variant, measures_of_map, repeated
 from roughline.question.case import Case
 from roughline.question.films import SPOT_RADIUS, find_film
@@ -30,7 +31,7 @@ def list_presses(case: Case) -> list[Variant]:
     first = [_as_asked(case)]
     if case.is_repeated_for_interface:
         first.append(repeated(case, first[0]))
-    listed = first + [
+    listed = [*first, *_punches(case)] + [
         each for cause in causes for pressed in first for each in cause.presses(case, pressed)
     ]
     if case.question.friction is not None and case.hardness is not None:
@@ -53,6 +54,24 @@ def _as_asked(case: Case) -> Variant:
         loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
     shape = body.shape if isinstance(body, Surface) else (1, body.heights.size)
     return Variant(AS_ASKED, "as asked", lambda _: loads, shape, loads.periodic)
+
+
+def _punches(case: Case) -> list[Variant]:
+    """The flat punches that tell the stiffness of the interface of a piece alone, of each grid."""
+    question = case.question
+    if question.pair is None or question.periodic or case.map is not None:
+        return []
+    is_scattered = case.hardness is not None and case.hardness.factor != 1
+    bodies = [case.body, *([case.scatter_body] if is_scattered else [])]
+    of_grids = {each.shape: each for each in bodies if isinstance(each, Surface)}
+    return [_punch(case, each) for each in of_grids.values()]
+
+
+def _punch(case: Case, surface: Surface) -> Variant:
+    flat, depth = flat_punch(surface)
+    loads = LoadCase(flat, case.loads.half_space, [], [depth], None)
+    name, share = punch_name(surface), 1 / max(case.loads.count, 1)
+    return Variant(name, "punch", lambda _: loads, surface.shape, False, share)
 
 
 def _unloaded(case: Case, curves: Curves) -> LoadCase | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -16,7 +17,7 @@ from roughline.engineering.intervals import Intervals
 from roughline.engineering.pressed import Sought
 from roughline.facts.fact import Fact
 from roughline.margins.causes import causes
-from roughline.margins.larger_surface import LargerSurface, which_surface
+from roughline.margins.larger_surface import LargerSurface, punch_name, which_surface
 from roughline.margins.place import measures_of_tiles, tiled_curves
 from roughline.margins.scans import limits_of_line, press_scan
 from roughline.margins.spread import Spread, Values, intervals_within, measured_within
@@ -77,6 +78,7 @@ class Solution:
     curve: Curve
     intervals: Intervals | None  # None where a cause is not known
     larger: LargerSurface | None = None  # None where the answers are not about a larger surface
+    punch: float = math.nan  # stiffness of the flat punch of a surface, where it is known [N / m]
     measured: Mapping[str, Measured] = field(default_factory=dict)
     place: Fact | None = None  # the surface that these are of; None for the map alone
     sought: Sought = field(default_factory=Sought)
@@ -98,10 +100,19 @@ def combine_curves(
         curve,
         intervals,
         larger,
+        _punch(curves, curve),
         _measured(case, curves, left_open, larger, name),
         None if place is None else which_surface(place, "gap"),
         curves.sought.get(name, Sought()),
     )
+
+
+def _punch(curves: Curves, curve: Curve) -> float:
+    """Stiffness of the flat punch with the outline and grid of a curve's surface. [N / m]"""
+    if not isinstance(curve, SurfaceCurve):
+        return math.nan
+    punch = curves.get(punch_name(curve.surface))
+    return math.nan if punch is None else float(punch.stiffness[0])
 
 
 def solve_scan(case: Case, body: Line) -> Solution:

@@ -10,7 +10,6 @@ from typing import Literal
 import numpy as np
 
 from roughline.contact.curve import Curve
-from roughline.contact.press import press
 from roughline.contact.scaling import PUNCH_GRID_ERROR
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals
@@ -82,19 +81,25 @@ class LargerSurface:
 
 
 def stiffness_of_the_piece(
-    body: Body, curve: Curve, interval: Ends | None = None, *, is_layered: bool = False
+    body: Body,
+    curve: Curve,
+    punch: float = math.nan,
+    interval: Ends | None = None,
+    *,
+    is_layered: bool = False,
 ) -> InterfaceStiffness:
     """Interface stiffness of a free body as it is, 1 / k_i = 1 / k - 1 / k_s.
 
-    Where the stiffness differs from the punch's by less than the grid's error of the punch, the
-    upper end of the interval is infinite; `interval` is that of the stiffness on unloading. [N / m]
+    k_s is that of the flat punch of a surface; without it nothing is known. Where the stiffness
+    differs from the punch's by less than the grid's error of the punch, the upper end of the
+    interval is infinite; `interval` is that of the stiffness on unloading. [N / m]
     """
     k = Values.of(curve).unloading
     if isinstance(body, Line):
         saturated, error, warned_from = curve.E_star * body.length, 0.0, 0.0
         place = Fact("reduced_line_alone")
     else:
-        saturated, warned_from = saturated_stiffness(body, curve), _PUNCH_MATTERS
+        saturated, warned_from = punch, _PUNCH_MATTERS
         # as a share of k_s, which is a little more
         error = PUNCH_GRID_ERROR / math.sqrt(body.heights.size)
         place = Fact("piece_alone", is_layered=is_layered)
@@ -110,14 +115,15 @@ def stiffness_of_the_piece(
     )
 
 
-def saturated_stiffness(surface: Surface, curve: Curve) -> float:
-    """Stiffness of the flat punch with the outline and grid of a surface. [N / m]
-
-    It is pressed into what the curve is of.
-    """
+def flat_punch(surface: Surface) -> tuple[Surface, float]:
+    """Return the flat punch with the outline and grid of a surface, and a depth to press it to."""
     flat = Surface(np.zeros(surface.shape), surface.sizes, surface.unit, is_cut_out=False)
-    depth = math.sqrt(surface.area) * 1e-6
-    return float(press(flat, half_space=curve.half_space, depths=[depth]).stiffness[0])
+    return flat, math.sqrt(surface.area) * 1e-6
+
+
+def punch_name(surface: Surface) -> str:
+    """Name of the variant that is the flat punch with the outline and grid of a surface."""
+    return f"flat punch of {surface.shape[0]} x {surface.shape[1]} points"
 
 
 def which_surface(

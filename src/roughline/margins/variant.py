@@ -62,7 +62,7 @@ class Variant:
     """One body that is pressed, for the answers or for a cause that leaves them open."""
 
     name: str
-    purpose: str  # "as asked", "interface", "slip", or the name of a cause
+    purpose: str  # "as asked", "interface", "punch", "slip", or the name of a cause
     needed: Callable[[Curves], Pressable]
     """From the curves before it: what is pressed."""
 
