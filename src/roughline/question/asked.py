@@ -268,7 +268,8 @@ _NOT_OF_LINES = {
     "rough line in many; leave it out, or press a map",
     Fluid: "along a line, in one dimension, any contact stops the flow; leave it out, or press a "
     "map",
-    Shear: "the springs of a line bear no shear; leave it out, or press a map",
+    Shear: "answers of stick and slip are those of maps; leave it out, press a map, or shear the "
+    "springs of the line by rl.press",
     Joint: "a line stands for the square of its length alone, and what lies beyond is not known; "
     "leave it out",
 }
