@@ -86,8 +86,10 @@ class SpringsOfLine:
     @cached_property
     def _sums(self) -> tuple[Real, Real, Real]:
         """Separations, rising, and the sums of those before each, and of their squares."""
-        rising = np.sort(self.springs.separations)
-        return rising, *(np.append(0.0, np.cumsum(each)) for each in (rising, rising**2))
+        rising: Real = np.sort(self.springs.separations)
+        first: Real = np.append(0.0, np.cumsum(rising))
+        second: Real = np.append(0.0, np.cumsum(rising * rising))
+        return rising, first, second
 
     def pressed(self, depth: float) -> tuple[float, float]:
         """Force at a depth, and its work up to there. [force], [energy]"""
