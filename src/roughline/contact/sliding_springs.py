@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -10,11 +10,10 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.contact.curve import LineCurve
 from roughline.contact.loads import GivenLoads
-from roughline.contact.quantities import SLIDING_QUANTITIES
 from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
 from roughline.contact.shear_loads import GivenShear, ShearLoads
-from roughline.contact.sliding import left_without_shear
+from roughline.contact.sliding import CurveWithFriction
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -38,7 +37,7 @@ _SLIDES_FROM = 1 - 1e-9  # of mu F
 
 @public
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class SlidingLineCurve(LineCurve):
+class SlidingLineCurve(CurveWithFriction, LineCurve):
     """Contact quantities of a profile or a line that is pressed and sheared, by springs.
 
     Those of :class:`~roughline.LineCurve`, and what follows of friction, as a
@@ -70,28 +69,6 @@ class SlidingLineCurve(LineCurve):
         Energy that slip has dissipated since the load before, along a way that is straight in depth
         and slide. [energy]
     """
-
-    friction: Friction = field(repr=False)
-    shear_force: Real
-    slide: Real
-    shear_stiffness: Real
-    shear_stiffness_back: Real
-    stick_fraction: Real
-    shear_limit: Real
-    dissipated: Real
-
-    @property
-    def drift(self) -> Real:
-        """The slide that is left where there is no shear force; NaN at other loads. [length]"""
-        return left_without_shear(self.slide, self.shear_force)
-
-    def _variables(self) -> dict[str, Any]:
-        variables = super()._variables()
-        for each in SLIDING_QUANTITIES:
-            if "x" not in each.dims:
-                values = getattr(self, each.attribute)
-                variables[each.name] = (each.dims, values, each.attributes(self.unit))
-        return variables
 
 
 def press_sheared_springs(
